@@ -1,4 +1,4 @@
-"""Every code block of README, CONTRIBUTING and docs runs, but for those a comment leaves out, which are counted."""
+"""Every code block of README, CONTRIBUTING and docs runs, except the counted ones that a comment skips."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from tests.support import documents
 from tests.support.paths import ROOT
 
-LEFT_OUT = {
+SKIPPED = {
     "README.md": 1,
     "CONTRIBUTING.md": 1,
     "docs/article.md": 1,
@@ -19,14 +19,17 @@ LEFT_OUT = {
     "docs/how-to/own-study.md": 1,
     "docs/explanation/doubts.md": 1,
 }
-"""How many blocks of a document are not run; each says why."""
+"""The number of blocks of a document that are not run; a comment before each states the reason."""
+
+IN_SHELL = ("README.md", "docs/tutorial/first-hull.md")
+"""Documents whose commands all run in a shell, as a reader runs them."""
 
 BY_HAND = [
     page
     for page in documents.PAGES
     if page.stem not in ("index", "glossary") and (page.parent.name != "docs" or page.stem == "article")
 ]
-"""The pages that are prose; the others of docs/ itself are made when the site is built."""
+"""The prose pages; the other pages directly in docs/ are made when the site is built."""
 
 
 def name(path: Path) -> str:
@@ -35,38 +38,37 @@ def name(path: Path) -> str:
 
 @pytest.mark.parametrize("path", documents.DOCUMENTS, ids=name)
 def test_the_blocks_of_a_document_run(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    documents.lay_out(tmp_path)
+    documents.prepare_folder(tmp_path)
     monkeypatch.chdir(tmp_path)
-    ran, skipped = documents.run(path, tmp_path)
+    ran, skipped = documents.run(path, only_shell=name(path) in IN_SHELL)
     languages = documents.languages(path)
     assert ran + skipped == sum(language in documents.RUN for language in languages)
-    assert skipped == LEFT_OUT.get(name(path), 0)
+    assert skipped == SKIPPED.get(name(path), 0)
 
 
 @pytest.mark.parametrize("path", documents.DOCUMENTS, ids=name)
-def test_every_block_names_its_language_and_what_is_left_out_a_reason(path: Path) -> None:
+def test_every_block_names_its_language_and_every_skip_its_reason(path: Path) -> None:
     assert [language for language in documents.languages(path) if language not in documents.LANGUAGES] == []
-    assert len(documents.reasons(path)) == LEFT_OUT.get(name(path), 0)
+    assert len(documents.reasons(path)) == SKIPPED.get(name(path), 0)
 
 
 @pytest.mark.parametrize("path", documents.DOCUMENTS, ids=name)
-def test_every_file_that_is_named_is_there(path: Path) -> None:
-    rooms = ("emulator", "modern", "tests")
-    there = ["/" + found.relative_to(ROOT).as_posix() for room in rooms for found in (ROOT / room).rglob("*.*")]
+def test_named_and_linked_files_exist(path: Path) -> None:
+    packages = ("emulator", "modern", "tests")
+    existing = ["/" + name(file) for package in packages for file in (ROOT / package).rglob("*.*")]
     named = documents.files_named(path)
-    assert sorted(word for word in named if not any(one.endswith("/" + word) for one in there)) == []
+    assert sorted(file for file in named if not any(place.endswith("/" + file) for place in existing)) == []
     assert sorted(link for link in documents.links(path) if not (path.parent / link).exists()) == []
 
 
 @pytest.mark.parametrize("path", documents.DOCUMENTS, ids=name)
-def test_every_heading_that_is_linked_to_is_there(path: Path) -> None:
-    lost = [f"{name(page)}#{head}" for page, head in documents.places(path) if head not in documents.anchors(page)]
-    assert lost == []
+def test_linked_headings_exist(path: Path) -> None:
+    targets = documents.linked_headings(path)
+    assert [f"{name(page)}#{anchor}" for page, anchor in targets if anchor not in documents.anchors(page)] == []
 
 
 @pytest.mark.parametrize("folder", [folder for folder in documents.PROSE if folder])
-def test_every_page_of_a_folder_is_in_its_order(folder: str) -> None:
-    """Of what ``index.md`` lists, and nothing twice."""
+def test_the_index_of_a_folder_lists_every_page_once(folder: str) -> None:
     pages = {path.stem for path in documents.PAGES if path.parent.name == folder} - {"index"}
     listed = documents.listed(documents.ROOT / "docs" / folder / "index.md")
     assert sorted(name for name in listed if "/" not in name) == sorted(pages)
@@ -77,13 +79,13 @@ def test_every_page_links_to_the_glossary(path: Path) -> None:
     assert any(link.endswith("glossary.md") for link in documents.links(path))
 
 
-def test_the_glossary_is_in_order_and_has_no_term_twice() -> None:
-    heads = documents.headings(documents.ROOT / "docs" / "reference" / "glossary.md", 2)
-    assert heads == sorted(set(heads), key=str.lower)
+def test_the_glossary_is_sorted_and_defines_each_term_once() -> None:
+    terms = documents.headings(documents.ROOT / "docs" / "reference" / "glossary.md", 2)
+    assert terms == sorted(set(terms), key=str.lower)
 
 
 @pytest.mark.parametrize(
-    ("block", "told"),
+    ("block", "message"),
     [
         ("```sh\nhull1620 hull absent.deck\n```", "absent.deck"),
         ("```sh\nhull1620 hull absent.deck  # exit 1\n```", "absent.deck"),
@@ -93,33 +95,33 @@ def test_the_glossary_is_in_order_and_has_no_term_twice() -> None:
         ("```python\nassert False, 'here'\n```", "here"),
     ],
 )
-def test_a_block_that_does_not_run_is_found(
-    block: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    documents.lay_out(tmp_path)
+def test_a_failing_block_is_reported(block: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    documents.prepare_folder(tmp_path)
     monkeypatch.chdir(tmp_path)
     page = tmp_path / "page.md"
     page.write_text(block + "\n", encoding="utf-8")
-    with pytest.raises(AssertionError, match=told):
-        documents.run(page, tmp_path)
+    with pytest.raises(AssertionError, match=message):
+        documents.run(page)
 
 
-def test_a_name_without_a_file_and_a_link_are_found(tmp_path: Path) -> None:
+def test_file_names_and_links_are_read(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     page.write_text("`attic/a.py`, `NAME.py`, [x](docs/b.md#part), [y](https://c.org/d.md)\n", encoding="utf-8")
     assert documents.files_named(page) == {"attic/a.py"}
     assert documents.links(page) == {"docs/b.md"}
 
 
-def test_a_heading_is_named_as_forge_and_site_name_it(tmp_path: Path) -> None:
+def test_anchors_are_those_of_forge_and_site(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     page.write_text("# Nobody's `A*B`, twice\n```sh\n# none\n```\n[a](#here) [b](x.md#one-two)\n", encoding="utf-8")
     assert documents.anchors(page) == {"nobodys-ab-twice"}
-    assert documents.places(page) == [(page, "here"), (tmp_path / "x.md", "one-two")]
+    assert documents.linked_headings(page) == [(page, "here"), (tmp_path / "x.md", "one-two")]
 
 
-def test_blocks_share_a_folder_and_one_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    documents.lay_out(tmp_path)
+def test_blocks_share_a_folder_and_a_skipped_block_does_not_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    documents.prepare_folder(tmp_path)
     monkeypatch.chdir(tmp_path)
     page = tmp_path / "page.md"
     page.write_text(
@@ -129,5 +131,5 @@ def test_blocks_share_a_folder_and_one_is_left_out(tmp_path: Path, monkeypatch: 
         "```python\nx = 2\n```\n```python\nassert x == 2\n```\n```text\nfigure\n```\n",
         encoding="utf-8",
     )
-    assert documents.run(page, tmp_path) == (7, 1)
+    assert documents.run(page) == (7, 1)
     assert documents.reasons(page) == ["long"]

@@ -1,1 +1,15 @@
-"""The command ``hull1620``.  Each subcommand's module is imported only when it is called."""
+"""The command ``hull1620``.  The module of a subcommand is imported only when that subcommand is called.
+
+How to add a command:
+
+1. ``modern/cli/NAME.py``: define ``main(args)``, which returns the exit code (``OK``, ``DIFFERS`` or ``BAD_INPUT`` of
+   ``modern/cli/shared/console.py``) and raises ``UsageError`` for options that cannot be carried out.  A hyphen in the
+   command's name becomes an underscore in the module's name.
+2. ``modern/cli/arguments.py``: write a function that adds the arguments, and an entry in ``COMMANDS`` with the line for
+   ``--help``.  Import nothing there that only a run needs.
+3. ``modern/cli/shared/``: put here whatever two commands share.  No command imports another command.
+4. ``modern/cli/shared/console.py``: add the names of new arguments that are files to ``_INPUTS`` or ``_OUTPUTS``, so
+   that an output never overwrites an input.
+5. ``tests/modern/cli/``: test the exit codes and messages.  ``docs/reference/commands.md`` describes the command
+   automatically.
+"""

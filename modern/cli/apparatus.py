@@ -1,4 +1,4 @@
-"""``hull1620 apparatus``: the emendations of the listings, and the proof that each is needed."""
+"""``hull1620 apparatus``: list the emendations of the listings, check them, or weigh the evidence for them."""
 
 from __future__ import annotations
 
@@ -17,12 +17,11 @@ from modern.edition.apparatus import Row
 from modern.edition.grounds import Proof
 from modern.edition.sources import place
 
-_MOST = 4
-"""Processes beyond which a check is no quicker."""
+_MOST_PROCESSES = 4
+"""More processes than these do not make a check faster."""
 
 
 def main(args: argparse.Namespace) -> int:
-    """List rows, check them, or weigh them."""
     if args.weigh:
         from modern.edition.weight import weigh
         from modern.edition.weight_report import write_weight
@@ -32,7 +31,7 @@ def main(args: argparse.Namespace) -> int:
         return OK
     rows = _rows(args)
     if args.text and not (args.check and args.program is None and args.layer is None):
-        raise UsageError("--text goes with --check of everything")
+        raise UsageError("--text needs --check, without --program and --layer")
     if not args.check:
         width = max(48, min(shutil.get_terminal_size((100, 24)).columns, 120))
         for row in rows:
@@ -40,13 +39,15 @@ def main(args: argparse.Namespace) -> int:
         print(f"{len(rows)} rows")
         return OK
     everything = args.program is None and args.layer is None
-    workers = min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, _MOST)
+    workers = min(
+        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, _MOST_PROCESSES
+    )
     proofs = []
     for proof in check_everything(rows, everything, read_text(args.text) if args.text else "", workers):
         proofs.append(proof)
         print(_line(proof), flush=True)
     failed = sum(not proof.holds for proof in proofs)
-    print(f"{len(proofs) - failed} of {len(proofs)} hold" + (f"; {failed} FAIL" if failed else ""))
+    print(f"{len(proofs) - failed} of {len(proofs)} checks hold" + (f"; {failed} FAIL" if failed else ""))
     return DIFFERS if failed else OK
 
 
@@ -55,15 +56,15 @@ def _line(proof: Proof) -> str:
 
 
 def show(row: Row, width: int) -> Iterator[str]:
-    """A row as lines of at most ``width`` columns."""
+    """Yield a row of the apparatus as lines of at most ``width`` columns."""
     yield f"{row.id}  {row.text}  p. {row.page}  {programs.cards_of(row)}  [{row.layer}, {row.kind}, {row.certainty}]"
-    where = [place(row.text, line) for change in row.changes[:1] for line in (change.line,)]
-    yield from _folded("source", f"{where[0] or f'after row {row.changes[0].line}'}; cause: {row.cause}", width)
+    line = row.changes[0].line
+    yield from _folded("source", f"{place(row.text, line) or f'after row {line}'}; cause: {row.cause}", width)
     yield from _folded("reads", row.witness, width)
     yield from _folded("lemma", row.lemma, width)
     for rejected in row.rejected:
-        yield from _folded("not", f"{rejected.reading}: {rejected.reason}", width)
-    yield from _folded("why", row.reason, width)
+        yield from _folded("rejected", f"{rejected.reading}: {rejected.reason}", width)
+    yield from _folded("reason", row.reason, width)
     yield from _folded("evidence", row.evidence, width)
     ground = ", ".join(f"{key} {value}" for key, value in row.ground.items() if key != "kind")
     yield from _folded("ground", f"{row.ground.get('kind', '')}{': ' + ground if ground else ''}", width)
@@ -82,12 +83,12 @@ def _rows(args: argparse.Namespace) -> list[Row]:
     if args.program is not None:
         number = args.program.removeprefix("program")
         if number not in ("1", "2", "3"):
-            raise UsageError(f"--program: {args.program!r} is not 1, 2 or 3")
+            raise UsageError(f"--program: {args.program!r} is not one of the programs 1, 2 and 3")
         names = (f"program{number}",)
     rows = [row for name in names for row in programs.text(name).rows]
     if args.layer is not None:
         known = programs.text("program1").layers
         if args.layer not in known:
-            raise UsageError(f"--layer: there is no layer {args.layer!r}; there are {', '.join(known)}")
+            raise UsageError(f"--layer: unknown layer {args.layer!r}; expected one of {', '.join(known)}")
         rows = [row for row in rows if row.layer == args.layer]
     return rows

@@ -1,4 +1,4 @@
-"""``hull1620 check``: the compiler's messages, with card and column marked; error numbers explained."""
+"""``hull1620 check``: show the compiler's messages below their cards, or explain error numbers."""
 
 from __future__ import annotations
 
@@ -9,63 +9,62 @@ from collections.abc import Iterator
 from emulator.errors import explanations
 from emulator.language.compiler import translate
 from emulator.machine.session import overlap
-from modern.cli.shared.console import BAD_INPUT, OK, UsageError
-from modern.cli.shared.machine import layers_of, source_deck
+from modern.cli.shared.console import BAD_INPUT, OK, UsageError, counted
+from modern.cli.shared.programs import source_deck
 
-_MOST = 100
-"""Messages that are shown of one deck."""
+_MOST_MESSAGES = 100
+"""The number of messages shown for one deck."""
 
 
 def main(args: argparse.Namespace) -> int:
-    """Compile and show every message under its card, or explain error numbers."""
     if args.explain is not None:
         if args.program is not None:
-            raise UsageError("--explain: takes a number and no program")
+            raise UsageError("--explain: expected an error number without a program")
         print("\n".join(explained(args.explain)))
         return OK
     if args.program is None:
-        raise UsageError("check: a program, or --explain and an error number, is missing")
-    deck = source_deck(args.program, layers_of(args), args.upcase)
+        raise UsageError("check: expected a program, or --explain with an error number")
+    deck = source_deck(args)
     program, messages = translate(deck)
     cards = {card.number: card.text for card in deck.cards}
-    for message in messages[:_MOST]:
+    for message in messages[:_MOST_MESSAGES]:
         print(message.line(deck.source))
         if message.card in cards:
             print(f"    {cards[message.card]}")
             if message.column:
                 print("    " + " " * (message.column - 1) + "^")
-    if len(messages) > _MOST:
-        print(f"{deck.source}: ... and {len(messages) - _MOST} more")
+    if len(messages) > _MOST_MESSAGES:
+        print(f"{deck.source}: and {len(messages) - _MOST_MESSAGES} more messages")
     if program is None:
-        errors = sum(not message.warning for message in messages)
-        print(f"{deck.source}: {errors} error{'s' * (errors != 1)}")
+        print(f"{deck.source}: {counted(sum(not message.warning for message in messages), 'error')}")
         return BAD_INPUT
-    lacking = overlap(program, args.core)
-    if lacking:
-        print(f"{deck.source}: {lacking}")
+    overlap_message = overlap(program, args.core)
+    if overlap_message:
+        print(f"{deck.source}: {overlap_message}")
         return BAD_INPUT
-    statements, data = len(program.statements), program.storage.fields * 10
-    print(
-        f"{deck.source}: {len(deck.cards)} cards, {statements} statements to run, {data} positions of data, no errors"
-    )
+    sizes = f"{len(deck.cards)} cards, {len(program.statements)} executable statements"
+    print(f"{deck.source}: {sizes}, {program.storage.fields * 10} positions of data, no errors")
     return OK
 
 
 def explained(number: str) -> Iterator[str]:
-    """What an error number means, with an example, in 80 columns; ``all`` for every one.
+    """Yield the explanation of an error number with an example, in 80 columns; ``all`` explains every number.
 
-    Raises UsageError for a number there is not.
+    Raise UsageError for an unknown number.
     """
     known = explanations()
-    wanted = list(known) if number == "all" else [number.upper()]
-    for at, one in enumerate(wanted):
-        if one not in known:
-            raise UsageError(f"--explain: there is no error {number}; there are {', '.join(known)}, and all for all")
-        found = known[one]
-        if at:
+    for index, name in enumerate(known if number == "all" else [number.upper()]):
+        if name not in known:
+            raise UsageError(f"--explain: unknown error {number}; expected all, or one of {', '.join(known)}")
+        explanation = known[name]
+        if index:
             yield ""
-        yield from textwrap.wrap(f"error {one}: {found.title}", 80, subsequent_indent="    ")
-        for name, text in (("", found.meaning), ("remedy: ", found.remedy.strip()), ("source: ", found.source)):
-            yield from textwrap.wrap(name + text, 80, initial_indent="  ", subsequent_indent="  ")
-            if not name:
-                yield from (f"    | {card}" for card in found.example)
+        yield from textwrap.wrap(f"error {name}: {explanation.title}", 80, subsequent_indent="    ")
+        yield from _paragraph(explanation.meaning)
+        yield from (f"    | {card}" for card in explanation.example)
+        yield from _paragraph(f"remedy: {explanation.remedy.strip()}")
+        yield from _paragraph(f"source: {explanation.source}")
+
+
+def _paragraph(text: str) -> list[str]:
+    return textwrap.wrap(text, 80, initial_indent="  ", subsequent_indent="  ")

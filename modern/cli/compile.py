@@ -1,4 +1,4 @@
-"""``hull1620 compile``: the object code of a program, statement by statement."""
+"""``hull1620 compile``: print the object code of a program, statement by statement."""
 
 from __future__ import annotations
 
@@ -8,18 +8,20 @@ from collections.abc import Iterator
 from emulator.language import objectcode as op
 from emulator.language.objectcode import Instruction, Program
 from modern.cli.shared.console import OK
-from modern.cli.shared.machine import layers_of, load_program
+from modern.cli.shared.programs import load_program
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print the listing."""
-    for line in listing(load_program(args.program, layers_of(args), args.upcase)):
+    for line in listing(load_program(args)):
         print(line)
     return OK
 
 
 def listing(program: Program) -> Iterator[str]:
-    """The object code, each statement's words before its instructions."""
+    """Yield the object code: the text of each statement, followed by its instructions.
+
+    An asterisk marks an instruction that is the target of a branch.
+    """
     starts = {pc for branch in program.branches for pc in branch}
     for pc, instruction in enumerate(program.code):
         if instruction.operation == op.COUNT:
@@ -30,32 +32,32 @@ def listing(program: Program) -> Iterator[str]:
             else:
                 yield f"          {counter.what} of card {line.place.card}"
             continue
-        mark = "*" if pc in starts else " "
+        target = "*" if pc in starts else " "
         name = op.NAMES[instruction.operation]
-        yield f"{mark}{pc:>7}  {name:<9}{_operand(program, instruction):<28}{_meaning(instruction)}".rstrip()
+        yield f"{target}{pc:>7}  {name:<9}{_operand(program, instruction):<28}{_meaning(instruction)}".rstrip()
 
 
 def _meaning(instruction: Instruction) -> str:
     if op.repeats(instruction) > 1:
-        return "all of an array, one number after the other"
+        return "all numbers of an array, one after another"
     return op.MEANINGS[op.NAMES[instruction.operation]]
 
 
 def _operand(program: Program, instruction: Instruction) -> str:
+    def labels(branch: int) -> str:
+        return ", ".join(_label(program, pc) for pc in program.branches[branch])
+
     operation = instruction.operation
     if op.repeats(instruction) > 1:
         return f"{program.storage.entry_of(instruction.address).name}, {op.repeats(instruction)} elements"
     if operation <= op.ITEM or operation in (op.POWER, op.POWERX):
         return _field(program, instruction)
     if operation in (op.BRANCH, op.IF, op.IFX):
-        return ", ".join(_label(program, pc) for pc in program.branches[instruction.address])
+        return labels(instruction.address)
     if operation == op.SWITCH:
-        return f"{instruction.second}: " + ", ".join(
-            _label(program, pc) for pc in program.branches[instruction.address]
-        )
+        return f"{instruction.second}: {labels(instruction.address)}"
     if operation == op.SELECT:
-        targets = ", ".join(_label(program, pc) for pc in program.branches[instruction.second])
-        return f"{_field(program, instruction)}: {targets}"
+        return f"{_field(program, instruction)}: {labels(instruction.second)}"
     if operation == op.DOTEST:
         variable, step, limit, body = program.loops[instruction.address]
         name = program.storage.name_of

@@ -1,4 +1,4 @@
-"""``hull1620 diverge``: one program over two arithmetics in step."""
+"""``hull1620 diverge``: run a program in two arithmetics in step, and report where they differ."""
 
 from __future__ import annotations
 
@@ -14,112 +14,102 @@ from emulator.language.objectcode import Line
 from emulator.machine.comparison import Loss
 from emulator.machine.devices import no_deck
 from emulator.machine.divergence import Divergence, diverge
-from modern.cli.shared.console import DIFFERS, OK, UsageError
+from modern.cli.shared.console import DIFFERS, OK, check_one_standard_input, counted
 from modern.cli.shared.inputs import deck_for
-from modern.cli.shared.machine import (
-    layers_of,
-    load_program,
-    machine_options,
-    number_system,
-)
+from modern.cli.shared.programs import load_program, machine_options, number_system
 from modern.edition import programs
 
 _NARROWEST, _WIDEST = 40, 120
 
 
 def main(args: argparse.Namespace) -> int:
-    """Run both, say where they differ; exit 0 where every decision was compared and none differs."""
-    if args.program == "-" and args.deck == "-":
-        raise UsageError("program and deck cannot both come from standard input")
+    check_one_standard_input(args)
     check_writable(args.json)
     studied = number_system(args.arithmetic, "--arithmetic")
     reference = number_system(args.against, "--against")
     options = machine_options(args)
     if args.program not in programs.NAMES:
-        # Of its own decks the thesis's programs want whole data sets.
+        # Only the programs of the thesis require complete data sets.
         options = replace(options, hopper="any")
-    program = load_program(args.program, layers_of(args), args.upcase)
-    found = diverge(
-        program,
-        deck_for(args.program, args.deck) if args.deck else no_deck(program),
-        studied,
-        reference,
-        options,
-        values=not args.first,
-    )
+    program = load_program(args)
+    deck = deck_for(args.program, args.deck) if args.deck else no_deck(program)
+    divergence = diverge(program, deck, studied, reference, options, values=not args.first)
     width = max(_NARROWEST, min(shutil.get_terminal_size((100, 24)).columns, _WIDEST))
-    for line in _report(found, width, values=not args.first):
+    for line in _report(divergence, width, values=not args.first):
         print(line)
     if args.json:
-        write_text(args.json, json.dumps(_document(found), indent=1) + "\n")
-    return DIFFERS if found.decisions or found.apart or _cut_short(found) else OK
+        write_text(args.json, json.dumps(_document(divergence), indent=1) + "\n")
+    return DIFFERS if divergence.decisions or divergence.apart or _limit_message(divergence) else OK
 
 
-def _report(found: Divergence, width: int, values: bool) -> Iterator[str]:
-    studied, reference = found.arithmetics
-    yield from _wrapped(f"{found.program}, {found.deck}: {studied} against {reference}", width)
+def _report(divergence: Divergence, width: int, values: bool) -> Iterator[str]:
+    studied, reference = divergence.arithmetics
+    yield from _wrapped(f"{divergence.program}, {divergence.deck}: {studied} against {reference}", width)
     if values:
-        yield from _first_value(found, width)
-    yield from _first_decision(found, width)
-    if found.apart:
-        yield from _wrapped(f"not compared further: {found.apart}", width)
-    elif _cut_short(found):
-        yield from _wrapped(f"not compared further: both were {_cut_short(found)}", width)
-    for outcome in () if found.decisions and not values else found.outcomes:
+        yield from _first_value(divergence, width)
+    yield from _first_decision(divergence, width)
+    if divergence.apart:
+        yield from _wrapped(f"comparison ended: {divergence.apart}", width)
+    elif _limit_message(divergence):
+        yield from _wrapped(f"comparison ended: both runs were {_limit_message(divergence)}", width)
+    for outcome in () if divergence.decisions and not values else divergence.outcomes:
         yield from _wrapped(outcome, width)
-    if found.losses and found.digits:
+    if divergence.losses and divergence.digits:
         yield ""
-        yield from _table(found, width)
+        yield from _table(divergence, width)
 
 
-def _cut_short(found: Divergence) -> str:
-    """How both runs, in step to their ends, were stopped by the statement limit; empty where they were not."""
-    return next((ending.message for ending in found.endings if ending and ending.kind == "limit"), "")
+def _limit_message(divergence: Divergence) -> str:
+    """Return the message of the statement limit if it stopped both runs in step, otherwise an empty string."""
+    return next((ending.message for ending in divergence.endings if ending and ending.kind == "limit"), "")
 
 
-def _first_value(found: Divergence, width: int) -> Iterator[str]:
-    first, reference = found.first_value, found.arithmetics[1]
-    within = f"besides, {found.within} {_differ(found.within)} by no more than {reference} may itself be off"
+def _first_value(divergence: Divergence, width: int) -> Iterator[str]:
+    first, reference = divergence.first_value, divergence.arithmetics[1]
     if first is None:
-        yield from _wrapped(f"values: {found.compared} compared, none differs", width)
+        yield from _wrapped(f"values: {divergence.compared} compared, none differs", width)
     else:
-        counts = f"values: {found.compared} compared, {found.values} differ"
-        if found.decisions:
-            counts += f", {found.values_in_step} of them before the first decision that does"
+        counts = f"values: {divergence.compared} compared, {divergence.values} differ"
+        if divergence.decisions:
+            counts += f", {divergence.values_in_step} of them before the first branch that differs"
         yield from _wrapped(counts, width)
-    if found.within:
-        yield from _wrapped(f"  {within}", width)
+    if divergence.within:
+        yield from _wrapped(
+            f"  {divergence.within} more {_differ(divergence.within)} within the rounding of {reference}", width
+        )
     if first is None:
         return
-    yield from _wrapped(f"first value that differs: {_where(first.line)}{_which(first.time)}", width)
-    for arithmetic, name, value in zip(found.arithmetics, first.names, first.values, strict=True):
+    yield from _wrapped(f"first value that differs: {_place(first.line)}{_execution(first.time)}", width)
+    for arithmetic, name, value in zip(divergence.arithmetics, first.names, first.values, strict=True):
         yield from _wrapped(f"  {arithmetic}: {name} = {value}", width)
     if first.relative is not None:
         yield from _wrapped(f"  relative difference {first.relative:.1e}", width)
 
 
-def _first_decision(found: Divergence, width: int) -> Iterator[str]:
-    first = found.first_decision
+def _first_decision(divergence: Divergence, width: int) -> Iterator[str]:
+    first = divergence.first_decision
     if first is None:
-        yield from _wrapped(f"decisions: {found.tested} compared, none differs", width)
+        yield from _wrapped(f"branches: {divergence.tested} compared, none differs", width)
         return
-    yield from _wrapped(f"decisions: {found.tested} compared, {found.decisions} {_differ(found.decisions)}", width)
-    yield from _wrapped(f"first decision that differs: {_where(first.line)}{_which(first.time)}", width)
-    for arithmetic, value, target in zip(found.arithmetics, first.values, first.targets, strict=True):
-        goes = target.name if target else "the end"
-        yield from _wrapped(f"  {arithmetic}: {value}, goes to {goes}", width)
+    yield from _wrapped(
+        f"branches: {divergence.tested} compared, {divergence.decisions} {_differ(divergence.decisions)}", width
+    )
+    yield from _wrapped(f"first branch that differs: {_place(first.line)}{_execution(first.time)}", width)
+    for arithmetic, value, target in zip(divergence.arithmetics, first.values, first.targets, strict=True):
+        destination = target.name if target else "the end"
+        yield from _wrapped(f"  {arithmetic}: {value}, goes to {destination}", width)
 
 
 def _differ(count: int) -> str:
     return "differs" if count == 1 else "differ"
 
 
-def _where(line: Line) -> str:
+def _place(line: Line) -> str:
     return f"card {line.place.card}, {f'{line.label} ' if line.label else ''}{line.text}"
 
 
-def _which(time: int) -> str:
-    return f" (time {time})" if time > 1 else ""
+def _execution(number: int) -> str:
+    return f" (execution {number})" if number > 1 else ""
 
 
 def _wrapped(text: str, width: int) -> list[str]:
@@ -127,38 +117,39 @@ def _wrapped(text: str, width: int) -> list[str]:
     return textwrap.wrap(text, width, subsequent_indent=lead + "  ", break_on_hyphens=False)
 
 
-def _table(found: Divergence, width: int) -> Iterator[str]:
-    """A row for each statement that lost a tenth of a digit or more."""
-    losing = [loss for loss in found.losses if loss.worst]
-    until = ", up to that decision" if found.decisions else ""
-    yield from _wrapped(f"digits lost, of {found.digits:.1f}{until}", width)
+def _table(divergence: Divergence, width: int) -> Iterator[str]:
+    """Yield a row for each statement that lost at least a tenth of a digit."""
+    losing = [loss for loss in divergence.losses if loss.worst]
+    until = ", up to that branch" if divergence.decisions else ""
+    yield from _wrapped(f"digits lost, of {divergence.digits:.1f}{until}", width)
     if losing:
-        yield "worst median times differ card statement"
+        yield "worst median count differ card statement"
     for loss in losing:
         yield _row(loss)[:width].rstrip()
-    kept = len(found.losses) - len(losing)
-    if kept:
-        words = "statement lost no tenth" if kept == 1 else "statements lost no tenth"
-        yield from _wrapped(f"{kept} {'other ' if losing else ''}{words} of a digit", width)
+    others = len(divergence.losses) - len(losing)
+    if others:
+        statements = counted(others, "other statement" if losing else "statement")
+        yield from _wrapped(f"{statements} lost less than a tenth of a digit", width)
 
 
 def _row(loss: Loss) -> str:
-    words = f"{loss.line.label} {loss.line.text}" if loss.line.label else loss.line.text
-    return f"{loss.worst:5.1f} {loss.median:6.1f} {loss.times:5d} {loss.differing:6d} {loss.line.place.card:4d} {words}"
+    line = loss.line
+    statement = f"{line.label} {line.text}" if line.label else line.text
+    return f"{loss.worst:5.1f} {loss.median:6.1f} {loss.times:5d} {loss.differing:6d} {line.place.card:4d} {statement}"
 
 
-def _document(found: Divergence) -> dict[str, object]:
-    first, decision = found.first_value, found.first_decision
+def _document(divergence: Divergence) -> dict[str, object]:
+    first, decision = divergence.first_value, divergence.first_decision
     return {
-        "program": found.program,
-        "deck": found.deck,
-        "arithmetics": list(found.arithmetics),
-        "digits": round(found.digits, 2),
+        "program": divergence.program,
+        "deck": divergence.deck,
+        "arithmetics": list(divergence.arithmetics),
+        "digits": round(divergence.digits, 2),
         "values": {
-            "compared": found.compared,
-            "differing": found.values,
-            "differing_in_step": found.values_in_step,
-            "within_rounding": found.within,
+            "compared": divergence.compared,
+            "differing": divergence.values,
+            "differing_in_step": divergence.values_in_step,
+            "within_rounding": divergence.within,
             "first": first
             and {
                 **_statement(first.line),
@@ -169,8 +160,8 @@ def _document(found: Divergence) -> dict[str, object]:
             },
         },
         "decisions": {
-            "compared": found.tested,
-            "differing": found.decisions,
+            "compared": divergence.tested,
+            "differing": divergence.decisions,
             "first": decision
             and {
                 **_statement(decision.line),
@@ -179,9 +170,9 @@ def _document(found: Divergence) -> dict[str, object]:
                 "targets": [target and _statement(target) for target in decision.targets],
             },
         },
-        "apart": found.apart,
-        "statements": list(found.statements),
-        "endings": [ending and {"kind": ending.kind, "message": ending.message} for ending in found.endings],
+        "apart": divergence.apart,
+        "statements": list(divergence.statements),
+        "endings": [ending and {"kind": ending.kind, "message": ending.message} for ending in divergence.endings],
         "losses": [
             {
                 **_statement(loss.line),
@@ -190,7 +181,7 @@ def _document(found: Divergence) -> dict[str, object]:
                 "worst": loss.worst,
                 "median": loss.median,
             }
-            for loss in found.losses
+            for loss in divergence.losses
         ],
     }
 

@@ -1,4 +1,4 @@
-"""``hull1620 flowchart``: where a program goes, as a picture in the symbols of 1963 or as a table."""
+"""``hull1620 flowchart``: draw the flow of control of a program in the symbols of 1963, or print it as a table."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import argparse
 
 from emulator.files import write_text
 from modern.cli.shared.console import OK, UsageError
-from modern.cli.shared.machine import layers_of, load_program
+from modern.cli.shared.programs import load_program
 from modern.formats.columns import aligned
 from modern.publication.chart import chart
 from modern.publication.chart_svg import chart_svg
@@ -14,14 +14,13 @@ from modern.publication.flow import flow
 
 
 def main(args: argparse.Namespace) -> int:
-    """Draw the chart, or print its table."""
-    found = flow(load_program(args.program, layers_of(args), args.upcase))
+    control_flow = flow(load_program(args))
     if args.table:
-        rows = (("from", "taken for", "to"), *found.table())
+        rows = (("from", "taken for", "to"), *control_flow.table())
         write_text(args.output, "".join(f"{line}\n" for line in aligned(rows)))
         return OK
-    drawn = chart(found)
+    drawn = chart(control_flow)
     if args.page is not None and not 1 <= args.page <= len(drawn.pages):
-        raise UsageError(f"--page {args.page}: the chart has pages 1 to {len(drawn.pages)}")
+        raise UsageError(f"--page: expected 1 to {len(drawn.pages)}, found {args.page}")
     write_text(args.output, chart_svg(drawn, args.page))
     return OK

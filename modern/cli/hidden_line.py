@@ -1,4 +1,4 @@
-"""``hull1620 hidden-line``: convex polyhedra drawn without their hidden lines."""
+"""``hull1620 hidden-line``: draw convex polyhedra without their hidden lines."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from fractions import Fraction
 from pathlib import PurePath
 
 from emulator.files import check_writable, source_name, write_text
-from modern.cli.shared.console import OK, UsageError, counted, say
-from modern.cli.shared.inputs import read_given
+from modern.cli.shared.console import OK, UsageError, counted, print_notes
+from modern.cli.shared.inputs import read_input
 from modern.drawing.scene import eye_of
 from modern.geometry.coplanar import parse_distance
 from modern.geometry.numbers import number, quoted
@@ -36,76 +36,78 @@ _MOST_NAMES = 5
 
 
 def main(args: argparse.Namespace) -> int:
-    """Read the scene, find what is hidden, print what is asked for, write the picture."""
     output = args.output or (None if args.tables else "-")
     check_writable(output)
     without = [name.strip() for name in args.without.split(",") if name.strip()]
-    found = _scene(args)
-    _check_overwrites(output, found.files)
-    observer = _sight(args, found.sight).observer(found.make)
-    drawing = draw(found.make, observer, without, args.hidden)
+    scene_file = _scene(args)
+    _check_overwrites(output, scene_file.files)
+    observer = _sight(args, scene_file.sight).observer(scene_file.make)
+    drawing = draw(scene_file.make, observer, without, args.hidden)
     if output is not None:
         plot = output.lower().endswith(_PLOTS)
-        title = found.title if args.title is None else args.title
+        title = scene_file.title if args.title is None else args.title
         write_text(output, picture.as_hpgl(drawing) if plot else picture.as_svg(drawing, title, args.width))
     if args.tables:
         sys.stdout.writelines(line + "\n" for line in report.tables(drawing))
-    say(f"note: {note}" for note in (*found.notes, *_near(drawing)))
-    say(report.table1(drawing))
+    print_notes(f"note: {note}" for note in (*scene_file.notes, *_near_plane_notes(drawing)))
+    print_notes(report.table1(drawing))
     return OK
 
 
 def _scene(args: argparse.Namespace) -> SceneFile:
-    """A scene of the project by name, a scene file, a file of faces, or the hull of points."""
+    """Read a scene of the project by name, a scene file, a file of faces, or a file of points whose hull is drawn."""
     path = args.scene
     if path in names() or PurePath(path).suffix.lower() == ".toml":
         if args.hull or args.coplanar_within is not None:
-            raise UsageError("--hull and --coplanar-within are for a file of faces or points; a scene file has fields")
+            raise UsageError(
+                "--hull and --coplanar-within need a file of faces or points; a scene file has fields for them"
+            )
         return scene(path) if path in names() else read(path)
     within = None if args.coplanar_within is None else parse_distance(args.coplanar_within)
     reading = Reading(args.hull, within, True, as_hull="--hull", as_within="--coplanar-within E")
-    found = read_bodies(read_given(path), source_name(path), reading)
-    return of_polyhedra(found.polyhedra, PurePath(source_name(path)).name, found.notes)
+    bodies = read_bodies(read_input(path), source_name(path), reading)
+    return of_polyhedra(bodies.polyhedra, PurePath(source_name(path)).name, bodies.notes)
 
 
 def _check_overwrites(output: str | None, files: Sequence[str]) -> None:
-    """Refuse an output that is a file of the scene.  Raises UsageError."""
+    """Raise UsageError if the output is a file of the scene."""
     if output not in (None, "-") and os.path.realpath(str(output)) in {os.path.realpath(name) for name in files}:
-        raise UsageError(f"{output}: is a file of the scene too; an output never overwrites it")
+        raise UsageError(
+            f"{output}: this output is also a file of the scene, which would be overwritten; choose another name"
+        )
 
 
-def _near(drawing: Drawing) -> Iterator[str]:
-    """What the near plane did."""
-    for done, found in (("cut by the near plane", drawing.cut), ("behind the near plane, left out", drawing.behind)):
-        if found:
-            more = f" and {len(found) - _MOST_NAMES} more" if len(found) > _MOST_NAMES else ""
-            yield f"{counted(len(found), 'part')} {done}: {', '.join(found[:_MOST_NAMES])}{more}"
+def _near_plane_notes(drawing: Drawing) -> Iterator[str]:
+    """Yield notes on the parts that the near plane clips."""
+    for effect, parts in (("cut by the near plane", drawing.cut), ("omitted behind the near plane", drawing.behind)):
+        if parts:
+            more = f" and {len(parts) - _MOST_NAMES} more" if len(parts) > _MOST_NAMES else ""
+            yield f"{counted(len(parts), 'part')} {effect}: {', '.join(parts[:_MOST_NAMES])}{more}"
 
 
 def _sight(args: argparse.Namespace, sight: Sight) -> Sight:
-    """The scene's own view, but for what the options say."""
+    """Return the view of the scene, changed by the options.  Raise SceneError."""
     eye = None if args.eye is None else _vector(args.eye)
     towards = None if args.towards is None else _vector(args.towards)
     near = sight.near if args.near is None else _distance(args.near)
     if args.perspective:
         if eye is None:
-            raise SceneError("--perspective needs the observation point, --eye X,Y,Z")
+            raise SceneError("--perspective needs the eye point: add --eye X,Y,Z")
         return Sight(eye, PERSPECTIVE, towards, near)
-    for option, given in (("--towards", towards), ("--near", args.near)):
-        if given is not None and sight.projection != PERSPECTIVE:
-            raise SceneError(f"{option} is for a perspective; a parallel projection has a direction only")
+    for option, argument in (("--towards", towards), ("--near", args.near)):
+        if argument is not None and sight.projection != PERSPECTIVE:
+            raise SceneError(f"{option} needs --perspective; a parallel projection has only a direction")
     return replace(sight, eye=eye or sight.eye, towards=towards or sight.towards, near=near)
 
 
 def _distance(text: str) -> Fraction:
-    """Raises SceneError."""
     try:
-        found = number(text)
+        distance = number(text)
     except ValueError as error:
         raise SceneError(f"--near: {error}") from None
-    if found <= 0:
-        raise SceneError(f"--near: {quoted(text)} is not a distance greater than 0")
-    return found
+    if distance <= 0:
+        raise SceneError(f"--near: expected a distance greater than 0, found {quoted(text)}")
+    return distance
 
 
 def _vector(text: str) -> Vector:

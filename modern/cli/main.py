@@ -1,4 +1,4 @@
-"""The commands, and the one place where one is called and errors become an exit code."""
+"""Parse the command line, call the command, and turn errors into one line and an exit code."""
 
 from __future__ import annotations
 
@@ -12,75 +12,79 @@ from collections.abc import Sequence
 
 from emulator.errors import EmulatorError
 from modern.cli.arguments import COMMANDS
-from modern.cli.shared.console import BAD_INPUT, OK, Parser, check_outputs, complain
+from modern.cli.shared.console import BAD_INPUT, OK, Parser, check_outputs, print_error
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; returns the exit code."""
+    """Run a command and return its exit code.
+
+    arguments: the words after ``hull1620``; by default those of the process.
+    """
     words = sys.argv[1:] if arguments is None else list(arguments)
-    # The option is complete by itself; what follows it is no value of it.
+    # Argparse must not read the word after --operator as its value, because the option is complete without one.
     words = ["--operator=" if word == "--operator" else word for word in words]
-    # A command makes many objects that live to its end: looking for unused ones after every 700 is time lost.
+    # Most objects of a command live until its end, so searching for garbage after every 700 of them wastes time.
     gc.set_threshold(100_000)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            # A name or a card may hold what a terminal of few characters cannot show.
+            # File names and cards may contain characters that the terminal cannot show.
             stream.reconfigure(errors="backslashreplace")
-    # The command's own start (hull1620/__main__.py) leaves Ctrl-C to end the process; from here on it is an exception.
-    started = signal.getsignal(signal.SIGINT) is signal.SIG_DFL
-    if started:
+    # Until here Ctrl-C ends the process at once (hull1620/__main__.py); from here on it raises KeyboardInterrupt.
+    handles_interrupt = signal.getsignal(signal.SIGINT) is signal.SIG_DFL
+    if handles_interrupt:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         args = build_parser(words).parse_args(words)
         if sys.stdout is None:
-            complain("standard output is closed")
+            print_error("standard output is closed")
             return BAD_INPUT
         check_outputs(args)
         code: int = importlib.import_module(f"modern.cli.{args.command.replace('-', '_')}").main(args)
         sys.stdout.flush()
         return code
     except BrokenPipeError:
-        # The reader of a pipe has gone: not an error of ours, and nothing more can be said to it.
+        # The reader of the pipe has closed it, as head does.  Python must not fail again when it flushes at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return OK
     except KeyboardInterrupt:
-        complain("interrupted")
+        print_error("interrupted")
         return 130
     except MemoryError:
-        complain("there is not enough memory for this")
+        print_error("not enough memory")
         return BAD_INPUT
     except OSError as error:
-        # What cannot be opened is said where it is known by name; this is an output that fails in mid-writing.
-        complain(f"cannot write: {(error.strerror or str(error)).lower()}")
+        # A file that cannot be opened raises FileError with its name; here, writing to an open output failed.
+        print_error(f"cannot write: {(error.strerror or str(error)).lower()}")
         return BAD_INPUT
     except EmulatorError as error:
-        complain(str(error))
+        print_error(str(error))
         return BAD_INPUT
     finally:
-        if started:
+        if handles_interrupt:
             signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def build_parser(words: Sequence[str]) -> Parser:
-    """The parser of these words: of the one command that is called, or of all."""
+    """Return the parser for the command named by the first word, or for all commands if it names none."""
     parser = Parser(
         prog="hull1620",
-        description="Karen Jensen Butler's convex hull programs of 1963, restored and run on an emulated IBM 1620; "
-        "exact hulls, studies of numerical error, and four later papers.",
-        epilog="PROGRAM.f is a file or one of program1, program2, program3, program1_examples. "
-        "'-' is standard input or output.",
+        description="Run Karen Jensen Butler's convex hull programs of 1963 on an emulated IBM 1620, find exact hulls, "
+        "study numerical errors, and run the algorithms of four later papers.",
+        epilog="PROGRAM.f is a file, or one of program1, program2, program3 and program1_examples. "
+        "'-' means standard input or standard output.",
     )
     parser.add_argument("--version", action="version", version=f"hull1620 {_version()}" if "--version" in words else "")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
-    # Only the command that is called needs its parser; the list of all is for --help and for names there are not.
+    # Building every parser takes time; all of them are needed only for --help and for unknown commands.
     for name in words[:1] if words and words[0] in COMMANDS else COMMANDS:
-        says, arguments = COMMANDS[name]
-        arguments(commands.add_parser(name, help=says, description=says[0].upper() + says[1:] + "."))
+        summary, add_arguments = COMMANDS[name]
+        description = summary[0].upper() + summary[1:] + "."
+        add_arguments(commands.add_parser(name, help=summary, description=description))
     return parser
 
 
 def parser_of_all() -> Parser:
-    """Return the parser of every command, which the reference of the commands is made from."""
+    """Return the parser of all commands, from which the reference of the commands is generated."""
     return build_parser([])
 
 

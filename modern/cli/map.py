@@ -1,4 +1,4 @@
-"""``hull1620 map``: where every array and variable lies, and what number of points fits."""
+"""``hull1620 map``: print the addresses of arrays and variables, and the number of points that fit."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from emulator.language.objectcode import Program, code_positions
 from emulator.language.storage import FIELD, core_address
 from emulator.machine.session import overlap
 from modern.cli.shared.console import OK
-from modern.cli.shared.machine import layers_of, load_program
+from modern.cli.shared.programs import load_program
 from modern.edition import programs
 from modern.formats.deck import MAX_POINTS
 from modern.thesis.capacity import array_lengths, largest
@@ -18,8 +18,7 @@ _PLURALS = {"constant": "constants", "temporary": "temporaries", "statement numb
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print the map."""
-    program = load_program(args.program, layers_of(args), args.upcase)
+    program = load_program(args)
     for line in map_lines(program, args.core):
         print(line)
     if args.program in programs.NAMES:
@@ -28,8 +27,11 @@ def main(args: argparse.Namespace) -> int:
 
 
 def map_lines(program: Program, core: int) -> Iterator[str]:
-    """The storage map: addresses are those of a field's rightmost digit; element 1 lies highest."""
-    yield f"{program.source}: storage in a machine of {core} positions (estimated program length marked ~)"
+    """Yield the storage map.
+
+    The address of a field is that of its rightmost digit.  Element 1 of an array has the highest address.
+    """
+    yield f"{program.source}: storage in a machine of {core} positions (~: estimated length of the program)"
     yield f"  {'name':<20}{'kind':<18}{'fields':>7}  {'from':>6}  {'down to':>7}"
     for entry in program.storage.entries:
         if entry.shape:
@@ -41,23 +43,27 @@ def map_lines(program: Program, core: int) -> Iterator[str]:
             yield _line(entry.name, kind, 1, entry.first, core)
         if entries and kind != "variable":
             yield f"  {'':<20}{_PLURALS[kind]:<18}{len(entries):>7}"
-    need = program.storage.fields * FIELD
+    data = program.storage.fields * FIELD
     lowest = core_address(program.storage.fields, core) + 1
     code = code_positions(program)
-    yield f"  data: {need} positions, from {core_address(0, core)} down to {lowest}"
-    lacking = overlap(program, core)
-    free = f"free between: ~{lowest - 8300 - code}" if not lacking else f"~{8300 + code - lowest} too many"
+    yield f"  data: {data} positions, from {core_address(0, core)} down to {lowest}"
+    overlap_message = overlap(program, core)
+    free = (
+        f"free between them: ~{lowest - 8300 - code}"
+        if not overlap_message
+        else f"~{8300 + code - lowest} positions too many"
+    )
     yield f"  program: ~{code} positions from 08300; {free}"
-    if lacking:
-        yield f"  {lacking}"
+    if overlap_message:
+        yield f"  {overlap_message}"
 
 
 def capacity_line(program: Program, core: int) -> str:
-    """How many points fit the machine."""
+    """Return the line on the number of points that fit the machine."""
     points = largest(program, core)
     arrays = f"  with arrays of {' and '.join(array_lengths(program))} fields"
     if points:
-        return f"{arrays} about {points} points would fit; the thesis's N is {MAX_POINTS}"
+        return f"{arrays} about {points} points would fit; the thesis limits N to {MAX_POINTS}"
     return f"{arrays} the program does not fit"
 
 

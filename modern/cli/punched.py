@@ -1,4 +1,4 @@
-"""``hull1620 punched``: a deck drawn as punched cards."""
+"""``hull1620 punched``: draw a deck as punched cards."""
 
 from __future__ import annotations
 
@@ -14,19 +14,18 @@ from modern.edition import programs
 
 
 def main(args: argparse.Namespace) -> int:
-    """Read the deck, draw it: in one picture, or in one a card where the name has a place for a number."""
     if args.across < 1:
-        raise UsageError(f"--across: {args.across} is not a number of cards")
+        raise UsageError(f"--across: expected at least 1 card, found {args.across}")
     deck = programs.deck(args.deck) if args.deck in programs.NAMES else deck_of(args.deck)
     if "%" in args.output:
-        _one_a_card(deck, args.output)
+        _draw_each_card(deck, args.output)
     else:
         write_text(args.output, cards_svg(deck, args.across))
     return OK
 
 
-def _one_a_card(deck: Deck, pattern: str) -> None:
-    """A file for each card; none where one of the cards cannot be drawn or one of the files cannot be written."""
+def _draw_each_card(deck: Deck, pattern: str) -> None:
+    """Write a file for each card, but none at all if a card cannot be drawn or a file cannot be written."""
     check_numbered(pattern, "number", "card-%03d.svg")
     check_punched(deck)
     names = [pattern % card.number for card in deck.cards]

@@ -1,4 +1,4 @@
-"""``hull1620 reproduce``: what the thesis and the later papers print and state, computed, with a verdict on each."""
+"""``hull1620 reproduce``: compute the printed results and the statements of the documents, and judge each."""
 
 from __future__ import annotations
 
@@ -12,14 +12,15 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
+from itertools import zip_longest
 from typing import TextIO
 
 from emulator.files import check_writable, write_text
 from emulator.machine.endings import Ending
 from modern.claims.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Finding, Paper, findings
 from modern.claims.register import DOCUMENTS, THESIS, Judged, Judgements, Statement, judge, statements_of
-from modern.cli.shared.beside import beside
 from modern.cli.shared.console import DIFFERS, OK, UsageError
+from modern.cli.shared.side_by_side import side_by_side
 from modern.cli.shared.statements import Indented, Paint, statement_lines, statement_summary, theorem_lines
 from modern.edition.chapter4 import THEOREMS
 from modern.edition.chapter6 import EXAMPLES
@@ -35,95 +36,95 @@ _PARTS: dict[Part, str] = {
     "vertices": "vertices",
     "equations": "equations, up to a factor",
 }
-_WHY_ORDER = (
-    "the listing swaps the extreme points into places 1 and 2 and looks for the farthest third; the examples were "
-    "printed by an earlier state of program 1, which put the six extremes in front"
+_REASON_FOR_ORDER = (
+    "the listing moves the extreme points to positions 1 and 2 and then finds the farthest third point; the examples "
+    "were printed by an earlier state of program 1, which moved the six extreme points to the front"
 )
-
-
-_PAINTED_AS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DIFFERENT: DIFFERENT}
+_PAINT_KINDS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DIFFERENT: DIFFERENT}
 _MOST_LINES = 4
-_EVERY = ("Every", "NOT every")
-"""How the verdict on everything begins."""
+_OVERALL = ("Every", "NOT every")
+"""The start of the overall verdict."""
 
 
 def main(args: argparse.Namespace) -> int:
-    """Run the examples, print the verdicts, write them as JSON if asked."""
-    asked = list(dict.fromkeys(args.examples))
-    named = [*_names()] if not asked else [name for text in asked for name in _meant(text)]
-    examples = [number for number in EXAMPLES if str(number) in named]
+    requested = list(dict.fromkeys(args.examples))
+    names = [name for text in requested for name in _results_named(text)] if requested else _all_results()
+    examples = [number for number in EXAMPLES if str(number) in names]
     check_writable(args.json)
     colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
-    # A JSON document on standard output must be alone there.
+    # If the JSON document goes to standard output, the verdicts go to standard error.
     out = sys.stderr if args.json == "-" else sys.stdout
     reports: list[Report] = []
     width = shutil.get_terminal_size((100, 24)).columns
     paint, indented = partial(_paint, colour=colour), partial(_indented, width=width)
     for example in examples:
-        found = list(reproduce((example,)))
-        reports.extend(found)
-        for line in _example_lines(example, found, colour, width, args.show):
+        new_reports = list(reproduce((example,)))
+        reports.extend(new_reports)
+        for line in _example_lines(example, new_reports, colour, width, args.show):
             print(line, file=out)
     results = Judgements(reports)
-    parts = {name for name in THEOREMS if name in named}
+    parts = {name for name in THEOREMS if name in names}
     theorems = [judge(row, results) for row in statements_of(THESIS) if row.part in parts] if parts else []
     for line in theorem_lines(theorems, paint, indented):
         print(line, file=out)
-    found_results = list(_papers(named, colour, width, out, args.show))
-    results.add_findings(found_results)
+    findings_of_papers = list(_papers(names, colour, width, out, args.show))
+    results.add_findings(findings_of_papers)
     known = {judged.statement.id: judged for judged in theorems}
-    stated = [known.get(row.id) or judge(row, results) for row in _rows(asked)]
-    for line in statement_lines(stated, paint, indented) if asked else statement_summary(stated, paint, indented):
+    stated = [known.get(row.id) or judge(row, results) for row in _statements(requested)]
+    for line in statement_lines(stated, paint, indented) if requested else statement_summary(stated, paint, indented):
         print(line, file=out)
-    good, *_ = summary(reports)
-    good = good and all(judged.agrees for judged in (*theorems, *stated)) and all(f.holds for f in found_results)
-    for line in _summary_lines(reports, theorems, found_results, good):
-        kind = (EXACT if good else DIFFERENT) if line.startswith(_EVERY) else ""
+    all_agree, *_ = summary(reports)
+    all_agree = all_agree and all(judged.agrees for judged in (*theorems, *stated))
+    all_agree = all_agree and all(finding.holds for finding in findings_of_papers)
+    for line in _summary_lines(reports, theorems, findings_of_papers, all_agree):
+        kind = (EXACT if all_agree else DIFFERENT) if line.startswith(_OVERALL) else ""
         for part in textwrap.wrap(line, max(40, width)):
             print(_paint(part, kind, colour), file=out)
     if args.json is not None:
-        write_text(args.json, json.dumps(_document(reports, theorems, stated, found_results, good), indent=1) + "\n")
-    return OK if good else DIFFERS
+        write_text(
+            args.json, json.dumps(_document(reports, theorems, stated, findings_of_papers, all_agree), indent=1) + "\n"
+        )
+    return OK if all_agree else DIFFERS
 
 
-def _names() -> list[str]:
+def _all_results() -> list[str]:
     return [*map(str, EXAMPLES), *THEOREMS, *(paper.name for paper in PAPERS)]
 
 
-def _meant(text: str) -> list[str]:
-    """The results that a name stands for: all of the thesis's, none of a paper that prints none or of a statement.
+def _results_named(text: str) -> list[str]:
+    """Return the printed results that an argument names; a statement and a paper without results name none.
 
-    Raises UsageError for a name that is not one.
+    Raise UsageError for an unknown name.
     """
     if text == THESIS:
         return [*map(str, EXAMPLES), *THEOREMS]
-    if text in _names():
+    if text in _all_results():
         return [text]
-    if text not in DOCUMENTS and not any(row.id == text for row in _rows([text])):
+    if text not in DOCUMENTS and not any(row.id == text for row in _statements([text])):
         raise UsageError(
-            f"reproduce: there is no example {text!r}; chapter 6 has 1 to {EXAMPLES[-1]}, "
-            f"chapter 4 {', '.join(THEOREMS)}, the documents are {', '.join(DOCUMENTS)}; statements have ids"
+            f"reproduce: unknown name {text!r}; expected an example 1 to {EXAMPLES[-1]}, "
+            f"a theorem ({', '.join(THEOREMS)}), a document ({', '.join(DOCUMENTS)}) or the id of a statement"
         )
     return []
 
 
-def _rows(asked: Sequence[str]) -> list[Statement]:
-    """The statements of the documents asked for, and those asked for by id; all where nothing is asked for."""
-    documents = {text.partition(".")[0] for text in asked} if asked else set(DOCUMENTS)
+def _statements(names: Sequence[str]) -> list[Statement]:
+    """Return the statements of the named documents and those named by id; all statements if there are no names."""
+    documents = {name.partition(".")[0] for name in names} if names else set(DOCUMENTS)
     rows = [row for name in DOCUMENTS if name in documents for row in statements_of(name)]
-    return [row for row in rows if row.document in asked or row.id in asked] if asked else rows
+    return [row for row in rows if row.document in names or row.id in names] if names else rows
 
 
 def _papers(names: Sequence[str], colour: bool, width: int, out: TextIO, show: bool) -> Iterator[Finding]:
-    """The verdicts on the papers named, each paper printed when it is judged."""
+    """Yield the verdicts on the results of the named papers, and print those of each paper."""
     for paper in PAPERS:
         if paper.name in names:
-            found = list(findings(paper))
+            paper_findings = list(findings(paper))
             paint = partial(_paint, colour=colour)
-            beside_it = partial(_printed_beside, colour=colour, width=width) if show else None
-            for line in _finding_lines(paper, found, paint, partial(_indented, width=width), beside_it):
+            compare = partial(_side_by_side, colour=colour, width=width) if show else None
+            for line in _finding_lines(paper, paper_findings, paint, partial(_indented, width=width), compare):
                 print(line, file=out)
-            yield from found
+            yield from paper_findings
 
 
 def _example_lines(
@@ -131,7 +132,7 @@ def _example_lines(
 ) -> Iterator[str]:
     yield f"Example {example}"
     state = ""
-    explained = False
+    is_explained = False
     for report in reports:
         if report.state != state:
             state = report.state
@@ -141,28 +142,29 @@ def _example_lines(
         yield f"    {name:<16} {_paint(verdict.kind, verdict.kind, colour)}"
         yield from _indented(_evidence(report), width)
         if verdict.kind == ORDER:
-            yield from _indented(f"{_same(verdict)}; {'order: as above' if explained else _WHY_ORDER}", width)
-            explained = True
+            reason = "order: as above" if is_explained else _REASON_FOR_ORDER
+            yield from _indented(f"{_same(verdict)}; {reason}", width)
+            is_explained = True
         ending = _ending(report)
         if ending:
             yield from _indented(ending, width)
         if show:
-            marks = partial(_paint, kind=DIFFERENT, colour=colour)
+            paint = partial(_paint, kind=DIFFERENT, colour=colour)
             heads = ("stated" if report.stated else "print", "result")
-            yield from beside(report.printed, report.produced, width, heads=heads, paint=marks)
+            yield from side_by_side(report.printed, report.produced, width, heads=heads, paint=paint)
         elif verdict.kind in (DIFFERENT, SPACING):
             yield from _differences(report, width)
     yield ""
 
 
 def _same(verdict: Verdict) -> str:
-    """What agrees where the order differs; empty of any other verdict."""
+    """Return the parts that agree if only the order differs, otherwise an empty string."""
     counted = ", ".join(f"{count} {_PARTS[part]}" for part, count in verdict.same)
     return f"the same {counted}" if counted else ""
 
 
 def _ending(report: Report) -> str:
-    """Why the program did not end as it should; empty where it did."""
+    """Return why the program did not end normally, or an empty string."""
     if report.ending is None:
         return "the program was not reached"
     return report.ending.message if isinstance(report.ending, Ending) else str(report.ending)
@@ -172,11 +174,11 @@ def _evidence(report: Report) -> str:
     verdict = report.verdict
     if report.stated:
         if not report.printed:
-            return "nothing is typed (stated in chapter 5; chapter 6 prints no typewriter)"
-        return f"{' / '.join(report.printed)} (stated in chapter 5; chapter 6 prints no typewriter)"
+            return "nothing is typed (stated in chapter 5; chapter 6 prints no typed lines)"
+        return f"{' / '.join(report.printed)} (stated in chapter 5; chapter 6 prints no typed lines)"
     return (
-        f"print: {verdict.numbers} numbers and {verdict.words} words on {verdict.cards} cards; "
-        f"from the FORMATs: columns and {verdict.blank} blank cards"
+        f"printed: {verdict.numbers} numbers and {verdict.words} words on {verdict.cards} cards; "
+        f"inferred from the FORMATs: columns and {verdict.blank} blank cards"
     )
 
 
@@ -196,25 +198,31 @@ def _differences(report: Report, width: int) -> Iterator[str]:
         yield f"      and {len(differences) - _MOST_DIFFERENCES} more"
 
 
-def _summary_lines(reports: list[Report], theorems: list[Judged], found: list[Finding], good: bool) -> Iterator[str]:
+def _summary_lines(
+    reports: list[Report], theorems: list[Judged], paper_findings: list[Finding], all_agree: bool
+) -> Iterator[str]:
     punched = [r for r in reports if r.device == "punch" and r.state == "examples"]
     listed = [r for r in reports if r.device == "punch" and r.state == "listing"]
     if punched:
-        done = [r.verdict for r in punched if r.verdict.kind == EXACT]
-        cards, of = (sum(v.cards + v.blank for v in part) for part in (done, [r.verdict for r in punched]))
-        numbers = sum(verdict.numbers for verdict in done)
-        exact = f"{len(done)} of {len(punched)} printed results exact, {cards} of {of} cards, {numbers} numbers"
-        yield f"As the examples were run: {exact}."
+        verdicts = [r.verdict for r in punched]
+        exact = [verdict for verdict in verdicts if verdict.kind == EXACT]
+        cards, all_cards = (sum(v.cards + v.blank for v in part) for part in (exact, verdicts))
+        numbers = sum(verdict.numbers for verdict in exact)
+        counts = (
+            f"{len(exact)} of {len(punched)} printed results exact, {cards} of {all_cards} cards, {numbers} numbers"
+        )
+        yield f"As the examples were run: {counts}."
         kinds = Counter(r.verdict.kind for r in listed)
         yield f"As listed: {', '.join(f'{kinds[k]} {k}' for k in (EXACT, ORDER, SPACING, DIFFERENT) if kinds[k])}."
     if theorems:
         yield f"Chapter 4: {sum(judged.agrees for judged in theorems)} of {len(theorems)} claims hold."
-    if found:
-        yield _finding_summary(found)
-    what = "printed result comes out" if reports or theorems or found else "statement has the verdict of its row"
-    words = f"{_EVERY[0]} {what}" if good else f"{_EVERY[1]} {what}"
-    words += ", or it is said why it does not." if good and any(finding.excused for finding in found) else "."
-    yield words
+    if paper_findings:
+        yield _finding_summary(paper_findings)
+    has_results = reports or theorems or paper_findings
+    verdict = "printed result is reproduced" if has_results else "statement has its recorded verdict"
+    has_exceptions = all_agree and any(finding.excused for finding in paper_findings)
+    exceptions = ", or the reason why it cannot be is stated" if has_exceptions else ""
+    yield f"{_OVERALL[not all_agree]} {verdict}{exceptions}."
 
 
 def _paint(text: str, kind: str, colour: bool) -> str:
@@ -226,11 +234,15 @@ def _indented(text: str, width: int) -> list[str]:
 
 
 def _document(
-    reports: list[Report], theorems: list[Judged], stated: list[Judged], found: list[Finding], good: bool
+    reports: list[Report],
+    theorems: list[Judged],
+    stated: list[Judged],
+    paper_findings: list[Finding],
+    all_agree: bool,
 ) -> dict[str, object]:
     return {
-        "reproduced": good,
-        "papers": _finding_document(found),
+        "reproduced": all_agree,
+        "papers": _finding_document(paper_findings),
         "theorems": [
             {
                 "theorem": judged.statement.part,
@@ -255,7 +267,7 @@ def _document(
                 "evidence": "stated in chapter 5" if report.stated else "printed in chapter 6",
                 "verdict": report.verdict.kind,
                 "same": _same(report.verdict),
-                "reason": _WHY_ORDER if report.verdict.kind == ORDER else "",
+                "reason": _REASON_FOR_ORDER if report.verdict.kind == ORDER else "",
                 "ending": _ending(report),
                 "proved_by_print": {
                     "numbers": report.verdict.numbers,
@@ -272,49 +284,49 @@ def _document(
     }
 
 
-def _printed_beside(finding: Finding, colour: bool, width: int) -> Iterator[str]:
-    """A paper's result as it is printed beside what is computed; nothing where nothing can be computed."""
-    marks = partial(_paint, kind=DIFFERENT, colour=colour)
-    heads = ("print", "computed")
-    if finding.produced:
-        yield from beside(finding.result.printed, finding.produced, width, heads=heads, columns=False, paint=marks)
+def _side_by_side(finding: Finding, colour: bool, width: int) -> Iterator[str]:
+    """Yield the printed and the computed result of a paper side by side, if the result can be computed."""
+    paint, heads = partial(_paint, kind=DIFFERENT, colour=colour), ("print", "computed")
+    printed, produced = finding.result.printed, finding.produced
+    if produced:
+        yield from side_by_side(printed, produced, width, heads=heads, columns=False, paint=paint)
 
 
 def _finding_lines(
     paper: Paper,
-    found: Sequence[Finding],
+    paper_findings: Sequence[Finding],
     paint: Paint,
     indented: Indented,
-    beside_it: Callable[[Finding], Iterable[str]] | None = None,
+    compare: Callable[[Finding], Iterable[str]] | None = None,
 ) -> Iterator[str]:
-    """A paper's verdicts: a line a result, with what was printed where they differ, or beside every one."""
+    """Yield the verdicts on a paper's results.
+
+    compare: shows the print next to every result; without it, only the differing lines are shown.
+    """
     yield paper.title
-    for finding in found:
+    for finding in paper_findings:
         result = finding.result
-        word = paint(finding.kind, _PAINTED_AS[finding.kind])
-        yield f"  {result.place}: {word}"
+        yield f"  {result.place}: {paint(finding.kind, _PAINT_KINDS[finding.kind])}"
         yield from indented(result.says)
         if finding.excused:
             yield from indented(result.cannot or result.differs)
         if finding.kind == CORRECTED:
             rows = ", ".join(f"{row.id} ({row.kind})" for row in result.rows)
-            yield from indented(f"the print corrected by {rows}")
-        if beside_it is not None:
-            yield from beside_it(finding)
+            yield from indented(f"the print was corrected by {rows}")
+        if compare is not None:
+            yield from compare(finding)
         elif finding.kind in (EXPLAINED, DIFFERENT):
             yield from _finding_differences(finding, indented)
     yield ""
 
 
-def _finding_summary(found: Iterable[Finding]) -> str:
-    """How many results of the papers have which verdict."""
-    kinds = Counter(finding.kind for finding in found)
+def _finding_summary(paper_findings: Iterable[Finding]) -> str:
+    kinds = Counter(finding.kind for finding in paper_findings)
     parts = [f"{kinds[kind]} {kind}" for kind in (EXACT, CORRECTED, EXPLAINED, CANNOT, DIFFERENT) if kinds[kind]]
     return f"Later papers: {', '.join(parts)}."
 
 
-def _finding_document(found: Iterable[Finding]) -> list[dict[str, object]]:
-    """The verdicts as plain data."""
+def _finding_document(paper_findings: Iterable[Finding]) -> list[dict[str, object]]:
     return [
         {
             "paper": finding.paper,
@@ -328,19 +340,15 @@ def _finding_document(found: Iterable[Finding]) -> list[dict[str, object]]:
             "corrected": list(finding.result.corrected),
             "produced": list(finding.produced),
         }
-        for finding in found
+        for finding in paper_findings
     ]
 
 
 def _finding_differences(finding: Finding, indented: Indented) -> Iterator[str]:
     printed, produced = finding.result.corrected, finding.produced
-    longest = max(len(printed), len(produced))
-    pairs = [
-        (printed[i] if i < len(printed) else "(nothing)", produced[i] if i < len(produced) else "(nothing)")
-        for i in range(longest)
-    ]
+    pairs = zip_longest(printed, produced, fillvalue="(nothing)")
     different = [pair for pair in pairs if pair[0].split() != pair[1].split()]
-    for one, other in different[:_MOST_LINES]:
-        yield from indented(f"printed {one.strip()}; computed {other.strip()}")
+    for printed_line, computed_line in different[:_MOST_LINES]:
+        yield from indented(f"printed {printed_line.strip()}; computed {computed_line.strip()}")
     if len(different) > _MOST_LINES:
         yield from indented(f"and {len(different) - _MOST_LINES} more lines")

@@ -1,4 +1,4 @@
-"""``hull1620 study``: a study of many samples, from plan to table, plot and words."""
+"""``hull1620 study``: run a study of many samples, from the plan to the table, the plots and the conclusions."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from modern.cli.shared.console import BAD_INPUT, OK, complain
 
 
 def main(args: argparse.Namespace) -> int:
-    """Carry out the study named, or list those there are."""
-    # Here, so that its --help need not wait for all that studies import.
+    # Imported here because these modules take long to import and --help does not need them.
     from modern.study.families import FAMILIES, given
     from modern.study.measures import MEASURES
     from modern.study.plan import SEED, PlanError
@@ -26,7 +25,7 @@ def main(args: argparse.Namespace) -> int:
     if args.list:
         for entry in entries():
             print(f"{entry.name:<14} {entry.title}")
-            print(f"{'':<14} --samples {entry.samples} (default): sets {entry.sets:,}, cells {entry.cells}")
+            print(f"{'':<14} --samples {entry.samples} (default): {entry.sets:,} samples in {entry.cells} cells")
         return OK
     if args.families or args.measures:
         families = {**FAMILIES, "file": given.file_family}
@@ -38,17 +37,19 @@ def main(args: argparse.Namespace) -> int:
     if args.verify is not None:
         return verified(Path(args.verify))
     if args.name is None:
-        raise PlanError(f"which study? There are {', '.join(names())}, or a plan file; --list says what they are")
+        raise PlanError(
+            f"expected a study or a plan file NAME.toml; the studies are {', '.join(names())} (--list describes them)"
+        )
     for name, value in (("--samples", args.samples), ("--workers", args.workers)):
         if value is not None and value < 1:
-            raise PlanError(f"{name}: {value} is less than 1")
+            raise PlanError(f"{name}: expected at least 1, found {value}")
     for name, value in (("--out", args.out), ("--dask", args.dask)):
         if value == "":
-            raise PlanError(f"{name} is empty")
+            raise PlanError(f"{name}: expected a value, found an empty string")
     if args.resume and args.out and not Path(args.out).exists():
-        raise PlanError(f"--resume: there is no study in {args.out}, as there is no such folder")
+        raise PlanError(f"--resume: the folder {args.out} does not exist")
     if args.workers is not None and args.dask:
-        raise PlanError("--workers and --dask are one or the other")
+        raise PlanError("--workers and --dask cannot be combined; choose one")
     options = {
         "workers": args.workers or 0,
         "dask": args.dask or "",
@@ -65,13 +66,13 @@ def main(args: argparse.Namespace) -> int:
             report = run_study(plan, args.out or plan.name, **options)
         else:
             try:
-                found = study(args.name)
+                built_in = study(args.name)
             except KeyError:
                 raise PlanError(
-                    f"no study is called {args.name!r}; there are {', '.join(names())}, or a plan file NAME.toml"
+                    f"unknown study {args.name!r}; expected a plan file NAME.toml or one of {', '.join(names())}"
                 ) from None
-            plan = found.plan(args.samples or found.SAMPLES, SEED if args.seed is None else args.seed)
-            report = run_study(plan, args.out or plan.name, found.report, **options)
+            plan = built_in.plan(args.samples or built_in.SAMPLES, SEED if args.seed is None else args.seed)
+            report = run_study(plan, args.out or plan.name, built_in.report, **options)
     except KeyboardInterrupt:
         print("hull1620: interrupted; finished work is kept, --resume continues the study", file=sys.stderr)
         return 130
@@ -80,18 +81,20 @@ def main(args: argparse.Namespace) -> int:
 
 
 def described(name: str, function: Callable[..., object]) -> str:
-    """A family or measure as a list shows it: its name, its parameters with their defaults, and what it gives."""
-    taken = [
+    """Describe a family or measure: its name, its parameters with their defaults, and its docstring."""
+    parameters = [
         p.name if p.default is p.empty else f"{p.name} = {p.default!r}"
         for p in inspect.signature(function).parameters.values()
         if p.name not in ("draw", "sample", "run")
     ]
-    words = " ".join((inspect.getdoc(function) or "").replace("``", "").split())
-    return "\n".join((f"{name:<14} {', '.join(taken)}".rstrip(), textwrap.indent(textwrap.fill(words, 76), "    ")))
+    summary = " ".join((inspect.getdoc(function) or "").replace("``", "").split())
+    return "\n".join(
+        (f"{name:<14} {', '.join(parameters)}".rstrip(), textwrap.indent(textwrap.fill(summary, 76), "    "))
+    )
 
 
 def redrawn(folder: Path) -> int:
-    """The plots of a finished study, drawn anew from its charts.json.  Raises StudyFileError, PlanError."""
+    """Draw the plots of a finished study again, from its charts.json.  Raise StudyFileError or PlanError."""
     from modern.study.chartfile import read_charts
     from modern.study.plots import draw
 

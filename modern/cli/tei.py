@@ -1,11 +1,11 @@
-"""``hull1620 tei``: the edition's texts as TEI P5, their validation, and the way back from a document to its decks."""
+"""``hull1620 tei``: write the edition's texts as TEI P5, validate them, or read decks back from a document."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import Any
 from xml.etree.ElementTree import Element
 
 from emulator.files import read_bytes, read_text, write_text
@@ -16,17 +16,16 @@ from modern.publication.tei import schema, tei
 
 
 def main(args: argparse.Namespace) -> int:
-    """Write a text, or all; validate them; or read a document back."""
-    asked = {"--layers": args.layers is not None, "--witness": args.witness, "--part": args.part is not None}
-    for option, given in asked.items():
-        if given and not args.read:
-            raise UsageError(f"{option} goes with --read")
-    if sum(asked.values()) > 1:
-        raise UsageError("--layers, --witness and --part are three things to read: choose one")
+    choices = {"--layers": args.layers is not None, "--witness": args.witness, "--part": args.part is not None}
+    chosen = [option for option, is_chosen in choices.items() if is_chosen]
+    if chosen and not args.read:
+        raise UsageError(f"{chosen[0]} needs --read FILE.xml")
+    if len(chosen) > 1:
+        raise UsageError(f"{' and '.join(chosen)} cannot be combined; choose one")
     if args.text is not None and (args.all or args.schema or args.read):
-        raise UsageError(f"{args.text}: no text is named with --all, --schema or --read")
+        raise UsageError(f"{args.text}: --all, --schema and --read do not accept a text")
     if args.text is not None and args.text not in texts():
-        raise UsageError(f"there is no text {args.text!r}; there are {', '.join(texts())}")
+        raise UsageError(f"unknown text {args.text!r}; expected one of {', '.join(texts())}")
     if args.schema:
         write_text(args.output, schema())
     elif args.read:
@@ -36,7 +35,7 @@ def main(args: argparse.Namespace) -> int:
     elif args.all:
         _write_all(Path(args.all))
     elif args.text is None:
-        raise UsageError(f"name a text, or a folder with --all; there are {', '.join(texts())}")
+        raise UsageError(f"expected a text, or --all with a folder; the texts are {', '.join(texts())}")
     else:
         write_text(args.output, tei(args.text, _version()))
     return OK
@@ -70,33 +69,31 @@ def _read(args: argparse.Namespace) -> str:
         raise UsageError(f"{args.read}: {error}") from None
 
 
-def _layers(root: Element, given: str) -> tuple[str, ...]:
-    wanted = tuple(name for name in given.split(",") if name)
-    strange = [name for name in wanted if name not in reading.layers(root)]
-    if strange:
-        raise reading.TeiError(f"there is no layer {strange[0]!r}; there are {', '.join(reading.layers(root))}")
-    return wanted
+def _layers(root: Element, names: str) -> tuple[str, ...]:
+    layers = tuple(name for name in names.split(",") if name)
+    unknown = [name for name in layers if name not in reading.layers(root)]
+    if unknown:
+        raise reading.TeiError(f"unknown layer {unknown[0]!r}; expected one of {', '.join(reading.layers(root))}")
+    return layers
 
 
 def _check(args: argparse.Namespace) -> int:
     try:
         from lxml import etree
     except ImportError:
-        raise UsageError("validating needs lxml: pip install 'hull1620[edition]'") from None
+        raise UsageError("validation needs lxml; install it with pip install 'hull1620[edition]'") from None
     source = args.check or "the project's own schema"
     try:
         relax = etree.RelaxNG(etree.fromstring(read_bytes(args.check) if args.check else schema().encode()))
     except (etree.XMLSyntaxError, etree.RelaxNGParseError) as error:
-        raise UsageError(f"{source}: no RELAX NG schema: {error}") from None
-    wrong = 0
+        raise UsageError(f"{source}: not a RELAX NG schema: {error}") from None
+    all_valid = True
     for name in (args.text,) if args.text else texts():
-        found = next(_faults(relax, etree.fromstring(tei(name, _version()).encode())), "")
-        wrong += bool(found)
-        print(f"{name}: {found or 'valid'}")
-    return DIFFERS if wrong else OK
+        is_valid = relax.validate(etree.fromstring(tei(name, _version()).encode()))
+        all_valid = all_valid and is_valid
+        print(f"{name}: {'valid' if is_valid else _first_fault(relax.error_log)}")
+    return OK if all_valid else DIFFERS
 
 
-def _faults(relax: object, document: object) -> Iterator[str]:
-    if not relax.validate(document):  # type: ignore[attr-defined]
-        for fault in relax.error_log:  # type: ignore[attr-defined]
-            yield f"line {fault.line}: {fault.message}"
+def _first_fault(log: Any) -> str:
+    return f"line {log[0].line}: {log[0].message}"

@@ -1,14 +1,14 @@
-"""``hull1620 voxel-hull``: the hull of a voxel solid by Kovalevsky and Schulz, or the filled digital hull."""
+"""``hull1620 voxel-hull``: find the hull of a voxel solid, by Kovalevsky & Schulz, or its filled digital hull."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from emulator.files import check_writable, write_text
-from modern.cli.shared.console import OK, UsageError, check_numbered, counted, say
-from modern.cli.shared.measures import Row, centres_row, csv_text, filled_row, measure_lines, solid_row, table
+from modern.cli.shared.console import OK, UsageError, check_numbered, counted, print_notes
+from modern.cli.shared.measure_tables import Row, centres_row, csv_text, filled_row, measure_lines, solid_row, table
 from modern.cli.shared.volumes import (
     array_note,
     check_array,
@@ -43,21 +43,26 @@ from modern.papers.kovalevsky_schulz.tables import all_rows, cell_list_size, eco
 
 
 def main(args: argparse.Namespace) -> int:
-    """Read the volume, find its hull, print what the paper prints, write the file."""
     _check_options(args)
-    form = _form(args)
+    _check_output(args)
     check_writable(args.output, args.csv)
     if args.each_label:
-        return _each_label(args, form)
-    volume, said = volume_of(args)
-    if args.fill:
-        _fill(volume, said, args.output)
-        return OK
+        _tabulate_labels(args)
+    elif args.fill:
+        _fill(args)
+    else:
+        _report_hull(args)
+    return OK
+
+
+def _report_hull(args: argparse.Namespace) -> None:
+    """Find the hull of one volume, write it as a mesh, and print its counts, measures and cells."""
+    volume, notes = volume_of(args)
     hull = _hull(volume, args)
     measures = hull.measures()
-    if args.output is not None and form is not None:
-        write_text(args.output, mesh_text(hull.mesh(args.straight), form))
-    say([*said, printable(coordinate_words(volume.world, not args.centres))])
+    if args.output is not None:
+        write_text(args.output, _mesh(hull, args))
+    print_notes([*notes, printable(coordinate_words(volume.world, not args.centres))])
     print(f"{volume.source}: {counted(volume.count, 'voxel')}")
     for line in _count_lines(hull):
         print(line)
@@ -66,7 +71,70 @@ def main(args: argparse.Namespace) -> int:
     if args.cells and isinstance(hull.surface, Surface):
         for line in all_rows(hull.surface.straight if args.straight else hull.surface.faces):
             print(line)
-    return OK
+
+
+def _fill(args: argparse.Namespace) -> None:
+    """Fill the hull of one volume with voxels, write them as an array, and print the counts."""
+    volume, notes = volume_of(args)
+    hull = digital_hull(volume)
+    if args.output is not None:
+        write_array(args.output, hull.filled, volume)
+    print_notes(notes)
+    print(f"{volume.source}: {counted(volume.count, 'voxel')}")
+    print(f"filled hull of the voxels' centres ({hull.kind}): {counted(hull.voxels, 'voxel')}")
+    print(f"solidity {hull.solidity}, in voxels; convex deficiency: {counted(hull.deficiency, 'voxel')}")
+    if args.output is not None:
+        print_notes(printable(note) for note in array_note(args.output, volume))
+
+
+Write = Callable[[str], None]
+"""Writes the hull of a label to a file."""
+
+
+def _tabulate_labels(args: argparse.Namespace) -> None:
+    """Print a table of labels, and write a file for each; nothing is written if one of the labels fails."""
+    from emulator.progress import Progress  # only many labels need it
+
+    labels = choice_of(args).labels
+    scan = scan_of(args)
+    world = in_space(scan.world, args.space)
+    boxes = label_boxes(scan, labels)
+    check_writable(*(args.output % label for label in boxes if args.output is not None), args.csv)
+    hull_of_label = _filled_label if args.fill else _label
+    progress = Progress(len(boxes), what="labels")
+    hulls: dict[int, tuple[Row, Write]] = {}
+    for label, box in boxes.items():
+        hulls[label] = hull_of_label(label, replace(label_volume(scan, label, box), world=world), args)
+        progress.add(1)
+    progress.close()
+    rows = [row for row, _ in hulls.values()]
+    unit = "voxel" if world is None else world.unit
+    for label, (_, write) in hulls.items():
+        if args.output is not None:
+            write(args.output % label)
+    if args.csv is not None:
+        write_text(args.csv, csv_text(rows, unit))
+    print_notes(note_lines(scan.notes))
+    print_notes([printable(f"{scan.source}: {counted(len(boxes), 'label')}; {spacing_words(scan.world)}")])
+    if not args.fill:
+        print_notes([printable(coordinate_words(world, not args.centres))])
+    for line in table(rows, unit):
+        print(line)
+
+
+def _label(label: int, volume: Volume, args: argparse.Namespace) -> tuple[Row, Write]:
+    """Return the row of a label's hull, and the function that writes it as a mesh."""
+    hull = _hull(volume, args)
+    row = (centres_row if args.centres else solid_row)(label, hull.measures())
+    # The text, not the hull, is kept until all labels are done, because it needs less memory.
+    mesh = _mesh(hull, args) if args.output is not None else ""
+    return row, lambda path: write_text(path, mesh)
+
+
+def _filled_label(label: int, volume: Volume, args: argparse.Namespace) -> tuple[Row, Write]:
+    """Return the row of a label's filled hull, and the function that writes it as an array."""
+    hull = digital_hull(volume)
+    return filled_row(label, hull, voxel_volume(volume.world)), hull.save
 
 
 def _hull(volume: Volume, args: argparse.Namespace) -> VoxelHull:
@@ -74,9 +142,13 @@ def _hull(volume: Volume, args: argparse.Namespace) -> VoxelHull:
     return voxel_hull(volume, of, args.corners or 26, args.coplanar, args.order)
 
 
+def _mesh(hull: VoxelHull, args: argparse.Namespace) -> str:
+    return mesh_text(hull.mesh(args.straight), _ending(args.output))
+
+
 def _check_options(args: argparse.Namespace) -> None:
-    """Refuse options that would do nothing.  Raises UsageError."""
-    given = {
+    """Raise UsageError for options that would have no effect."""
+    arguments = {
         "--vertices": args.vertices,
         "--corners": args.corners,
         "--coplanar": args.coplanar,
@@ -84,97 +156,45 @@ def _check_options(args: argparse.Namespace) -> None:
         "--cells": args.cells,
         "--straight": args.straight,
     }
-    useless = [name for name, value in given.items() if value]
-    if args.fill and useless:
-        raise UsageError(f"--fill fills the hull of the voxels' centres; {useless[0]} is not for it")
+    unused = [name for name, value in arguments.items() if value]
+    if args.fill and unused:
+        raise UsageError(f"{unused[0]} has no effect with --fill, which fills the hull of the voxels' centres")
     if args.each_label and args.cells:
-        raise UsageError("--each-label prints a table of labels; --cells is of one hull")
+        raise UsageError("--cells prints one hull and cannot be combined with --each-label")
     if args.each_label and args.threshold is not None:
-        raise UsageError("--each-label takes whole values; --threshold is not for it")
+        raise UsageError("--threshold cannot be combined with --each-label, which needs integer values")
     if args.csv is not None and not args.each_label:
-        raise UsageError("--csv is the table of --each-label")
+        raise UsageError("--csv needs --each-label, whose table it writes")
 
 
-def _form(args: argparse.Namespace) -> str | None:
-    """The format of the mesh to write, or None.  Raises UsageError."""
+def _check_output(args: argparse.Namespace) -> None:
+    """Raise UsageError if the name of the output has no place for a label, or ends with a format not written."""
     if args.output is None:
-        return None
+        return
     if args.each_label:
         check_numbered(args.output, "label", "label-%d.off")
     if args.fill:
         check_array(args.output)
-        if args.each_label and not args.output.lower().endswith(".nrrd"):
-            raise UsageError(f"{args.output}: each label's box is written, and its place is kept by .nrrd, not by .npy")
-        return None
-    form: str = args.output.rpartition(".")[2].lower()
-    if form not in MESHES:
-        raise UsageError(f"{args.output}: the name must end with one of {', '.join('.' + name for name in MESHES)}")
-    return form
+        if args.each_label and _ending(args.output) != "nrrd":
+            raise UsageError(f"{args.output}: a label's box is written with its position, which only .nrrd contains")
+    elif _ending(args.output) not in MESHES:
+        endings = ", ".join(f".{name}" for name in MESHES)
+        raise UsageError(f"{args.output}: expected a name that ends with one of {endings}")
 
 
-def _fill(volume: Volume, said: Iterable[str], output: str | None) -> None:
-    hull = digital_hull(volume)
-    if output is not None:
-        write_array(output, hull.filled, volume)
-    say(said)
-    print(f"{volume.source}: {counted(volume.count, 'voxel')}")
-    print(f"filled hull of the voxels' centres ({hull.kind}): {counted(hull.voxels, 'voxel')}")
-    print(f"solidity {hull.solidity}, in voxels; convex deficiency: {counted(hull.deficiency, 'voxel')}")
-    if output is not None:
-        say(printable(note) for note in array_note(output, volume))
-
-
-def _each_label(args: argparse.Namespace, form: str | None) -> int:
-    """The table of labels, and a file for each where the output has a place for it: all, or none of them."""
-    from emulator.progress import Progress  # its room is loaded for many labels only
-
-    asked = choice_of(args).labels
-    scan = scan_of(args)
-    world = in_space(scan.world, args.space)
-    boxes = label_boxes(scan, asked)
-    check_writable(*(args.output % label for label in boxes if args.output is not None), args.csv)
-    rows: list[Row] = []
-    writers: list[Callable[[], None]] = []
-    progress = Progress(len(boxes), what="labels")
-    for label, box in boxes.items():
-        volume = replace(label_volume(scan, label, box), world=world)
-        name = args.output % label if args.output is not None else None
-        if args.fill:
-            filled = digital_hull(volume)
-            rows.append(filled_row(label, filled, voxel_volume(world)))
-            if name is not None:
-                writers.append(lambda name=name, filled=filled: filled.save(name))  # type: ignore[misc]
-        else:
-            hull = _hull(volume, args)
-            rows.append((centres_row if args.centres else solid_row)(label, hull.measures()))
-            if name is not None and form is not None:
-                text = mesh_text(hull.mesh(args.straight), form)
-                writers.append(lambda name=name, text=text: write_text(name, text))  # type: ignore[misc]
-        progress.add(1)
-    progress.close()
-    unit = "voxel" if world is None else world.unit
-    for write in writers:
-        write()
-    if args.csv is not None:
-        write_text(args.csv, csv_text(rows, unit))
-    say(note_lines(scan.notes))
-    say([printable(f"{scan.source}: {counted(len(boxes), 'label')}; {spacing_words(scan.world)}")])
-    if not args.fill:
-        say([printable(coordinate_words(world, not args.centres))])
-    for line in table(rows, unit):
-        print(line)
-    return OK
+def _ending(path: str) -> str:
+    return path.rpartition(".")[2].lower()
 
 
 def _count_lines(hull: VoxelHull) -> Iterator[str]:
-    """The counts of section 2 and the sizes of section 4."""
-    what = "voxels" if hull.of == CENTRES else "voxel vertices"
+    """Yield the counts of section 2 of the paper and the sizes of section 4."""
+    noun = "voxels" if hull.of == CENTRES else "voxel vertices"
     counts = ", ".join(f"{count} by {tested} neighbours" for tested, count in hull.corners.items())
-    yield f"local corners of the {what}: {counts}"
+    yield f"local corners of the {noun}: {counts}"
     surface = hull.surface
     if isinstance(surface, Flat):
         vertices = f" of {len(surface.vertices)} vertices" if surface.dimension == 2 else ""
-        yield f"flat: the hull is a {surface.kind}{vertices} and has no cell list"
+        yield f"flat: the hull is a {surface.kind}{vertices} without a cell list"
         return
     faces, straight, saved = surface.faces, surface.straight, ""
     if surface.triangulation is None:
@@ -185,9 +205,9 @@ def _count_lines(hull: VoxelHull) -> Iterator[str]:
         yield f"merged: {_cells(faces)}"
         saved = f"{triangulation_size(triangles)} for the triangles by (5), "
     if len(straight.vertices) < len(faces.vertices):
-        yield f"with edges in one line merged too: {_cells(straight)}"
-    by_formula, counted_so = cell_list_size(len(faces.vertices), len(faces.faces)), economical_size(faces)
-    yield f"integers to save: {saved}{by_formula} for the cell list by (6), {counted_so} counted"
+        yield f"with collinear edges merged: {_cells(straight)}"
+    by_formula, by_count = cell_list_size(len(faces.vertices), len(faces.faces)), economical_size(faces)
+    yield f"integers to save: {saved}{by_formula} for the cell list by (6), {by_count} counted"
 
 
 def _cells(cells: CellList) -> str:

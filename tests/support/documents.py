@@ -1,40 +1,47 @@
-"""Code blocks of the documents, run: what a block's language means, and the input files that blocks may name.
+"""Run the code blocks of the documents, and read their links, headings and file names.
 
-``sh``       a command a line; it must end with exit code 0, or with the code its comment names (``# ... exit 1``)
-``console``  commands after ``$ ``, each followed by what it prints
-``python``   one namespace for the blocks of a document
-``toml``     saved under the name in its first line, ``# scene.toml``
-``fortranfixed``  a source deck, saved under the name in its first card, ``C     SUM.F`` as ``sum.f``
-``text``     not run, as is ``{toctree}``, the order of a folder's pages
+The language of a block decides how it is run:
 
-``<!-- skip: next "why" -->`` before a block leaves it out.  Blocks run in one folder a document, which holds
-``INPUTS`` at first.
+``sh``       one command per line, which must exit with 0 or with the code its comment names (``# ... exit 1``)
+``console``  commands after ``$ ``, each followed by its output
+``python``   the blocks of a document share one namespace
+``toml``     saved under the name in the first line, ``# scene.toml``
+``py``       saved in the same way
+``fortranfixed``  a source deck, saved under the name on its first card: ``C     SUM.F`` becomes ``sum.f``
+``text``     not run, like the directives of Sphinx (``{toctree}``, ``{argparse}``, ``{eval-rst}``)
+
+``<!-- skip: next "reason" -->`` before a block skips it.  The blocks of a document run in one folder, which contains
+the files of ``INPUTS`` at the start.
 """
 
 from __future__ import annotations
 
 import gzip
+import io
 import os
 import re
+import shlex
 import subprocess
 import sys
 from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
-from unittest import SkipTest
+from unittest import SkipTest, mock
 
 import numpy as np
 from sybil import Document, Example
 from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser, SkipParser
 
+from modern.cli.main import main
 from tests.support.paths import PROGRAMS, ROOT
 from tests.support.volumefiles import PLACE, nifti, nrrd
 
 PROSE = ("", "tutorial", "how-to", "reference", "explanation", "papers")
-"""The folders of ``docs`` whose pages are written by hand; the others hold results."""
+"""The folders of ``docs`` with pages written by hand; the other folders hold results."""
 PAGES = tuple(path for folder in PROSE for path in sorted((ROOT / "docs" / folder).glob("*.md")))
 DOCUMENTS = (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES)
 RUN = ("sh", "console", "python", "py", "toml", "fortranfixed")
-LANGUAGES = (*RUN, "text", "{toctree}")
+LANGUAGES = (*RUN, "text", "{toctree}", "{argparse}", "{eval-rst}")
 
 _POINTS = ((0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (4, 4, 0), (1, 1, 1), (2, 2, 0))
 _OWN = (
@@ -54,7 +61,7 @@ def _nrrd() -> bytes:
 
 
 def _labels() -> np.ndarray:
-    """A ball of label 3 with a hole, a block of label 1 beside it."""
+    """Return a scan with a hollow ball of label 3 next to a block of label 1."""
     labels = np.zeros((12, 10, 8), np.uint8)
     labels[1:7, 1:7, 1:7] = 3 * _ball()
     labels[4, 4, 4] = 0
@@ -94,28 +101,30 @@ INPUTS: dict[str, Callable[[Path], object]] = {
     "scan.nii.gz": _bytes(lambda: gzip.compress(nifti(_labels(), (0.5, 0.5, 2), (10, 20, 30)))),
     "scan.raw": _raw,
 }
-"""The name of every input a block may use without making it, and what makes it."""
+"""Input files that blocks may use without making them, from the name to the function that writes the file."""
 
 
-def lay_out(folder: Path) -> None:
-    """Put the inputs and the commands ``hull1620`` and ``python`` (in ``folder/.bin``) into an empty folder."""
-    for name, make in INPUTS.items():
-        make(folder / name)
+def prepare_folder(folder: Path) -> None:
+    """Write the inputs into an empty folder, and the commands ``hull1620`` and ``python`` into ``folder/.bin``."""
+    for name, write in INPUTS.items():
+        write(folder / name)
     (folder / ".bin").mkdir()
-    for name, words in (("hull1620", "-m modern.cli.main"), ("python", "")):
+    for name, options in (("hull1620", "-m modern.cli.main"), ("python", "")):
         command = folder / ".bin" / name
-        command.write_text(f'#!/bin/sh\nexec "{sys.executable}" {words} "$@"\n', encoding="utf-8")
+        command.write_text(f'#!/bin/sh\nexec "{sys.executable}" {options} "$@"\n', encoding="utf-8")
         command.chmod(0o755)
 
 
-def run(path: Path, folder: Path) -> tuple[int, int]:
-    """Run the blocks of a document in a folder, which is the current one.
+def run(path: Path, only_shell: bool = False) -> tuple[int, int]:
+    """Run the blocks of a document in the current folder.
 
-    Returns how many were run and how many left out.  Raises AssertionError, or what a block raises, naming its line.
+    only_shell: run every command in a shell; otherwise simple ``hull1620`` commands run in this process, which is
+    faster.  Return the numbers of blocks run and skipped.  Raise AssertionError, or the exception of a block, which
+    names its line.
     """
-    document = parsed(path)
+    execute = _run_in_shell if only_shell else _run_command
     ran = skipped = 0
-    for example in document.examples():
+    for example in parsed(path, execute).examples():
         try:
             example.evaluate()
         except SkipTest:
@@ -125,106 +134,126 @@ def run(path: Path, folder: Path) -> tuple[int, int]:
     return ran, skipped
 
 
-def parsed(path: Path) -> Document:
-    """The document with its blocks as examples."""
-    parsers = (
-        PythonCodeBlockParser(),
-        *(CodeBlockParser(language, run) for language, run in _RUNNERS),
-        SkipParser(),
-    )
-    return Document.parse(str(path), *parsers)
+Execute = Callable[[str], tuple[int, str]]
+"""Runs a command and returns its exit code and its output."""
+
+
+def parsed(path: Path, execute: Execute) -> Document:
+    """Return the document with its blocks as examples."""
+
+    def check_exit_codes(example: Example) -> None:
+        for line in filter(str.strip, example.parsed.splitlines()):
+            code, output = execute(line)
+            expected = int((re.search(r"#.*\bexit (\d)\b", line) or ["", "0"])[1])
+            assert code == expected, f"{example.path}: {line}\nexit {code}\n{output}"
+            assert "Traceback" not in output, f"{example.path}: {line}\n{output}"
+
+    def check_output(example: Example) -> None:
+        for part in re.split(r"^\$ ", example.parsed, flags=re.MULTILINE)[1:]:
+            command, _, expected = part.partition("\n")
+            output = execute(command)[1]
+            assert output == expected, f"{example.path}: {command}\n{output}"
+
+    runners = {"sh": check_exit_codes, "console": check_output, "py": _save, "toml": _save, "fortranfixed": _save_deck}
+    blocks = (CodeBlockParser(language, run_block) for language, run_block in runners.items())
+    return Document.parse(str(path), PythonCodeBlockParser(), *blocks, SkipParser())
 
 
 def languages(path: Path) -> list[str]:
-    """The language of every block of a document, empty where it names none."""
+    """Return the language of every block of a document, empty if a block names none."""
     fences = re.findall(r"^```(.*)$", path.read_text(encoding="utf-8"), re.MULTILINE)
     return [language.strip() for language in fences[::2]]
 
 
 def reasons(path: Path) -> list[str]:
-    """Why blocks of a document are left out."""
+    """Return the reasons for skipping blocks of a document."""
     return re.findall(r'^<!--+ *skip: next "([^"]+)" *--+>$', path.read_text(encoding="utf-8"), re.MULTILINE)
 
 
 def files_named(path: Path) -> set[str]:
-    """Modules and grammars that the text names between backquotes, as it writes them."""
+    """Return the modules and grammars that the text names between backquotes."""
     text = path.read_text(encoding="utf-8")
-    return {word for word in re.findall(r"`([\w./-]+\.(?:py|lark))`", text) if "NAME" not in word}
+    return {name for name in re.findall(r"`([\w./-]+\.(?:py|lark))`", text) if "NAME" not in name}
 
 
 def links(path: Path) -> set[str]:
-    """Files that the text links to, from its own folder."""
-    found = re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", path.read_text(encoding="utf-8"))
-    return {link for link in found if "://" not in link}
+    """Return the files that the text links to, relative to its folder."""
+    targets = re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", path.read_text(encoding="utf-8"))
+    return {target for target in targets if "://" not in target}
 
 
 def listed(path: Path) -> list[str]:
-    """The pages that the ``{toctree}`` blocks of an index name, in their order."""
+    """Return the pages that the ``{toctree}`` blocks of an index name, in their order."""
     blocks = re.findall(r"^```{toctree}\n(.*?)^```", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
     lines = [line.strip() for block in blocks for line in block.splitlines()]
     return [line for line in lines if line and not line.startswith((":", "<"))]
 
 
 def headings(path: Path, level: int) -> list[str]:
-    """The headings of one level."""
+    """Return the headings of one level."""
     return re.findall(rf"^#{{{level}}} (.*?) *$", path.read_text(encoding="utf-8"), re.MULTILINE)
 
 
 def anchors(path: Path) -> set[str]:
-    """The headings of a text as links name them: small letters, ``-`` for blanks, no other signs."""
+    """Return the anchors of the headings: lower case, hyphens for spaces, no punctuation."""
     outside = re.sub(r"^```.*?^```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
-    heads = re.findall(r"^#+ (.*?) *$", outside, re.MULTILINE)
-    plain = [re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", head) for head in heads]
-    return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in plain}
+    titles = re.findall(r"^#+ (.*?) *$", outside, re.MULTILINE)
+    plain = [re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", title) for title in titles]
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in plain}
 
 
-def places(path: Path) -> list[tuple[Path, str]]:
-    """What the text links to within documents: the document, and the heading there."""
-    found = re.findall(r"\]\(([^)#]*)#([^)]+)\)", path.read_text(encoding="utf-8"))
-    return [((path.parent / link).resolve() if link else path, anchor) for link, anchor in found if "://" not in link]
+def linked_headings(path: Path) -> list[tuple[Path, str]]:
+    """Return the links to headings, as document and anchor."""
+    targets = re.findall(r"\]\(([^)#]*)#([^)]+)\)", path.read_text(encoding="utf-8"))
+    return [((path.parent / link).resolve() if link else path, anchor) for link, anchor in targets if "://" not in link]
 
 
-def _sh(example: Example) -> None:
-    for line in example.parsed.splitlines():
-        if line.strip():
-            done = _bash(line)
-            wanted = int((re.search(r"#.*\bexit (\d)\b", line) or ["", "0"])[1])
-            assert done.returncode == wanted, f"{example.path}: {line}\nexit {done.returncode}\n{done.stdout}"
-            assert "Traceback" not in done.stdout, f"{example.path}: {line}\n{done.stdout}"
+def _save(example: Example) -> None:
+    first_line = re.match(r"# (\S+\.(?:toml|py))\n", example.parsed)
+    assert first_line, f"{example.path}: the first line of a toml or py block must name its file, as # scene.toml"
+    Path(first_line[1]).write_text(example.parsed, encoding="utf-8")
 
 
-def _console(example: Example) -> None:
-    for part in re.split(r"^\$ ", example.parsed, flags=re.MULTILINE)[1:]:
-        command, _, wanted = part.partition("\n")
-        printed = _bash(command).stdout
-        assert printed == wanted, f"{example.path}: {command}\n{printed}"
+def _save_deck(example: Example) -> None:
+    first_card = re.match(r"C +(\S+\.F)\n", example.parsed)
+    assert first_card, f"{example.path}: the first card of a deck must name its file, as C     SUM.F"
+    Path(first_card[1].lower()).write_text(example.parsed, encoding="utf-8")
 
 
-def _saved(example: Example) -> None:
-    named = re.match(r"# (\S+\.(?:toml|py))\n", example.parsed)
-    assert named, f"{example.path}: a toml or py block says its file's name in its first line"
-    Path(named[1]).write_text(example.parsed, encoding="utf-8")
+def _run_command(command: str) -> tuple[int, str]:
+    """Run a command in this process if it is ``hull1620`` with plain arguments, otherwise in a shell."""
+    text = re.sub(r"\s# .*", "", command)
+    if not text.startswith("hull1620 ") or re.search(r"[|<>&;$`*?~{}()\\]", text):
+        return _run_in_shell(command)
+    arguments = shlex.split(text)
+    output = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", write_through=True)
+    with (
+        open(os.devnull, encoding="utf-8") as empty,
+        redirect_stdout(output),
+        redirect_stderr(output),
+        mock.patch.multiple(sys, argv=arguments, stdin=empty),
+        mock.patch("os.get_terminal_size", side_effect=OSError),
+        mock.patch.dict(os.environ),
+    ):
+        os.environ.pop("COLUMNS", None)
+        try:
+            code = main(arguments[1:])
+        except SystemExit as error:
+            code = int(error.code or 0)
+    return code, output.buffer.getvalue().decode()  # type: ignore[attr-defined]
 
 
-def _deck(example: Example) -> None:
-    named = re.match(r"C +(\S+\.F)\n", example.parsed)
-    assert named, f"{example.path}: a deck says its file's name in its first card"
-    Path(named[1].lower()).write_text(example.parsed, encoding="utf-8")
-
-
-_RUNNERS = (("sh", _sh), ("console", _console), ("py", _saved), ("toml", _saved), ("fortranfixed", _deck))
-
-
-def _bash(command: str) -> subprocess.CompletedProcess[str]:
-    # Samples are as wide as where there is no terminal and nothing says otherwise.
-    place = {"PATH": f"{Path('.bin').resolve()}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT)}
-    environment = {**{name: value for name, value in os.environ.items() if name != "COLUMNS"}, **place}
-    return subprocess.run(
+def _run_in_shell(command: str) -> tuple[int, str]:
+    # Without COLUMNS the output is as wide as it is when nothing states the width of the terminal.
+    inherited = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
+    path = {"PATH": f"{Path('.bin').resolve()}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT)}
+    process = subprocess.run(
         ["bash", "-o", "pipefail", "-c", command],
-        env=environment,
+        env={**inherited, **path},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
         encoding="utf-8",
         check=False,
     )
+    return process.returncode, process.stdout

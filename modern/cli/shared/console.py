@@ -1,7 +1,8 @@
-"""How every command speaks: its exit code, its one line for an error, its notes on standard error.
+"""The interface to the user that all commands share: exit codes, error lines, and notes on standard error.
 
-OK: the run ended normally.  DIFFERS: a program typed DATA NOT ACCEPTABLE or ERROR IN PROGRAM and stopped there, ran
-into the statement limit or out of bounds, or a result differs.  BAD_INPUT: said in one line.
+OK: the run ended normally.  DIFFERS: a result differs, or a program stopped after typing DATA NOT ACCEPTABLE or ERROR
+IN PROGRAM, reached the statement limit, or used a subscript out of bounds.  BAD_INPUT: the input is invalid, which one
+line on standard error explains.
 """
 
 from __future__ import annotations
@@ -23,62 +24,63 @@ class UsageError(EmulatorError):
 
 
 _NUMBERED = re.compile(r"(?:[^%]|%%)*%(?:0?[1-9])?d(?:[^%]|%%)*")
-"""A name with one place for a number, as printf has it: ``card-%03d.svg``."""
+"""A file name with one place for a number in the notation of printf: ``card-%03d.svg``."""
 _INPUTS = ("program", "deck", "points", "volume", "scene", "name", "read")
 _OUTPUTS = ("output", "punch", "typewriter", "trace", "json", "log", "csv")
 
 
 class Parser(argparse.ArgumentParser):
-    """Arguments of which an error is said in one line."""
+    """A parser that reports an error in one line."""
 
     def error(self, message: str) -> None:  # type: ignore[override]
-        """One line and exit 2, without the usage lines argparse would print first."""
+        """Print one line and exit with 2, without the usage lines of argparse."""
         self.exit(BAD_INPUT, f"{self.prog}: {message} (try {self.prog} --help)\n")
 
 
-def complain(message: str) -> None:
-    """One line on standard error, whatever a file's name holds; nothing where there is no standard error."""
+def print_error(message: str) -> None:
+    """Print one line on standard error, if it is open; escape control characters, which a file's name may contain."""
     if sys.stderr is not None:
-        shown = "".join(c if c.isprintable() else repr(c)[1:-1] for c in message)
+        text = "".join(c if c.isprintable() else repr(c)[1:-1] for c in message)
         with contextlib.suppress(OSError, ValueError):
-            print(f"hull1620: {shown}", file=sys.stderr)
+            print(f"hull1620: {text}", file=sys.stderr)
 
 
-def say(lines: Iterable[str]) -> None:
-    """Lines for the user, on standard error."""
+def print_notes(lines: Iterable[str]) -> None:
+    """Print lines on standard error."""
     for line in lines:
         print(line, file=sys.stderr)
 
 
-def counted(count: int, what: str) -> str:
-    """``1 voxel``, ``2 voxels``."""
-    return f"{count} {what}{'s' * (count != 1)}"
+def counted(count: int, noun: str) -> str:
+    """Return ``1 voxel`` or ``2 voxels``."""
+    return f"{count} {noun}{'s' * (count != 1)}"
 
 
-def check_numbered(pattern: str, what: str, example: str) -> None:
-    """Refuse an output's name that has no place for a number.  Raises UsageError."""
+def check_numbered(pattern: str, noun: str, example: str) -> None:
+    """Raise UsageError if the name of an output has no place for a number."""
     if not _NUMBERED.fullmatch(pattern):
-        raise UsageError(f"--output: {pattern!r} has no place for a {what} as in {example!r}")
+        raise UsageError(f"--output: {pattern!r} has no place for a {noun}; write a name such as {example!r}")
+
+
+def check_one_standard_input(args: argparse.Namespace) -> None:
+    """Raise UsageError if program and deck are both to be read from standard input."""
+    if args.program == "-" and args.deck == "-":
+        raise UsageError("program and deck cannot both come from standard input; name a file for one of them")
 
 
 def check_outputs(args: argparse.Namespace) -> None:
-    """Refuse an output that is an input, and an ending that the command does not write.  Raises UsageError."""
-    given = vars(args)
-    inputs = [given[name] for name in _INPUTS if isinstance(given.get(name), str)]
-    outputs = [given[name] for name in _OUTPUTS if isinstance(given.get(name), str)]
-    real = {os.path.realpath(name) for name in inputs if name != "-" and os.path.isfile(name)}
+    """Raise UsageError if an output would overwrite an input, or if its name ends with an unsupported format."""
+    values = vars(args)
+    inputs = [values[name] for name in _INPUTS if isinstance(values.get(name), str)]
+    outputs = [values[name] for name in _OUTPUTS if isinstance(values.get(name), str)]
+    input_paths = {os.path.realpath(name) for name in inputs if name != "-" and os.path.isfile(name)}
     for name in outputs:
-        if name != "-" and os.path.realpath(name) in real:
-            raise UsageError(f"{name}: is the input too; an output never overwrites it")
-    # A table that a command prints instead goes into a file of any name.
-    endings: tuple[str, ...] = () if given.get("table") else given.get("endings", ())
-    output = given.get("output")
-    if (
-        endings
-        and output not in (None, "-")
-        and not os.path.isdir(output)
-        and not str(output).lower().endswith(endings)
-    ):
-        raise UsageError(
-            f"{output}: the name must end with {' or '.join(endings)}, which is what {args.command} writes"
-        )
+        if name != "-" and os.path.realpath(name) in input_paths:
+            raise UsageError(f"{name}: this output is also an input, which would be overwritten; choose another name")
+    # The text table of flowchart --table may have any name.
+    endings: tuple[str, ...] = () if values.get("table") else values.get("endings", ())
+    output = values.get("output")
+    if not endings or output in (None, "-") or os.path.isdir(str(output)):
+        return
+    if not str(output).lower().endswith(endings):
+        raise UsageError(f"{output}: {args.command} writes only files whose names end with {' or '.join(endings)}")

@@ -1,8 +1,8 @@
-"""What a command is given: a file, standard input, or an example by name.
+"""Read the input of a command: a file, standard input, or an example by name.
 
-``example1`` to ``example6`` are the data decks of chapter 6; ``appel-will/fig18`` is an object of a figure of Appel and
-Will's paper; ``seventy/17`` is set 17, from 0, of the study ``seventy``, and ``digits/2/17`` that of its cell 2.  A
-file of that name is taken first.
+``example1`` to ``example6`` are the data decks of chapter 6.  ``appel-will/fig18`` is the object of a figure in Appel
+and Will's paper.  ``seventy/17`` is sample 17, counted from 0, of the study ``seventy``, and ``digits/2/17`` that
+sample of cell 2.  An existing file of the same name takes precedence.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ _FIGURE = re.compile(r"appel-will/(fig[0-9]{1,2})")
 _SAMPLE = re.compile(r"([a-z]+(?:-[a-z]+)*)(?:/([0-9]{1,6}))?/([0-9]{1,9})")
 
 
-def read_given(name: str) -> bytes:
-    """The bytes of a file (``-``: standard input), or of an example by name.  Raises EmulatorError."""
+def read_input(name: str) -> bytes:
+    """Return the bytes of a file (``-``: standard input) or of an example.  Raise EmulatorError."""
     text = None if name == "-" or os.path.exists(name) else _example(name)
     return read_bytes(name) if text is None else text.encode("ascii")
 
 
 def points_of(name: str) -> Input:
-    """The points of a file of any kind, or of an example by name.  Raises EmulatorError."""
-    return parse_bytes(read_given(name), source_name(name))
+    """Return the points of a file in any format, or of an example.  Raise EmulatorError."""
+    return parse_bytes(read_input(name), source_name(name))
 
 
 def deck_of(name: str, points: bool = False) -> Deck:
@@ -39,7 +39,7 @@ def deck_of(name: str, points: bool = False) -> Deck:
     points: the deck must hold points.  If the file has points in another format, the message names the command that
     makes a deck of it.
     """
-    data, source = read_given(name), source_name(name)
+    data, source = read_input(name), source_name(name)
     is_figure = _FIGURE.fullmatch(name) is not None
     kind = deck_or_points(data, source) if points or is_figure else "deck"
     if kind == "deck":
@@ -51,20 +51,20 @@ def deck_of(name: str, points: bool = False) -> Deck:
 
 
 def deck_for(program: str, name: str) -> Deck:
-    """A deck for a program, by both their names; the thesis's program 1 reads points.  Raises EmulatorError."""
+    """Return the deck ``name``, which must hold points if the program is program 1.  Raise EmulatorError."""
     return deck_of(name, points=program in ("program1", "program1_examples"))
 
 
 def _example(name: str) -> str | None:
-    """The text of an example by name, None where no example has it."""
-    if found := _EXAMPLE.fullmatch(name):
-        from modern.edition.chapter6 import input_deck  # each is imported where it is named: a file waits for none
+    """Return the text of an example, or None if no example has this name."""
+    if match := _EXAMPLE.fullmatch(name):
+        from modern.edition.chapter6 import input_deck  # only examples need these imports, so files are read faster
 
-        return input_deck(int(found[1])).text()
-    if found := _FIGURE.fullmatch(name):
-        return _figure(found[1])
-    if found := _SAMPLE.fullmatch(name):
-        return _sample(found[1], int(found[2] or 0), int(found[3]))
+        return input_deck(int(match[1])).text()
+    if match := _FIGURE.fullmatch(name):
+        return _figure(match[1])
+    if match := _SAMPLE.fullmatch(name):
+        return _sample(match[1], int(match[2] or 0), int(match[3]))
     return None
 
 
@@ -81,17 +81,17 @@ def _figure(name: str) -> str | None:
     return write(Mesh(3, points, solid.surfaces))
 
 
-def _sample(study: str, cell: int, index: int) -> str | None:
+def _sample(study_name: str, cell: int, index: int) -> str | None:
     from modern.study import registry
     from modern.study.families import draw_sample
     from modern.study.plan import SEED
 
-    if study not in registry.names():
+    if study_name not in registry.names():
         return None
-    found = registry.study(study)
-    plan = found.plan(found.SAMPLES, SEED)
+    study = registry.study(study_name)
+    plan = study.plan(study.SAMPLES, SEED)
     if cell >= len(plan.cells) or index >= plan.cells[cell].samples:
-        most = f"cells 0 to {len(plan.cells) - 1}"
-        most += f", sets 0 to {plan.cells[cell].samples - 1}" if cell < len(plan.cells) else ""
-        raise UsageError(f"{study}/{cell}/{index}: study {study} has {most}")
-    return data_deck(draw_sample(plan.cells[cell], plan.seed, index).points, study).text()
+        choices = f"cells 0 to {len(plan.cells) - 1}"
+        choices += f", samples 0 to {plan.cells[cell].samples - 1}" if cell < len(plan.cells) else ""
+        raise UsageError(f"{study_name}/{cell}/{index}: study {study_name} has {choices}")
+    return data_deck(draw_sample(plan.cells[cell], plan.seed, index).points, study_name).text()

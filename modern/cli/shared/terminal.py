@@ -1,7 +1,7 @@
-"""A person at a terminal as the operator of a run.
+"""The person at the terminal as the operator of a run.
 
-No more is asked of the terminal than lines of text and single keys: no cursor movement but backspace, no colours.  It
-is the controlling terminal, ``/dev/tty``, whatever the standard streams are.
+The terminal needs only lines of text and single keys: no cursor movement except backspace, and no colours.  It is the
+controlling terminal, ``/dev/tty``, even if the standard streams are redirected.
 """
 
 from __future__ import annotations
@@ -33,21 +33,24 @@ _SWITCH_KEYS = {
     **{f"\x1b[1{n}~": n for n in (1, 2, 3, 4)},
     **{f"\x1b[[{letter}": n for n, letter in enumerate("ABCD", 1)},
 }
-"""Escape and a digit (Alt with it), and what terminals send for F1 to F4."""
+"""The keys of the sense switches: Escape or Alt with a digit, and the sequences that terminals send for F1 to F4."""
 _ATTENTIONS = (ATTENTION, "\x1ba", "\x1bA")
 
 
 class Keys:
-    """The keys and the paper of a terminal, one key at a time."""
+    """The keyboard and the screen of a terminal, read key by key.
+
+    is_gone: the terminal has been closed.  was_interrupted: SIGINT arrived, which counts as the ATTN key.
+    """
 
     def __init__(self, handle: int) -> None:
         self._handle = handle
-        self.gone = False
-        self.called = False
+        self.is_gone = False
+        self.was_interrupted = False
 
     @property
     def width(self) -> int:
-        """Columns to write in."""
+        """Columns available for text."""
         try:
             columns = os.get_terminal_size(self._handle).columns
         except OSError:
@@ -55,49 +58,50 @@ class Keys:
         return min(max(columns or 80, NARROWEST), WIDEST) - 1
 
     def write(self, text: str) -> None:
-        """Show text; a terminal that has gone shows nothing."""
+        """Show text, unless the terminal has been closed."""
         data = text.encode("ascii", "backslashreplace")
-        while data and not self.gone:
+        while data and not self.is_gone:
             try:
                 data = data[os.write(self._handle, data) :]
             except OSError:
-                self.gone = True
+                self.is_gone = True
 
-    def waiting(self, seconds: float = 0.0) -> bool:
-        """Whether a key has been pressed."""
-        return self.gone or self.called or bool(select.select([self._handle], [], [], seconds)[0])
+    def is_ready(self, seconds: float = 0.0) -> bool:
+        """Return True if a key can be read within the given time."""
+        return self.is_gone or self.was_interrupted or bool(select.select([self._handle], [], [], seconds)[0])
 
     def key(self) -> str:
-        """The next key, with all that follows an escape; empty when the terminal has gone.
+        """Return the next key with its escape sequence, or an empty string if the terminal has been closed.
 
-        ATTN is one key, whatever it was; ``called``, set at any time, counts as that key.
+        Every way to press ATTN is returned as ATTENTION.
         """
-        while not self.waiting(0.2):
+        while not self.is_ready(0.2):
             pass
-        if self.called:
-            self.called = False
+        if self.was_interrupted:
+            self.was_interrupted = False
             return ATTENTION
-        found = self._byte()
-        if found == "\x1b":
-            while self.waiting(1.0) and not (self.gone or self.called) and len(found) < 6:
-                found += self._byte()
-                if found[-1] == "~" or (found[-1].isalpha() and found[-1] != "O") or found[1] not in "O[":
+        key = self._byte()
+        if key == "\x1b":
+            # A sequence ends with "~" or a letter, except that O is its second character; other keys follow at once.
+            while self.is_ready(1.0) and not (self.is_gone or self.was_interrupted) and len(key) < 6:
+                key += self._byte()
+                if key[-1] == "~" or (key[-1].isalpha() and key[-1] != "O") or key[1] not in "O[":
                     break
-        return ATTENTION if found in _ATTENTIONS else found
+        return ATTENTION if key in _ATTENTIONS else key
 
     def _byte(self) -> str:
         try:
             data = os.read(self._handle, 1)
         except OSError:
             data = b""
-        self.gone = self.gone or not data
+        self.is_gone = self.is_gone or not data
         return data.decode("latin-1")
 
 
 class Terminal(Operator):
-    """Shows what the typewriter types, and asks the person at the terminal.
+    """An operator who reads the typed lines at the terminal and types the answers there.
 
-    ``slow``: lines appear at the typewriter's speed.  ``waits``: a machine just loaded waits for START.
+    slow: lines appear at the speed of the typewriter.  waits: a machine that has just been loaded waits for START.
     """
 
     present = True
@@ -116,7 +120,7 @@ class Terminal(Operator):
         self._cards.see(events)
 
     def show(self, line: str) -> None:
-        """A line of the typewriter."""
+        """Show a line of the typewriter; ATTN completes a slow line at once."""
         for start in range(len(line) + 1 if self._slow else 0):
             self._keys.write(line[start : start + 1] or "\n")
             self._collect()
@@ -130,7 +134,7 @@ class Terminal(Operator):
     def attend(self, session: Session) -> Iterator[Action]:
         if session is not self._session:
             self._session, self._cards = session, Cards()
-            self._say(f"{session.program.source} is loaded; Ctrl-C or Esc A: ATTN; F1 to F4, or Esc 1 to 4: switches")
+            self._note(f"{session.program.source} is loaded. Ctrl-C or Esc A: ATTN. F1 to F4, or Esc 1 to 4: switches")
             if self._waits:
                 yield Action("ATTN")
                 return
@@ -141,15 +145,15 @@ class Terminal(Operator):
                 yield Action("ATTN")
             else:
                 yield self._switched(flipped(session, _SWITCH_KEYS[key]))
-        if self._keys.gone:
+        if self._keys.is_gone:
             yield Action("STOP")
 
     def answer(self, session: Session, halt: Halt) -> Action:
         if halt is not self._halt:
-            self._stand(session, halt)
+            self._report_halt(session, halt)
         while True:
             line = self._read("1620> " if self._commands else "")
-            if self._keys.gone:
+            if self._keys.is_gone:
                 return Action("STOP")
             if line in _SWITCH_KEYS:
                 return self._switched(flipped(session, _SWITCH_KEYS[line]))
@@ -158,49 +162,49 @@ class Terminal(Operator):
             if line == ATTENTION:
                 if not self._commands:
                     self._commands = True
-                    self._say("Enter: back to the line; STOP: end the run; ?: help")
+                    self._note("Enter: back to the line. STOP: end the run. ?: help")
             elif not self._commands:
                 return Action("ENTER", text=line)
             else:
-                found = command(session, line, self._cards, self._keys.width)
-                if isinstance(found, list):
-                    self._keys.write("".join(text + "\n" for text in found))
+                reply = command(session, line, self._cards, self._keys.width)
+                if isinstance(reply, list):
+                    self._keys.write("".join(text + "\n" for text in reply))
                     continue
-                if found.word in ("START", "STEP") and halt.what == "accept":
+                if reply.word in ("START", "STEP") and halt.what == "accept":
                     self._commands = False
-                    self._say(halt_line(halt))
-                if found.word == "SWITCH":
-                    self._say(action_line(found))
-                if found.word != "START" or halt.what != "accept":
-                    return found
+                    self._note(halt_line(halt))
+                if reply.word == "SWITCH":
+                    self._note(action_line(reply))
+                if reply.word != "START" or halt.what != "accept":
+                    return reply
 
-    def _stand(self, session: Session, halt: Halt) -> None:
-        """The machine has come to stand: say why."""
+    def _report_halt(self, session: Session, halt: Halt) -> None:
+        """Show why the machine has halted."""
         if halt.why == "step" and session.last is not None:
             self._keys.write("".join(text + "\n" for text in done(session, session.last, self._keys.width)))
         self._halt = halt
         self._commands = halt.what != "accept"
-        self._say(halt_line(halt))
+        self._note(halt_line(halt))
 
     def _switched(self, action: Action) -> Action:
-        self._say(action_line(action))
+        self._note(action_line(action))
         return action
 
-    def _say(self, text: str) -> None:
+    def _note(self, text: str) -> None:
         self._keys.write("".join(f"-- {line}\n" for line in wrapped(text, self._keys.width - 3)))
 
     def _collect(self) -> None:
-        """Take the keys pressed while the machine runs; they are for whatever asks next."""
-        while not self._keys.gone and self._keys.waiting():
+        """Collect the keys pressed while the machine runs; they answer its next question."""
+        while not self._keys.is_gone and self._keys.is_ready():
             self._ahead.append(self._keys.key())
 
     def _read(self, prompt: str) -> str:
-        """A line, in capitals as the typewriter has them; or one of ATTENTION, END and the switch keys.
+        """Return a line in the capitals of the typewriter, or one of ATTENTION, END and the switch keys.
 
-        What was typed before a switch key stays for the next call.
+        Text typed before a switch key is kept for the next call.
         """
         self._keys.write(prompt + self._line)
-        while not self._keys.gone:
+        while not self._keys.is_gone:
             key = self._ahead.popleft() if self._ahead else self._keys.key()
             if key and key in ENTER:
                 self._keys.write("\n")
@@ -220,53 +224,56 @@ class Terminal(Operator):
         return ""
 
     def _erase(self, prompt: str, count: int) -> None:
-        """Take back the last characters; where they reach back over a line's end, show what is left on a new one."""
-        left, row = self._line[: len(self._line) - count], self._keys.width + 1
-        if len(prompt + left) // row == len(prompt + self._line) // row:
+        """Erase the last characters.
+
+        Backspace cannot go back to an earlier row of the screen, so that the remaining text is then shown on a new row.
+        """
+        remaining, row = self._line[: len(self._line) - count], self._keys.width + 1
+        if len(prompt + remaining) // row == len(prompt + self._line) // row:
             self._keys.write("\b \b" * count)
         else:
-            self._keys.write("\n" + prompt + left)
-        self._line = left
+            self._keys.write("\n" + prompt + remaining)
+        self._line = remaining
 
 
 @contextmanager
 def terminal(slow: bool = False, waits: bool = True) -> Iterator[Terminal]:
-    """The operator at the controlling terminal, whose settings are put back afterwards.
+    """Yield the operator at the controlling terminal, and restore its settings afterwards.
 
-    Raises UsageError where there is none.
+    Raise UsageError if there is no controlling terminal.
     """
     try:
         handle = os.open("/dev/tty", os.O_RDWR | os.O_NOCTTY)
     except OSError as error:
-        raise UsageError(f"--operator: there is no terminal to talk to (/dev/tty: {reason(error)})") from None
+        raise UsageError(f"--operator: no terminal (/dev/tty: {reason(error)}); use --operator=FILE") from None
     try:
-        before = termios.tcgetattr(handle)
-        keyed = termios.tcgetattr(handle)
-        keyed[3] &= ~(termios.ICANON | termios.ECHO)
-        # Ctrl-C comes as a key; Ctrl-Z and Ctrl-\ do what they always do.
-        keyed[6][termios.VINTR] = b"\x00"
-        keyed[6][termios.VMIN], keyed[6][termios.VTIME] = 1, 0
+        original = termios.tcgetattr(handle)
+        key_by_key = termios.tcgetattr(handle)
+        key_by_key[3] &= ~(termios.ICANON | termios.ECHO)
+        # Ctrl-C is read as a key; Ctrl-Z and Ctrl-\ keep their usual effect.
+        key_by_key[6][termios.VINTR] = b"\x00"
+        key_by_key[6][termios.VMIN], key_by_key[6][termios.VTIME] = 1, 0
 
         def resumed(number: int, frame: FrameType | None) -> None:
             with suppress(termios.error):
-                termios.tcsetattr(handle, termios.TCSANOW, keyed)
+                termios.tcsetattr(handle, termios.TCSANOW, key_by_key)
 
         def interrupted(number: int, frame: FrameType | None) -> None:
-            keys.called = True
+            keys.was_interrupted = True
 
         keys = Keys(handle)
-        continued = signal.signal(signal.SIGCONT, resumed)
-        called = signal.signal(signal.SIGINT, interrupted)
-        # A terminal that goes away is found gone at the next key, and the run stopped, what it did being kept.
-        hung_up = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        old_continue = signal.signal(signal.SIGCONT, resumed)
+        old_interrupt = signal.signal(signal.SIGINT, interrupted)
+        # If the terminal is closed, the next key reports it and the run stops with its results kept.
+        old_hangup = signal.signal(signal.SIGHUP, signal.SIG_IGN)
         try:
-            termios.tcsetattr(handle, termios.TCSADRAIN, keyed)
+            termios.tcsetattr(handle, termios.TCSADRAIN, key_by_key)
             yield Terminal(keys, slow, waits)
         finally:
-            signal.signal(signal.SIGCONT, continued)
-            signal.signal(signal.SIGHUP, hung_up)
-            signal.signal(signal.SIGINT, called)
+            signal.signal(signal.SIGCONT, old_continue)
+            signal.signal(signal.SIGHUP, old_hangup)
+            signal.signal(signal.SIGINT, old_interrupt)
             with suppress(termios.error):
-                termios.tcsetattr(handle, termios.TCSADRAIN, before)
+                termios.tcsetattr(handle, termios.TCSADRAIN, original)
     finally:
         os.close(handle)

@@ -1,4 +1,4 @@
-"""The volume that a command's arguments name, and what it says of it: what was chosen, and what coordinates mean."""
+"""Read the volume that the arguments name, and describe the selected voxels and the coordinates."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ _SPACES = dict(zip(("lps", "ras"), ANATOMICAL, strict=False))
 
 
 def scan_of(args: argparse.Namespace) -> Scan:
-    """The scan ``VOLUME``, read as the arguments say.
+    """Read the scan ``VOLUME``.
 
-    Raises FileError, VolumeError, and UsageError for arguments that are no numbers.
+    Raise FileError, VolumeError, or UsageError for arguments that are not numbers.
     """
     stated = Stated(
         shape=_shape(args.shape),
@@ -34,7 +34,7 @@ def scan_of(args: argparse.Namespace) -> Scan:
 
 
 def choice_of(args: argparse.Namespace) -> Choice:
-    """The values asked for.  Raises UsageError."""
+    """Return the selection by value that the arguments describe.  Raise UsageError."""
     if args.threshold is None:
         return Choice(labels=tuple(dict.fromkeys(args.label)))
     try:
@@ -44,38 +44,41 @@ def choice_of(args: argparse.Namespace) -> Choice:
 
 
 def volume_of(args: argparse.Namespace) -> tuple[Volume, tuple[str, ...]]:
-    """The voxels asked for of ``VOLUME``, in the coordinates of ``--space``; and what is to be said of them once all
-    has gone well: notes, and what was chosen.
+    """Return the selected voxels of ``VOLUME`` in the coordinates of ``--space``, and the notes to print at the end.
 
-    Raises as ``scan_of``.
+    Raise the errors of ``scan_of``.
     """
     choice = choice_of(args)
-    found = chosen(scan_of(args), choice)
-    volume = replace(found.volume, world=in_space(found.volume.world, getattr(args, "space", "file")))
-    return volume, (*note_lines(volume.notes), *_chosen_lines(found))
+    selection = chosen(scan_of(args), choice)
+    volume = replace(selection.volume, world=in_space(selection.volume.world, getattr(args, "space", "file")))
+    return volume, (*note_lines(volume.notes), *_selection_lines(selection))
 
 
 def note_lines(notes: Sequence[str]) -> Iterator[str]:
-    """Notes as the user reads them."""
+    """Return notes as printable lines."""
     return (printable(f"note: {note}") for note in notes)
 
 
 def in_space(world: World | None, space: str) -> World | None:
-    """The world in the coordinates asked for by ``--space``, None for indices.  Raises UsageError."""
+    """Return physical coordinates turned as ``--space`` asks, or None for voxel indices.  Raise UsageError."""
     if space == "index" or world is None:
         if space in _SPACES:
-            raise UsageError(f"--space {space}: the file does not say where its voxels lie")
+            raise UsageError(
+                f"--space {space}: the file does not state where its voxels lie; use --spacing, or --space index"
+            )
         return None
     if space not in _SPACES:
         return world
     if world.space not in ANATOMICAL:
         named = repr(world.space) if world.space else "not named"
-        raise UsageError(f"--space {space}: the file's space is {named}, so that nobody knows its left and right")
+        raise UsageError(
+            f"--space {space}: the file's space is {named}, so left and right are unknown; use --space file or index"
+        )
     return world.turned(_SPACES[space])
 
 
 def spacing_words(world: World | None) -> str:
-    """``spacing 0.5 0.5 2 mm``."""
+    """Return the spacing as text: ``spacing 0.5 0.5 2 mm``."""
     if world is None:
         return "no spacing stated"
     lengths = world.spacings()
@@ -85,71 +88,65 @@ def spacing_words(world: World | None) -> str:
 
 
 def coordinate_words(world: World | None, corners: bool) -> str:
-    """What the coordinates of a hull mean, on one line; of voxels' corners, or of their centres."""
+    """Describe the coordinates of a hull of voxel corners, or of voxel centres, on one line."""
     if world is None:
-        means = "voxel (x, y, z) from (x, y, z) to (x+1, y+1, z+1)" if corners else "of voxels' centres"
-        return f"coordinates: indices, {means}"
+        meaning = "voxel (x, y, z) extends from (x, y, z) to (x+1, y+1, z+1)" if corners else "vertices are centres"
+        return f"coordinates: voxel indices; {meaning}"
     space = world.space or "space not named"
     start = " ".join(map(decimal_or_fraction, world.origin))
     sides = world.bearings()
-    runs = ""
+    axes = ""
     if sides:
         about = "" if all(exact for _, exact in sides) else "about "
-        runs = f"; the array's axes run {about}{', '.join(side for side, _ in sides)}"
-    what = "vertices are corners, half a voxel from centres" if corners else "vertices are centres"
-    return f"coordinates: {space}; the centre of voxel (0, 0, 0) at {start}{runs}; {what}"
+        axes = f"; the array's axes run {about}{', '.join(side for side, _ in sides)}"
+    vertices = "vertices are corners, half a voxel from centres" if corners else "vertices are centres"
+    return f"coordinates: {space}; centre of voxel (0, 0, 0) at {start}{axes}; {vertices}"
 
 
 def check_array(path: str | None) -> None:
-    """Refuse a name that no array is written to.  Raises UsageError."""
+    """Raise UsageError if the name of an output is not that of an array."""
     if path is not None and not path.lower().endswith(ARRAYS):
-        raise UsageError(f"{path}: a filled hull is written as an array; the name must end with {' or '.join(ARRAYS)}")
+        raise UsageError(
+            f"{path}: a filled hull is written as an array; expected a name that ends with {' or '.join(ARRAYS)}"
+        )
 
 
 def array_note(path: str, volume: Volume) -> Iterator[str]:
-    """What an NPY file does not hold."""
+    """Yield notes on the position, which an NPY file does not contain."""
     if not path.lower().endswith(".npy"):
         return
     if volume.world is not None:
-        yield f"note: {path} holds no spacing and no origin; a name ending .nrrd keeps them"
+        yield f"note: {path} contains no spacing and no origin; an .nrrd file would contain them"
     if any(volume.origin):
-        yield f"note: the array's first voxel is ({','.join(map(str, volume.origin))})"
+        yield f"note: the first voxel of the array is ({','.join(map(str, volume.origin))})"
 
 
-def printable(words: str) -> str:
-    """Words on one line, without what a terminal would take for a command."""
-    return "".join(c if c.isprintable() else " " for c in words)
+def printable(text: str) -> str:
+    """Return text on one line without control characters, which a terminal would obey."""
+    return "".join(c if c.isprintable() else " " for c in text)
 
 
-def _chosen_lines(found: Chosen) -> Iterator[str]:
-    volume, choice = found.volume, found.choice
+def _selection_lines(selection: Chosen) -> Iterator[str]:
+    volume, choice = selection.volume, selection.choice
+    low, high = ("infinite" if n is None else f"{float(n):.6g}" for n in (selection.lowest, selection.highest))
     if choice.labels:
-        named = f"label{'s' * (len(choice.labels) > 1)} {', '.join(map(str, choice.labels))}"
-        what = f"{named} of {listed_labels(found.present)}"
+        labels = f"label{'s' * (len(choice.labels) > 1)} {', '.join(map(str, choice.labels))}"
+        values = f"{labels} of {listed_labels(selection.present)}"
     elif choice.threshold is not None:
-        what = f"values from {decimal_or_fraction(choice.threshold)} up (>=) of {_span(found)}"
-    elif found.truth and volume.world is None:
+        values = f"values of at least {decimal_or_fraction(choice.threshold)}, of {low} to {high}"
+    elif selection.truth and volume.world is None:
         return
     else:
-        what = f"values other than 0 of {_span(found)}"
-    yield printable(f"{volume.source}: {what}; {thousands(volume.count)}; {spacing_words(volume.world)}")
-
-
-def _span(found: Chosen) -> str:
-    low, high = ("infinite" if n is None else f"{float(n):.6g}" for n in (found.lowest, found.highest))
-    return f"{low} to {high}"
-
-
-def thousands(count: int) -> str:
-    """``1 voxel``, ``10,234 voxels``."""
-    return counted(count, "voxel").replace(str(count), f"{count:,}")
+        values = f"values other than 0, of {low} to {high}"
+    count = counted(volume.count, "voxel").replace(str(volume.count), f"{volume.count:,}")
+    yield printable(f"{volume.source}: {values}; {count}; {spacing_words(volume.world)}")
 
 
 def _numbers(option: str, text: str | None) -> tuple[Fraction, ...] | None:
     if text is None:
         return None
     try:
-        return tuple(Fraction(decimal(word)) for word in text.split(","))
+        return tuple(Fraction(decimal(part)) for part in text.split(","))
     except ValueError as error:
         raise UsageError(f"{option}: {error}") from None
 
@@ -157,7 +154,7 @@ def _numbers(option: str, text: str | None) -> tuple[Fraction, ...] | None:
 def _shape(text: str | None) -> tuple[int, ...] | None:
     if text is None:
         return None
-    words: Sequence[str] = text.replace("x", ",").split(",")
-    if not all(word.isascii() and word.isdigit() and len(word) < 10 for word in words):
-        raise UsageError(f"--shape: {text!r} is not NX,NY,NZ")
-    return tuple(int(word) for word in words)
+    lengths = text.replace("x", ",").split(",")
+    if not all(length.isascii() and length.isdigit() and len(length) < 10 for length in lengths):
+        raise UsageError(f"--shape: expected NX,NY,NZ, found {text!r}")
+    return tuple(int(length) for length in lengths)

@@ -194,7 +194,7 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_export_writes_every_format(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for form in ("off", "obj", "ply", "stl", "json"):
         code, out, err = call(capsys, "export", "t.csv", "-o", f"t.{form}")
-        assert (code, out, err) == (0, "", "note: t.csv: line 6: the point of line 1 again\n")
+        assert (code, out, err) == (0, "", "note: t.csv: line 6 repeats the point of line 1\n")
         text = Path(f"t.{form}").read_text(encoding="utf-8")
         assert call(capsys, "export", "t.csv", "--format", form)[:2] == (0, text)
     read = parse_off(Path("t.off").read_text(encoding="utf-8"), "t.off")
@@ -209,7 +209,7 @@ def test_export_writes_every_format(room: Path, capsys: pytest.CaptureFixture[st
 
 def test_draw_writes_an_svg_file(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "draw", "t.csv", "-o", "t.svg", "--eye=-1,2,-3.5")
-    assert (code, out, err) == (0, "", "note: t.csv: line 6: the point of line 1 again\n")
+    assert (code, out, err) == (0, "", "note: t.csv: line 6 repeats the point of line 1\n")
     root = ElementTree.parse("t.svg").getroot()
     assert root.tag == "{http://www.w3.org/2000/svg}svg"
     assert "seen from -2,4,-7" in "".join(root.itertext())

@@ -156,7 +156,7 @@ def test_flat_input_has_a_summary(folder: Path, capsys: pytest.CaptureFixture[st
     code, out, err = call(capsys, "flat.csv")
     assert code == 0
     assert summary in out
-    assert err == ("note: flat.csv: line 2: the point of line 1 again\n" if text.count("1,2,3") == 2 else "")
+    assert err == ("note: flat.csv: line 2 repeats the point of line 1\n" if text.count("1,2,3") == 2 else "")
 
 
 @pytest.mark.parametrize(

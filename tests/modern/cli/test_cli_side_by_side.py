@@ -10,14 +10,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from modern.claims.published import PAPERS, findings
-from modern.cli.shared.beside import beside, by_column, by_words
+from modern.cli.shared.side_by_side import masks_by_column, masks_by_text, side_by_side
 from modern.edition.chapter6 import prints
 from tests.support.commands import call
 
 
 def test_two_columns_mark_each_character() -> None:
-    assert list(beside(["A=1.25", "B", "C"], ["A=1.35", "B"], 60)) == [
-        "      = the same; | different, ^ where",
+    assert list(side_by_side(["A=1.25", "B", "C"], ["A=1.35", "B"], 60)) == [
+        "      = equal; | different, marked by ^",
         "            print    result",
         "         1  A=1.25 | A=1.35",
         "                ^        ^",
@@ -28,9 +28,9 @@ def test_two_columns_mark_each_character() -> None:
 
 
 def test_a_narrow_terminal_has_one_below_the_other() -> None:
-    assert list(beside(["A=1.25", "B"], ["A=1.35", "B"], 26)) == [
+    assert list(side_by_side(["A=1.25", "B"], ["A=1.35", "B"], 26)) == [
         "      = the same; |",
-        "      different, ^ where",
+        "      different, marked by ^",
         "     1 | print  A=1.25",
         "         result A=1.35",
         "                    ^",
@@ -39,18 +39,18 @@ def test_a_narrow_terminal_has_one_below_the_other() -> None:
 
 
 def test_a_line_that_stands_elsewhere_is_not_marked_as_wrong() -> None:
-    found = list(beside(["N=2", "ONE", "TWO"], ["N=2", "TWO", "ONE"], 60))
-    assert found[0].strip() == "= the same; ~ stands at another place"
+    found = list(side_by_side(["N=2", "ONE", "TWO"], ["N=2", "TWO", "ONE"], 60))
+    assert found[0].strip() == "= equal; ~ at another position"
     assert not any("^" in line for line in found)
     # One that stands there twice and here once is.
-    assert any("^" in line for line in beside(["ONE", "TWO", "TWO"], ["TWO", "ONE", "ONE"], 60))
+    assert any("^" in line for line in side_by_side(["ONE", "TWO", "TWO"], ["TWO", "ONE", "ONE"], 60))
 
 
 def test_cards_are_compared_column_by_column_and_print_word_by_word() -> None:
-    assert by_column("  .5", " .5") == (" ^^^", " ^^^")
-    assert by_words("9 1 2 C", "9 1 2 0") == ("      ^", "      ^")
-    assert by_words("2 3 4 1 1", "2 1 1") == ("  ^ ^", "")
-    (line,) = [line for line in beside(["1\t2"], ["1 2"], 60, columns=False) if line.startswith("         1")]
+    assert masks_by_column("  .5", " .5") == (" ^^^", " ^^^")
+    assert masks_by_text("9 1 2 C", "9 1 2 0") == ("      ^", "      ^")
+    assert masks_by_text("2 3 4 1 1", "2 1 1") == ("  ^ ^", "")
+    (line,) = [line for line in side_by_side(["1\t2"], ["1 2"], 60, columns=False) if line.startswith("         1")]
     assert " = " in line
 
 
@@ -83,15 +83,15 @@ def told(found: list[str]) -> tuple[str, ...]:
 def test_marks_stand_below_what_they_mark_where_the_other_line_is_longer() -> None:
     """Both lines are marked as far as the longer one goes."""
     for one, other in (([], ["1" * 18]), (["1" * 18], []), (["12"], ["1" * 18])):
-        *_, line, marks = beside(one, other, 60)
+        *_, line, marks = side_by_side(one, other, 60)
         at = line.index("|") + 2
         assert marks[at:] == ("^" * 18 if "12" not in one else " " + "^" * 17)
-        assert max(map(len, beside(one, other, 50))) <= 50
+        assert max(map(len, side_by_side(one, other, 50))) <= 50
 
 
 @given(TEXT, TEXT, st.integers(50, 140), st.booleans())
 def test_nothing_is_lost_and_no_line_is_too_long(one: list[str], other: list[str], width: int, columns: bool) -> None:
-    found = list(beside(one, other, width, columns=columns))
+    found = list(side_by_side(one, other, width, columns=columns))
     assert all(len(line) <= width for line in found)
     assert told(found) == tuple("".join(text).replace(" ", "") for text in (one, other))
     assert bool(found) == bool(one or other)

@@ -1,0 +1,131 @@
+"""The measures of solids and hulls as text: lines for one solid, and a table or CSV for many labels.
+
+Lines and tables show numbers to twelve digits.  CSV has fifty digits, and the exact fractions in further columns.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal
+from fractions import Fraction
+
+from modern.cli.shared.volumes import printable
+from modern.digital.hull import DigitalHull
+from modern.digital.measures import Measures
+from modern.formats.columns import aligned
+from modern.geometry.numbers import AREA_DIGITS, finite_decimal
+
+TABLE_DIGITS = 12
+"""Digits of a number in lines and tables."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A number of a row with the name of its column.
+
+    with_fraction: CSV has a second column with the exact fraction.
+    """
+
+    name: str
+    number: int | Fraction | Decimal
+    with_fraction: bool = False
+
+
+Row = tuple[Cell, ...]
+
+
+def centres_row(label: int, measures: Measures) -> Row:
+    """Return the row of a label whose hull is that of its voxels' centres, which excludes parts of the outer voxels."""
+    return (
+        Cell("label", label),
+        Cell("voxels", measures.voxels),
+        Cell("volume", measures.volume),
+        Cell("hull_volume", measures.hull_volume, True),
+        Cell("hull_area", measures.hull_area),
+    )
+
+
+def solid_row(label: int, measures: Measures) -> Row:
+    """Return the row of a label whose hull is that of its voxels' corners, which contains the whole solid."""
+    solidity = Cell("solidity", measures.solidity, True)
+    return (*centres_row(label, measures), solidity, Cell("deficiency", measures.deficiency, True))
+
+
+def filled_row(label: int, hull: DigitalHull, voxel_volume: Fraction) -> Row:
+    """Return the row of a label whose hull was filled with voxels."""
+    return (
+        Cell("label", label),
+        Cell("voxels", hull.given),
+        Cell("hull_voxels", hull.voxels),
+        Cell("solidity", hull.solidity, True),
+        Cell("deficiency", hull.deficiency),
+        Cell("volume", hull.given * voxel_volume),
+        Cell("hull_volume", hull.voxels * voxel_volume),
+        Cell("deficiency_volume", hull.deficiency * voxel_volume),
+    )
+
+
+def measure_lines(measures: Measures, unit: str, corners: bool) -> Iterator[str]:
+    """Yield the measures of a solid and of the hull of its corners or centres."""
+    cubic, square = (f" {printable(unit)}^{power}" if unit else "" for power in (3, 2))
+    yield f"volume of the voxels: {_with_exact(measures.volume)}{cubic}"
+    yield f"hull: volume {_with_exact(measures.hull_volume)}{cubic}"
+    yield f"hull: area {_plain(measures.hull_area)}{square}{_precision(measures.hull_area)}"
+    if corners:
+        yield f"solidity {_with_exact(measures.solidity)}; convex deficiency {_with_exact(measures.deficiency)}{cubic}"
+
+
+def table(rows: Sequence[Row], unit: str) -> Iterator[str]:
+    """Yield the rows as a table with headings, and a line on the units."""
+    lines = [[cell.name.replace("_", " ") for cell in rows[0]]]
+    lines += [[_to_digits(cell.number, TABLE_DIGITS) for cell in row] for row in rows]
+    yield from aligned(lines, right=True)
+    plural = "s" if unit == "voxel" else ""
+    lengths = f"lengths in {printable(unit)}{plural}" if unit else "unit of length not stated"
+    yield f"{lengths}; numbers to {TABLE_DIGITS} digits (--csv: {AREA_DIGITS} digits and exact fractions)"
+
+
+def csv_text(rows: Iterable[Row], unit: str) -> str:
+    """Return the rows as CSV: decimals of fifty digits, then the exact fractions ``p/q``, then the unit."""
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    for index, row in enumerate(rows):
+        exact = [cell for cell in row if cell.with_fraction]
+        if not index:
+            writer.writerow([c.name for c in row] + [f"{c.name}_exact" for c in exact] + ["unit"])
+        decimals = [_to_digits(c.number, AREA_DIGITS) for c in row]
+        writer.writerow(decimals + [str(c.number) for c in exact] + [printable(unit)])
+    return file.getvalue()
+
+
+def _to_digits(number: int | Fraction | Decimal, digits: int) -> str:
+    if isinstance(number, int):
+        return str(number)
+    context = Context(prec=digits, Emin=MIN_EMIN, Emax=MAX_EMAX)
+    if isinstance(number, Decimal):
+        return _plain(context.plus(number))
+    return _plain(context.divide(Decimal(number.numerator), Decimal(number.denominator)))
+
+
+def _with_exact(number: Fraction) -> str:
+    """Return a short exact decimal, otherwise the fraction and an approximation, or for long fractions only that."""
+    text = finite_decimal(number)
+    if text is not None and len(text) <= 2 * TABLE_DIGITS:
+        return text
+    about = f"about {_to_digits(number, TABLE_DIGITS)}"
+    return f"{number}, {about}" if len(str(number)) <= 4 * TABLE_DIGITS else about
+
+
+def _plain(number: Decimal) -> str:
+    """Return a decimal without trailing zeros, with an exponent only if it is far from 0."""
+    text = finite_decimal(Fraction(number))
+    assert text is not None
+    return text
+
+
+def _precision(area: Decimal) -> str:
+    """Return the number of digits of an irrational area, or nothing if the area is exact."""
+    return f", to {AREA_DIGITS} digits" if len(area.as_tuple().digits) >= AREA_DIGITS else ""

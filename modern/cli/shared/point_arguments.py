@@ -1,0 +1,177 @@
+"""Arguments of the commands that read points or faces.
+
+Like ``modern/cli/arguments.py``, this module imports nothing that only a run needs.
+"""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser
+
+from modern.cli.shared.arguments import (
+    coplanar_argument,
+    epsilon_text,
+    eye_argument,
+    layers_argument,
+    listed,
+    output_argument,
+    points_argument,
+)
+from modern.formats import HULLS
+
+
+def cards(parser: ArgumentParser) -> None:
+    points_argument(parser)
+    output_argument(parser, "DECK")
+    parser.add_argument(
+        "--truncate", action="store_true", help="truncate numbers with more digits than a card holds instead of failing"
+    )
+    parser.add_argument(
+        "--epsilon",
+        metavar="E",
+        type=epsilon_text,
+        help="punch the tolerance e of chapter 7 after N, for the layer epsilon",
+    )
+
+
+def diff(parser: ArgumentParser) -> None:
+    points_argument(parser)
+    parser.add_argument(
+        "--epsilon",
+        metavar="E",
+        type=epsilon_text,
+        help="use the tolerance e of chapter 7 in the layer epsilon and in the port, or rel:E in the port only",
+    )
+    parser.add_argument("--json", metavar="FILE", help="write the comparison to FILE as JSON")
+    parser.add_argument("--explain", action="store_true", help="if a program gives no hull, explain the reason")
+    layers_argument(parser)
+
+
+def export(parser: ArgumentParser) -> None:
+    points_argument(parser)
+    endings = listed(f".{name}" for name in HULLS)
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        default="-",
+        help=f"write to FILE, whose name ends with {endings} (default: '-', with --format)",
+    )
+    parser.add_argument("--format", choices=tuple(HULLS), help="the format (default: the one that the name ends with)")
+    coplanar_argument(parser)
+
+
+def draw(parser: ArgumentParser) -> None:
+    points_argument(parser)
+    output_argument(parser, "FILE.svg")
+    parser.set_defaults(endings=(".svg",))
+    eye_argument(parser)
+    parser.add_argument("--title", metavar="TEXT", help="write TEXT below the picture (default: the name of the file)")
+    _width_argument(parser)
+    parser.add_argument(
+        "--labels",
+        choices=("programs", "input", "none"),
+        default="programs",
+        help="number the vertices as the programs do, by their positions in the input, or not (default: programs)",
+    )
+    parser.add_argument("--no-hidden", action="store_true", help="omit the hidden edges and vertices")
+    parser.add_argument("--no-points", action="store_true", help="omit the points that are not vertices")
+    coplanar_argument(parser)
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument(
+        "--against", metavar="CARDS", help="highlight differences from the cards that hull1620 hull punched"
+    )
+    which.add_argument("--stages", action="store_true", help="draw the stages H1 to Hf of the construction in a row")
+    which.add_argument("--animate", action="store_true", help="animate the stages H1 to Hf of the construction")
+
+
+def appel_will(parser: ArgumentParser) -> None:
+    points_argument(parser, "FILE", " (points and surfaces)")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--literal", action="store_true", help="use every rule of the paper as printed")
+    which.add_argument(
+        "--printed",
+        metavar="NAME,...",
+        help="use only these rules as printed: star, step3, step5, step7, step9, step10",
+    )
+    parser.add_argument(
+        "--star",
+        choices=("printed", "corrected"),
+        help="choose the star polygon test independently of the other rules (default: corrected; with --literal: "
+        "printed)",
+    )
+    parser.add_argument(
+        "--inside-corners",
+        metavar="RULE",
+        choices=("any", "two", "concave"),
+        help="delete points on inside corners first, by the rule any (valid if no point is on more than three planes), "
+        "two or concave (always valid)",
+    )
+    parser.add_argument("--trace", action="store_true", help="print the use of every edge after each loop")
+    parser.add_argument(
+        "--all", action="store_true", help="print all tables (default: only a summary for more than 50 points)"
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="write the hull (.off), or a drawing with its convex edges (.svg)"
+    )
+    parser.set_defaults(endings=(".off", ".svg"))
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--map", action="store_true", help="with -o FILE.svg: draw the planar topological map instead")
+    which.add_argument(
+        "--star-of", metavar="I-J", help="with -o FILE.svg: draw the star polygon of the line of points I and J instead"
+    )
+    eye_argument(parser)
+    _width_argument(parser)
+    coplanar_argument(parser)
+
+
+def hidden_line(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "scene",
+        metavar="SCENE",
+        help="a scene file .toml, a file of faces (OFF, OBJ, STL), a file of points whose hull is drawn, or one of the "
+        "scenes cuboids, columns and house",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="write SVG (.svg) or HPGL (.hpgl, .plt) (default: SVG to standard output)",
+    )
+    parser.set_defaults(endings=(".svg", ".hpgl", ".plt"))
+    eye_argument(parser)
+    parser.add_argument("--perspective", action="store_true", help="draw in perspective, with --eye as the eye point")
+    parser.add_argument(
+        "--towards", metavar="X,Y,Z", help="in perspective: look at this point (default: the middle of the scene)"
+    )
+    parser.add_argument(
+        "--near",
+        metavar="DISTANCE",
+        help="in perspective: clip everything nearer than DISTANCE (default: clip nothing, and reject a scene that is "
+        "not entirely in front of the eye)",
+    )
+    parser.add_argument(
+        "--hull",
+        action="store_true",
+        help="for a file of faces: draw the hull of each connected component (default: each component must be convex)",
+    )
+    coplanar_argument(parser)
+    parser.add_argument("--hidden", action="store_true", help="draw hidden lines too, dashed")
+    parser.add_argument("--tables", action="store_true", help="print contours, PL and LP tables with d, and indices")
+    parser.add_argument(
+        "--without",
+        metavar="CORRECTION,...",
+        default="",
+        help="do not apply these corrections of the paper: enclosed, touching, ends; or its own step ghosts "
+        "(default: apply all)",
+    )
+    parser.add_argument("--title", metavar="TEXT", help="write TEXT below the picture (default: the scene's title)")
+    parser.add_argument("--width", metavar="PIXELS", type=int, default=640, help="width of the SVG (default: 640)")
+
+
+def _width_argument(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--width",
+        metavar="PIXELS",
+        type=int,
+        help="draw the picture 320 to 4000 pixels wide (default: 640, or 1000 for many points)",
+    )

@@ -1,0 +1,70 @@
+"""The program and the machine that the arguments of a command describe."""
+
+from __future__ import annotations
+
+import argparse
+
+from emulator.errors import LowerCaseError
+from emulator.language.cards import Deck, read_deck
+from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Program
+from emulator.language.statements import capitals
+from emulator.machine.result import Options
+from emulator.numbers import DecimalNumbers, Numbers, numbers
+from emulator.numbers.arithmetic import Rules
+from emulator.numbers.base import lossless_rules
+from emulator.numbers.fields import FALLBACK
+from modern.cli.shared.console import UsageError
+from modern.edition import programs
+
+
+def layers_of(args: argparse.Namespace) -> tuple[str, ...]:
+    """Return the layers that ``--layers`` names."""
+    return tuple(layer.strip() for layer in args.layers.split(",") if layer.strip())
+
+
+def source_deck(args: argparse.Namespace) -> Deck:
+    """Return the source deck of ``PROGRAM.f``: a built-in program with its layers, or a file.
+
+    Raise UsageError for layers of a file, because only the built-in programs have an apparatus, and for small letters
+    without ``--upcase``.
+    """
+    name, layers = args.program, layers_of(args)
+    if name in programs.NAMES:
+        return programs.deck(name, layers)
+    if layers:
+        names = ", ".join(programs.NAMES)
+        raise UsageError(f"{name}: a file has no layers; --layers is for the built-in programs: {names}")
+    try:
+        return read_deck(name, capitals if args.upcase else None)
+    except LowerCaseError as error:
+        raise UsageError(f"{error}; --upcase reads small letters of the program as capitals") from None
+
+
+def load_program(args: argparse.Namespace) -> Program:
+    """Return the compiled ``PROGRAM.f``.  Raise EmulatorError."""
+    if args.program in programs.NAMES:
+        return programs.program(args.program, layers_of(args))
+    return compile_deck(source_deck(args))
+
+
+def machine_options(args: argparse.Namespace) -> Options:
+    """Return the machine that the options describe.  Raise UsageError for an unknown arithmetic or a limit below 1."""
+    arithmetic = number_system(args.arithmetic, "--arithmetic")
+    if args.limit < 1:
+        raise UsageError(f"--limit: expected at least 1 statement, found {args.limit}")
+    return Options(arithmetic, frozenset(args.switch), args.core, args.bounds, args.limit)
+
+
+def number_system(name: str, option: str) -> Numbers:
+    """Return an arithmetic by name.  Raise UsageError, which names the option."""
+    try:
+        return numbers(name)
+    except ValueError as error:
+        raise UsageError(f"{option}: {error}") from None
+
+
+def card_rules(options: Options) -> Rules:
+    """Return the rules for reading numbers from cards; only decimal arithmetics limit the digits."""
+    arithmetic = options.numbers
+    return arithmetic.profile.rules if isinstance(arithmetic, DecimalNumbers) else lossless_rules(FALLBACK.width)
