@@ -85,7 +85,7 @@ def _diverge(parser: ArgumentParser) -> None:
         help="the reference arithmetic; differences that its own rounding may explain do not count "
         "(default: %(default)s)",
     )
-    parser.add_argument("--first", action="store_true", help="stop at the first branch that differs; compare no values")
+    parser.add_argument("--first", action="store_true", help="stop at the first different decision; compare no values")
     parser.add_argument("--json", metavar="FILE", help="write the comparison to FILE as JSON")
     compared_machine(parser)
 
@@ -234,7 +234,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "hull": ("find the hull of a data deck: run program 1, then program 2 or 3 as the typewriter tells", _hull),
     "cards": ("punch points as a data deck", point_arguments.cards),
     "diff": ("compare the hulls of the 1963 programs, the port and the exact hull", point_arguments.diff),
-    "diverge": ("run a program in two arithmetics, and report the first value and branch that differ", _diverge),
+    "diverge": ("run a program in two arithmetics, and report the first value and decision that differ", _diverge),
     "study": ("judge the hulls of many samples, and report a table, plots and conclusions", _study),
     "export": ("write the exact hull of points as a mesh or as JSON", point_arguments.export),
     "draw": ("draw the exact hull of points as SVG", point_arguments.draw),

@@ -71,7 +71,7 @@ def _first_value(divergence: Divergence, width: int) -> Iterator[str]:
     else:
         counts = f"values: {divergence.compared} compared, {divergence.values} differ"
         if divergence.decisions:
-            counts += f", {divergence.values_in_step} of them before the first branch that differs"
+            counts += f", {divergence.values_in_step} of them before the first decision that differs"
         yield from _wrapped(counts, width)
     if divergence.within:
         yield from _wrapped(
@@ -89,12 +89,12 @@ def _first_value(divergence: Divergence, width: int) -> Iterator[str]:
 def _first_decision(divergence: Divergence, width: int) -> Iterator[str]:
     first = divergence.first_decision
     if first is None:
-        yield from _wrapped(f"branches: {divergence.tested} compared, none differs", width)
+        yield from _wrapped(f"decisions: {divergence.tested} compared, none differs", width)
         return
     yield from _wrapped(
-        f"branches: {divergence.tested} compared, {divergence.decisions} {_differ(divergence.decisions)}", width
+        f"decisions: {divergence.tested} compared, {divergence.decisions} {_differ(divergence.decisions)}", width
     )
-    yield from _wrapped(f"first branch that differs: {_place(first.line)}{_execution(first.time)}", width)
+    yield from _wrapped(f"first decision that differs: {_place(first.line)}{_execution(first.time)}", width)
     for arithmetic, value, target in zip(divergence.arithmetics, first.values, first.targets, strict=True):
         destination = target.name if target else "the end"
         yield from _wrapped(f"  {arithmetic}: {value}, goes to {destination}", width)
@@ -120,7 +120,7 @@ def _wrapped(text: str, width: int) -> list[str]:
 def _table(divergence: Divergence, width: int) -> Iterator[str]:
     """Yield a row for each statement that lost at least a tenth of a digit."""
     losing = [loss for loss in divergence.losses if loss.worst]
-    until = ", up to that branch" if divergence.decisions else ""
+    until = ", up to that decision" if divergence.decisions else ""
     yield from _wrapped(f"digits lost, of {divergence.digits:.1f}{until}", width)
     if losing:
         yield "worst median count differ card statement"

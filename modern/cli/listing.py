@@ -140,7 +140,7 @@ def _comparison(divergence: Divergence) -> Iterator[str]:
     studied, reference = divergence.arithmetics
     until = ""
     if divergence.first_decision is not None:
-        until = f", up to card {divergence.first_decision.line.place.card}, the first branch that differs"
+        until = f", up to card {divergence.first_decision.line.place.card}, the first decision that differs"
     yield f"digits lost, of {divergence.digits:.1f}: {studied} against {reference}{until}"
     if divergence.apart:
         yield f"comparison ended: {divergence.apart}"

@@ -83,4 +83,4 @@ def check_outputs(args: argparse.Namespace) -> None:
     if not endings or output in (None, "-") or os.path.isdir(str(output)):
         return
     if not str(output).lower().endswith(endings):
-        raise UsageError(f"{output}: {args.command} writes only files whose names end with {' or '.join(endings)}")
+        raise UsageError(f"{output}: {args.command} expects a name that ends with {' or '.join(endings)}")

@@ -115,7 +115,7 @@ def _commands_to_try(cause: Cause, request: Request) -> Iterator[tuple[str, str]
         first = "" if cause.program == 1 else f"hull1620 run program1 {deck} --punch program1.cards && "
         yield (
             f"{first}hull1620 diverge program{cause.program} {'program1.cards' if first else deck}",
-            "Find the first branch of the stopped program on which these digits and exact arithmetic disagree.",
+            "Find the first decision of the stopped program on which these digits and exact arithmetic disagree.",
         )
     yield f"hull1620 export {deck} -o hull.off", "Write the exact hull of these points to a file for other programs."
 

@@ -90,23 +90,23 @@ MISUSE = [
     (["hull", "nosuch"], "nosuch: no such file"),
     (["run", "good.f", "x.deck", "--arithmetic", "decimal"], "no arithmetic is called 'decimal'"),
     (["run", "good.f", "x.deck", "--arithmetic", "truncating:1"], "the number of digits must be 2 to 28"),
-    (["run", "good.f", "x.deck", "--limit", "0"], "0 is not a number of statements"),
+    (["run", "good.f", "x.deck", "--limit", "0"], "--limit: expected at least 1 statement, found 0"),
     (["run", "good.f", "x.deck", "--limit", "many"], "argument --limit: invalid int value"),
     (["run", "good.f", "x.deck", "--switch", "5"], "argument --switch: invalid choice: 5"),
     (["run", "good.f", "x.deck", "--punch", "nosuch/file"], "nosuch/file: no such file or directory"),
     (["run", "good.f", "x.deck", "--trace", "."], ".: is a directory"),
     (["run", "good.f", "x.deck", "--layers", "lacuna"], "--layers is for the built-in programs"),
-    (["run", "program1", "good.deck", "--layers", "nosuch"], "no rows of a layer 'nosuch'"),
+    (["run", "program1", "good.deck", "--layers", "nosuch"], "has no layer 'nosuch'"),
     (
         ["hull", "good.deck", "--layers", "nosuch"],
-        "no program has rows of a layer 'nosuch'; the layers are corrected, ",
+        "no program has a layer 'nosuch'; the layers are corrected, ",
     ),
     (["hull", "good.deck", "--core", "20000"], "OVERLAP"),
     (["run", "-", "-"], "cannot both come from standard input"),
     (["run", "program1"], "the hopper is empty at the first READ"),
-    (["reproduce", "7"], "there is no example '7'"),
-    (["apparatus", "--layer", "nosuch"], "there is no layer 'nosuch'"),
-    (["apparatus", "--program", "4"], "'4' is not 1, 2 or 3"),
+    (["reproduce", "7"], "unknown name '7'"),
+    (["apparatus", "--layer", "nosuch"], "unknown layer 'nosuch'"),
+    (["apparatus", "--program", "4"], "'4' is not one of the programs 1, 2 and 3"),
     (["cards", "nosuch.csv"], "nosuch.csv: no such file"),
     (["nosuch"], "invalid choice: 'nosuch'"),
     ([], "the following arguments are required: COMMAND"),
@@ -226,7 +226,7 @@ def test_reproduce_without_a_terminal_has_no_colour(capsys: pytest.CaptureFixtur
     assert code == 0
     assert "\x1b" not in out
     assert "exact in another order" in out
-    assert "Every printed result comes out." in out
+    assert "Every printed result is reproduced." in out
 
 
 def test_reproduce_shows_the_cards_that_differ(
@@ -247,7 +247,7 @@ def test_reproduce_shows_the_cards_that_differ(
     code, out, _ = call(capsys, "reproduce", "5")
     assert code == 1
     assert "printed" in out
-    assert "NOT every printed result comes out." in out
+    assert "NOT every printed result is reproduced." in out
 
 
 def test_check_marks_card_and_column(room: Path, capsys: pytest.CaptureFixture[str]) -> None:

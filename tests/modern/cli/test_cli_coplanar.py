@@ -52,8 +52,11 @@ def test_what_is_flat_and_what_is_not_joined_is_said_too(capsys: pytest.CaptureF
         (("export", "d.csv", "-o", "d.off", "--coplanar-within", "9"), "all points lie within 9 of the plane"),
         (("draw", "d.csv", "--coplanar-within", "a"), "the distance within which faces are coplanar: 'a' is not"),
         (("draw", "d.csv", "--coplanar-within=-1"), "must be >= 0, not -1"),
-        (("draw", "d.csv", "--coplanar-within", "1", "--stages"), "reads the hull alone: not with --stages"),
-        (("draw", "d.csv", "--coplanar-within", "1", "--against", "c"), "reads the hull alone: not with --stages"),
+        (("draw", "d.csv", "--coplanar-within", "1", "--stages"), "--coplanar-within cannot be combined with --stages"),
+        (
+            ("draw", "d.csv", "--coplanar-within", "1", "--against", "c"),
+            "--coplanar-within cannot be combined with --stages",
+        ),
     ],
 )
 def test_refusals_are_one_line_and_leave_no_file(

@@ -89,7 +89,7 @@ def test_what_exact_numbers_cannot_hold(room: Path, capsys: pytest.CaptureFixtur
     words = "sine.f: card 2: exact arithmetic cannot hold SIN of 1, in 7 B=SIN(A)"
     code, out, err = call(capsys, "diverge", "sine.f", "any.deck")
     assert code == 1
-    assert f"not compared further: exact ended: {words}" in " ".join(out.split())
+    assert f"comparison ended: exact ended: {words}" in " ".join(out.split())
     assert err == ""
     code, out, err = call(capsys, "run", "sine.f", "any.deck", "--arithmetic", "exact")
     assert (code, out, err) == (1, "", f"hull1620: {words}\n")
@@ -105,7 +105,7 @@ def test_a_limit_is_no_end(room: Path, capsys: pytest.CaptureFixture[str]) -> No
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--limit", "10")
     assert code == 1
     assert "decisions: 1 compared, none differs" in out
-    assert "not compared further: both were stopped after 10 statements" in out
+    assert "comparison ended: both runs were stopped after 10 statements" in out
 
 
 def test_exact_numbers_lose_no_digits(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -127,9 +127,9 @@ MISUSE = [
         "--against: mp:1: the number of bits must be 2 to 100000",
     ),
     (["diverge", "program1", "side.deck", "--arithmetic", "float"], "--arithmetic: no arithmetic is called 'float'"),
-    (["diverge", "program1", "side.deck", "--limit", "0"], "0 is not a number of statements"),
+    (["diverge", "program1", "side.deck", "--limit", "0"], "--limit: expected at least 1 statement, found 0"),
     (["diverge", "program1", "side.deck", "--json", "no/file"], "no/file: no such file or directory"),
-    (["diverge", "program1", "side.deck", "--layers", "nosuch"], "no rows of a layer 'nosuch'"),
+    (["diverge", "program1", "side.deck", "--layers", "nosuch"], "has no layer 'nosuch'"),
     (["diverge", "program1", "side.deck", "--core", "20000"], "OVERLAP"),
     (["diverge", "sum.f", "side.deck", "--layers", "corrected"], "--layers is for the built-in programs"),
     (["diverge", "program3", "side.deck"], "side.deck: card"),

@@ -55,7 +55,7 @@ def test_with_a_deck_counts_time_and_digits(mine: Path, capsys: pytest.CaptureFi
     code, out, err = call(capsys, "listing", "my.f", "one.deck")
     assert (code, err) == (0, "")
     lines = out.splitlines()
-    assert lines[0] == "my.f: 7 statements in 0.4 s of a 1620's processor"
+    assert lines[0] == "my.f: 7 statements in 0.4 s of processor time on a 1620"
     assert lines[1] == "digits lost, of 8.0: truncating against exact"
     rows = [columns(line) for line in lines[3:]]
     assert [row[4] for row in rows] == MINE

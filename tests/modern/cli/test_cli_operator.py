@@ -360,7 +360,7 @@ def test_lines_left_over_are_noted(
     monkeypatch.chdir(folder)
     (folder / "more").write_text("ENTER    0   1\nSTART\n")
     code, _, err = call(capsys, "run", "ask.f", "--operator=more")
-    assert (code, err) == (0, "   1   0\nnote: more: line 2 and what follows it was not used\n")
+    assert (code, err) == (0, "   1   0\nnote: more: the run did not use line 2 and later lines\n")
 
 
 def test_slow_is_for_a_terminal(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -54,7 +54,7 @@ def test_small_letters_are_named_once_with_the_option_that_reads_them(
     assert (code, out) == (2, "")
     assert err == (
         "hull1620: small.f: card 2, column 7: 'r' is not in the card code: letters are capitals; "
-        "--upcase reads the whole program so\n"
+        "--upcase reads small letters of the program as capitals\n"
     )
 
 
@@ -138,10 +138,10 @@ def test_all_errors_are_explained_at_once(capsys: pytest.CaptureFixture[str]) ->
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--explain", "3"), "--explain: there is no error 3; there are 5, 6, 7,"),
-        (("--explain", ""), "--explain: there is no error ; there are 5, 6, 7,"),
-        (("--explain", "5", "large.f"), "--explain: takes a number and no program"),
-        ((), "check: a program, or --explain and an error number, is missing"),
+        (("--explain", "3"), "--explain: unknown error 3; expected all, or one of 5, 6, 7,"),
+        (("--explain", ""), "--explain: unknown error ; expected all, or one of 5, 6, 7,"),
+        (("--explain", "5", "large.f"), "--explain: expected an error number without a program"),
+        ((), "check: expected a program, or --explain with an error number"),
     ],
 )
 def test_what_cannot_be_explained(arguments: tuple[str, ...], words: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -37,10 +37,10 @@ def test_points_with_three_decimals_are_refused_with_the_reason(own: Path, capsy
     code, _, err = call(capsys, "hull", "points.deck")
     assert code == 1
     words = " ".join(err.split())
-    assert "no hull: program 3, card 51, IF(E(J))119,117,119, decided at the point" in words
-    assert re.search(r"equation \d+ was made from, and gives -?\.\d{8}E[+-]\d\d in it instead of 0", words)
+    assert "no hull: program 3, decided by card 51, IF(E(J))119,117,119 for the point" in words
+    assert re.search(r"equation \d+, but its value there is -?\.\d{8}E[+-]\d\d instead of 0", words)
     assert "eight digits do not hold the products of its coordinates (known fault 6)" in words
-    assert "--explain says more" in words
+    assert "for details add --explain" in words
     code, _, longer = call(capsys, "hull", "points.deck", "--explain")
     assert code == 1
     assert "Chapter 7 of the thesis proposes" in " ".join(longer.split())

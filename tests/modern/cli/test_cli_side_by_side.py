@@ -29,8 +29,9 @@ def test_two_columns_mark_each_character() -> None:
 
 def test_a_narrow_terminal_has_one_below_the_other() -> None:
     assert list(side_by_side(["A=1.25", "B"], ["A=1.35", "B"], 26)) == [
-        "      = the same; |",
-        "      different, marked by ^",
+        "      = equal; |",
+        "      different, marked by",
+        "      ^",
         "     1 | print  A=1.25",
         "         result A=1.35",
         "                    ^",

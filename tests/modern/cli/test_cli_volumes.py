@@ -48,10 +48,10 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_what_was_chosen_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     words = {
-        (): "values other than 0 of 0 to 7; 89 voxels",
+        (): "values other than 0, of 0 to 7; 89 voxels",
         ("--label", "1"): "label 1 of 1, 2, 7; 8 voxels",
         ("--label", "7", "--label", "1", "--label", "7"): "labels 7, 1 of 1, 2, 7; 88 voxels",
-        ("--threshold", "1.5"): "values from 1.5 up (>=) of 0 to 7; 81 voxels",
+        ("--threshold", "1.5"): "values of at least 1.5, of 0 to 7; 81 voxels",
     }
     for options, said in words.items():
         for command in ("voxel-hull", "octree-hull"):
@@ -59,7 +59,7 @@ def test_what_was_chosen_is_said(capsys: pytest.CaptureFixture[str]) -> None:
             assert code == 0
             assert err.splitlines()[0] == f"scan.nrrd: {said}; spacing 0.5 0.5 2 mm"
     octree = call(capsys, "octree-hull", "scan.nrrd", "--tables")[2].splitlines()
-    assert octree[1:] == ["coordinates: indices, of voxels' centres"]
+    assert octree[1:] == ["coordinates: voxel indices; vertices are centres"]
     assert call(capsys, "voxel-hull", "scan.npy")[2].splitlines()[0].endswith("; no spacing stated")
     placed = call(capsys, "voxel-hull", "scan.npy", "--spacing", ".5,.5,2")[2].splitlines()[0]
     assert placed.endswith("spacing 0.5 0.5 2 (unit not stated)")
@@ -67,18 +67,18 @@ def test_what_was_chosen_is_said(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_what_coordinates_mean_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     assert call(capsys, "voxel-hull", "scan.nrrd")[2].splitlines()[1] == (
-        "coordinates: left-posterior-superior; the centre of voxel (0, 0, 0) at -10 5 0.25; the array's axes run left, "
+        "coordinates: left-posterior-superior; centre of voxel (0, 0, 0) at -10 5 0.25; the array's axes run left, "
         "anterior, superior; vertices are corners, half a voxel from centres"
     )
     ras = call(capsys, "voxel-hull", "scan.nrrd", "--space", "ras", "--centres")[2].splitlines()[1]
-    assert ras.startswith("coordinates: right-anterior-superior; the centre of voxel (0, 0, 0) at 10 -5 0.25; ")
+    assert ras.startswith("coordinates: right-anterior-superior; centre of voxel (0, 0, 0) at 10 -5 0.25; ")
     assert ras.endswith("run left, anterior, superior; vertices are centres")
     for words in (["scan.nrrd", "--space", "index"], ["scan.npy"]):
         assert call(capsys, "voxel-hull", *words)[2].splitlines()[1] == (
-            "coordinates: indices, voxel (x, y, z) from (x, y, z) to (x+1, y+1, z+1)"
+            "coordinates: voxel indices; voxel (x, y, z) extends from (x, y, z) to (x+1, y+1, z+1)"
         )
         assert call(capsys, "voxel-hull", *words, "--centres")[2].splitlines()[1] == (
-            "coordinates: indices, of voxels' centres"
+            "coordinates: voxel indices; vertices are centres"
         )
 
 
@@ -129,7 +129,7 @@ def test_each_label_has_a_row_and_a_mesh(capsys: pytest.CaptureFixture[str]) -> 
     assert head.split() == "label voxels volume hull volume hull area solidity deficiency".split()
     assert rows[0].split() == ["1", "8", "4", "4", "18", "1", "0"]
     assert [row.split()[:2] for row in rows] == [["1", "8"], ["2", "1"], ["7", "80"]]
-    assert foot == "lengths in mm; numbers to 12 digits, with --csv to 50 and exact"
+    assert foot == "lengths in mm; numbers to 12 digits (--csv: 50 digits and exact fractions)"
     with open("t.csv", encoding="ascii", newline="") as file:
         table = list(csv.DictReader(file))
     assert [row["unit"] for row in table] == ["mm"] * 3
@@ -164,7 +164,7 @@ def test_a_filled_hull_keeps_the_place_of_the_scan(capsys: pytest.CaptureFixture
     call(capsys, "octree-hull", "scan.nrrd", "--label", "7", "-o", "octree.nrrd")
     assert Path("octree.nrrd").read_bytes() == Path("filled.nrrd").read_bytes()
     err = call(capsys, "voxel-hull", "scan.nrrd", "--fill", "-o", "filled.npy")[2]
-    assert "note: filled.npy holds no spacing and no origin; a name ending .nrrd keeps them\n" in err
+    assert "note: filled.npy contains no spacing and no origin; an .nrrd file would contain them\n" in err
     call(capsys, "voxel-hull", "scan.nrrd", "--fill", "--space", "ras", "-o", "ras.nrrd")
     assert read_volume("ras.nrrd").world == WORLD.turned("right-anterior-superior")
     call(capsys, "voxel-hull", "scan.nrrd", "--fill", "--space", "index", "-o", "index.nrrd")
@@ -189,22 +189,22 @@ def test_an_array_of_several_is_named(capsys: pytest.CaptureFixture[str]) -> Non
         ("scan.npy --spacing 1,1", "scan.npy: spacing: expected 3 numbers, found 2"),
         ("scan.npy --spacing 1,x,1", "--spacing: 'x' is not a decimal number"),
         ("scan.npy --spacing 1,0,1", "scan.npy: the spacing of an axis is 0"),
-        ("scan.npy --space ras", "--space ras: the file does not say where its voxels lie"),
+        ("scan.npy --space ras", "--space ras: the file does not state where its voxels lie"),
         ("scan.npy --spacing 1,1,1 --space lps", "--space lps: the file's space is not named"),
         ("scan.npz", "scan.npz: found 2 arrays; select one with --array: other, scan"),
         ("scan.npz --array third", "scan.npz: there is no array 'third'; the file has other, scan"),
         ("scan.npy --array scan", "scan.npy: an array can be selected only in an NPZ file"),
         ("scan.npy --series 1", "scan.npy: a series can be selected only in a folder of DICOM files"),
-        ("scan.nrrd --each-label -o a.off", "'a.off' has no place for a label as in 'label-%d.off'"),
-        ("scan.nrrd --each-label -o a-%d.json", "a-%d.json: the name must end with one of .off"),
-        ("scan.nrrd --each-label --fill -o a-%d.off", "the name must end with .npy or .nrrd"),
-        ("scan.nrrd --each-label --fill -o a-%d.npy", "its place is kept by .nrrd, not by .npy"),
-        ("scan.nrrd --each-label --cells", "--cells is of one hull"),
-        ("scan.nrrd --each-label --threshold 1", "--threshold is not for it"),
+        ("scan.nrrd --each-label -o a.off", "'a.off' has no place for a label; write a name such as 'label-%d.off'"),
+        ("scan.nrrd --each-label -o a-%d.json", "a-%d.json: expected a name that ends with one of .off"),
+        ("scan.nrrd --each-label --fill -o a-%d.off", "expected a name that ends with .npy or .nrrd"),
+        ("scan.nrrd --each-label --fill -o a-%d.npy", "which only .nrrd contains"),
+        ("scan.nrrd --each-label --cells", "--cells prints one hull"),
+        ("scan.nrrd --each-label --threshold 1", "--threshold cannot be combined"),
         ("scan.nrrd --each-label --label 9", "no voxel has the label 9"),
-        ("scan.nrrd --csv t.csv", "--csv is the table of --each-label"),
-        ("scan.nrrd --each-label --csv scan.nrrd", "scan.nrrd: is the input too"),
-        ("scan.nrrd --fill -o a.off", "the name must end with .npy or .nrrd"),
+        ("scan.nrrd --csv t.csv", "--csv needs --each-label"),
+        ("scan.nrrd --each-label --csv scan.nrrd", "scan.nrrd: this output is also an input"),
+        ("scan.nrrd --fill -o a.off", "expected a name that ends with .npy or .nrrd"),
     ],
 )
 def test_what_cannot_be_done_is_one_line(words: str, message: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -242,4 +242,4 @@ def test_a_picture_is_filled_and_has_no_polyhedron(capsys: pytest.CaptureFixture
     assert call(capsys, "voxel-hull", "picture.npy", "--fill", "--spacing", "1,2")[0] == 0
     code, _, err = call(capsys, "voxel-hull", "picture.npy")
     assert code == 2
-    assert "a picture of two dimensions" in err
+    assert "expected a volume of three dimensions, found two" in err

@@ -69,10 +69,10 @@ def test_a_small_error_of_a_coefficient_is_measured_but_is_no_difference() -> No
 @pytest.mark.parametrize(
     ("run", "code", "words"),
     [
-        ("01_tetra", 0, "all agree with the judge"),
+        ("01_tetra", 0, "all agree with the exact hull"),
         ("29_collinear_n10", 0, "a segment of 2 vertices"),
         ("35_coplanar_tilt_n14", 0, "a polygon of 6 vertices"),
-        ("04_cube8", 1, "differs from the judge: listing\n"),
+        ("04_cube8", 1, "differs from the exact hull: listing\n"),
         ("18_dec3_n6", 1, "DATA NOT ACCEPTABLE"),
         ("39_prism_n10", 1, "endless"),
     ],
@@ -109,7 +109,7 @@ def test_an_epsilon_makes_three_decimals_agree(tmp_path: Path, capsys: pytest.Ca
     absolute, scaled = statuses(".01"), statuses("rel:1e-9")
     assert absolute.pop("listing") == scaled.pop("listing") == ("DATA NOT ACCEPTABLE", False)
     assert set(absolute.values()) == {("determined", True)}
-    assert scaled.pop("listing + epsilon + corrected")[0] == "not run: the cards take an absolute e"
+    assert scaled.pop("listing + epsilon + corrected")[0] == "not run: cards hold only an absolute e"
     assert set(scaled.values()) == {("determined", True)}
     capsys.readouterr()
 

@@ -219,7 +219,7 @@ def test_draw_writes_an_svg_file(room: Path, capsys: pytest.CaptureFixture[str])
 
 # arguments, words of the message
 BAD_ARGUMENTS = [
-    (("export", "t.csv"), "export: give a file with -o, or a --format for standard output"),
+    (("export", "t.csv"), "export: name a file with -o, or for standard output a format with --format"),
     (("export", "t.csv", "-o", "t.dxf"), "t.dxf: the name must end with one of .off, .obj, .ply, .stl, .json, .html"),
     (("export", "t.csv", "-o", "none/t.off"), "none/t.off: no such file or directory"),
     (("export", "none.csv", "-o", "t.off"), "none.csv: no such file or directory"),

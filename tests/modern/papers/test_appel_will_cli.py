@@ -69,12 +69,12 @@ def section(out: str, head: str) -> list[str]:
 def test_tables_of_fig_4(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "fig4.off")
     assert (code, err) == (0, "")
-    assert "deleted as between two others: 4 (1-9), 3 (2-10)" in out
+    assert "deleted as lying between two others: 4 (1-9), 3 (2-10)" in out
     assert "31 projections; a polyhedron of 8 points" in out
     assert len(section(out, "Convex edge list")) == 13
     assert [row.split()[0] for row in section(out, "Vertex list")[1:]] == ["1", "2", "5", "6", "7", "8", "9", "10"]
     assert section(out, "Topological map")[0] == "surface 1: 2 1 6 5"
-    assert section(out, "The surfaces given")[-1] == "added: surface 1"
+    assert section(out, "Input surfaces")[-1] == "added: surface 1"
     assert "IUC" not in out
 
 
@@ -96,23 +96,23 @@ def test_trace_fits_the_use_counts_to_the_width_of_the_terminal(
 def test_literal_lists_the_false_edges_of_the_star_test(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "fig4.off", "--literal")
     assert code == 1
-    assert "edges are none, by images on one ray" in out
+    assert "lines are not edges of the hull, by images on one ray" in out
     assert out.splitlines()[-1].startswith("no hull: ")
-    assert "The surfaces given" not in out
+    assert "Input surfaces" not in out
     code, out, err = call(capsys, "fig4.off", "--literal", "--star", "corrected")
-    assert (code, err) == (1, "note: taken as printed: star, step3, step5, step7, step9, step10\n")
-    assert "edges are none" not in out
+    assert (code, err) == (1, "note: used as printed: star, step3, step5, step7, step9, step10\n")
+    assert "lines are not edges of the hull" not in out
     assert out.splitlines()[-1] == "no hull: the loop begun with lines 3 and 1 does not return to its start"
     code, out, _ = call(capsys, "fig4.off", "--star", "printed")
     assert code == 1
-    assert "edges are none" in out
+    assert "lines are not edges of the hull" in out
 
 
 def test_step_3_as_printed_reverses_a_loop(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("fig14.csv").write_text("0,0,4\n8,0,4\n4,8,4\n1,-2,0\n9,14,0\n17,-2,0\n", encoding="utf-8")
     _, preferred, _ = call(capsys, "fig14.csv")
     code, as_printed, err = call(capsys, "fig14.csv", "--printed", "step3")
-    assert (code, err) == (0, "note: taken as printed: step3\n")
+    assert (code, err) == (0, "note: used as printed: step3\n")
     assert "LUP(3,N)  2 6 -7 -3" in preferred
     assert "LUP(3,N)  -2 3 7 -6" in as_printed
 
@@ -121,7 +121,7 @@ def test_rule_any_reports_whether_its_condition_is_met(folder: Path, capsys: pyt
     _, out, _ = call(capsys, "fig4.off", "--inside-corners", "any")
     assert "deleted by rule any before any projection: 3 4" in out
     assert "28 projections" in out
-    assert "this is so for the surfaces given" in out
+    assert "valid for the input surfaces" in out
     _, out, _ = call(capsys, "crown.off", "--inside-corners", "any")
     assert "this is NOT so at 9: the hull may be wrong" in out
     _, out, _ = call(capsys, "crown.off", "--inside-corners", "two")

@@ -288,7 +288,7 @@ def test_more_than_50_points_are_summarised(folder: Path, capsys: pytest.Capture
     assert lines[2].startswith("convex edge list: ")
     assert lines[3].startswith("loop table: ")
     assert lines[3].endswith(" of 3 lines)")
-    assert lines[4] == "--all lists everything"
+    assert lines[4] == "for all tables add --all"
     everything = call(capsys, "appel-will", "many.csv", "--all")[1]
     edges = int(lines[2].split()[3])
     start = everything.splitlines().index("Convex edge list")
@@ -303,7 +303,7 @@ def test_more_than_50_points_are_summarised(folder: Path, capsys: pytest.Capture
     out = call(capsys, "appel-will", "more.off", "--inside-corners", "two")[1]
     assert f"of the {faces} surfaces given {faces} kept, 0 respecified, 0 deleted; 0 added\n" in out
     assert "0 points deleted by rule two before any projection\n" in out
-    assert "28 points deleted as between two others\n" in out
+    assert "28 points deleted as lying between two others\n" in out
 
 
 def test_merged_faces_match_the_faces_of_the_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -312,7 +312,7 @@ def test_merged_faces_match_the_faces_of_the_file(folder: Path, capsys: pytest.C
     code, out, err = call(capsys, "appel-will", "d.off", "--coplanar-within", "1e-9", "-o", "e.off")
     assert (code, err.count("\n")) == (0, 1)
     assert err.startswith("note: d.off: 36 faces are joined into 12 within 1e-9; ")
-    assert "Topological map, faces within 1e-9 of a plane read as one\nsurface 1: " in out
+    assert "Topological map, faces within 1e-9 of one plane merged\nsurface 1: " in out
     assert out.count(": kept as surface") == 12
     assert "added" not in out
     assert Path("e.off").read_text(encoding="utf-8").splitlines()[1] == "20 12 30"
@@ -323,7 +323,7 @@ def test_merged_faces_match_the_faces_of_the_file(folder: Path, capsys: pytest.C
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("-o", "a.stl"), "a.stl: the name must end with .off or .svg"),
+        (("-o", "a.stl"), "a.stl: appel-will expects a name that ends with .off or .svg"),
         (("--map",), "--map is a picture: it needs -o FILE.svg"),
         (("--map", "-o", "a.off"), "--map is a picture: it needs -o FILE.svg"),
         (("--star-of", "1-2", "-o", "a.off"), "--star-of is a picture"),

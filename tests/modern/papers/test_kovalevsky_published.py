@@ -113,7 +113,7 @@ WAYS = (
 
 def test_the_command_prints_the_numbers_of_the_paper(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = run(capsys, "ball:32", "--corners", "6", "--coplanar", "invisible", "-o", "ball.off")
-    assert (code, err) == (0, "coordinates: indices, voxel (x, y, z) from (x, y, z) to (x+1, y+1, z+1)\n")
+    assert (code, err) == (0, "coordinates: voxel indices; voxel (x, y, z) extends from (x, y, z) to (x+1, y+1, z+1)\n")
     for number in ("17077", "776", "360", "1404", "266"):
         assert number in out.replace(",", "").split()
     mesh = parse_off(Path("ball.off").read_text(encoding="utf-8"), "ball.off")
@@ -182,7 +182,7 @@ def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None
     assert code == 0
     assert "two.csv: 1 of 3 voxels are repetitions" in err
     assert "(segment): 3 voxels" in out
-    assert "note: the array's first voxel is (3,0,0)" in err
+    assert "note: the first voxel of the array is (3,0,0)" in err
     assert np.load("filled.npy").tolist() == [[[True]], [[True]], [[True]]]
 
 
@@ -190,13 +190,13 @@ def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None
     ("arguments", "message"),
     [
         (("missing.npy",), "missing.npy: no such file or directory"),
-        (("ball:8", "-o", "a.npy"), "a.npy: the name must end with one of .off"),
-        (("ball:8", "-o", "a.json"), "a.json: the name must end with one of .off, .obj, .ply, .stl"),
+        (("ball:8", "-o", "a.npy"), "a.npy: expected a name that ends with one of .off"),
+        (("ball:8", "-o", "a.json"), "a.json: expected a name that ends with one of .off, .obj, .ply, .stl"),
         (("ball:8", "-o", "none/a.off"), "none/a.off: no such file or directory"),
         (("ball:8", "--fill", "-o", "a.off"), "a.off: a filled hull is written as an array"),
-        (("ball:8", "--fill", "--cells"), "--cells is not for it"),
-        (("ball:8", "--fill", "--corners", "6"), "--corners is not for it"),
-        (("ball:8", "--fill", "--order", "raster"), "--order is not for it"),
+        (("ball:8", "--fill", "--cells"), "--cells has no effect with --fill"),
+        (("ball:8", "--fill", "--corners", "6"), "--corners has no effect with --fill"),
+        (("ball:8", "--fill", "--order", "raster"), "--order has no effect with --fill"),
         (("ball:8", "--shape", "2,2,x"), "--shape: '2,2,x' is not NX,NY,NZ"),
         (("ball:8", "--centres", "--vertices"), "not allowed with argument"),
         (("flat.npy",), "flat.npy: expected a volume of three dimensions, found two"),

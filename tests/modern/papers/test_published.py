@@ -84,7 +84,7 @@ def test_the_command_reports_every_verdict(paper: Paper, tmp_path: Path, capsys:
     assert out.startswith(paper.title)
     assert all(f"{count} {kind}" in out for kind, count in kinds.items())
     assert all(finding.result.cannot in out and finding.result.differs in out for finding in verdicts)
-    assert out.endswith("Every printed result comes out, or it is said why it does not.")
+    assert out.endswith("Every printed result is reproduced, or the reason why it cannot be is stated.")
     document = json.loads(path.read_text())["papers"]
     assert [(entry["result"], entry["verdict"]) for entry in document] == [(f.result.id, f.kind) for f in verdicts]
 
@@ -102,4 +102,4 @@ def test_a_result_that_is_not_reproduced_gives_exit_code_1(
     out = capsys.readouterr().out
     assert "Fig. 14: different" in out
     assert "printed 1 1 2; computed 1 1 3" in " ".join(out.split())
-    assert "NOT every printed result comes out." in out
+    assert "NOT every printed result is reproduced." in out

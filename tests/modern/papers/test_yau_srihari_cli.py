@@ -131,16 +131,19 @@ def test_the_trace_has_a_step_for_every_face(stair: str, capsys: pytest.CaptureF
         "  step 1: edge (6,0,0)-(5,0,-1) of a face with normal (0,-1,0)",
         "  step 2: edge (6,2,0)-(6,0,0) of a face with normal (1,0,0)",
     ]
-    assert "    entered (6,0,-1)-(5,1,-1)\n    removed (5,0,-1)-(5,1,-1)\n    3 values entered, 3 edges waiting" in out
+    assert (
+        "    pushed (6,0,-1)-(5,1,-1)\n    removed (5,0,-1)-(5,1,-1)\n    3 values recorded, 3 edges in the queue"
+        in out
+    )
 
 
 def test_literal_reports_the_difference_and_gives_exit_code_1(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "octree-hull", stair, "--literal")
     assert code == 1
     assert out.endswith(
-        "digital hull: 8 voxels, an octree of 25 nodes\nagainst the corrected algorithm: 0 voxels missing, 1 too many\n"
+        "digital hull: 8 voxels, an octree of 25 nodes\ncompared with the corrected algorithm: 0 voxels missing, 1 extra\n"
     )
-    assert f"note: taken as printed: {', '.join(NAMES)}\n" in err
+    assert f"note: used as printed: {', '.join(NAMES)}\n" in err
     assert "note: floor: no point found for 4 of 6 edges" in err
 
 
@@ -150,8 +153,8 @@ def test_printed_statements_that_change_nothing_give_exit_code_0(
     Path("row.csv").write_text("0,0,0\n1,0,0\n2,0,0\n", encoding="utf-8")
     code, out, err = call(capsys, "octree-hull", "row.csv", "--printed", "marks, start")
     assert code == 0
-    assert out.endswith("against the corrected algorithm: 0 voxels missing, 0 too many\n")
-    assert err == "note: taken as printed: start, marks\n"
+    assert out.endswith("compared with the corrected algorithm: 0 voxels missing, 0 extra\n")
+    assert err == "note: used as printed: start, marks\n"
 
 
 def test_help_names_every_statement(capsys: pytest.CaptureFixture[str]) -> None:
@@ -172,7 +175,7 @@ def test_the_filled_hull_is_written_as_an_array(
 
 
 def test_the_index_of_the_first_voxel_of_an_array_is_reported(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert call(capsys, "octree-hull", stair, "-o", "hull.npy")[2] == "note: the array's first voxel is (5,0,-1)\n"
+    assert call(capsys, "octree-hull", stair, "-o", "hull.npy")[2] == "note: the first voxel of the array is (5,0,-1)\n"
 
 
 def test_components_and_a_hull_over_one_line_are_reported(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -189,12 +192,15 @@ def test_components_and_a_hull_over_one_line_are_reported(stair: str, capsys: py
         (["stair.csv", "--printed", "angel"], "--printed: 'angel' is not one of angle, start"),
         (["stair.csv", "--printed", ""], "--printed: '' is not one of angle, start"),
         (["stair.csv", "--literal", "--printed", "angle"], "not allowed with argument"),
-        (["stair.csv", "-o", "hull.svg"], "hull.svg: the name must end with .nrrd or .npy or .off or .obj"),
+        (
+            ["stair.csv", "-o", "hull.svg"],
+            "hull.svg: octree-hull expects a name that ends with .nrrd or .npy or .off or .obj",
+        ),
         (["stair.csv", "-o", "no/hull.npy"], "no/hull.npy: no such file or directory"),
         (["none.csv"], "none.csv: no such file or directory"),
         (["."], "is a directory"),
         (["ball:0"], "ball:0"),
-        (["stair.csv", "--shape", "1,b"], "--shape: '1,b' is not NX,NY,NZ"),
+        (["stair.csv", "--shape", "1,b"], "--shape: expected NX,NY,NZ, found '1,b'"),
     ],
 )
 def test_an_error_is_one_line(

@@ -167,9 +167,9 @@ def test_an_invalid_document_is_reported_in_one_line(tmp_path: Path, capsys: pyt
         (("tei", "--check", "bad.rng"), "bad.rng: no RELAX NG schema"),
         (("tei", "--read", "bad.xml"), "bad.xml, line 1, column 1: not well-formed XML"),
         (("tei", "--read", "other.xml"), "other.xml: not a TEI document with a text"),
-        (("tei", "--read", "good.xml", "--layers", "ocr,nosuch"), "good.xml: there is no layer 'nosuch'"),
+        (("tei", "--read", "good.xml", "--layers", "ocr,nosuch"), "good.xml: unknown layer 'nosuch'"),
         (("tei", "--read", "good.xml", "--part", "x"), "good.xml: unknown part 'x'; the document has none"),
-        (("tei", "--read", "good.xml", "-o", "good.xml"), "an output never overwrites it"),
+        (("tei", "--read", "good.xml", "-o", "good.xml"), "which would be overwritten"),
         (("tei", "--all", "good.xml"), "good.xml: file exists"),
     ],
 )
