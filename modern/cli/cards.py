@@ -17,7 +17,7 @@ def main(args: argparse.Namespace) -> int:
     try:
         deck = data_deck(points.points, source, args.truncate)
     except UnfitPoint as error:
-        remedy = " (add --truncate to drop the others)" if error.digits else ""
+        remedy = " (--truncate drops the others)" if error.digits else ""
         line = points.places[error.point - 1]
         raise FileError(f"{source}: {line}, field {error.field}: {error.why}{remedy}") from None
     except ValueError as error:

@@ -9,7 +9,7 @@ import textwrap
 from collections.abc import Callable
 from pathlib import Path
 
-from modern.cli.shared.console import BAD_INPUT, OK, complain
+from modern.cli.shared.console import BAD_INPUT, OK, print_error
 
 
 def main(args: argparse.Namespace) -> int:
@@ -110,6 +110,6 @@ def verified(folder: Path) -> int:
 
     plan, intact, messages = verify_study(folder)
     for message in messages:
-        complain(message)
+        print_error(message)
     print(f"{folder}: {intact:,} of {plan.samples:,} rows are present and match their checksums")
     return BAD_INPUT if messages else OK

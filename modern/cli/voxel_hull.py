@@ -194,7 +194,7 @@ def _count_lines(hull: VoxelHull) -> Iterator[str]:
     surface = hull.surface
     if isinstance(surface, Flat):
         vertices = f" of {len(surface.vertices)} vertices" if surface.dimension == 2 else ""
-        yield f"flat: the hull is a {surface.kind}{vertices} without a cell list"
+        yield f"flat: the hull is a {surface.kind}{vertices} and has no cell list"
         return
     faces, straight, saved = surface.faces, surface.straight, ""
     if surface.triangulation is None:

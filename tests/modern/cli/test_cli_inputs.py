@@ -96,7 +96,7 @@ def test_too_many_digits_name_a_remedy_that_exists(folder: Path, capsys: pytest.
     code, _, err = call(capsys, "cards", "long.csv", "-o", "long.deck")
     assert (code, err) == (
         2,
-        "hull1620: long.csv: line 1, field 1: 9 significant digits; a card holds 8 (add --truncate to drop the others)\n",
+        "hull1620: long.csv: line 1, field 1: 9 significant digits; a card holds 8 (--truncate drops the others)\n",
     )
     assert call(capsys, "cards", "--truncate", "long.csv", "-o", "long.deck")[0] == 0
     assert "not run" not in call(capsys, "diff", "long.deck")[1]

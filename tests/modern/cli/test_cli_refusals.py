@@ -44,7 +44,7 @@ def test_points_with_three_decimals_are_refused_with_the_reason(own: Path, capsy
     code, _, longer = call(capsys, "hull", "points.deck", "--explain")
     assert code == 1
     assert "Chapter 7 of the thesis proposes" in " ".join(longer.split())
-    assert "KNOWN-FAULTS.md has it under 6" in longer
+    assert "See fault 6 in fortran_src/KNOWN-FAULTS.md" in longer
     assert "--explain" not in longer
 
 

@@ -123,7 +123,7 @@ def test_rule_any_reports_whether_its_condition_is_met(folder: Path, capsys: pyt
     assert "28 projections" in out
     assert "valid for the input surfaces" in out
     _, out, _ = call(capsys, "crown.off", "--inside-corners", "any")
-    assert "this is NOT so at 9: the hull may be wrong" in out
+    assert "NOT valid at 9: the hull may be wrong" in out
     _, out, _ = call(capsys, "crown.off", "--inside-corners", "two")
     assert "NOT" not in out
     assert "a polyhedron of 5 points" in out

@@ -197,7 +197,7 @@ def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None
         (("ball:8", "--fill", "--cells"), "--cells has no effect with --fill"),
         (("ball:8", "--fill", "--corners", "6"), "--corners has no effect with --fill"),
         (("ball:8", "--fill", "--order", "raster"), "--order has no effect with --fill"),
-        (("ball:8", "--shape", "2,2,x"), "--shape: '2,2,x' is not NX,NY,NZ"),
+        (("ball:8", "--shape", "2,2,x"), "--shape: expected NX,NY,NZ, found '2,2,x'"),
         (("ball:8", "--centres", "--vertices"), "not allowed with argument"),
         (("flat.npy",), "flat.npy: expected a volume of three dimensions, found two"),
     ],
@@ -217,4 +217,4 @@ def test_too_little_memory_is_one_line(monkeypatch: pytest.MonkeyPatch, capsys: 
 
     monkeypatch.setattr("modern.cli.voxel_hull.voxel_hull", too_much)
     code, _, err = run(capsys, "ball:4")
-    assert (code, err) == (2, "hull1620: there is not enough memory for this\n")
+    assert (code, err) == (2, "hull1620: not enough memory\n")

@@ -141,7 +141,8 @@ def test_literal_reports_the_difference_and_gives_exit_code_1(stair: str, capsys
     code, out, err = call(capsys, "octree-hull", stair, "--literal")
     assert code == 1
     assert out.endswith(
-        "digital hull: 8 voxels, an octree of 25 nodes\ncompared with the corrected algorithm: 0 voxels missing, 1 extra\n"
+        "digital hull: 8 voxels, an octree of 25 nodes\n"
+        "compared with the corrected algorithm: 0 voxels missing, 1 extra\n"
     )
     assert f"note: used as printed: {', '.join(NAMES)}\n" in err
     assert "note: floor: no point found for 4 of 6 edges" in err
