@@ -265,7 +265,7 @@ def test_all_engines_are_measured(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--decks", "0"], "--decks: 0 is not a number of decks"),
+        (["--decks", "0"], "--decks: expected at least 1 deck, found 0"),
         (["--json", "/nothere/x.json"], "no such file or directory"),
         (["--json", "."], "is a directory"),
     ],

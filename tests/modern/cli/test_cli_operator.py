@@ -333,7 +333,7 @@ def test_without_a_terminal_the_option_says_so(capsys: pytest.CaptureFixture[str
         check=False,
     )
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("hull1620: --operator: there is no terminal to talk to (/dev/tty: ")
+    assert done.stderr.startswith("hull1620: --operator: no terminal (/dev/tty: ")
     assert done.stderr.count("\n") == 1
 
 
@@ -366,7 +366,7 @@ def test_lines_left_over_are_noted(
 def test_slow_is_for_a_terminal(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "run", str(folder / "loop.f"), "--slow", "--operator=none")
     assert (code, out) == (2, "")
-    assert err == "hull1620: --slow: nobody sits at a terminal; --operator has the run talk to it\n"
+    assert err == "hull1620: --slow needs an operator at the terminal; add --operator\n"
 
 
 def test_cards_come_as_they_are_punched_and_a_named_file_only_whole(folder: Path) -> None:

@@ -198,7 +198,7 @@ def test_command_accepts_a_built_in_program(deck: Path, capsys: pytest.CaptureFi
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["my.deck", "--across", "0"], "--across: 0 is not a number of cards"),
+        (["my.deck", "--across", "0"], "--across: expected at least 1 card, found 0"),
         (["my.deck", "-o", "card-%s.svg"], "--output: 'card-%s.svg' has no place for a number as in 'card-%03d.svg'"),
         (["my.deck", "-o", "%d-%d.svg"], "--output: '%d-%d.svg' has no place for a number as in 'card-%03d.svg'"),
         (["my.deck", "-o", "no/%d.svg"], "no/1.svg: no such file or directory"),

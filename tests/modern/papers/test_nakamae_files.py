@@ -127,7 +127,7 @@ def test_the_command_draws_files_with_faces(folder: Path, capsys: pytest.Capture
     code, _, err = call(capsys, "hidden-line", "house", "--hull")
     assert (code, err) == (
         2,
-        "hull1620: --hull and --coplanar-within are for a file of faces or points; a scene file has fields\n",
+        "hull1620: --hull and --coplanar-within need a file of faces or points; a scene file has fields for them\n",
     )
 
 

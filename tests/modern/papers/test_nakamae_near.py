@@ -158,7 +158,7 @@ def test_the_command_reports_clipped_and_omitted_parts(tmp_path: Path, monkeypat
     assert code == 0
     assert err.splitlines()[:2] == [
         "note: 1 part cut by the near plane: s.toml: part 2 (across)",
-        "note: 1 part behind the near plane, left out: s.toml: part 1 (near)",
+        "note: 1 part omitted behind the near plane: s.toml: part 1 (near)",
     ]
     assert call(capsys, "hidden-line", "s.toml", "--near", "1/2", "-o", "b.svg")[2].startswith("polyhedra ")
     assert Path("a.svg").read_text(encoding="utf-8") != Path("b.svg").read_text(encoding="utf-8")

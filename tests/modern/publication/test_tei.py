@@ -158,13 +158,13 @@ def test_an_invalid_document_is_reported_in_one_line(tmp_path: Path, capsys: pyt
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("tei",), "name a text, or a folder with --all; there are program1,"),
-        (("tei", "program4"), "there is no text 'program4'; there are program1,"),
-        (("tei", "program1", "--witness"), "--witness goes with --read"),
-        (("tei", "program1", "--schema"), "program1: no text is named with --all, --schema or --read"),
+        (("tei",), "expected a text, or --all with a folder; the texts are program1,"),
+        (("tei", "program4"), "unknown text 'program4'; expected one of program1,"),
+        (("tei", "program1", "--witness"), "--witness needs --read"),
+        (("tei", "program1", "--schema"), "program1: --all, --schema and --read do not accept a text"),
         (("tei", "--read", "x.xml", "--witness", "--layers", "ocr"), "choose one"),
         (("tei", "--read", "no.xml"), "no.xml"),
-        (("tei", "--check", "bad.rng"), "bad.rng: no RELAX NG schema"),
+        (("tei", "--check", "bad.rng"), "bad.rng: not a RELAX NG schema"),
         (("tei", "--read", "bad.xml"), "bad.xml, line 1, column 1: not well-formed XML"),
         (("tei", "--read", "other.xml"), "other.xml: not a TEI document with a text"),
         (("tei", "--read", "good.xml", "--layers", "ocr,nosuch"), "good.xml: unknown layer 'nosuch'"),

@@ -109,7 +109,7 @@ def test_study_is_not_resumed_after_its_module_has_changed(module: str) -> None:
 
 def test_study_is_not_resumed_in_a_missing_folder(module: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["study", "plans/own.toml", "--resume", "--out", "other"]) == 2
-    assert "--resume: there is no study in other, as there is no such folder" in capsys.readouterr().err
+    assert "--resume: the folder other does not exist" in capsys.readouterr().err
     assert not Path("other").exists()
 
 
