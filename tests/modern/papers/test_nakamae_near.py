@@ -171,9 +171,9 @@ def test_the_command_reports_clipped_and_omitted_parts(tmp_path: Path, monkeypat
         ('projection = "perspective"\n', "", (), "towards: a parallel projection has a direction only, eye"),
         ('projection = "perspective"\neye', "eye", ("--towards", "1,2,3"), "towards: a parallel projection"),
         ("near = 8", "near = 99", (), "everything lies behind the near plane"),
-        ("near = 8", "", ("--near", "0"), "--near: '0' is not a distance greater than 0"),
+        ("near = 8", "", ("--near", "0"), "--near: expected a distance greater than 0, found '0'"),
         ("near = 8", "", ("--near", "a"), "--near: 'a' is not a decimal number"),
-        ("near = 8", "", ("--near", "-1"), "--near: '-1' is not a distance greater than 0"),
+        ("near = 8", "", ("--near", "-1"), "--near: expected a distance greater than 0, found '-1'"),
     ],
 )
 def test_invalid_near_planes_are_rejected(
@@ -190,7 +190,7 @@ def test_a_near_plane_is_for_perspective_only_and_is_suggested_there(capsys) -> 
     with pytest.raises(SceneError, match="view: near: a parallel projection has no near plane"):
         parse("[view]\nnear = 1\n[[part]]\nshape = 'cuboid'\nsize = [1, 1, 1]", "s")
     code, _, err = call(capsys, "hidden-line", "house", "--near", "2")
-    assert (code, err) == (2, "hull1620: --near is for a perspective; a parallel projection has a direction only\n")
+    assert (code, err) == (2, "hull1620: --near needs --perspective; a parallel projection has only a direction\n")
     with pytest.raises(
         SceneError, match=r"^box: not entirely in front of the observation point; a near plane can clip it$"
     ):
