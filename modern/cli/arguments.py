@@ -75,8 +75,8 @@ def _diverge(parser: ArgumentParser) -> None:
         "deck",
         metavar="DECK",
         nargs="?",
-        help="the data cards; for program2 and program3, the cards that program 1 punches (default: none, for a program "
-        "that reads none)",
+        help="the data cards; for program2 and program3, the cards that program 1 punches (default: none, if the "
+        "program reads none)",
     )
     parser.add_argument(
         "--against",
