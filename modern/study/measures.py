@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from decimal import Decimal
 from itertools import pairwise
+from typing import Any
 
 from emulator.machine.divergence import diverge
 from emulator.machine.result import DEFAULT_LIMIT, Options
@@ -23,16 +24,14 @@ from modern.study.sample import Sample
 from modern.thesis.cards import planes_hold, read_intermediate
 from modern.thesis.job import HullRun
 
-Run = HullRun | Hull
-Measure = Callable[[Sample, Run], Figures]
+# A measure accepts a sample and its run, a HullRun or a Hull.
+Measure = Callable[[Sample, Any], Figures]
 _MILLISECOND = Decimal("0.001")
 
 
-def machine_time(sample: Sample, run: Run) -> Figures:
+def machine_time(sample: Sample, run: HullRun) -> Figures:
     """Seconds that all programs take on a 1620, separately for processor, reader, punch and typewriter
     (emulator/machine/timing.py)."""
-    if not isinstance(run, HullRun):
-        return {}
     tables = [measure(step.program, step.result) for step in run.steps]
     seconds = {"processor": sum(table.processor_seconds for table in tables)}
     for device, name in enumerate(("reader", "punch", "typewriter")):
@@ -40,10 +39,8 @@ def machine_time(sample: Sample, run: Run) -> Figures:
     return {f"seconds_{name}": str(Decimal(value).quantize(_MILLISECOND)) for name, value in seconds.items()}
 
 
-def operations(sample: Sample, run: Run) -> Figures:
+def operations(sample: Sample, run: HullRun) -> Figures:
     """Floating-point operations of all programs: additions (with subtractions), products and quotients."""
-    if not isinstance(run, HullRun):
-        return {}
     counts: Counter[str] = Counter()
     for step in run.steps:
         counts.update(dict(measure(step.program, step.result).operations))
@@ -54,28 +51,26 @@ def operations(sample: Sample, run: Run) -> Figures:
     }
 
 
-def plane_table(sample: Sample, run: Run) -> Figures:
+def plane_table(sample: Sample, run: Hull) -> Figures:
     """The largest number of entries of program 3's plane table in use at once, from the history of a run of the port.
 
     New planes are appended before the planes they replace are deleted, so a stage that begins with L planes and
     replaces m of them reaches L + 2m + 1 entries (thesis p. 32, statements 126 to 140).
     """
-    if not isinstance(run, Hull) or run.dimension < 3 or not run.history:
+    if run.dimension < 3 or not run.history:
         return {}
     stages = run.history
     peaks = (len(before.equations) + 2 * after.outside + 1 for before, after in pairwise(stages))
     return {"planes_at_once": max(peaks, default=len(stages[0].equations))}
 
 
-def divergence(sample: Sample, run: Run) -> Figures:
+def divergence(sample: Sample, run: HullRun) -> Figures:
     """The first statement at which eight-digit and exact arithmetic decide differently on the same cards.
 
     ``diverges`` names program and statement.  It is ``cards to program3`` if all decisions of program 1 agree but a
     plane that it punched with eight digits misses its own points, which no arithmetic of the next program can correct.
     It is empty if all decisions agree.  ``undecided`` gives the reason if exact arithmetic cannot follow the run.
     """
-    if not isinstance(run, HullRun):
-        return {}
     studied, exact = numbers("truncating"), numbers("exact")
     for step in run.steps:
         # The cards between two programs can already be wrong, before the next program decides anything.
@@ -97,6 +92,10 @@ MEASURES: Mapping[str, Measure] = {
     "plane_table": plane_table,
     "divergence": divergence,
 }
+
+
+# The measures of runs of the port; the others measure runs of the programs.
+OF_PORT = frozenset({"plane_table"})
 
 
 def measure_of(name: str) -> Measure:

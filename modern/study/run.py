@@ -23,9 +23,9 @@ from modern.port import convex_hull
 from modern.study.chartfile import write_charts
 from modern.study.families import draw_sample
 from modern.study.manifest import NAME, first_difference, manifest, read_manifest, versions, write_manifest
-from modern.study.measures import measure_of
+from modern.study.measures import MEASURES, OF_PORT, measure_of
 from modern.study.parquet import write_parquet
-from modern.study.plan import Cell, Plan, PlanError, Programs, Route, StudyFileError
+from modern.study.plan import Cell, Plan, PlanError, Port, Programs, Route, StudyFileError
 from modern.study.plots import can_plot, draw
 from modern.study.report import Report, outcome_report, write_report
 from modern.study.routes import options_of, programs_of
@@ -217,8 +217,10 @@ def check_plan(plan: Plan) -> None:
         raise PlanError(f"{plan.name}: the plan has no cells")
     _check_distinct((cell.name for cell in plan.cells), f"{plan.name}: two cells have the key")
     files = 0
+    for route in dict.fromkeys(route for cell in plan.cells for route in cell.routes):
+        check_route(route)
     for cell in plan.cells:
-        _check_cell(cell, plan.seed)
+        check_cell(cell, plan.seed)
         files += -(-cell.samples // cell.chunk)
     if files > MOST_FILES:
         raise PlanError(
@@ -226,7 +228,8 @@ def check_plan(plan: Plan) -> None:
         )
 
 
-def _check_cell(cell: Cell, seed: int) -> None:
+def check_cell(cell: Cell, seed: int) -> None:
+    """Check a cell except its routes, and draw its first sample.  Raise PlanError or FamilyError."""
     where = f"cell {cell.name}".rstrip()
     if cell.samples < 1 or cell.chunk < 1:
         raise PlanError(f"{where}: samples and chunk must be at least 1")
@@ -235,16 +238,23 @@ def _check_cell(cell: Cell, seed: int) -> None:
     _check_distinct((route.name for route in cell.routes), f"{where}: two routes have the name")
     if cell.reference and cell.reference not in {route.name for route in cell.routes}:
         raise PlanError(f"{where}: the reference {cell.reference!r} is not one of its routes")
-    for route in cell.routes:
-        _check_route(route)
     draw_sample(cell, seed, 0)
 
 
-def _check_route(route: Route) -> None:
+def check_route(route: Route) -> None:
+    """Check a route.  Raise PlanError."""
     if not route.name:
         raise PlanError("a route has no name")
     for name in route.measures:
         measure_of(name)
+        if name in MEASURES and (name in OF_PORT) != isinstance(route, Port):
+            possible = [known for known in MEASURES if (known in OF_PORT) == isinstance(route, Port)]
+            kind = "the port" if isinstance(route, Port) else "the programs"
+            raise PlanError(
+                f"route {route.name}: the measure {name} does not exist for {kind}, which has {', '.join(possible)}"
+            )
+        if name in OF_PORT and isinstance(route, Port) and not route.history:
+            raise PlanError(f"route {route.name}: the measure {name} needs history = true")
     if not isinstance(route, Programs):
         try:
             convex_hull([(0, 0, 0)], route.arithmetic, route.epsilon or None)

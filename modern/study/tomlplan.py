@@ -30,16 +30,22 @@ Python's module path; ``measures = ["mine:spread"]`` works the same way.
 
 from __future__ import annotations
 
+import re
 import sys
 import tomllib
-from collections.abc import Mapping
-from dataclasses import fields
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from emulator.errors import EmulatorError
 from emulator.files import read_text
+from modern.study.families import FAMILIES, check_keywords, family_of
 from modern.study.families.given import file_points
-from modern.study.plan import SEED, Cell, Plan, PlanError, Port, Programs, Route
+from modern.study.plan import CHUNK, SEED, Cell, Plan, PlanError, Port, Programs, Route
+from modern.study.registry import names as built_in_names
+from modern.study.run import check_cell, check_route
 
 _SAMPLES = 1000
 _HEAD = ("name", "title", "question", "samples", "seed", "notes", "route", "cell")
@@ -51,6 +57,78 @@ _TYPES: tuple[tuple[str, type, str], ...] = (
     ("routes", list, "a list of names"),
     ("reference", str, "a route's name"),
 )
+# Strings and comments of TOML, which may contain anything.
+_MASKED = re.compile(
+    r'"""(?:\\.|[^\\])*?"{3,5}|' r"'''.*?'{3,5}|" r'"(?:\\.|[^"\\\n])*"|' r"'[^'\n]*'|#[^\n]*", re.DOTALL
+)
+_HEADER = re.compile(r"\s*(\[\[?)\s*([\w.-]+)")
+
+
+@dataclass(frozen=True, slots=True)
+class _Section:
+    """A section of a plan file, for error messages.
+
+    name, number: ``route`` or ``cell`` and its number, counted from 1; empty and 0 for the keys before all sections.
+    """
+
+    path: str
+    text: str
+    name: str = ""
+    number: int = 0
+
+    def error(self, message: str, key: str = "") -> PlanError:
+        """Return an error that names the file, the line of the key or else of the section, and the section."""
+        section = f"{self.name} {self.number}: " if self.name else ""
+        return PlanError(f"{self._place(key)}: {section}{message}")
+
+    @contextmanager
+    def locating(self, key: str = "") -> Iterator[None]:
+        """Turn an error of the block into one that names file and line."""
+        try:
+            yield
+        except EmulatorError as error:
+            raise PlanError(f"{self._place(key)}: {error}") from error
+
+    def _place(self, key: str) -> str:
+        """Return the file and the line of a key in this section, or else of the section if it has a line."""
+        sections, header_line = {"": 0}, 0
+        current = ("", 0)
+        for line_number, line in enumerate(_masked(self.text).split("\n"), 1):
+            header = _HEADER.match(line)
+            table, _, subtable = header[2].partition(".") if header else ("", "", "")
+            if header and not subtable:
+                sections[table] = sections.get(table, 0) + 1
+                current = (table, sections[table])
+            if current != (self.name, self.number):
+                continue
+            if key and (subtable == key or re.match(rf"\s*{re.escape(key)}\s*[.=]", line)):
+                return f"{self.path}: line {line_number}"
+            header_line = header_line or line_number * bool(header)
+        return f"{self.path}: line {header_line}" if header_line else self.path
+
+    def integer(self, data: Mapping[str, Any], key: str, default: int, least: int | None = None) -> int:
+        """Return an integer of the section.  Raise PlanError if it has another type or is too small."""
+        value = data.get(key, default)
+        if type(value) is not int or (least is not None and value < least):
+            size = "" if least is None else f" of at least {least}"
+            raise self.error(f"{key}: expected an integer{size}, found {value!r}", key)
+        return value
+
+    def check_type(self, data: Mapping[str, Any], key: str, kind: type, expected: str) -> None:
+        """Raise PlanError if the value of a key has another type."""
+        if key in data and not isinstance(data[key], kind):
+            raise self.error(f"expected {key} to be {expected}, found {data[key]!r}", key)
+
+    def check_keys(self, data: Mapping[str, Any], keys: tuple[str, ...]) -> None:
+        """Raise PlanError if the section has a key that does not exist."""
+        for key in data:
+            if key not in keys:
+                raise self.error(f"unknown name {key!r}; expected {', '.join(keys)}", key)
+
+
+def _masked(text: str) -> str:
+    """Return TOML with the characters of strings and comments replaced by spaces."""
+    return _MASKED.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
 
 
 def is_plan_file(name: str) -> bool:
@@ -59,8 +137,14 @@ def is_plan_file(name: str) -> bool:
 
 
 def read_plan(path: str, samples: int | None = None, seed: int | None = None) -> Plan:
-    """Read the plan of a file; ``samples`` and ``seed`` override those of the file.  Raise FileError or PlanError."""
+    """Read and check the plan of a file; ``samples`` and ``seed`` override those of the file.
+
+    Raise FileError or PlanError, with the line of the fault.
+    """
     text = read_text(path)
+    # TOML requires a digit before the point.  An epsilon is also accepted as the thesis writes it, .001.
+    for match in reversed(list(re.finditer(r"(?m)^\s*epsilon\s*=\s*[+-]?(?=\.\d)", _masked(text)))):
+        text = f"{text[: match.end()]}0{text[match.end() :]}"
     try:
         data = tomllib.loads(text)
     except RecursionError:
@@ -69,7 +153,7 @@ def read_plan(path: str, samples: int | None = None, seed: int | None = None) ->
         raise PlanError(f"{path}: {str(error).splitlines()[0]}") from None
     _add_to_module_path(data, Path(path).resolve().parent)
     try:
-        return _plan(data, Path(path), samples, seed)
+        return _plan(data, path, text, samples, seed)
     except (TypeError, AttributeError) as error:
         raise PlanError(f"{path}: a value has the wrong type: {error}") from None
 
@@ -87,89 +171,93 @@ def _list(value: Any) -> list[Any]:
     return value if isinstance(value, list) else []
 
 
-def _plan(data: Mapping[str, Any], path: Path, samples: int | None, seed: int | None) -> Plan:
-    _check_names(data, _HEAD, f"{path}")
-    for name, expected in (("notes", "a list"), ("route", "[[route]]"), ("cell", "[[cell]]")):
-        _check_type(data, name, list, expected, f"{path}")
+def _plan(data: Mapping[str, Any], path: str, text: str, samples: int | None, seed: int | None) -> Plan:
+    head = _Section(path, text)
+    head.check_keys(data, _HEAD)
+    for key, expected in (("notes", "a list"), ("route", "[[route]]"), ("cell", "[[cell]]")):
+        head.check_type(data, key, list, expected)
+    name = str(data.get("name", Path(path).stem))
+    if name in built_in_names():
+        raise head.error(f"{name!r} is the name of a built-in study; choose another name", "name")
+    default_samples = head.integer(data, "samples", _SAMPLES, 1)
+    plan_seed = head.integer(data, "seed", SEED)
     routes: dict[str, Route] = {}
     for number, raw in enumerate(data.get("route", ()), 1):
-        route = _route(raw, f"{path}: route {number}")
+        section = _Section(path, text, "route", number)
+        route = _route(raw, section)
         if route.name in routes:
-            raise PlanError(f"{path}: two routes have the name {route.name!r}")
+            raise section.error(f"two routes have the name {route.name!r}", "name")
         routes[route.name] = route
     if not routes:
         raise PlanError(f"{path}: there is no [[route]]")
     cells = []
     for number, raw in enumerate(data.get("cell", ()), 1):
-        where = f"{path}: cell {number}"
-        _check_names(raw, _CELL, where)
-        size = samples or raw.get("samples", data.get("samples", _SAMPLES))
-        cells.append(_cell(raw, routes, size, path.parent, where))
-    name = str(data.get("name", path.stem))
-    plan_seed = data.get("seed", SEED) if seed is None else seed
-    if type(plan_seed) is not int:
-        raise PlanError(f"{path}: the seed must be an integer")
+        section = _Section(path, text, "cell", number)
+        section.check_keys(raw, _CELL)
+        cell_samples = section.integer(raw, "samples", default_samples, 1)
+        cell = _cell(raw, routes, samples or cell_samples, section)
+        with section.locating():
+            check_cell(cell, plan_seed if seed is None else seed)
+        cells.append(cell)
     return Plan(
         name,
         str(data.get("title", name)),
         str(data.get("question", "")),
         tuple(cells),
-        plan_seed,
+        plan_seed if seed is None else seed,
         tuple(map(str, data.get("notes", ()))),
     )
 
 
-def _route(raw: Mapping[str, Any], where: str) -> Route:
+def _route(raw: Mapping[str, Any], section: _Section) -> Route:
     values = {name: tuple(value) if isinstance(value, list) else value for name, value in raw.items()}
     kind = values.pop("kind", "programs")
     if kind not in ("programs", "port"):
-        raise PlanError(f"{where}: expected kind programs or port, found {kind!r}")
+        raise section.error(f"expected kind programs or port, found {kind!r}", "kind")
     route_type: type[Any] = Programs if kind == "programs" else Port
-    _check_names(values, tuple(field.name for field in fields(route_type)), where)
+    section.check_keys(values, tuple(field.name for field in fields(route_type)))
     if not isinstance(values.get("name"), str):
-        raise PlanError(f"{where}: it has no name")
+        raise section.error("it has no name")
+    epsilon = values.get("epsilon")
+    if type(epsilon) in (int, float, str):
+        values["epsilon"] = f"0{epsilon}" if str(epsilon).startswith(".") else str(epsilon)
     default = route_type("")
     for name, value in values.items():
         has_only_text = not isinstance(value, tuple) or all(isinstance(element, str) for element in value)
-        types = (str, int, float) if name == "epsilon" else (type(getattr(default, name)),)
-        if type(value) not in types or not has_only_text:
-            raise PlanError(f"{where}: {name} = {value!r} has the wrong type")
+        if type(value) is not type(getattr(default, name)) or not has_only_text:
+            raise section.error(f"{name} = {raw[name]!r} has the wrong type", name)
     route: Route = route_type(**values)
+    with section.locating():
+        check_route(route)
     return route
 
 
-def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, folder: Path, where: str) -> Cell:
+def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, section: _Section) -> Cell:
     if "family" not in raw:
-        raise PlanError(f"{where}: it has no family")
+        raise section.error("it has no family")
     for name, kind, expected in _TYPES:
-        _check_type(raw, name, kind, expected, where)
+        section.check_type(raw, name, kind, expected)
     route_names = raw.get("routes", list(routes))
     missing = [name for name in route_names if name not in routes]
     if missing:
-        raise PlanError(f"{where}: there is no route {missing[0]!r}")
+        raise section.error(f"there is no route {missing[0]!r}; the routes are {', '.join(routes)}", "routes")
     family, parameters = str(raw["family"]), dict(raw.get("parameters", {}))
     default_key = {"family": family, **{name: str(value) for name, value in parameters.items()}}
     if family == "file":
         if not isinstance(parameters.get("path"), str):
-            raise PlanError(f"{where}: the family file needs a path")
-        family, path = "points", folder / parameters.pop("path")
-        parameters["points"] = file_points(str(path))
-    if type(samples) is not int or type(raw.get("chunk", 1)) is not int:
-        raise PlanError(f"{where}: samples and chunk must be integers")
+            raise section.error("the family file needs a path", "parameters")
+        family, path = "points", Path(section.path).parent / parameters.pop("path")
+        with section.locating("parameters"):
+            parameters["points"] = file_points(str(path))
+    if ":" not in family and family not in FAMILIES:
+        choices = ", ".join((*FAMILIES, "file"))
+        raise section.error(f"no family is called {family!r}; expected {choices} or module:function", "family")
+    with section.locating("family"):
+        family_of(family)
+    with section.locating("parameters"):
+        check_keywords(family, parameters)
+    optional = {"chunk": section.integer(raw, "chunk", CHUNK, 1), "reference": raw.get("reference", "")}
     key = dict(raw.get("key", default_key))
     if not all(isinstance(value, str | int) for value in key.values()):
-        raise PlanError(f"{where}: the values of its key must be text or integers")
-    cell_routes = tuple(routes[name] for name in route_names)
-    optional = {name: raw[name] for name in ("reference", "chunk") if name in raw}
-    return Cell(key, family, parameters, cell_routes, samples, **optional)
-
-
-def _check_type(data: Mapping[str, Any], name: str, kind: type, expected: str, where: str) -> None:
-    if name in data and not isinstance(data[name], kind):
-        raise PlanError(f"{where}: expected {name} to be {expected}, found {data[name]!r}")
-
-
-def _check_names(data: Mapping[str, Any], names: tuple[str, ...], where: str) -> None:
-    unknown = [name for name in data if name not in names]
-    if unknown:
-        raise PlanError(f"{where}: unknown name {unknown[0]!r}; expected {', '.join(names)}")
+        raise section.error("the values of its key must be text or integers", "key")
+    return Cell(key, family, parameters, tuple(routes[name] for name in route_names), samples, **optional)

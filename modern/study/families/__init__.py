@@ -16,6 +16,7 @@ To add a family:
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Mapping
 
 from modern.formats.deck import coordinate_field
@@ -44,6 +45,17 @@ FAMILIES: Mapping[str, Family] = {
 def family_of(name: str) -> Family:
     """Return the family of that name, or the function ``module:function``.  Raise PlanError if it is unknown."""
     return named("family", name, FAMILIES)
+
+
+def check_keywords(name: str, parameters: Mapping[str, object]) -> None:
+    """Raise PlanError, naming the parameters of a family, if it does not accept the given ones."""
+    signature = inspect.signature(family_of(name))
+    try:
+        signature.bind(None, **_keywords(parameters))
+    except TypeError as error:
+        raise PlanError(
+            f"family {name}: {error}; its parameters are {', '.join(list(signature.parameters)[1:])}"
+        ) from None
 
 
 def draw_sample(cell: Cell, study: int, index: int) -> Drawn:

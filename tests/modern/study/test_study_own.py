@@ -114,7 +114,7 @@ def test_study_is_not_resumed_in_a_missing_folder(module: str, capsys: pytest.Ca
 
 
 DIGITS = """
-name = "digits"
+name = "twelve"
 samples = 6
 
 [[route]]
@@ -147,7 +147,7 @@ def test_digits_beyond_the_cards_are_kept_with_uncut_and_otherwise_lost_with_a_n
     note = "route cut: the cards between the programs hold 8 digits of a number; uncut = true keeps all digits"
     assert err.count(note) == 1
     assert "route whole: the cards" not in err
-    lines = Path("digits/table.csv").read_text(encoding="utf-8").splitlines()
+    lines = Path("twelve/table.csv").read_text(encoding="utf-8").splitlines()
     found = {row.split(",")[1]: row.split(",")[2:4] for row in lines[1:]}
     assert found["whole"] == ["6", "6"], lines
     assert found["cut"] != ["6", "6"], lines

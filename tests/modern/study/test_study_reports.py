@@ -205,21 +205,57 @@ def test_plan_file_is_read(plan_file: Path) -> None:
         ("name = ", "Invalid value"),
         ("a = 1", "unknown name 'a'"),
         ("name = 'x'", "there is no [[route]]"),
-        ("[[route]]\nlimit = 3", "route 1: it has no name"),
-        ("[[route]]\nname = 'a'\nlimit = '3'", "limit = '3' has the wrong type"),
+        ("[[route]]\nlimit = 3", "bad.toml: line 1: route 1: it has no name"),
+        ("[[route]]\nname = 'a'\nlimit = '3'", "line 3: route 1: limit = '3' has the wrong type"),
         ("[[route]]\nname = 'a'\nlimit = true", "limit = True has the wrong type"),
-        ("[[route]]\nname = 'a'\nmeasures = [1]", "measures = (1,) has the wrong type"),
+        ("[[route]]\nname = 'a'\nmeasures = [1]", "line 3: route 1: measures = [1] has the wrong type"),
         ("x = " + "[" * 3000 + "]" * 3000, "nested too deeply"),
         ("[[route]]\nname = 'a'\nkind = 'train'", "expected kind programs or port"),
         ("[[route]]\nname = 'a'\n[[route]]\nname = 'a'", "two routes"),
-        ("[[route]]\nname = 'a'\n[[cell]]\nroutes = ['b']\nfamily = 'thesis'", "no route 'b'"),
-        ("[[route]]\nname = 'a'\n[[cell]]\nn = 3", "cell 1: unknown name 'n'"),
-        ("[[route]]\nname = 'a'\n[[cell]]\nsamples = 3", "cell 1: it has no family"),
+        (
+            "[[route]]\nname = 'a'\n[[cell]]\nroutes = ['b']\nfamily = 'thesis'",
+            "line 4: cell 1: there is no route 'b'; the routes are a",
+        ),
+        (
+            "[[route]]\nname = 'a'\n[[cell]]\nn = 3",
+            "line 4: cell 1: unknown name 'n'; expected key, family, parameters, routes, samples",
+        ),
+        ("[[route]]\nname = 'a'\n[[cell]]\nsamples = 3", "line 3: cell 1: it has no family"),
         ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'file'", "needs a path"),
         ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'file'\nparameters = {path = 'no'}", "no such file"),
-        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nsamples = '3'", "must be integers"),
-        ("seed = 1.5\n[[route]]\nname = 'a'", "the seed must be an integer"),
-        ("seed = true\n[[route]]\nname = 'a'", "the seed must be an integer"),
+        (
+            "[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nsamples = '3'",
+            "line 5: cell 1: samples: expected an integer of at",
+        ),
+        (
+            "# samples =\nsamples = 'many'\n[[route]]\nname = 'a'",
+            "bad.toml: line 2: samples: expected an integer of at",
+        ),
+        ("notes = ['''\nsamples = 1\n''']\nsamples = 0\n[[route]]\nname = 'a'", "bad.toml: line 4: samples: expected"),
+        (
+            "[[route]]\nname = 'a'\n[[cell]]\nfamily = 'cone'",
+            "line 4: cell 1: no family is called 'cone'; expected thesis, int",
+        ),
+        (
+            "[[route]]\nname = 'a'\n[[cell]]\nfamily = 'box'\nparameters = {n = 3, most = 9, least = 1}",
+            "line 5: family box: got an unexpected keyword argument 'least'; its parameters are most, n, centre",
+        ),
+        (
+            "[[route]]\nname = 'a'\n[[cell]]\nfamily = 'box'\n[cell.parameters]\nn = 3",
+            "line 5: family box: missing a required argument: 'most'; its parameters are most, n, centre",
+        ),
+        (
+            "[[route]]\nname = 'a'\n[[cell]]\nfamily = 'box'\nparameters = {n = 99, most = 9}",
+            "line 3: cell family=box n=99 most=9: family box: n is 99; the programs accept 1 to 51 points",
+        ),
+        (
+            "[[route]]\nname = 'a'\n\n[[route]]\nname = 'b'\nkind = 'port'\nmeasures = ['operations']",
+            "line 4: route b: the measure operations does not exist for the port, which has plane_table",
+        ),
+        ("[[route]]\nname = 'a'\narithmetic = 'roman'", "line 1: route a: no arithmetic is called 'roman'"),
+        ("\nname = 'seventy'\n[[route]]\nname = 'a'", "line 2: 'seventy' is the name of a built-in study"),
+        ("seed = 1.5\n[[route]]\nname = 'a'", "line 1: seed: expected an integer, found 1.5"),
+        ("seed = true\n[[route]]\nname = 'a'", "line 1: seed: expected an integer, found True"),
         ("route = 3", "expected route to be [[route]], found 3"),
         ("route = [3]", "a value has the wrong type"),
         ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 3", "cell 1: expected family to be text, found 3"),
@@ -232,7 +268,10 @@ def test_plan_file_is_read(plan_file: Path) -> None:
             "expected parameters to be { name = value }",
         ),
         ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nkey = {a = [1]}", "values of its key"),
-        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nchunk = true", "must be integers"),
+        (
+            "[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nchunk = true",
+            "line 5: cell 1: chunk: expected an integer of",
+        ),
     ],
 )
 def test_invalid_plan_file_gives_a_one_line_error(tmp_path: Path, text: str, message: str) -> None:
@@ -242,6 +281,15 @@ def test_invalid_plan_file_gives_a_one_line_error(tmp_path: Path, text: str, mes
         read_plan(str(path))
     assert message in str(rejection.value)
     assert "\n" not in str(rejection.value)
+
+
+@pytest.mark.parametrize("epsilon", ["'.001'", "'0.001'", "0.001", ".001", "1e-3"])
+@pytest.mark.parametrize("kind", ["kind = 'port'", "layers = ['epsilon']"])
+def test_epsilon_of_a_plan_may_be_a_number_or_text(tmp_path: Path, epsilon: str, kind: str) -> None:
+    plan_text = "[[route]]\nname = 'a'\n{}\nepsilon = {}\n[[cell]]\nfamily = 'box'\nparameters = {{n = 4, most = 9}}"
+    (tmp_path / "plan.toml").write_text(plan_text.format(kind, epsilon))
+    plan = read_plan(str(tmp_path / "plan.toml"))
+    assert plan.cells[0].routes[0].epsilon == "0.001"
 
 
 def test_command_line_runs_resumes_and_lists_studies(plan_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
