@@ -14,7 +14,7 @@ from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.study.families.thesis import SHEET
 from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Programs
-from modern.study.report import INTERVALS, Bars, Series, Table, percent, with_interval
+from modern.study.report import INTERVALS, Bars, Series, Table, percent, row, with_interval
 from modern.study.statistics import Interval, count, exact
 from modern.study.store import Store
 
@@ -77,24 +77,16 @@ def measured(plan: Plan, store: Store) -> tuple[Sheets, ...]:
 def table(sheets: tuple[Sheets, ...]) -> Table:
     """Return a table with a row for each share and form."""
     head = ("decimals", "drawn", "sets", "refused", "of seventy", "failed otherwise", "sheets in 70 for two")
-    rows = tuple(
-        (
-            f"{s.share / 10:g} %",
-            FORMS[s.form],
-            str(s.sets),
-            percent(s.rate),
-            with_interval(count(s.refused, s.sets, SEVENTY), 1),
-            str(s.otherwise),
-            needed(s),
-        )
-        for s in sheets
-    )
+    rows = []
+    for s in sheets:
+        of_seventy = with_interval(count(s.refused, s.sets, SEVENTY), 1)
+        rows.append(row(f"{s.share / 10:g} %", FORMS[s.form], s.sets, s.rate, of_seventy, s.otherwise, needed(s)))
     notes = (
         "Refused: DATA NOT ACCEPTABLE. Sheets in 70 for two: the number of such sheets among seventy sets that makes "
         "two the most probable number of rejections, if the other sets are never rejected.",
         *INTERVALS,
     )
-    return Table("decimals", "Data sheets with decimals, as listed", head, rows, notes)
+    return Table("decimals", "Data sheets with decimals, as listed", head, tuple(rows), notes)
 
 
 def needed(sheets: Sheets) -> str:

@@ -58,6 +58,11 @@ def percent(share: Interval) -> str:
     return f"{100 * share.value:.{digits}f} ({100 * share.low:.{digits}f} to {100 * share.high:.{digits}f}) %"
 
 
+def row(*cells: object) -> tuple[str, ...]:
+    """Format the cells of a row: None as a dash, an interval as a proportion in percent."""
+    return tuple("-" if cell is None else percent(cell) if isinstance(cell, Interval) else str(cell) for cell in cells)
+
+
 def with_interval(estimate: Interval, digits: int = 2) -> str:
     """Format an estimate and its interval: ``1.43 (1.38 to 1.48)``; the estimate alone if the interval is infinite."""
     if isinf(estimate.high):
@@ -155,8 +160,8 @@ def outcome_report(plan: Plan, store: Store) -> Report:
     for number, cell in enumerate(plan.cells):
         for route in cell.routes:
             share = counts.share(number, route.name)
-            numbers = [str(counts.hits(number, route.name, (outcome,))) for outcome in outcomes]
-            rows.append((cell.name, route.name, str(counts.of(number, route.name)), *numbers, percent(share)))
+            numbers = [counts.hits(number, route.name, (outcome,)) for outcome in outcomes]
+            rows.append(row(cell.name, route.name, counts.of(number, route.name), *numbers, share))
             series.setdefault(route.name, []).append((cell.name or "all", share))
     table = Table("table", plan.title, ("cell", "route", "sets", *outcomes, "hull found"), tuple(rows), INTERVALS)
     chart = Bars(

@@ -14,7 +14,7 @@ from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from modern.edition import programs
 from modern.study.outcomes import TABLE
 from modern.study.plan import Cell, Plan, Port, Programs, Value
-from modern.study.report import Lines, Mark, Report, Series, Table, percent, with_interval
+from modern.study.report import Lines, Mark, Report, Series, Table, row, with_interval
 from modern.study.statistics import Interval, exact, mean_of
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary, values
@@ -34,7 +34,6 @@ _NAMES = {"integers": "cube, solid", "cube": "cube, surface"}
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """Return the plan for ``samples`` sets of each family and N."""
     routes = (Programs(LISTED), Port(EXACT, history=True, measures=("plane_table",)))
     grid = tuple(
         Cell({"sets": _NAMES.get(family, family), "n": n}, family, {"digits": 2, "n": n}, routes, samples, chunk=20)
@@ -87,7 +86,6 @@ def positions(places: int) -> int:
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Return the tables, charts and conclusions."""
     counts, peaks = summary(store), _peaks(plan, store)
     return Report(
         (_main(plan, counts, peaks), _sizes(plan, counts, peaks), _core(peaks)),
@@ -104,48 +102,26 @@ def _main(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> Table:
         last, n = along[-1]
         if last not in peaks:
             continue
-        rows.append(
-            (
-                str(name),
-                str(over[0]) if over else "-",
-                str(int(n)),
-                with_interval(peaks[last].mean, 1),
-                str(peaks[last].most),
-                percent(counts.share(last, LISTED, (TABLE,))),
-            )
-        )
+        mean, share = with_interval(peaks[last].mean, 1), counts.share(last, LISTED, (TABLE,))
+        rows.append(row(name, over[0] if over else None, int(n), mean, peaks[last].most, share))
     head = ("sets", "more than 98 from N =", "largest N", "places there, mean", "most", "table full, as listed")
     return Table("table", "Entries of the 98-entry plane table in use at once", head, tuple(rows), (_INTERVALS,))
 
 
 def _sizes(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> Table:
-    rows = tuple(
-        (
-            str(cell.key["sets"]),
-            str(cell.key["n"]),
-            str(counts.of(k, LISTED)),
-            with_interval(peaks[k].mean, 1),
-            str(peaks[k].most),
-            percent(counts.share(k, LISTED, (TABLE,))),
-            percent(counts.share(k, LISTED)),
-        )
-        for k, cell in enumerate(plan.cells)
-        if k in peaks
-    )
+    rows = []
+    for k, peak in peaks.items():
+        key, shares = plan.cells[k].key, (counts.share(k, LISTED, (TABLE,)), counts.share(k, LISTED))
+        rows.append(row(key["sets"], key["n"], counts.of(k, LISTED), with_interval(peak.mean, 1), peak.most, *shares))
     head = ("sets", "N", "number", "places at once, mean", "most", "table full, as listed", "hull found, as listed")
-    return Table("sizes", "Entries in use at once at each N", head, rows, (_INTERVALS,))
+    return Table("sizes", "Entries in use at once at each N", head, tuple(rows), (_INTERVALS,))
 
 
 def _core(peaks: dict[int, _Peak]) -> Table:
     most = max((peak.most for peak in peaks.values()), default=PLACES)
     sizes = (("as listed", PLACES), ("most places seen", most), ("never full: 4N - 11 at N = 51", 4 * POINTS[-1] - 11))
     rows = tuple(
-        (
-            name,
-            str(places),
-            str(positions(places)),
-            next((str(core) for core in CORE if positions(places) <= core), "none"),
-        )
+        row(name, places, positions(places), next((core for core in CORE if positions(places) <= core), "none"))
         for name, places in sizes
     )
     head = ("table", "places", "positions, about", "smallest core")

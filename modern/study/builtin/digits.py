@@ -11,7 +11,7 @@ from __future__ import annotations
 from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
-from modern.study.report import INTERVALS, Bars, Lines, Mark, Report, Series, Table, listed, percent, share_of
+from modern.study.report import INTERVALS, Bars, Lines, Mark, Report, Series, Table, listed, row, share_of
 from modern.study.statistics import Interval, exact
 from modern.study.store import Store
 from modern.study.summary import Summary, summary
@@ -43,7 +43,6 @@ def enough(digits: int) -> int:
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """Return the plan for ``samples`` sets of each number of digits."""
     routes: tuple[Route, ...] = (
         Programs(LISTED, limit=200_000),
         Programs(CORRECTED, layers=("corrected",), core=60_000, limit=200_000),
@@ -73,7 +72,6 @@ def least(counts: Summary, cell: int) -> int | None:
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Return the tables, charts and conclusions."""
     counts, cells = summary(store), _cells(plan)
     return Report(
         (_main(counts, cells), _by_working(counts, cells), _outcomes(counts, cells)),
@@ -90,18 +88,9 @@ def _main(counts: Summary, cells: Cells) -> Table:
     rows = []
     for cell, d in cells:
         p = least(counts, cell)
-        rows.append(
-            (
-                str(d),
-                str(counts.of(cell, LISTED)),
-                percent(counts.share(cell, LISTED)),
-                percent(counts.share(cell, CORRECTED)),
-                "-" if p is None else str(p),
-                str(exact_zeros(d)),
-                str(enough(d)),
-                "-" if p is None else percent(exact(0, counts.of(cell, working(p)))),
-            )
-        )
+        shares = counts.share(cell, LISTED), counts.share(cell, CORRECTED)
+        failures = None if p is None else exact(0, counts.of(cell, working(p)))
+        rows.append(row(d, counts.of(cell, LISTED), *shares, p, exact_zeros(d), enough(d), failures))
     head = (
         "digits d",
         "sets",
@@ -117,14 +106,14 @@ def _main(counts: Summary, cells: Cells) -> Table:
 
 
 def _by_working(counts: Summary, cells: Cells) -> Table:
-    rows = tuple((str(p), *(percent(counts.share(cell, working(p))) for cell, _ in cells)) for p in WORKING)
+    rows = tuple(row(p, *(counts.share(cell, working(p)) for cell, _ in cells)) for p in WORKING)
     return Table("working", "Hull found, by working digits P", ("P", *(f"d={d}" for _, d in cells)), rows, INTERVALS)
 
 
 def _outcomes(counts: Summary, cells: Cells) -> Table:
     outcomes = counts.outcomes()
     rows = tuple(
-        (str(d), route, *(str(counts.hits(cell, route, (outcome,))) for outcome in outcomes))
+        row(d, route, *(counts.hits(cell, route, (outcome,)) for outcome in outcomes))
         for cell, d in cells
         for route in (LISTED, CORRECTED)
     )

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Programs
-from modern.study.report import INTERVALS, Bars, Report, Series, Table, listed, percent, share_of
+from modern.study.report import INTERVALS, Bars, Report, Series, Table, listed, row, share_of
 from modern.study.statistics import exact
 from modern.study.store import Store
 
@@ -32,7 +32,6 @@ _BARS = 6
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """Return the plan for ``samples`` sets of each family."""
     route = Programs(ROUTE, measures=("divergence",), limit=200_000)
     cells = tuple(
         Cell({"sets": name}, family, parameters, (route,), samples, chunk=20) for name, family, parameters in FAMILIES
@@ -94,37 +93,30 @@ def _divergences(store: Store) -> _Divergences:
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Return the tables, the chart and the conclusions."""
     counts = _divergences(store)
     return Report((_main(counts), _by_family(plan, counts)), (_chart(plan, counts),), _conclusions(plan, counts))
 
 
 def _main(counts: _Divergences) -> Table:
     everything = sum(counts.counts.values())
-    rows = tuple(
-        (
-            name,
-            str(counts.total(name)),
-            percent(exact(counts.total(name), everything)),
-            str(counts.with_hull(name)),
-            percent(exact(counts.with_hull(name), counts.total(name))),
-        )
-        for name in (*counts.places, NOWHERE)
-        if counts.total(name)
-    )
+    rows = []
+    for name in (*counts.places, NOWHERE):
+        sets, right = counts.total(name), counts.with_hull(name)
+        if sets:
+            rows.append(row(name, sets, exact(sets, everything), right, exact(right, sets)))
     head = ("first other decision", "sets", "of all sets", "hull found all the same", "of these sets")
     notes = (
         *INTERVALS,
         "Statements are named by number: 196+2 is the second after statement 196. Cards: a plane that program 1 "
         "punched with eight digits misses its own points. All families have the same number of sets.",
     )
-    return Table("table", "The first statement that decides differently", head, rows, notes)
+    return Table("table", "The first statement that decides differently", head, tuple(rows), notes)
 
 
 def _by_family(plan: Plan, counts: _Divergences) -> Table:
     names = (*counts.places, NOWHERE)
     rows = tuple(
-        (str(cell.key["sets"]), str(counts.of(number)), *(str(counts.counts[number, name]) for name in names))
+        row(cell.key["sets"], counts.of(number), *(counts.counts[number, name] for name in names))
         for number, cell in enumerate(plan.cells)
     )
     return Table(

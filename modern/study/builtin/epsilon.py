@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
-from modern.study.report import INTERVALS, Lines, Report, Series, Table, listed, percent, powers
+from modern.study.report import INTERVALS, Lines, Report, Series, Table, listed, percent, powers, row
 from modern.study.statistics import Interval, exact
 from modern.study.store import Store
 from modern.study.summary import Summary, summary
@@ -62,7 +62,6 @@ _WAYS: tuple[tuple[str, Name, tuple[int, ...]], ...] = (("as it is", taken, ABSO
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """Return the plan for ``samples`` sets of each kind."""
     routes: tuple[Route, ...] = (
         _programs(WITHOUT, "0"),
         *(_programs(taken(k), f"1E{k}") for k in ABSOLUTE),
@@ -124,7 +123,6 @@ class _Rows:
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Return the tables, charts and conclusions."""
     swallowed: dict[tuple[int, str], int] = {}
     for (cell, route, _, detail), n in store.counts("cell", "route", "outcome", "detail").items():
         if detail in SWALLOWED:
@@ -173,24 +171,15 @@ def _main(plan: Plan, rows: _Rows) -> Table:
 
 
 def _each(plan: Plan, rows: _Rows, name: str, title: str, routes: tuple[str, ...]) -> Table:
-    lines = tuple(
-        (
-            str(cell.key["sets"]),
-            route,
-            str(rows.counts.of(number, route)),
-            str(rows.counts.hits(number, route)),
-            str(rows.counts.hits(number, route, (WRONG,))),
-            str(rows.swallowed.get((number, route), 0)),
-            str(rows.counts.failed(number, route) - rows.counts.hits(number, route, (WRONG,))),
-            percent(rows.counts.share(number, route)),
-            percent(rows.counts.share(number, route, (WRONG,))),
-        )
-        for number, cell in enumerate(plan.cells)
-        for route in routes
-    )
+    lines = []
+    for number, cell in enumerate(plan.cells):
+        for route in routes:
+            of, wrong = rows.counts.of(number, route), rows.counts.hits(number, route, (WRONG,))
+            failed, swallowed = rows.counts.failed(number, route), rows.swallowed.get((number, route), 0)
+            numbers = (of, of - failed, wrong, swallowed, failed - wrong)
+            lines.append(row(cell.key["sets"], route, *numbers, exact(of - failed, of), exact(wrong, of)))
     counts = ("of each", "found", "wrong", "of them swallowed", "refused or not ended")
-    head = ("sets", "e", *counts, "share found", "share wrong")
-    return Table(name, title, head, lines, INTERVALS)
+    return Table(name, title, ("sets", "e", *counts, "share found", "share wrong"), tuple(lines), INTERVALS)
 
 
 def _chart(
@@ -238,7 +227,7 @@ def _price(plan: Plan, rows: _Rows, store: Store) -> Table:
     lines = []
     for comparison, below in (("smaller", True), ("greater", False)):
         wrong, of = _wrong_outside(plan, rows, store, below)
-        lines.append((comparison, str(of), str(wrong), percent(exact(wrong, of)) if of else "-"))
+        lines.append(row(comparison, of, wrong, exact(wrong, of) if of else None))
     notes = (
         *INTERVALS,
         "Smaller, greater: compared with the values of e at which no set of the kind failed. A set counts once.",

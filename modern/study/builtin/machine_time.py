@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Programs, Value
-from modern.study.report import Lines, Mark, Report, Series, Table, listed, with_interval
+from modern.study.report import Lines, Mark, Report, Series, Table, listed, row, with_interval
 from modern.study.statistics import Interval, mean_of
 from modern.study.store import Store
 from modern.study.summary import cells, values
@@ -26,7 +26,6 @@ _HOUR, _MINUTE = 3600, 60
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """Return the plan for ``samples`` sets of each family and N."""
     route = Programs(ROUTE, layers=("corrected",), core=60_000, measures=("machine_time", "operations"))
     grid = tuple(
         Cell({"sets": _NAMES.get(family, family), "n": n}, family, {"digits": 2, "n": n}, (route,), samples, chunk=20)
@@ -80,7 +79,6 @@ def _times(store: Store) -> dict[int, _Time]:
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Return the tables, charts and conclusions."""
     times = _times(store)
     return Report(
         (_main(plan, times), _sizes(plan, times)), (_chart(plan, times), _parts(plan, times)), _conclusions(plan, times)
@@ -99,16 +97,8 @@ def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float
 def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
     parts = [f"{time.parts[part].value / _MINUTE:.2f}" for part in PARTS]
     milliseconds = 1000 * time.parts["processor"].value / time.operations if time.operations else 0.0
-    return (
-        str(name),
-        str(int(n)),
-        str(time.sets),
-        with_interval(_in_minutes(time.total)),
-        f"{time.longest / _MINUTE:.2f}",
-        *parts,
-        f"{time.operations:.0f}",
-        f"{milliseconds:.0f}",
-    )
+    minutes = (with_interval(_in_minutes(time.total)), f"{time.longest / _MINUTE:.2f}", *parts)
+    return row(name, int(n), time.sets, *minutes, f"{time.operations:.0f}", f"{milliseconds:.0f}")
 
 
 _HEAD = ("sets", "N", "timed", "minutes", "longest", *PARTS, "operations", "ms an operation")

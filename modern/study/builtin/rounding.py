@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
-from modern.study.report import INTERVALS, Bars, Lines, Report, Series, Table, percent, powers
+from modern.study.report import INTERVALS, Bars, Lines, Report, Series, Table, percent, powers, row
 from modern.study.statistics import exact
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary
@@ -57,7 +57,6 @@ def within(way: str, power: int) -> str:
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """Return the plan for ``samples`` sets of each kind and size."""
     tested: tuple[Route, ...] = (
         *(Programs(way, layers=("corrected",), arithmetic=a, core=60_000, limit=200_000) for way, a in DECIMAL.items()),
         *(Port(way, way) for way in BINARY),
@@ -112,7 +111,6 @@ class _Pairs:
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Return the tables, charts and conclusions."""
     counts = summary(store)
     tested = {way: _compared(plan, store, way, "exact") for way in WAYS[1:]}
     widened = {way: _compared(plan, store, way, "interval") for way in WAYS[1:]}
@@ -283,10 +281,7 @@ def _verdicts(tested: Mapping[str, _Pairs], widened: Mapping[str, _Pairs]) -> Ta
 
 def _sound_widths(plan: Plan, counts: Summary) -> Table:
     rows = tuple(
-        (
-            str(cell.key["sets"]),
-            *(powers(k for k in WIDTHS if not counts.failed(number, within(way, k))) for way in WAYS),
-        )
+        row(cell.key["sets"], *(powers(k for k in WIDTHS if not counts.failed(number, within(way, k))) for way in WAYS))
         for number, cell in cells(plan, test="interval")
     )
     return Table("widths", "Widths e of the interval at which no set failed", ("sets", *WAYS), rows)

@@ -19,7 +19,19 @@ from modern.study import refusals
 from modern.study.families.thesis import KINDS
 from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, PlanError, Programs
-from modern.study.report import INTERVALS, Bars, Mark, Report, Series, Table, listed, percent, share_of, with_interval
+from modern.study.report import (
+    INTERVALS,
+    Bars,
+    Mark,
+    Report,
+    Series,
+    Table,
+    listed,
+    percent,
+    row,
+    share_of,
+    with_interval,
+)
 from modern.study.statistics import Interval, count, exact
 from modern.study.store import Store
 
@@ -92,7 +104,6 @@ class _Route:
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Return the tables, charts and conclusions."""
     as_listed, mended = _route(store, LISTED), _route(store, MENDED)
     kinds = store.counts("tags.kind", "route", "outcome", cell=_EXAMPLES)
     sheets = refusals.measured(plan, store)
@@ -141,23 +152,15 @@ def _longest(store: Store) -> int:
 
 def _main(*routes: _Route) -> Table:
     head = ("program", "sets", "failed", "of all sets", "failures in 70", "70s with 2", "70s with 2 or more")
-    rows = tuple(
-        (
-            route.name,
-            str(route.sets),
-            str(route.failed),
-            percent(exact(route.failed, route.sets)),
-            with_interval(route.mean),
-            percent(route.groups(THESIS, THESIS)),
-            percent(route.groups(THESIS)),
-        )
-        for route in routes
-    )
+    rows = []
+    for route in routes:
+        share, groups = exact(route.failed, route.sets), (route.groups(THESIS, THESIS), route.groups(THESIS))
+        rows.append(row(route.name, route.sets, route.failed, share, with_interval(route.mean), *groups))
     notes = (
         "In parentheses: exact 95 % intervals (Clopper and Pearson). The interval of failures in 70 is seventy times "
         "that of all sets, because sets are drawn independently. 70s: groups of seventy sets.",
     )
-    return Table("table", "Failures in seventy examples", head, rows, notes)
+    return Table("table", "Failures in seventy examples", head, tuple(rows), notes)
 
 
 def _distribution(*routes: _Route) -> Table:
@@ -165,8 +168,7 @@ def _distribution(*routes: _Route) -> Table:
     most = max(max(route.failures) for route in routes)
     counts = [Counter(route.failures) for route in routes]
     rows = tuple(
-        (str(k), *(str(count[k]) for count in counts), *(percent(route.groups(k, k)) for route in routes))
-        for k in range(most + 1)
+        row(k, *(count[k] for count in counts), *(route.groups(k, k) for route in routes)) for k in range(most + 1)
     )
     return Table("distribution", "Failures per group of seventy sets", head, rows, INTERVALS)
 
@@ -175,24 +177,19 @@ def _by_kind(kinds: dict[tuple[str, ...], int]) -> Table:
     rows = []
     for kind in _names(kinds):
         shares = [_share(kinds, (kind,), route) for route in (LISTED, MENDED)]
-        rows.append((kind, str(_of(kinds, (kind,))), *(percent(share) for share in shares)))
+        rows.append(row(kind, _of(kinds, (kind,)), *shares))
     head = ("kind", "sets", f"failed, {LISTED}", f"failed, {MENDED}")
     return Table("kinds", "Failures by kind of set", head, tuple(rows), INTERVALS)
 
 
 def _causes(*routes: _Route) -> Table:
     names = sorted({key for route in routes for key in route.causes})
-    rows = tuple(
-        (
-            outcome,
-            detail,
-            *(str(route.causes[outcome, detail]) for route in routes),
-            *(percent(exact(route.causes[outcome, detail], route.sets)) for route in routes),
-        )
-        for outcome, detail in names
-    )
+    rows = []
+    for cause in names:
+        shares = [exact(route.causes[cause], route.sets) for route in routes]
+        rows.append(row(*cause, *(route.causes[cause] for route in routes), *shares))
     head = ("outcome", "where", *(route.name for route in routes), *(f"of all, {route.name}" for route in routes))
-    return Table("causes", "How the sets failed", head, rows, INTERVALS)
+    return Table("causes", "How the sets failed", head, tuple(rows), INTERVALS)
 
 
 def _chart(*routes: _Route) -> Bars:

@@ -16,7 +16,7 @@ from math import inf
 
 from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Port, Programs, Route
-from modern.study.report import Lines, Mark, Report, Series, Table, listed, percent
+from modern.study.report import Lines, Mark, Report, Series, Table, listed, row
 from modern.study.statistics import Interval, exact, mean
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary
@@ -60,7 +60,6 @@ def working(name: str, digits: int) -> str:
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """Return the plan for ``samples`` timed sets of each kind and N."""
     timed = tuple(
         Programs(
             name,
@@ -143,7 +142,6 @@ class _Pair:
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Return the tables, charts and conclusions."""
     pairs, counts = _pairs(store), summary(store)
     return Report(
         (_main(plan, pairs), _by_ratio(pairs), _digits(plan, counts)),
@@ -188,20 +186,11 @@ def _main(plan: Plan, pairs: list[_Pair]) -> Table:
         if not here:
             continue
         seconds = mean(pair.plain["seconds_processor"] for pair in here).value
-        rows.append(
-            (
-                str(cell.key["sets"]),
-                str(cell.key["n"]),
-                str(len(here)),
-                f"{sum(pair.ratio for pair in here) / len(here) * int(cell.key['n']):.1f}",
-                _share(_saved(here, "additions")),
-                _share(_saved(here, "products")),
-                f"{seconds:.0f}",
-                _share(_saved(here)),
-                _share(mean((pair.saved_in_all for pair in here), most=1.0)),
-                str(sum(pair.saved("seconds_processor") > 0 for pair in here)),
-            )
-        )
+        planes = sum(pair.ratio for pair in here) / len(here) * int(cell.key["n"])
+        operations = _share(_saved(here, "additions")), _share(_saved(here, "products"))
+        time = f"{seconds:.0f}", _share(_saved(here)), _share(mean((pair.saved_in_all for pair in here), most=1.0))
+        quicker = sum(pair.saved("seconds_processor") > 0 for pair in here)
+        rows.append(row(cell.key["sets"], cell.key["n"], len(here), f"{planes:.1f}", *operations, *time, quicker))
     head = (
         "sets",
         "N",
@@ -235,7 +224,7 @@ def _by_ratio(pairs: list[_Pair]) -> Table:
     rows = []
     for name, here in _classes(pairs):
         quicker = sum(pair.saved("seconds_processor") > 0 for pair in here)
-        rows.append((name, str(len(here)), _share(_saved(here)), percent(exact(quicker, len(here)))))
+        rows.append(row(name, len(here), _share(_saved(here)), exact(quicker, len(here))))
     head = ("planes a point", "timed", "processor time saved", "sets quicker")
     return Table(
         "ratio", "What moving the origin to C saves, by planes of the hull per point", head, tuple(rows), (_BY_RATIO,)
@@ -251,8 +240,8 @@ def _digits(plan: Plan, counts: Summary) -> Table:
     rows = []
     for number, cell in cells(plan, asked="digits"):
         least = [_least(counts, number, name) for name in (PLAIN, MOVED)]
-        eight = [percent(counts.share(number, name)) for name in (PLAIN, MOVED)]
-        rows.append((str(cell.key["sets"]), str(cell.samples), *("-" if p is None else str(p) for p in least), *eight))
+        eight = [counts.share(number, name) for name in (PLAIN, MOVED)]
+        rows.append(row(cell.key["sets"], cell.samples, *least, *eight))
     head = (
         "sets",
         "of each",
