@@ -109,7 +109,6 @@ def statements_folder() -> Traversable:
 
 
 def counterexample(name: str) -> str:
-    """Return the text of a file of ``transcripts/counterexamples``."""
     return files("transcripts").joinpath("counterexamples", name).read_text(encoding="utf-8")
 
 

@@ -86,7 +86,6 @@ class Room(NamedTuple):
 
 
 def room(count: int) -> Room:
-    """Allocate work arrays for the given number of points."""
     visible, fresh, heads, todo = (np.empty(2 * count, np.int64) for _ in range(4))
     return Room(
         near=np.zeros(count, np.bool_),

@@ -21,17 +21,14 @@ _WIDE, _APART = 1 << 900, 100
 
 
 def difference(p: Sequence[int], q: Sequence[int]) -> IntPoint:
-    """Return p - q."""
     return p[0] - q[0], p[1] - q[1], p[2] - q[2]
 
 
 def product(u: Sequence[int], v: Sequence[int]) -> IntPoint:
-    """Return the vector product of u and v."""
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 
 def dot(u: Sequence[int], v: Sequence[int]) -> int:
-    """Return the scalar product of u and v."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 

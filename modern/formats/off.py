@@ -14,7 +14,6 @@ from modern.geometry.numbers import Point, quoted
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """Return the text of an OFF file.  Raise ExportError if a coordinate cannot be written."""
     lines = ["OFF", f"{len(mesh.points)} {len(mesh.faces)} {len(mesh.edges())}", *mesh.decimals(digits)]
     lines += [" ".join(map(str, (len(face), *face))) for face in mesh.faces]
     return "".join(line + "\n" for line in lines)

@@ -23,7 +23,6 @@ _UCHAR = 255
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """Return the text of a PLY file.  Raise ExportError if a coordinate cannot be written."""
     size = "uchar" if all(len(face) <= _UCHAR for face in mesh.faces) else "int"
     lines = ["ply", "format ascii 1.0", f"element vertex {len(mesh.points)}"]
     lines += [f"property double {axis}" for axis in "xyz"]

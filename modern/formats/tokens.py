@@ -35,7 +35,6 @@ def lines(text: str, comment: str = "#") -> Iterator[Line]:
 
 
 def last_line(text: str) -> int:
-    """Return the number of the last line of a text."""
     return text.count("\n") + 1
 
 

@@ -32,7 +32,6 @@ class LazyTuple(Sequence[T]):
         self._made: tuple[T, ...] = ()
 
     def all(self) -> tuple[T, ...]:
-        """Return the members as a tuple."""
         if self._make is not None:
             self._made, self._make = tuple(self._make()), None
         return self._made

@@ -32,7 +32,6 @@ class Mesh:
     faces: tuple[tuple[int, ...], ...]
 
     def numbers(self) -> tuple[Vector, ...]:
-        """Return the points as fractions."""
         return tuple(coordinates(point) for point in self.points)
 
     def decimals(self, digits: int | None) -> tuple[str, ...]:

@@ -16,22 +16,18 @@ N = TypeVar("N", int, Fraction)
 
 
 def plus(p: tuple[N, N, N], q: tuple[N, N, N]) -> tuple[N, N, N]:
-    """Return p + q."""
     return p[0] + q[0], p[1] + q[1], p[2] + q[2]
 
 
 def minus(p: tuple[N, N, N], q: tuple[N, N, N]) -> tuple[N, N, N]:
-    """Return p - q."""
     return p[0] - q[0], p[1] - q[1], p[2] - q[2]
 
 
 def cross(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
-    """Return the vector product of u and v."""
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 
 def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
-    """Return the scalar product of u and v."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 

@@ -27,7 +27,6 @@ _FILE_NAME = re.compile(r"[A-Za-z0-9][\w-]*")
 
 
 def write_charts(folder: Path, charts: Iterable[Chart]) -> None:
-    """Write the charts to the folder of a study.  Raise StudyFileError if that fails."""
     texts = ",\n ".join(_text(chart) for chart in charts)
     put(folder / NAME, f"[{texts}]\n")
 

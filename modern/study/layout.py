@@ -47,7 +47,6 @@ def number(value: float, percent: bool = False, power: bool = False) -> str:
 
 
 def names(chart: Chart) -> list[str]:
-    """Return the names of the groups of bars, in their order."""
     return [str(name) for name in dict.fromkeys(name for series in chart.series for name, _ in series.points)]
 
 

@@ -86,7 +86,6 @@ def manifest(plan: Plan, command: Sequence[str], installed: Mapping[str, str]) -
 
 
 def write_manifest(folder: Path, document: Mapping[str, Any]) -> None:
-    """Write ``manifest.json``.  Raise StudyFileError if that fails."""
     put(folder / NAME, json.dumps(document, indent=1) + "\n")
 
 

@@ -115,7 +115,6 @@ def answer_of_run(run: HullRun, sample: Sample, options: Options) -> Answer:
 
 
 def answer_of_hull(hull: Hull, sample: Sample) -> Answer:
-    """Return the answer of a run of the port."""
     if hull.determined:
         return _determined(compared.from_hull(hull.arithmetic, hull), sample, hull)
     return Answer(TABLE if hull.status == TABLE_FULL else _REFUSED[hull.status], hull.statement)

@@ -34,7 +34,6 @@ PITS: dict[tuple[int, int, int], Point] = {
 
 @cache
 def fig_4() -> Solid:
-    """Return the object of Fig. 4 of the corrected print."""
     return printed_solid(printed_lines(next(paper for paper in PAPERS if paper.name == "appel-will")))
 
 

@@ -74,7 +74,6 @@ def _hidden(drawing: Drawing, kind: str) -> int:
 
 
 def three_collinear_points() -> CheckResult:
-    """Check formula (1) for three collinear corners."""
     message = "the formula gives 0 for three collinear points"
     return holds_if(value(line_through((0, 0, 1), (1, 1, 1)), (2, 2, 1)) == 0, message, conditional=True)
 

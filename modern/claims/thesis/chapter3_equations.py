@@ -58,7 +58,6 @@ def collinear_points() -> CheckResult:
 
 
 def few_points() -> CheckResult:
-    """Check the hulls of one, two and three points."""
     hulls = [convex_hull([(1, 2, 3), (4, 0, 1), (0, 5, 5)][:n]) for n in (1, 2, 3)]
     outcomes = [(h.status, h.dimension, len(h.vertices)) for h in hulls]
     message = "the hulls are a point, a segment and a triangle"

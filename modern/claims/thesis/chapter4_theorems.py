@@ -41,7 +41,6 @@ def eight_theorems() -> CheckResult:
 
 
 def three_points_coplanar() -> CheckResult:
-    """Check that three random points lie in a plane."""
     message = "six triples of points lie in a plane"
     return holds_if(all(exact_hull(three).dimension < 3 for three in random_triples()), message)
 
@@ -333,7 +332,6 @@ def _at(plane: Sequence[Fraction | int], point: Sequence[Fraction]) -> Fraction:
 
 
 def figure(number: str) -> CheckResult:
-    """Check what a figure shows, from its data."""
     return {"1": _figure_1, "2": _added_triangle, "3": lines_of_figure_3, "4": _added_triangle}[number]()
 
 

@@ -49,7 +49,6 @@ def typed(run: HullRun) -> str:
 
 
 def programs_compile(kind: str = "") -> CheckResult:
-    """Check that the decks of the listing compile."""
     cards = {name: len(programs.deck(name).cards) for name in THREE}
     compiled = all(programs.program(name).code for name in THREE)
     message = "the decks compile: " + ", ".join(f"{name} with {n} cards" for name, n in cards.items())
@@ -159,7 +158,6 @@ def eight_digits() -> CheckResult:
 
 
 def quotient_truncated() -> CheckResult:
-    """Check that 2/3 in eight digits ends in 6."""
     arithmetic, row = take([("2", "3", "1")], "truncating")
     quotient = arithmetic.text(arithmetic.quotient(row[0][0], 3), 1)
     return holds_if(Fraction(quotient) == Fraction(66666666, 10**8), f"2 / 3 is {quotient}")

@@ -155,12 +155,10 @@ PLACES = tuple((Fraction(x), Fraction(y)) for x in (-2, 0, 1, 3) for y in (-1, 2
 
 
 def in_epigraph(f: Height, x: Fraction, y: Fraction, z: Fraction) -> bool:
-    """Return True if a point is in the epigraph G+(f)."""
     return z >= f(x, y)
 
 
 def in_hypograph(f: Height, x: Fraction, y: Fraction, z: Fraction) -> bool:
-    """Return True if a point is in the hypograph G-(f)."""
     return z <= f(x, y)
 
 

@@ -123,7 +123,6 @@ def voxels_fill_space() -> CheckResult:
 
 
 def in_voxel(x: Fraction, v: int) -> bool:
-    """Return True if a coordinate is in the voxel v."""
     return x - Fraction(1, 2) < v <= x + Fraction(1, 2)
 
 
