@@ -19,14 +19,10 @@ NEAR = Fraction(1, 1000)
 class Disagreement:
     """The differences between an outcome and that of the exact hull.  Points are indices into the input.
 
-    missed, added: vertices that the outcome lacks, and points that it wrongly calls vertices.
-    misfiled: points with a wrong class, boundary or inside.
-    planes_missing, planes_extra, planes_doubled: numbers of equations.
-    error: the largest relative error of a coefficient among the matched equations, relative to the largest coefficient
-        of x, y and z (for D: to the largest of all).
-    excluded, excluded_point: the largest distance of a point outside an equation, to about twelve digits, and the
-    point.
-    places: for each equation of the outcome the index of the exact equation that it matches, or -1.
+    ``misfiled`` points have a wrong class, boundary or inside.  ``error`` is the largest error of a coefficient among
+    the matched equations, relative to the largest coefficient of x, y and z (for D: to the largest of all).
+    ``excluded`` is the largest distance of a point outside an equation, to about twelve digits.  ``places`` has for
+    each equation of the outcome the index of the exact equation that it matches, or -1.
     """
 
     missed: frozenset[int]

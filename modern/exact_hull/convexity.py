@@ -103,9 +103,8 @@ class Undecided(Exception):
 class Cones:
     """The triangles into which the polygons are split from their first corners, and their cones from o.
 
-    corners (t, 3): indices of points.  facet (t): the facet of each triangle.
-    beyond (t, 3): the triangle beyond the edge from corner k to the next corner.
-    walls (t, 3, 3): the normal m of the plane through o and that edge, positive towards the triangle.
+    ``corners`` (t, 3) are points.  ``beyond`` (t, 3) is the triangle beyond the edge from corner k to the next corner,
+    and ``walls`` (t, 3, 3) the normal m of the plane through o and that edge, positive towards the triangle.
     """
 
     corners: Ints

@@ -67,11 +67,10 @@ def surface(grid: NDArray[np.int64]) -> Surface:
 class Room(NamedTuple):
     """Work arrays of a step.  The kernel itself allocates none, because numba then compiles much faster.
 
-    near: for each point whether it may lie on the surface.
-    visible, fresh, heads: the visible and the new triangles of a step, and the first points of the lists of the former.
-    edges (n, 2), outer (n, 3): the horizon as (slot, edge), and as (start, end, triangle beyond).
-    todo, queued: a stack of slots with waiting points, and whether each slot is on it.
-    free: empty slots.
+    ``near`` tells for each point whether it may lie on the surface.  ``visible`` and ``fresh`` are the visible and the
+    new triangles of a step, ``heads`` the first points of the lists of the former.  ``edges`` (n, 2) and ``outer`` (n,
+    3) hold the horizon as (slot, edge), and as (start, end, triangle beyond).  ``todo`` is a stack of slots with
+    waiting points, ``queued`` tells whether each slot is on it, and ``free`` holds empty slots.
     """
 
     near: NDArray[np.bool_]

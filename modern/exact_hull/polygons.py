@@ -52,9 +52,9 @@ def check_convex(polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntP
 class Polygons:
     """The directed sides of all polygons in arrays of length k, facet after facet.
 
-    corner: the point at which each side begins.  facet: its facet.  next: the index of the next side of the facet.
-    twin: the index of the same side in the opposite direction, which belongs to the neighbouring facet.
-    first, count: for every facet the index of its first side, and the number of its sides.
+    A side begins at the point ``corner`` of ``facet``; ``next`` is the index of the next side of the facet, and
+    ``twin`` that of the same side of the neighbouring facet, in the opposite direction.  ``first`` and ``count`` give
+    for every facet the index of its first side and the number of its sides.
     """
 
     corner: Ints

@@ -136,11 +136,9 @@ def exact_signs(normals: Ints, differences: Ints) -> Ints:
 class _Growing:
     """The current surface, in arrays indexed by triangle (a removed triangle keeps its index), and the waiting points.
 
-    corners (T, 3): three points, counterclockwise seen from outside.
-    neighbours (T, 3): the triangle beyond the edge from corner k to the next corner.
-    normals (T, 3); images (T, 4): the plane divided by |A| + |B| + |C|.
-    waiting, home, height: the waiting points, a triangle that each one sees, and its value there.
-    near: points that are not outside but may lie on the surface.
+    ``corners`` (T, 3) are counterclockwise seen from outside, and ``neighbours`` (T, 3) the triangles beyond the edges
+    from each corner to the next.  ``images`` (T, 4) are the planes divided by |A| + |B| + |C|.  ``home`` is a triangle
+    that each of the ``waiting`` points sees, and ``height`` its value there.  Points ``near`` may lie on the surface.
     """
 
     def __init__(self, grid: Ints, exact: bool, start: list[int]) -> None:

@@ -107,13 +107,10 @@ _Horizon = list[tuple[int, int, int]]
 class Surface:
     """The current surface, as parallel lists indexed by triangle; a removed triangle keeps its index.
 
-    corners: three points, counterclockwise seen from outside.
-    neighbours: neighbours[t][k] is the triangle beyond the edge from corner k of t to the next corner.
-    planes, images: the plane of each triangle, and its image.
-    waiting: the points that remember this triangle.
-    alive: False for a removed triangle.
-    mark: the last point for which visibility was determined, and the result (see ``_visible``).
-    home: for every point the triangle that it remembers, or -1.
+    Corners are counterclockwise seen from outside, and neighbours[t][k] is the triangle beyond the edge from corner k
+    of t to the next corner.  ``waiting`` has the points that remember a triangle, and ``home`` the triangle that each
+    point remembers, or -1.  ``mark`` is the last point for which visibility was determined, and the result (see
+    ``_visible``).
     """
 
     def __init__(self, frame: Frame, simplex: Sequence[int]) -> None:

@@ -40,15 +40,12 @@ class CoplanarError(ExportError):
 
 @dataclass(frozen=True, slots=True)
 class Joined:
-    """A convex surface with joined faces.
+    """A convex surface with faces joined ``within`` the distance E.
 
-    within: the distance E.
-    groups: the faces of the surface that make up each joined face, by index.  The first of a group is the one whose
-        plane is used.  Groups are ordered by their smallest index.
-    loops: the polygon of each joined face, counterclockwise from outside, by index into the points of the surface.
-    left_out: points on no loop.
-    square: the square of the largest distance of a vertex from the plane of its joined face.
-    beyond: the square of the smallest distance E that would join one more face, or None if there is no such distance.
+    ``groups`` are the indices of the faces that make up each joined face, beginning with the one whose plane is used,
+    and ``loops`` their polygons, counterclockwise from outside.  Points that are ``left_out`` are on no loop.
+    ``square`` is the square of the largest distance of a vertex from the plane of its joined face, and ``beyond`` that
+    of the smallest E that would join one more face, or None.
     """
 
     within: Fraction
