@@ -91,16 +91,8 @@ def _main(counts: Summary, cells: Cells) -> Table:
         shares = counts.share(cell, LISTED), counts.share(cell, CORRECTED)
         failures = None if p is None else exact(0, counts.of(cell, working(p)))
         rows.append(row(d, counts.of(cell, LISTED), *shares, p, exact_zeros(d), enough(d), failures))
-    head = (
-        "digits d",
-        "sets",
-        "hull found, as listed",
-        "hull found, corrected",
-        "least P without failure",
-        "zeros exact: 3d+1",
-        "always enough: 3d+4",
-        "failures at least P",
-    )
+    needed = ("least P without failure", "zeros exact: 3d+1", "always enough: 3d+4", "failures at least P")
+    head = ("digits d", "sets", "hull found, as listed", "hull found, corrected", *needed)
     notes = (*INTERVALS, "No set failed at the least P. The interval tells how often sets could still fail there.")
     return Table("table", "Digits of the coordinates against digits of the arithmetic", head, tuple(rows), notes)
 

@@ -153,15 +153,8 @@ def _main(plan: Plan, rows: _Rows) -> Table:
             begins = rows.begins(number, name, tried)
             texts += [powers(rows.clean(number, name, tried)), "-" if begins is None else f"10^{begins}"]
         lines.append(tuple(texts))
-    head = (
-        "sets",
-        "of each",
-        "hull found, e = 0",
-        "no failure at e",
-        "swallows from e",
-        "no failure at scaled e",
-        "swallows from scaled e",
-    )
+    by_way = ("no failure at e", "swallows from e", "no failure at scaled e", "swallows from scaled e")
+    head = ("sets", "of each", "hull found, e = 0", *by_way)
     notes = (
         *INTERVALS,
         "Swallows from: the least e from which on every e tried lost a true vertex of some set, or counted a body as "

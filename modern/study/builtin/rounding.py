@@ -162,16 +162,8 @@ def _main(plan: Plan, counts: Summary, tested: Mapping[str, _Pairs], widened: Ma
         largest = str(_largest(plan, counts, way) or "-")
         share = percent(exact(wrong, of - right)) if right < of else "-"
         rows.append((way, largest, str(of), str(of - right), str(wrong), share, *pairs))
-    head = (
-        "way",
-        "whole numbers up to",
-        "sets",
-        "failed",
-        "wrong hulls",
-        "of the failed",
-        "against truncating",
-        "with the interval",
-    )
+    exact_test = ("whole numbers up to", "sets", "failed", "wrong hulls", "of the failed")
+    head = ("way", *exact_test, "against truncating", "with the interval")
     notes = (
         "In parentheses: exact 95 % intervals (Clopper and Pearson).",
         "Sets, failed and wrong hulls: with the exact test. Whole numbers up to: the largest size up to which no set "

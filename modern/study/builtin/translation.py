@@ -191,18 +191,8 @@ def _main(plan: Plan, pairs: list[_Pair]) -> Table:
         time = f"{seconds:.0f}", _share(_saved(here)), _share(mean((pair.saved_in_all for pair in here), most=1.0))
         quicker = sum(pair.saved("seconds_processor") > 0 for pair in here)
         rows.append(row(cell.key["sets"], cell.key["n"], len(here), f"{planes:.1f}", *operations, *time, quicker))
-    head = (
-        "sets",
-        "N",
-        "timed",
-        "planes",
-        "additions saved",
-        "products saved",
-        "seconds",
-        "of them saved",
-        "of all time saved",
-        "sets quicker",
-    )
+    times = ("seconds", "of them saved", "of all time saved", "sets quicker")
+    head = ("sets", "N", "timed", "planes", "additions saved", "products saved", *times)
     notes = (
         "In parentheses: Student's 95 % intervals of the mean over sets, truncated at 100 %. A negative share is a "
         "loss. Seconds: processor time with the origin kept. All time: with reader, punch and typewriter.",
@@ -242,14 +232,7 @@ def _digits(plan: Plan, counts: Summary) -> Table:
         least = [_least(counts, number, name) for name in (PLAIN, MOVED)]
         eight = [counts.share(number, name) for name in (PLAIN, MOVED)]
         rows.append(row(cell.key["sets"], cell.samples, *least, *eight))
-    head = (
-        "sets",
-        "of each",
-        f"least P, {PLAIN}",
-        f"least P, {MOVED}",
-        f"eight digits, {PLAIN}",
-        f"eight digits, {MOVED}",
-    )
+    head = ("sets", "of each", *(f"{what}, {name}" for what in ("least P", "eight digits") for name in (PLAIN, MOVED)))
     notes = (
         "In parentheses: exact 95 % intervals (Clopper and Pearson). Least P: the number of working digits from which "
         "on no set failed. Eight digits: sets whose hull the programs find.",
