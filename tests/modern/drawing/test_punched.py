@@ -199,8 +199,14 @@ def test_command_accepts_a_built_in_program(deck: Path, capsys: pytest.CaptureFi
     ("arguments", "message"),
     [
         (["my.deck", "--across", "0"], "--across: expected at least 1 card, found 0"),
-        (["my.deck", "-o", "card-%s.svg"], "--output: 'card-%s.svg' has no place for a number as in 'card-%03d.svg'"),
-        (["my.deck", "-o", "%d-%d.svg"], "--output: '%d-%d.svg' has no place for a number as in 'card-%03d.svg'"),
+        (
+            ["my.deck", "-o", "card-%s.svg"],
+            "--output: 'card-%s.svg' has no place for a number; write a name such as 'card-%03d.svg'",
+        ),
+        (
+            ["my.deck", "-o", "%d-%d.svg"],
+            "--output: '%d-%d.svg' has no place for a number; write a name such as 'card-%03d.svg'",
+        ),
         (["my.deck", "-o", "no/%d.svg"], "no/1.svg: no such file or directory"),
         (["small.f", "-o", "%d.svg"], "small.f: card 2, column 4: 'x' is not in the card code: letters are capitals"),
         (["none.deck"], "none.deck: no such file or directory"),
