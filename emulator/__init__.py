@@ -11,7 +11,7 @@ from importlib import import_module
 
 
 def named(package: str, homes: Mapping[str, tuple[str, ...]], name: str) -> object:
-    """Implement ``__getattr__`` of a package: import a public name from its module and cache it in the package.
+    """Import a public name from its module and cache it in the package.  This implements ``__getattr__`` of a package.
 
     ``homes`` maps each module to its names.  Raise AttributeError for any other name.
     """

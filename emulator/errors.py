@@ -63,8 +63,8 @@ class Place:
 class Diagnostic:
     """A message of the compiler.
 
-    ``number`` is IBM's error type (C26-5619 p. 56), or 0.  Messages with the same ``about``, a name or a statement of
-    another FORTRAN, are combined by :func:`merge_repeated`.
+    ``number`` is IBM's error type (C26-5619 p. 56), or 0.  ``about`` is the subject of the message: a name, or a
+    statement of another FORTRAN.  :func:`merge_repeated` combines the messages on one subject.
     """
 
     card: int
@@ -81,7 +81,10 @@ class Diagnostic:
 
 
 def merge_repeated(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """Yield the messages in order of cards, with one message per subject that also lists the other cards."""
+    """Yield the messages in the order of their cards.
+
+    One message replaces all those on one subject and lists their cards.
+    """
     ordered = sorted(dict.fromkeys(diagnostics), key=lambda d: (d.card, d.column))
     cards: dict[str, list[int]] = {}
     for message in ordered:
@@ -103,7 +106,7 @@ def _also(cards: list[int]) -> str:
 class Refused(Exception):
     """A statement or specification that the compiler rejects.  The compiler continues with the next statement.
 
-    ``number`` and ``about`` are those of :class:`Diagnostic`.
+    ``number`` and ``about`` have the same meaning as in :class:`Diagnostic`.
     """
 
     def __init__(self, place: Place, message: str, number: int = 0, about: str = "") -> None:

@@ -19,7 +19,7 @@ from emulator.errors import FileError
 
 
 def source_name(path: str) -> str:
-    """Return the name of an input path in messages."""
+    """Return the name that messages use for an input path."""
     return "standard input" if path == "-" else path
 
 
@@ -38,7 +38,7 @@ def read_bytes(path: str, name: str = "") -> bytes:
 
 
 def read_text(path: str) -> str:
-    """Return the text of a UTF-8 file without its byte order mark.  Raise FileError, also for invalid bytes."""
+    """Return the text of a UTF-8 file without its byte order mark.  Raise FileError if it cannot be read or decoded."""
     return decoded(read_bytes(path), source_name(path))
 
 
@@ -54,7 +54,7 @@ def decoded(data: bytes, source: str) -> str:
 
 
 def reason(error: OSError) -> str:
-    """Return the system's explanation of an error, for the end of a message."""
+    """Return the operating system's explanation of an error, which is appended to a message."""
     return (error.strerror or str(error)).lower()
 
 

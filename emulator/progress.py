@@ -16,9 +16,9 @@ _LINES = 60.0
 
 @dataclass
 class Progress:
-    """A counter of samples, or of ``what``, which shows the count on ``file``.
+    """A counter of completed samples, which shows the count on ``file``.
 
-    ``before`` samples of the ``total`` were complete before this run.
+    ``what`` names the things counted.  ``before`` of the ``total`` were complete before this run.
     """
 
     total: int
@@ -71,7 +71,7 @@ class Progress:
             self.file.write(text)
             self.file.flush()
         except (OSError, ValueError):
-            # The reader of the progress has gone away; the study continues without it.
+            # The file can no longer be written, for example because a pipe was closed.  The study continues.
             self.quiet, self._bar = True, False
 
 

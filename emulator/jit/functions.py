@@ -39,18 +39,19 @@ def require_numba() -> Any:
 
 
 class Compiled:
-    """A function that numba compiles, with all functions it calls, for the types of given arguments."""
+    """A function that numba compiles for given argument types, together with all functions it calls."""
 
     def __init__(self, entry: Function, **options: Any) -> None:
         """Prepare ``entry`` for compilation with the given options of numba.
 
-        Raise NotInstalled without numba, or if NUMBA_DISABLE_JIT is set: run by Python on NumPy arrays, the functions
-        would compute something else, because arrays of eight-bit codes overflow.
+        Raise NotInstalled if numba is missing or NUMBA_DISABLE_JIT is set.  Python must not run these functions on
+        NumPy arrays, because eight-bit elements would overflow and change the results.
         """
         numba = require_numba()
         for helper in called(entry)[1:]:
             _make_callable(helper)
-        # numba's cache notices changes only in the file of the entry.  The digest in the name covers the other files.
+        # numba's cache detects changes only in the file that defines the entry.  The digest in the name detects changes
+        # in the other files.
         self._entry = FunctionType(entry.__code__, entry.__globals__, entry.__name__, entry.__defaults__)
         self._entry.__qualname__ += "_" + digest(entry, repr(options))
         self._jit = numba.njit(**options)
@@ -60,19 +61,20 @@ class Compiled:
 
     @property
     def keeps(self) -> bool:
-        """True if numba has a folder for the code."""
+        """True if numba has a cache folder for the compiled code."""
         return bool(self.function.stats.cache_path)
 
     @property
     def kept(self) -> bool:
-        """True if the cache holds code of this function, for any types."""
+        """True if the cache holds this function compiled for any argument types."""
         return any(self._indexes())
 
     def ready(self, *arguments: Any) -> Function:
         """Return the function compiled for the types of these arguments.
 
-        Compiling takes some seconds, once, and is reported on a terminal.  Damaged code in the cache is deleted, and
-        the function is compiled for this process only.  Raise NotInstalled if numba cannot compile the function.
+        The first call for these types compiles the function, which takes some seconds and is reported on a terminal.
+        Damaged code in the cache is deleted, and the function is compiled for this process only.  Raise NotInstalled if
+        numba cannot compile the function.
         """
         import numba
 
@@ -116,7 +118,10 @@ def _shown(line: str) -> Iterator[None]:
 
 @contextmanager
 def _without_collecting() -> Iterator[None]:
-    """Turn off the garbage collector, which makes compiling a sixth slower: a compiler creates millions of objects."""
+    """Turn off the garbage collector.
+
+    It makes compiling a sixth slower, because a compiler creates millions of objects.
+    """
     on = gc.isenabled()
     gc.disable()
     try:
@@ -127,7 +132,7 @@ def _without_collecting() -> Iterator[None]:
 
 
 def _refused(error: Exception) -> NotInstalled:
-    """Return an exception of numba as one line."""
+    """Convert an exception of numba to a NotInstalled error with a one-line message."""
     message = next(iter(str(error).strip().splitlines()), "")
     return NotInstalled(f"numba cannot compile the code: {type(error).__name__}{': ' if message else ''}{message}")
 
@@ -154,7 +159,10 @@ def _make_callable(helper: Function) -> None:
 
 
 def digest(entry: Function, options: str) -> str:
-    """Return 16 letters that change with the compiled code: a hash of modules, constants and options."""
+    """Return a hash of everything that determines the compiled code: modules, constants and options.
+
+    It has 16 characters.
+    """
     functions = called(entry)
     text = [options]
     # numba compiles globals into the code as constants, so that their values count as well as the source.

@@ -6,7 +6,7 @@ an entry are only translated to LLVM's intermediate language; the entry is then 
 results are the same, because no option here lets LLVM change an arithmetic result.
 
 This relies on internals of numba's code generator.  If a version of numba lacks them, :data:`AVAILABLE` is False, and
-numba compiles the functions in its usual way, which is slower and otherwise the same.
+numba compiles the functions in its usual way, which is slower but gives the same results.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The comparison of two runs entry by entry: values and decisions that differ, and the digits lost.
+"""Compare two runs entry by entry: find the values and decisions that differ, and count the digits lost.
 
 emulator/machine/divergence.py states the rules and runs the programs.
 """
@@ -40,7 +40,10 @@ class Difference:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A decision that differs: the statement, the count of its executions, and both values and targets."""
+    """A decision with different outcomes.
+
+    It holds the statement, the count of its executions, and the value and target of each run.
+    """
 
     line: Line
     time: int
@@ -64,7 +67,7 @@ class Loss:
 
 @dataclass
 class _Tally:
-    """The values compared for one statement: their number, and a count for each number of tenths of a digit lost."""
+    """The values compared for one statement: their number, and a histogram of the digits lost, in tenths of a digit."""
 
     times: int = 0
     differing: int = 0
@@ -79,11 +82,12 @@ class Comparison:
         self._statement_of = program.statement_numbers
         self._decides = [i.operation in _DECISIONS for i in program.code]
         self._counts = [i.operation == op.COUNT for i in program.code]
-        # The executions of each instruction, or of each element of an array read as a whole.
+        # The number of executions of each instruction.  If an array is read as a whole, each element has a separate
+        # count.
         self._times: Counter[tuple[int, int]] = Counter()
         self._whole = [op.repeats(i) > 1 for i in program.code]
         self._tallies: dict[int, _Tally] = {}
-        # P of the formula in divergence.py; 0 if both arithmetics are exact, which then cannot lose digits.
+        # P of the formula in divergence.py.  It is 0 if both arithmetics are exact, because they cannot lose digits.
         digits = min(studied.digits, reference.digits)
         self.digits = digits if math.isfinite(digits) else 0.0
         # Irrational exact values, such as roots, are compared with this many digits.
@@ -94,7 +98,7 @@ class Comparison:
         self.uncertain = ""
 
     def differs(self, entry: Entry, reference_entry: Entry) -> bool:
-        """Compare an entry of each run, and return True if they are a decision that differs."""
+        """Compare one entry of each run.  Return True if both record a decision and its outcomes differ."""
         pc = entry[0]
         if self._counts[pc]:
             return False
@@ -164,8 +168,11 @@ class Comparison:
         return f"at card {card} {name} has {text}, which its own rounding may have changed by {size}; {remedy}"
 
     def _lost(self, entry: Entry, reference_entry: Entry) -> tuple[float | None, float | None, bool]:
-        """Return digits lost and relative difference, None for equal values, and whether rounding explains them."""
-        # Entries for different fields, as with subscripts that differ, have lost all digits.
+        """Return the digits lost, the relative difference, and True if rounding explains it.
+
+        Equal values give None twice.
+        """
+        # If the entries change different fields, for example because a subscript differs, all digits count as lost.
         if entry[1] == reference_entry[1]:
             x = self._value(self._studied, entry[2])
             y = self._value(self._reference, reference_entry[2])
@@ -180,7 +187,7 @@ class Comparison:
                 if bound is None or abs(Fraction(x) - y) <= bound:
                     return None, None, True
             if x is not None and y:
-                # log10 |(x - y) / y|: the value agrees in minus that many digits.
+                # The number of digits that agree is -log10 |(x - y) / y|.
                 logarithm = _logarithm(abs(Fraction(x) - y)) - _logarithm(abs(Fraction(y)))
                 relative = 10**logarithm if abs(logarithm) < 300 else None
                 return min(max(self.digits + logarithm, 0.0), self.digits), relative, False
@@ -190,7 +197,10 @@ class Comparison:
         return value if value is None or type(value) is int else numbers.exact(value, self._exactly)
 
     def _texts(self, studied: Number, reference: Number, tested: bool = False) -> tuple[str, str]:
-        """Return both values as text, exactly if they look the same otherwise.  A test ignores the sign of zero."""
+        """Return both values as text, with all digits if they would otherwise look the same.
+
+        A test ignores the sign of zero.
+        """
         texts = []
         for wide in (False, True):
             texts = [

@@ -50,7 +50,10 @@ class Cards:
 
 
 def command(session: Session, text: str, cards: Cards, width: int) -> Action | list[str]:
-    """Return the action of a line typed at the console, or the lines to show, which may be an error message."""
+    """Interpret a line typed at the console.
+
+    Return the requested action, or the lines to show, such as an error message.
+    """
     # A command may be abbreviated, and an empty line means START.
     word, *operands = text.upper().replace("?", " HELP ").split() or ["START"]
     matches = [name for name in COMMANDS if name.startswith(word)]
@@ -75,7 +78,7 @@ def command(session: Session, text: str, cards: Cards, width: int) -> Action | l
             return flipped(session, int(number))
         case "BREAK", []:
             return wrapped(_breakpoints(session), width)
-    # The remaining commands are actions; for any other the help text shows its form.
+    # The remaining commands are actions.  A command that is used incorrectly shows its help text.
     if word not in WORDS:
         return wrapped(COMMANDS[word], width)
     try:
@@ -146,7 +149,7 @@ def _named(session: Session, name: str, width: int) -> list[str]:
 
 
 def _core(session: Session, place: str, width: int) -> list[str]:
-    """Return the fields around one, in order of addresses, which decrease as the numbers of elements increase."""
+    """Return the fields near a place, in order of address.  Addresses decrease as the numbers of elements increase."""
     core = session.options.core
     # An address may be that of any digit of a field; fields are numbered downward from the top of core storage.
     if place.isascii() and place.isdigit() and len(place) < 6:

@@ -1,7 +1,7 @@
 """The card reader, card punch and typewriter, which read and write lists of numbers by FORMAT.
 
-:class:`emulator.machine.session.Session` drives the devices.  Everything they do is recorded as events.  If a line has
-to be typed, they raise :class:`LineNeeded`; the same call can then be made again.
+:class:`emulator.machine.session.Session` drives the devices.  The devices record each operation as an event.  They
+raise :class:`LineNeeded` if the operator must first type a line.  The caller then repeats the call.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def no_deck(program: Program) -> Deck:
 class Devices:
     """The devices of one machine.
 
-    state: the run they serve, changed in place.  typed_line: a line that the operator has typed and no statement has
+    state: the state of the run, changed in place.  typed_line: a line that the operator has typed but no statement has
     read.  listed: the fields of the last input or output statement, if ``lists`` is set.  punched: cards punched.
     characters: characters typed, counting the end of a line as one.  fields: numbers read ("E<") and written ("E>") by
     kind of field.  cut: the numbers on each punched card before its fields truncated them.
@@ -99,8 +99,8 @@ class Devices:
         self._charge = self._charges[number]
         self.listed = []
         if verb == "READ":
-            # A data set begins with the READ that was executed first.  An empty hopper is a normal end there, and
-            # with ``--hopper any`` at every READ.
+            # Every data set begins with the READ that the program executed first.  An empty hopper is a normal end at
+            # this READ, and with ``--hopper any`` at every READ.
             begins = self._first_read in (-1, self.state.at)
             if begins:
                 self._first_read = self.state.at
@@ -136,7 +136,8 @@ class Devices:
         self.transfer.finish()
 
     def _count_item(self, address: int) -> None:
-        # A unit for the number, the cost of each repetition of the FORMAT, and the cost of converting a long number.
+        # Count one unit for the number, the cost of each repetition of the FORMAT, and the cost of converting a long
+        # number.
         transfer, numbers = self.transfer, self.options.numbers
         assert transfer is not None
         self.state.work += 1 + self._charge * transfer.again
@@ -213,7 +214,7 @@ class Devices:
             if fixed:
                 read = read_fixed(columns)
                 value, remark = read.mantissa, read.remark
-            # The full number that another program punched in this field replaces its columns.
+            # If another program punched this field, its number with all digits replaces the columns.
             elif not typed and (card.number, column, spec.width) in self._whole:
                 value = self._whole[card.number, column, spec.width]
             else:
@@ -248,7 +249,7 @@ class Devices:
         return line[:room].rstrip()
 
     def error(self, code: str) -> None:
-        """Count an error code of the arithmetic at the current statement, and type it if the arithmetic does so."""
+        """Count an arithmetic error at the current statement, and type its code if the arithmetic types error codes."""
         card = self.line_at(self.state.at).place.card
         self.errors[code, card] = self.errors.get((code, card), 0) + 1
         self.state.work += self.state.owe(ERROR)

@@ -85,7 +85,10 @@ class Divergence:
 
     @property
     def outcomes(self) -> tuple[str, ...]:
-        """How the runs ended, with the last line typed, unless ``apart`` says so: a line, or two if the runs differ."""
+        """One line on the end of both runs, or one for each run if they differ.
+
+        An end that ``apart`` reports is omitted.
+        """
         first, second = (
             ending
             and not (ending.message and ending.message in self.apart)
@@ -129,7 +132,7 @@ def diverge(
         If both runs find the same error in the deck, or if the program does not fit the machine.
     """
     options = options or Options()
-    # An exact reference has no rounding errors; any other runs together with bounds of its errors.
+    # An exact reference has no rounding errors.  Any other reference computes bounds of its errors during the run.
     if rounding and math.isfinite(reference.digits):
         reference = ShadowedNumbers(reference)
     runs = [_Run(program, deck, replace(options, numbers=n), values, operator()) for n in (studied, reference)]
@@ -207,7 +210,7 @@ class _Run:
             except EmulatorError as error:
                 self.error, self.ending = error, Ending("input", trouble=str(error))
             if self.ending is not None and self.ending.kind == "limit":
-                # The statements of its last loop are left out, because they are not a difference between the runs.
+                # The list of statements in the last loop is removed, so that the endings of both runs compare as equal.
                 self.ending = Ending("limit", count=self._limit)
             yield from self._journal.entries
             self._journal.entries.clear()
@@ -229,12 +232,12 @@ def _raise_common_error(runs: list[_Run]) -> None:
 
 
 def _ended(runs: list[_Run], entry: Entry | None, reference_entry: Entry | None) -> str:
-    """Return the endings of the runs without a further entry, or "" if both runs ended in the same way."""
+    """Return the endings of the runs that have no further entry, or "" if both runs ended in the same way."""
     if entry is None and reference_entry is None and runs[0].ending == runs[1].ending:
         return ""
     stopped = [run for run, last in zip(runs, (entry, reference_entry), strict=True) if last is None]
     texts = [f"{run.name} ended: {run.ending.message or run.ending.kind}" for run in stopped if run.ending]
-    # A number that exact arithmetic cannot hold, such as EXP(1.), has a close approximation in binary numbers.
+    # Exact arithmetic cannot hold a number such as EXP(1.), but long binary numbers approximate it closely.
     if any(run.name == "exact" and run.ending and run.ending.kind == "undecided" for run in stopped):
         texts.append("--against mp:200 compares with 200 bits instead")
     return "; ".join(texts)

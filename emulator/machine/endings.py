@@ -25,17 +25,17 @@ class Ending:
     computed GO TO before it.  The other fields depend on the kind:
 
     - stop, end: normal ends, without other fields.
-    - hopper: a normal end.  ``line`` is the READ that found the hopper empty.  With ``any_read`` the options allow this
-      end at any READ, not only at the one that begins a data set; the user is then told about it.
-    - limit: ``count`` is the limit, and ``costly`` the work for operations that take longer than plain ones.  ``line``
-      is set if the limit forbids a single operation.  ``loop`` holds the last statements in order of cards;
+    - hopper: a normal end.  ``line`` is the READ that found the hopper empty.  ``any_read`` is True if the options
+      allow this end at any READ, not only at the one that begins a data set.  A message then reports it.
+    - limit: ``count`` is the limit.  ``costly`` is the work of operations that take longer than a statement.  ``line``
+      is set if a single operation would exceed the limit.  ``loop`` holds the last statements in order of cards;
       ``repeats`` means that each of them was executed more than once.
     - bounds: the array ``name``, its ``shape`` and the ``subscripts``.
-    - outside: a subscript that leaves the data, without other fields.
-    - undefined: the ``name`` of the field; ``put_out`` if an output list contains it.
+    - outside: a subscript refers to a place outside the data.  No other fields are set.
+    - undefined: the ``name`` of the field.  ``put_out`` is True if an output list contains it.
     - select: the value of a computed GO TO, in ``subscripts``.
-    - mode: the ``name`` of the field and the ``mode`` of its number.  With the number of a FORMAT in ``format``,
-      ``field`` is the specification that does not fit, or None if the FORMAT has no fields.
+    - mode: the ``name`` of the field and the ``mode`` of its number.  If ``format`` holds the number of a FORMAT,
+      ``field`` is its specification that does not fit the number, or None if the FORMAT has no fields.
     - undecided: ``trouble`` says what the numbers cannot decide.
     - input: ``trouble`` says what is wrong with the deck.
     - operator: the operator stopped the run; ``trouble`` says so.
@@ -117,7 +117,7 @@ def _trouble_in(ending: Ending, line: Line) -> str:
         case "mode" if ending.put_out:
             return f"{ending.name} holds a number of the other mode"
         case "mode":
-            # Only with --bounds core: the number of a neighbouring field.
+            # This occurs only with --bounds core, if a subscript reaches a neighbouring field.
             return f"{ending.name} holds a number in {ending.mode} point, {there}"
     return f"{ending.trouble}, {there}"
 
@@ -168,7 +168,7 @@ def out_of_bounds(program: Program, at: int, decision: int, address: int, subscr
 
 
 def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> Ending:
-    """Return the ending at a field that cannot be computed with: undefined or, by ``kind``, of the other mode."""
+    """Return the ending at a field that no operation can use: by its ``kind`` it is undefined or has the wrong mode."""
     ending = replace(stopped(program, "undefined", at, decision), name=program.storage.name_of(address))
     if kind == UNDEFINED:
         return ending
@@ -176,7 +176,7 @@ def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> 
 
 
 def stopped(program: Program, kind: Kind, at: int, decision: int, subscripts: tuple[int, ...] = ()) -> Ending:
-    """Return an ending at an instruction, without other details than subscripts."""
+    """Return an ending at an instruction.  The subscripts are the only details it holds."""
     return Ending(kind, program.source, program.line_at(at), decided(program, decision), subscripts=subscripts)
 
 

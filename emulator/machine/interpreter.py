@@ -24,7 +24,7 @@ from emulator.numbers.accumulator import divide_fixed
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, wrap_integer
 from emulator.numbers.base import Numbers, Trap
 
-# The frequent operations are globals of this module: with attributes of ``op`` a run takes a fifth longer.
+# The frequent operations are globals of this module, because looking them up in ``op`` makes a run a fifth longer.
 TOFAC, FMFAC, FAD, FSB, FSBR, FMP, FDV, FDVR = range(op.TOFAC, op.FDVR + 1)
 SEND, TRANSMIT, COUNT, BRANCH, IF, DOTEST = op.SEND, op.TRANSMIT, op.COUNT, op.BRANCH, op.IF, op.DOTEST
 
@@ -32,9 +32,9 @@ SEND, TRANSMIT, COUNT, BRANCH, IF, DOTEST = op.SEND, op.TRANSMIT, op.COUNT, op.B
 AT_LIMIT, AT_STATEMENT, AT_BEGIN, AT_ITEM, AT_FINISH, AT_FUNCTION, AT_POWER, AT_POWERX, AT_PAUSE = range(9)
 AT_STOP, AT_EVENT, AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_COSTLY = range(9, 16)
 
-# Units of work a statement may do beyond the limit.
+# The units of work that a statement may do beyond the limit.
 #
-# The limit is checked only when a statement begins, so that the list of the largest possible array is still finished.
+# The limit is checked only when a statement begins.  SLACK allows a list of the largest possible array to finish.
 SLACK = 6_000
 
 # The names of the two-operand operations in :meth:`emulator.numbers.base.Numbers.work`.
@@ -65,20 +65,20 @@ def run(
     table
         The subscripts, from :func:`emulator.machine.state.subscript_table`.
     limit
-        Return AT_LIMIT before the first statement at which this amount of work is done.
+        Return AT_LIMIT before the first statement that begins after this amount of work.
     most
-        The limit of the whole run.  An operation that would exceed it by more than SLACK is not done (AT_COSTLY).
+        The limit of the whole run.  Return AT_COSTLY before an operation that would exceed it by more than SLACK.
     strict
         Return AT_BOUNDS for a subscript outside its array.
     traced
         Return AT_STATEMENT at the beginning of each statement.
     enters
-        For each instruction, whether the journal records it.
+        A flag for each instruction, True if the journal records it.
 
     Raises
     ------
     Undecided
-        If the numbers cannot decide a test.  The state then tells at which instruction.
+        If the numbers cannot decide a test.  The state then holds the instruction.
     """
     operations, addresses, subscripts, seconds, _, targets, loops, begins, charges = code
     # While the loop runs the registers are local variables, which are faster than attributes of the state.
@@ -93,7 +93,7 @@ def run(
     add, subtract, multiply = numbers.add, numbers.subtract, numbers.multiply
     sign, checked = numbers.sign, numbers.checked
     weigh = numbers.work if numbers.is_costly else None
-    # ``decide`` records the decisions of a run that is compared with another, ``enter`` its stores too.
+    # If the run is compared with another one, ``decide`` records its decisions and ``enter`` its stores.
     decide = journal.entries.append if journal else None
     enter = journal.entries.append if journal and journal.stores else None
     if enter and state.listed:
@@ -224,7 +224,7 @@ def run(
                     decide((pc, target, value))
                 pc = target
             elif operation == SEND:
-                # SEND and TRANSMIT copy a field, whatever it holds: an undefined one, too.
+                # SEND and TRANSMIT copy a field even if it is undefined.
                 sent, sent_kind = values[address], kinds[address]
                 pc += 1
             elif operation == TRANSMIT:
@@ -306,7 +306,7 @@ def run(
             elif operation == op.SWITCH:
                 pc = targets[address] if switches[seconds[pc] - 1] else targets[address + 1]
             elif operation == op.ITEM:
-                # One number of a list.  For a whole array the same instruction comes again until its last element.
+                # One number of a list.  For a whole array the instruction is repeated until the last element.
                 if work > most + SLACK:
                     reason = AT_COSTLY
                     break

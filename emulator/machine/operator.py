@@ -1,8 +1,8 @@
 """The operator of a run, who sees the events of the devices and answers every halt.
 
-:class:`Operator` only presses START and types prepared lines.  :class:`FromFile` reads the actions from a file.  A
-person sits at a terminal (modern/cli/shared/terminal.py).  :class:`Logged` records the actions of any operator in a
-file that :class:`FromFile` can read.  emulator/machine/words.py defines the lines of such a file.
+:class:`Operator` only presses START and types prepared lines.  :class:`FromFile` reads the actions from a file.  The
+operator in modern/cli/shared/terminal.py is a person at a terminal.  :class:`Logged` records the actions of any
+operator in a file that :class:`FromFile` can read.  emulator/machine/words.py defines the lines of such a file.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from emulator.machine.words import action_line, halt_line, read_action
 
 _SETTING = ("SWITCH", "BREAK", "CLEAR", "STEP")
 
-# The work after which the operator is called again, a few hundredths of a second.
+# The units of work between two calls of the operator.  A run does them in a few hundredths of a second.
 SLICE = 20_000
 
 # A function that receives events in order.
@@ -59,7 +59,10 @@ class Operator:
         return session.state.work + SLICE
 
     def answer(self, session: Session, halt: Halt) -> Action:
-        """Return the answer to a halt; called until the machine runs.  Raise DeckError if no line is left."""
+        """Return an action for a halt.  The caller repeats the call until the machine runs.
+
+        Raise DeckError if no line is left.
+        """
         if halt.what == "accept":
             line = next(self._keyboard, None)
             if line is None:
@@ -103,7 +106,7 @@ class FromFile(Operator):
         return self._passed or next((part[0].number for part in (self._lines, *self._parts) if part), 0)
 
     def attend(self, session: Session) -> Iterator[Action]:
-        """Yield the actions that are due now.  Settings at the head of the file are made before the run."""
+        """Yield the actions to perform now.  Settings at the head of the file are made before the run."""
         if session is not self._session:
             # The next machine: continue with the lines after the next LOAD.
             if self._session is not None and self._parts:

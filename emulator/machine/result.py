@@ -13,7 +13,7 @@ from emulator.numbers import Number, Numbers, numbers
 DEFAULT_LIMIT = 5_000_000
 DEFAULT_CORE = 40_000
 
-# The units of work before the limit that are examined for a loop.
+# If a run reaches its limit, its last units of work, of this number, are examined for a loop.
 LOOP_WINDOW = 2_000
 PUNCH_COLUMNS = 72
 TYPEWRITER_COLUMNS = 87
@@ -42,7 +42,8 @@ class Options:
     uncut
         Keep the numbers on the punched cards as they were before the fields truncated them (:attr:`Result.uncut`).
     hopper
-        An empty hopper is a normal end at the ``first`` READ of the program, which begins a data set, or at ``any``.
+        With ``first`` an empty hopper is a normal end at the first READ of the program, which begins a data set.  With
+        ``any`` it is a normal end at every READ.
     """
 
     numbers: Numbers = TRUNCATING
@@ -96,7 +97,7 @@ class Result:
     statements
         The number of statements executed.
     counts
-        The executions of each counter of the program.
+        The number of executions of each counter of the program.
     characters_typed
         The characters typed, counting the end of a line as one.
     numbers
@@ -121,10 +122,10 @@ class Result:
 
 
 def statements_begun(program: Program, counts: Sequence[int]) -> int:
-    """Return the number of statements that began, from the counts."""
+    """Return the number of statements that began.  ``counts`` holds the executions of each counter."""
     return sum(n for counter, n in zip(program.counters, counts, strict=True) if counter.begins)
 
 
 def machine_errors(occurrences: Mapping[tuple[str, int], int]) -> tuple[MachineError, ...]:
-    """Return the error codes, from the number of occurrences of each code on each card."""
+    """Return the error codes in order.  ``occurrences`` holds the number of occurrences of each code on each card."""
     return tuple(MachineError(code, card, times) for (code, card), times in sorted(occurrences.items()))

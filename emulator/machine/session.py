@@ -75,7 +75,7 @@ class Session:
     tracer: a function that is called when a statement begins.  journal: records decisions and stores.  uncut: for each
     card of the deck, the numbers to read instead of its columns (:attr:`emulator.machine.result.Result.uncut`).  keep:
     keep events for the result after :meth:`take` has returned them.  retypes: ask again for a typed line that cannot be
-    read; otherwise it is an error.  by_lines: return from :meth:`advance` after every typed line.
+    read, instead of raising an error.  by_lines: return from :meth:`advance` after every typed line.
 
     ``last`` is the last statement executed, if statements are traced or stepped.  Raise DeckError if the program does
     not fit the machine's core storage.
@@ -130,7 +130,8 @@ class Session:
         hold a number, and DeckError if the hopper is empty at the first READ or in the middle of a data set.
         """
         limit = self.options.limit
-        # The counts are saved shortly before the limit.  What has grown at the limit is the loop the program is in.
+        # The counts are saved shortly before the limit.  The statements whose counts have grown at the limit form the
+        # loop.
         window = limit - min(LOOP_WINDOW, limit // 2)
         if self._before is None:
             outcome = self._advance(min(goal, window))
@@ -221,7 +222,7 @@ class Session:
             self.last = self._begun = None
         try:
             while True:
-                # First the service that the interpreter, or a halt in the middle of a service, has left to be done.
+                # First perform the service that the interpreter requested or that a halt interrupted.
                 if reason != interpreter.AT_LIMIT:
                     self._pending, typed = reason, self.devices.characters
                     self._serve(reason)
@@ -237,7 +238,7 @@ class Session:
         except LineNeeded:
             self._wait_for_line("")
         except CardError as error:
-            # A person may type a bad line again: what the statement did with it is undone.
+            # A person may type a bad line again, so the effects of the statement are undone.
             if self._checkpoint is None or self.devices.verb != "ACCEPT":
                 raise
             self._checkpoint.restore(self)
@@ -249,7 +250,10 @@ class Session:
         return self._ending or self.halt
 
     def _wait_for_line(self, trouble: str) -> None:
-        """Halt until a line is typed.  The statement continues from here, again if the line turns out to be bad."""
+        """Halt until a line is typed.
+
+        The statement continues from this point, to which it also returns after a bad line.
+        """
         self._checkpoint = _Checkpoint(self) if self.retypes else None
         self.halt = Halt("accept", self.devices.line_at(self.state.at), trouble=trouble)
 

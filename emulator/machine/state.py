@@ -1,4 +1,4 @@
-"""The state of a run as plain data, and the journal that two runs are compared by.
+"""The state of a run as plain data, and the journal by which two runs are compared.
 
 For each field of core storage ``values`` holds a number, and ``kinds`` its kind: FIXED_POINT, UNDEFINED, or FLOATING
 for a number of the arithmetic.  A :class:`Journal` records the decisions of a run and, if required, its stores, so that
@@ -18,7 +18,8 @@ from emulator.numbers.work import STEPS
 # The kind of a field that holds a floating-point number, in any arithmetic.
 FLOATING = ZERO
 
-# (instruction, field changed or next instruction, value stored or tested); for a COUNT (instruction, 0, None).
+# An entry of a journal: instruction, field changed or next instruction, value stored or tested.  A COUNT has 0 and
+# None.
 Entry = tuple[int, int, Number]
 
 
@@ -35,7 +36,7 @@ class Journal:
 
 
 def recorded_instructions(program: Program) -> list[bool]:
-    """Return for each instruction whether a journal records it: stores into named fields, and numbers read."""
+    """Return a flag for each instruction: True if a journal records it, because it changes a named field."""
     recorded = []
     reading = False
     variables = [e for e in program.storage.entries if e.kind in ("variable", "array")]
@@ -63,11 +64,11 @@ class State:
     pc: the next instruction.  at: the instruction that returned.  address, index: the field it concerns, and its
     subscripts.  sent, sent_kind: a field being copied.  stored: the field last stored into.
 
-    element: the number of elements of an array that its ITEM has transferred; ITEM is then the next instruction again.
-    listed: an element has been transferred that the journal does not record yet.
+    element: the number of elements of an array that its ITEM has transferred; ITEM is then executed again.
+    listed: True if an element has been transferred but not yet recorded in the journal.
 
-    work: the work counted against the limit.  costly: its part for operations that take longer than plain ones.  owed:
-    steps of these that do not make a unit yet (emulator/numbers/work.py).
+    work: the work counted against the limit.  costly: the part of ``work`` for operations that take longer than a
+    statement.  owed: their steps that do not yet add up to a unit (emulator/numbers/work.py).
 
     event: the number of an error code.  decision: the instruction of the last IF or computed GO TO, counted from 1.
     """

@@ -48,8 +48,8 @@ COSTS = {
     **_costs(CONVERSION, BEGIN=3.4, ITEM=0),
     **_costs(CONVERSION, estimated=True, FINISH=2),
 }
-# COUNT is not on the machine: it costs nothing.  SEND and TRANSMIT are a single transmit field instruction, whose time
-# is booked at SEND.  The time of an ITEM is that of its conversion, FIELD_COSTS.
+# COUNT does not exist on the machine and costs nothing.  SEND and TRANSMIT are a single transmit field instruction,
+# whose time is assigned to SEND.  The time of an ITEM is that of its conversion, FIELD_COSTS.
 
 SUBSCRIPT = Cost(2.0, SUBSCRIPTS, True)
 SUBSCRIPT_2 = Cost(7.0, SUBSCRIPTS, True)
@@ -104,7 +104,7 @@ def measure(program: Program, result: Result) -> Timing:
         operations[op.NAMES[instruction.operation]] += times * op.repeats(instruction)
         if instruction.subscript >= 0:
             subscripts[2 if program.subscripts[instruction.subscript].columns else 1] += times
-    # A row of the table adds the operations of one cause.
+    # A row of the table is the sum of all operations with one cause.
     operations.pop("COUNT")
     causes: dict[str, list[tuple[int, Cost]]] = {}
     for name, count in operations.items():
@@ -155,7 +155,8 @@ def shares(program: Program, result: Result) -> tuple[float, ...]:
             two = program.subscripts[instruction.subscript].columns
             milliseconds += (SUBSCRIPT_2 if two else SUBSCRIPT).milliseconds
         seconds[statement] += times * milliseconds / 1000
-    # An instruction tells only fixed from floating point, so that F fields count as E fields, which cost the same.
+    # An instruction distinguishes only fixed from floating point, so F fields are counted as E fields, which cost the
+    # same.
     conversion: dict[str, float] = {}
     for kind, count in result.numbers:
         mode = kind.replace("F", "E")

@@ -2,8 +2,8 @@
 
 A file of actions has one action in capitals on each line: ``ENTER 5``, ``START``, ``STEP 3``, ``STOP``, ``ATTN``,
 ``SWITCH 1 ON``, ``BREAK 40``, ``BREAK CARD 12``, ``CLEAR``.  ``AT n`` before an action other than ENTER and START
-performs it on the running machine when n units of work are done, as ``--limit`` counts them.  The text that ENTER types
-begins following one blank.
+performs it on the running machine when n units of work are done, as ``--limit`` counts them.  ENTER is followed by one
+blank and the text to type.
 """
 
 from __future__ import annotations
