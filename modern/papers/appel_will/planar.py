@@ -23,15 +23,7 @@ from modern.drawing.legend import wrapped
 from modern.drawing.svg import VERTEX, VISIBLE
 from modern.geometry.mesh import sides
 from modern.papers.appel_will.edges import Pair
-from modern.papers.appel_will.pictures import (
-    MOST_LINES,
-    WIDER,
-    WIDTH,
-    PictureError,
-    checked_width,
-    text_row,
-    texts,
-)
+from modern.papers.appel_will.pictures import MOST_LINES, WIDER, WIDTH, PictureError, checked_width, text_row, texts
 from modern.papers.appel_will.surfaces import Surface
 
 Place = tuple[float, float]

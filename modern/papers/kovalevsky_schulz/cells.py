@@ -91,7 +91,7 @@ class Economical:
 
 @dataclass(frozen=True, slots=True)
 class CellList:
-    """The redundant cell list of a polyhedron's surface."""
+    """The redundant cell list of a polyhedron's surface (Tables 1 to 3)."""
 
     vertices: tuple[Vertex, ...]
     edges: tuple[Edge, ...]
@@ -99,7 +99,6 @@ class CellList:
 
     @property
     def points(self) -> tuple[IntPoint, ...]:
-        """The coordinates of the vertices, in their order."""
         return tuple(vertex.point for vertex in self.vertices)
 
     def economical(self) -> Economical:
@@ -144,7 +143,6 @@ def _shifted(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Arra
 
 
 def _flat(cycles: Sequence[Sequence[int]]) -> tuple[Numbers, Numbers]:
-    """Return the lengths of cycles and their concatenated elements."""
     sizes = np.fromiter(map(len, cycles), np.int64, len(cycles))
     return sizes, np.fromiter(chain.from_iterable(cycles), np.int64, int(sizes.sum()))
 

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
+from modern.geometry.mesh import sides
 from modern.geometry.vectors import cross, dot, lowest, minus
 from modern.papers.kovalevsky_schulz.cells import IntPoint
 from modern.papers.kovalevsky_schulz.polyhedron import independent
@@ -29,20 +30,10 @@ Edge = tuple[int, int]
 class Treated:
     """A hull with maximal faces, and counts of the steps.
 
-    Attributes
-    ----------
-    faces
-        The vertices of each face, counterclockwise as seen from outside, beginning with the smallest.
-    created
-        The number of faces created from a new point.
-    larger
-        The number of these with more than three vertices.
-    merged
-        How many times a new face was merged with another face of its plane.
-    extended
-        How many times a face was extended to a point.
-    straightened
-        The number of vertices removed because two edges of a face lay in one line.
+    Each face is the cycle of its vertices, counterclockwise as seen from outside, beginning with the smallest.
+    ``created`` counts the faces created from a new point, ``larger`` those of them with more than three vertices,
+    ``merged`` the mergers of a new face with a face of its plane, ``extended`` the extensions of a face to a point, and
+    ``straightened`` the vertices removed because two edges of a face lay in one line.
     """
 
     faces: tuple[tuple[int, ...], ...]
@@ -68,7 +59,8 @@ def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> Trea
     for number in range(len(distinct)):
         if number not in simplex:
             hull.extend(number, treatment)
-    return Treated(tuple(sorted(hull.cycles())), *hull.counts)
+    counts = (hull.created, hull.larger, hull.merged, hull.extended, hull.straightened)
+    return Treated(tuple(sorted(hull.faces.values())), *counts)
 
 
 class _Growing:
@@ -80,17 +72,11 @@ class _Growing:
         self.created = self.larger = self.merged = self.extended = self.straightened = 0
         for k in range(4):
             a, b, c = (simplex[i] for i in range(4) if i != k)
+            # Orient the plane so that the fourth point of the tetrahedron is on its inner side.
             plane = self.plane(a, b, c)
             if self.value(plane, simplex[k]) > 0:
                 plane = (-plane[0], -plane[1], -plane[2], -plane[3])
             self.faces[plane] = self.convex_cycle(plane, (a, b, c))
-
-    @property
-    def counts(self) -> tuple[int, int, int, int, int]:
-        return self.created, self.larger, self.merged, self.extended, self.straightened
-
-    def cycles(self) -> list[tuple[int, ...]]:
-        return list(self.faces.values())
 
     def extend(self, new: int, treatment: Treatment) -> None:
         values = {plane: self.value(plane, new) for plane in self.faces}
@@ -98,10 +84,10 @@ class _Growing:
         if not visible:
             return
         # Collect the edges between visible and other faces, grouped by the face on their other side.
-        plane_at = {edge: plane for plane, cycle in self.faces.items() for edge in _edges(cycle)}
+        plane_at = {edge: plane for plane, cycle in self.faces.items() for edge in sides(cycle)}
         boundary: dict[Plane, list[Edge]] = {}
         for plane in visible:
-            for a, b in _edges(self.faces[plane]):
+            for a, b in sides(self.faces[plane]):
                 if values[plane_at[b, a]] <= 0:
                     boundary.setdefault(plane_at[b, a], []).append((a, b))
         for plane in visible:
@@ -120,6 +106,8 @@ class _Growing:
 
     def join_coplanar(self, plane: Plane, edges: Sequence[Edge], new: int, treatment: Treatment) -> None:
         """Merge a coplanar face with the new point. ``edges`` are its edges to visible faces."""
+        # Fig. 7 creates one polygon from all edges to visible faces and merges it with the face. Fig. 8 extends the
+        # face itself. Both end in the hull of the face and the point within their plane. Only the counts differ.
         if treatment == QUADRANGLES:
             self.created += 1
             self.larger += len(edges) > 1
@@ -166,6 +154,7 @@ class _Growing:
         """Return the convex chain of sorted points (Andrew's monotone chain)."""
         chain: list[int] = []
         for k in order:
+            # A point at a right turn or in line with its neighbours is no vertex of the face.
             while len(chain) > 1:
                 p, q, r = (self.points[i] for i in (*chain[-2:], k))
                 turn = (q[u] - p[u]) * (r[v] - p[v]) - (q[v] - p[v]) * (r[u] - p[u])
@@ -175,7 +164,3 @@ class _Growing:
                 chain.pop()
             chain.append(k)
         return chain
-
-
-def _edges(cycle: Sequence[int]) -> list[Edge]:
-    return list(zip(cycle, (*cycle[1:], cycle[0]), strict=True))

@@ -6,7 +6,6 @@ and 7). If no order of insertion is requested, the merged list is computed direc
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final, Literal
@@ -39,6 +38,7 @@ def merged(cells: CellList) -> CellList:
     group_of_face = [group.setdefault(plane, len(group)) for plane in cells.planes()]
     # Only the edges between different planes remain. Those of a merged face form one cycle, because it is convex.
     successors: list[dict[int, int]] = [{} for _ in group]
+    # The left face follows an edge from its start to its end, the right face in the opposite direction (Table 2).
     for edge in cells.edges:
         group_1, group_2 = group_of_face[edge.left - 1], group_of_face[edge.right - 1]
         if group_1 != group_2:
@@ -69,6 +69,7 @@ def _cycle(successor: dict[int, int]) -> list[int]:
 
 def _renumbered(cells: CellList, cycles: list[list[int]]) -> CellList:
     """Build the cell list of these faces, without the vertices that no face uses."""
+    # The paper numbers the cells of the merged list consecutively.
     used = sorted({vertex for cycle in cycles for vertex in cycle})
     numbers = {old: new for new, old in enumerate(used, 1)}
     points = tuple(cells.vertices[old - 1].point for old in used)
@@ -103,24 +104,11 @@ class Surface:
 class VoxelHull:
     """The convex hull of a solid and the counts of the method.
 
-    Attributes
-    ----------
-    source
-        The name of the solid in messages.
-    voxels
-        The number of voxels.
-    corners
-        The numbers of local corners by 6 and by 26 neighbours.
-    inserted
-        The local corners whose hull was computed, shape (n, 3), in raster order.
-    surface
-        The hull, or ``Flat`` if all points lie in one plane.
-    of
-        ``centres`` or ``vertices``: whether the points are centres or corners of voxels.
-    world
-        The map from voxel coordinates to physical coordinates, if known.
-    order
-        The order in which the local corners were inserted, or None if they were not.
+    ``source`` names the solid in messages, and ``voxels`` is the number of its voxels. ``corners`` has the numbers of
+    local corners by 6 and by 26 neighbours. ``inserted`` holds those whose hull was computed, shape (n, 3), in raster
+    order, and ``order`` is the order in which they were inserted, or None. ``surface`` is ``Flat`` if all points lie in
+    one plane. ``of`` tells whether the points are centres or corners of voxels. ``world`` maps voxel coordinates to
+    physical coordinates, if these are known.
     """
 
     source: str
@@ -148,11 +136,11 @@ class VoxelHull:
         """
         points, faces = self._polygons(straight)
         if self.world is None:
-            return Mesh(self._dimension, tuple(_three(map(str, point)) for point in points), faces)
+            return Mesh(self._dimension, tuple((str(x), str(y), str(z)) for x, y, z in points), faces)
         # The corner (x, y, z) in the paper's coordinates lies half a step before the centre of voxel (x, y, z).
         half = Fraction(1, 2) if self.of == VERTICES else Fraction(0)
-        places = (self.world.place([number - half for number in point]) for point in points)
-        texts = tuple(_three(map(decimal_or_fraction, place)) for place in places)
+        places = (map(decimal_or_fraction, self.world.place([number - half for number in point])) for point in points)
+        texts = tuple((x, y, z) for x, y, z in places)
         outward = tuple(face[::-1] for face in faces) if self.world.mirrors else faces
         return Mesh(self._dimension, texts, outward)
 
@@ -171,11 +159,6 @@ class VoxelHull:
             return self.surface.vertices, (cycle,) if self.surface.dimension == 2 else ()
         cells = self.surface.straight if straight else self.surface.faces
         return cells.points, tuple(tuple(v - 1 for v in face.vertices) for face in cells.faces)
-
-
-def _three(texts: Iterable[str]) -> tuple[str, str, str]:
-    x, y, z = texts
-    return x, y, z
 
 
 def voxel_hull(
@@ -220,6 +203,7 @@ def voxel_hull(
         raise ValueError(f"expected 6 or 26 neighbours, found {neighbours}")
     if order is None and coplanar is not None:
         order = RASTER
+    # Section 2: the local corners are the only candidates for vertices. Both numbers of them are reported.
     corners = corners_by_neighbours(volume, of)
     counts = {count: len(corners[count]) for count in NEIGHBOURS}
     surface = _surface(corners[neighbours], order, coplanar or VISIBLE)

@@ -34,6 +34,7 @@ def hull_cells(points: Points) -> CellList | Flat:
     simplex = independent(candidates)
     if len(simplex) < 4:
         return flat_hull(_tuples(points))
+    # The digital polytope replaces the insertion of points (section 2). It has the same triangles up to their division.
     a, b, c, d = simplex
     triangles, plane = polyhedron(candidates, (a, b, c, d), False)
     # Number the vertices of the triangles in raster order, as the paper's procedure does.
@@ -53,6 +54,7 @@ def hull_cells(points: Points) -> CellList | Flat:
 def column_ends_of(points: Points) -> Points:
     """Reduce points with no negative coordinates to possible vertices: column ends that lie on no chord."""
     x, y, z = points[np.lexsort(points.T[::-1])].T
+    # A column is the points with one (x, y). Only its first and its last point can be vertices of the hull.
     new = np.concatenate(([True], (x[1:] != x[:-1]) | (y[1:] != y[:-1])))
     last = np.concatenate((new[1:], [True]))
     lower = np.stack(reduced(x[new], y[new], z[new]), axis=1)

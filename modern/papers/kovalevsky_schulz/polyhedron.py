@@ -65,18 +65,10 @@ class Flat:
 class CurrentPolyhedron:
     """The paper's CP: edges and triangles by number, in the order of their creation, changed in place.
 
-    Attributes
-    ----------
-    points, shifted
-        All points that may become vertices, numbered from 0, and the same relative to the lowest corner of their box.
-    least
-        The least value of its plane at which a face is visible from a point.
-    ends
-        The start and the end of each edge.
-    sides
-        The face on the left of edge e is ``sides[e]``, the face on its right ``sides[-e]``.
-    last_edge, last_face, first_new
-        The numbers of the last edge and the last face, and of the first face created in the same extension.
+    ``points`` are all points that may become vertices, and ``shifted`` the same relative to the lowest corner of their
+    box. A face is visible from a point if the value of its plane there is at least ``least``. ``ends`` has the start
+    and the end of each edge. The face on the left of edge e is ``sides[e]``, the face on its right ``sides[-e]``.
+    ``first_new`` is the number of the first face created in the last extension.
     """
 
     def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int], coplanar: Coplanar) -> None:

@@ -14,17 +14,11 @@ from fractions import Fraction
 
 from modern.digital.solids import ball, half_ball
 from modern.papers import Lines
+from modern.papers.kovalevsky_schulz import tables
 from modern.papers.kovalevsky_schulz.cells import CellList
 from modern.papers.kovalevsky_schulz.hull import voxel_hull
 from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, convex_polyhedron
-from modern.papers.kovalevsky_schulz.tables import (
-    cell_list_size,
-    cube_triangles,
-    edge_rows,
-    face_rows,
-    triangulation_size,
-    vertex_rows,
-)
+from modern.papers.kovalevsky_schulz.tables import cell_list_size, cube_triangles, triangulation_size
 
 TETRAHEDRON = ((0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))
 """Four points in the arrangement of Fig. 4: points 1, 2, 3 run counterclockwise, and point 4 is behind them."""
@@ -32,8 +26,7 @@ TETRAHEDRON = ((0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))
 
 def produced(printed: Lines) -> Lines:
     """Compute the lines of every published result that can be computed, by its id in ``results.toml``."""
-    lines: dict[str, Sequence[str]] = {}
-    lines.update(_ball(32))
+    lines: dict[str, Sequence[str]] = dict(_ball(32))
     lines.update(_tetrahedron())
     lines["formula-5"] = [f"{_decimal(triangulation_size(1), 1)} integers for each triangle"]
     lines.update(_future_car(printed["future-car"][0], printed["table4-hull"][0]))
@@ -51,15 +44,17 @@ def _ball(diameter: int) -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _tetrahedron() -> Iterator[tuple[str, Sequence[str]]]:
+    # Tables 1 to 3 print the cell list of the tetrahedron of Fig. 4, with symbols instead of coordinates.
     cells = convex_polyhedron(TETRAHEDRON)
     assert isinstance(cells, CellList)
-    yield "table1", list(vertex_rows(cells, lambda number, _: f"(x_{number}, y_{number}, z_{number})"))
-    yield "table2", list(edge_rows(cells))
-    yield "table3", list(face_rows(cells))
+    yield "table1", list(tables.vertex_rows(cells, lambda number, _: f"(x_{number}, y_{number}, z_{number})"))
+    yield "table2", list(tables.edge_rows(cells))
+    yield "table3", list(tables.face_rows(cells))
 
 
 def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:
     """Compute Table 4 from the three counts that the paper prints for a body shown in a picture only."""
+    # One Marching Cubes vertex lies in every voxel face. Formulas (5) and (6) then give the numbers of integers.
     voxel_faces = int(surface.split()[-2])
     triangles = cube_triangles(voxel_faces)
     size = _decimal(triangulation_size(triangles), 0)

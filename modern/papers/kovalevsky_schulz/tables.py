@@ -17,7 +17,6 @@ FACE_HEADING = "Face\tn\tPairs (P, L)"
 
 
 def coordinates(_: int, point: IntPoint) -> str:
-    """Format the coordinates of a vertex."""
     return str(point)
 
 
@@ -31,25 +30,22 @@ def vertex_rows(cells: CellList, label: Callable[[int, IntPoint], str] = coordin
 
 
 def edge_rows(cells: CellList) -> Iterator[str]:
-    """Yield the rows of Table 2."""
+    """Yield the rows of Table 2: the two ends of an edge and the faces on its left and right."""
     for number, edge in enumerate(cells.edges, 1):
         yield f"{number}\t{edge.start}\t{edge.end}\t{edge.left}\t{edge.right}"
 
 
 def face_rows(cells: CellList) -> Iterator[str]:
-    """Yield the rows of Table 3."""
+    """Yield the rows of Table 3: the number of a face's edges and its pairs (P, L)."""
     for number, face in enumerate(cells.faces, 1):
         yield f"{number}\t{len(face.pairs)}\t{_listed(face.pairs)}"
 
 
 def all_rows(cells: CellList) -> Iterator[str]:
     """Yield the three tables with their headings."""
-    yield VERTEX_HEADING
-    yield from vertex_rows(cells)
-    yield EDGE_HEADING
-    yield from edge_rows(cells)
-    yield FACE_HEADING
-    yield from face_rows(cells)
+    yield from (VERTEX_HEADING, *vertex_rows(cells))
+    yield from (EDGE_HEADING, *edge_rows(cells))
+    yield from (FACE_HEADING, *face_rows(cells))
 
 
 def _listed(items: Iterable[object]) -> str:

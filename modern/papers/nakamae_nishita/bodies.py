@@ -8,10 +8,10 @@ merging faces within a distance of one plane. Faces and vertices are counted fro
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 
 from modern.comparison.outcome import as_hull
 from modern.exact_hull import exact_hull
@@ -23,8 +23,9 @@ from modern.geometry.coplanar import FLAT, CoplanarError, Joined, join, join_sum
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import mesh, sides
 from modern.geometry.numbers import coordinates
-from modern.geometry.vectors import Vector, area_vector, cross, dot, lowest, minus
-from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, checked, polyhedron_of_hull, turns_once
+from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
+from modern.papers.nakamae_nishita import polyhedron as solids
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, checked, turns_once
 
 Edge = tuple[int, int]
 
@@ -104,7 +105,8 @@ def _components(surface: FileMesh, name: str) -> list[_Component]:
     for order, face in enumerate(surface.faces):
         for a, b in sides(face):
             faces_at.setdefault((min(a, b), max(a, b)), []).append(order)
-    # Union-find over faces that share an edge; an edge of more than two faces connects none.
+    # Section 2 describes an object as convex polyhedra, so the file is divided into the connected components of its
+    # faces. Union-find over faces that share an edge; an edge of more than two faces connects none.
     parent = list(range(len(surface.faces)))
 
     def root(face: int) -> int:
@@ -133,9 +135,15 @@ def _components(surface: FileMesh, name: str) -> list[_Component]:
 def _body(surface: FileMesh, component: _Component, reading: Reading) -> tuple[Polyhedron, list[str]]:
     """Return a component as a convex polyhedron, and notes on the changes that made it one."""
     name = component.name
-    fault = next(_faults(surface, component), "")
+    gaps = solids.open_faults(
+        {order: surface.faces[order] for order in component.faces},
+        {place: coordinates(surface.points[place]) for place in component.vertices},
+        partial(_edge_name, surface),
+    )
+    fault = next(gaps, "")
     if fault and not reading.hull:
         raise SceneError(f"{name}: {fault}")
+    # The exact hull of the component's vertices either replaces the component or proves that it is convex.
     hull = as_hull(exact_hull([coordinates(surface.points[place]) for place in component.vertices]))
     if hull.dimension < 3:
         return _of_hull(hull, name, None) if reading.hull else checked(_as_given(_closed(surface, component))), []
@@ -161,26 +169,6 @@ def _body(surface: FileMesh, component: _Component, reading: Reading) -> tuple[P
     return polyhedron, []
 
 
-def _faults(surface: FileMesh, component: _Component) -> Iterator[str]:
-    """Yield the reasons why a component is not a closed surface."""
-    directed: Counter[Edge] = Counter()
-    for order in component.faces:
-        face = surface.faces[order]
-        if len(face) < 3 or len(set(face)) < len(face):
-            yield f"face {order + 1} does not have at least three different vertices"
-        directed.update(sides(face))
-    for (a, b), times in sorted(directed.items()):
-        if times > 1:
-            yield f"two faces run in the same direction along vertices {_two(surface, a, b)}"
-        if not directed[b, a]:
-            yield f"not closed: only one face at vertices {_two(surface, a, b)}"
-    first: dict[object, int] = {}
-    for place in component.vertices:
-        point = coordinates(surface.points[place])
-        if first.setdefault(point, place) != place:
-            yield f"vertices {first[point] + 1} and {place + 1} are the same point"
-
-
 @dataclass(frozen=True, slots=True)
 class _Closed:
     """A closed component with integer points, multiplied by ``scale``, and faces counterclockwise from outside.
@@ -201,16 +189,12 @@ def _closed(surface: FileMesh, component: _Component) -> _Closed:
     scale = common_scale(vectors)
     points = dict(zip(component.vertices, to_integers(vectors, scale), strict=True))
     faces = {order: surface.faces[order] for order in component.faces}
-    normals = {order: _normal(points, face) for order, face in faces.items()}
+    normals = {order: area_vector([points[place] for place in face], range(len(face))) for order, face in faces.items()}
+    # The cones from the origin to the faces have a negative total volume if the faces are clockwise from outside.
     if sum(dot(normals[order], points[face[0]]) for order, face in faces.items()) < 0:
         faces = {order: face[::-1] for order, face in faces.items()}
         normals = {order: (-x, -y, -z) for order, (x, y, z) in normals.items()}
     return _Closed(surface, component, scale, points, faces, normals)
-
-
-def _normal(points: dict[int, IntPoint], face: Sequence[int]) -> IntPoint:
-    corners = [points[place] for place in face]
-    return area_vector(corners, range(len(corners)))
 
 
 def _dents(closed: _Closed) -> Iterator[tuple[Fraction, int, int, int, int]]:
@@ -219,6 +203,7 @@ def _dents(closed: _Closed) -> Iterator[tuple[Fraction, int, int, int, int]]:
     owner = {edge: order for order, face in closed.faces.items() for edge in sides(face)}
     for (a, b), order in owner.items():
         neighbour, normal = owner[b, a], normals[order]
+        # Over a reflex edge the normals turn against the sense of the edge. Each edge is examined from one side.
         if order < neighbour and dot(cross(normal, normals[neighbour]), minus(points[b], points[a])) < 0:
             depth = max(dot(normal, minus(points[place], points[a])) for place in closed.faces[neighbour])
             yield Fraction(depth * depth, dot(normal, normal) * closed.scale**2), order, neighbour, a, b
@@ -227,14 +212,13 @@ def _dents(closed: _Closed) -> Iterator[tuple[Fraction, int, int, int, int]]:
 def _advice(surface: FileMesh, dent: tuple[Fraction, int, int, int, int], reading: Reading) -> str:
     square, order, neighbour, a, b = dent
     return (
-        f"not convex: between faces {order + 1} and {neighbour + 1} the edge of vertices {_two(surface, a, b)}, "
+        f"not convex: between faces {order + 1} and {neighbour + 1} the edge of vertices {_edge_name(surface, a, b)}, "
         f"is reflex by {root_text(square)}; divide the solid along the plane of face {order + 1}, take its hull "
         f"({reading.as_hull}), or, if the cause is rounding, merge faces within a distance ({reading.as_within})"
     )
 
 
-def _two(surface: FileMesh, a: int, b: int) -> str:
-    """Name two vertices by number and coordinates."""
+def _edge_name(surface: FileMesh, a: int, b: int) -> str:
     at = " and ".join(f"({', '.join(surface.points[place])})" for place in (a, b))
     return f"{a + 1} and {b + 1}, {at}"
 
@@ -267,7 +251,7 @@ def _flaws(closed: _Closed, hull: Hull, polyhedron: Polyhedron, reading: Reading
         d = Fraction(-dot((a, b, c), points[face[0]]), closed.scale)
         if (a * d.denominator, b * d.denominator, c * d.denominator, d.numerator) not in planes:
             yield f"not convex: face {order + 1} does not lie on the hull of the vertices"
-        if not turns_once([_fractions(points[place]) for place in face], _fractions(normal)):
+        if not turns_once([points[place] for place in face], normal):
             yield f"face {order + 1} is not convex"
     if len(polyhedron.vertices) - sum(map(len, polyhedron.faces)) // 2 + len(polyhedron.faces) != 2:
         yield "not one closed surface: vertices - edges + faces is not 2"
@@ -308,11 +292,7 @@ def _far(closed: _Closed, hull: Hull, joined: Joined) -> int | None:
 def _of_hull(hull: Hull, name: str, joined: Joined | None) -> Polyhedron:
     """Return the polyhedron of an exact hull, whose certificate proves that it is convex."""
     if hull.dimension < 3:
-        return replace(polyhedron_of_hull(hull, name), name=name)
+        return replace(solids.polyhedron_of_hull(hull, name), name=name)
     surface = mesh(hull)
     faces = tuple(face[::-1] for face in surface.faces)
     return Polyhedron(name, surface.numbers(), faces, joined=() if joined is None else joined.group_of())
-
-
-def _fractions(point: IntPoint) -> Vector:
-    return Fraction(point[0]), Fraction(point[1]), Fraction(point[2])

@@ -60,6 +60,7 @@ def _depth(point: Vector, observer: Observer) -> Fraction:
 def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Observer) -> Polyhedron:
     """Return the part of a polyhedron beyond the plane. Its last face is the section, which a plate does not have."""
     points = list(polyhedron.vertices)
+    # The index of the new vertex on every edge that the plane cuts. Two faces share each of them.
     cuts: dict[tuple[int, int], int] = {}
 
     def crossing(a: int, b: int) -> int:
@@ -73,6 +74,7 @@ def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Obser
     for order, face in enumerate(polyhedron.faces):
         if max(depths[place] for place in face) <= 0:
             continue
+        # Sutherland and Hodgman: keep the vertices beyond the plane and insert the crossings of the sides.
         clipped_face: list[int] = []
         for a, b in sides(face):
             if depths[a] >= 0:
@@ -91,6 +93,7 @@ def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Obser
             chain.append(ahead[chain[-1]])
         faces.append(tuple(chain))
         groups += [max(groups) + 1] if groups else []
+    # Renumber the vertices that remain.
     used = sorted({place for face in faces for place in face})
     names = {place: order for order, place in enumerate(used)}
     return replace(

@@ -53,6 +53,7 @@ def overlapping(all_boxes: Sequence[Box | None]) -> Iterator[tuple[int, int]]:
     nonempty = [(index, box) for index, box in enumerate(all_boxes) if box is not None]
     if len(nonempty) < 2:
         return
+    # The grid covers all boxes, with about as many rows and columns as the square root of their number.
     left, right = min(box[0] for _, box in nonempty), max(box[1] for _, box in nonempty)
     low, high = min(box[2] for _, box in nonempty), max(box[3] for _, box in nonempty)
     resolution = min(math.isqrt(len(nonempty)) + 1, _CELLS)
@@ -60,6 +61,7 @@ def overlapping(all_boxes: Sequence[Box | None]) -> Iterator[tuple[int, int]]:
     cells: dict[tuple[int, int], list[tuple[int, Box, int, int]]] = defaultdict(list)
     for index, box in nonempty:
         first_column, first_row = int((box[0] - left) * per_x), int((box[2] - low) * per_y)
+        # Enter the box in every cell that it touches.
         for column in range(first_column, int((box[1] - left) * per_x) + 1):
             for row in range(first_row, int((box[3] - low) * per_y) + 1):
                 cells[column, row].append((index, box, first_column, first_row))
@@ -94,6 +96,7 @@ def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -
     This is property 1: if a column of PL or a row of LP has no 1, the contours do not overlap.
     """
     columns = []
+    # Formula (1) for a point (x, y, w) and the line of a segment: positive on its right, the inside of the contour.
     for a, b, c in lines:
         column = [a * x + b * y + c * w for x, y, _, w in points]
         if max(column) <= 0:
@@ -116,6 +119,7 @@ class Tables:
         also if they overlap in a line.
         """
         after_i, after_j = (i + 1) % len(self.pl[0]), (j + 1) % len(self.pl)
+        # Both differences are 2 in absolute value if each segment has its ends on opposite sides of the other.
         return (self.lp[j][after_i] - self.lp[j][i]) * (self.pl[after_j][i] - self.pl[j][i])
 
     def crossings(self) -> Iterator[tuple[int, int]]:

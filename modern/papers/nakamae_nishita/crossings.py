@@ -61,11 +61,13 @@ def clipped(values: Values, first: int, last: int) -> Passage:
                 leave_up, leave_down = a, a - b
         elif not (a or b):
             return CLEAR
+    # A part of length 0 is not hidden: the segment only touches the contour.
     if enter_up * leave_down >= leave_up * enter_down:
         return CLEAR
     enters, leaves = enter_up > 0, leave_up < leave_down
     if not (enters or leaves):
         return ENCLOSED
+    # The index of formula (6) is +k where the segment enters and -k where it leaves, for k intersections.
     k = enters + leaves
     marks = [(Fraction(enter_up, enter_down), k)] if enters else []
     if leaves:
@@ -85,6 +87,7 @@ def as_printed(
     places = []
     for i, column in enumerate(values):
         at_a, at_b = column[first], column[last]
+        # Formula (3) for contour segment i: -4 if its ends and those of the segment lie on opposite sides.
         d = (sides[(i + 1) % len(sides)] - sides[i]) * (sign(at_b) - sign(at_a))
         if d == CROSSING:
             places.append((Fraction(at_a, at_a - at_b), sign(at_b - at_a)))

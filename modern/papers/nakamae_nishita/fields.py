@@ -30,28 +30,17 @@ class Fields:
         return SceneError(f"{self.place}: {key}: {message}")
 
     def text(self, key: str, default: str) -> str:
-        raw = self.take(key)
-        if raw is not None and not isinstance(raw, str):
-            raise self.wrong(key, "expected a string")
-        return default if raw is None else raw
+        raw = self._typed(key, str, "expected a string")
+        return default if raw is None else str(raw)
 
     def flag(self, key: str) -> bool:
-        raw = self.take(key)
-        if raw is not None and not isinstance(raw, bool):
-            raise self.wrong(key, "expected true or false")
-        return bool(raw)
+        return bool(self._typed(key, bool, "expected true or false"))
 
     def table(self, key: str) -> Mapping[str, Any]:
-        raw = self.take(key)
-        if raw is not None and not isinstance(raw, dict):
-            raise self.wrong(key, "expected a table")
-        return raw or {}
+        return self._typed(key, dict, "expected a table") or {}
 
     def tables(self, key: str) -> list[Mapping[str, Any]]:
-        raw = self.take(key) or []
-        if not isinstance(raw, list) or not all(isinstance(item, dict) for item in raw):
-            raise self.wrong(key, f"expected tables [[{key}]]")
-        return raw
+        return self._list_of(dict, key, f"expected tables [[{key}]]")
 
     def number(self, key: str) -> Fraction | None:
         raw = self.take(key)
@@ -66,7 +55,6 @@ class Fields:
         return int(raw)
 
     def whole(self, key: str, length: int) -> tuple[int, ...] | None:
-        """Return a list of ``length`` integers."""
         raw = self.take(key)
         if raw is None:
             return None
@@ -82,20 +70,18 @@ class Fields:
         """Return a list of points. With ``flat``, points of two numbers lie in the plane z = 0."""
         if key not in self:
             return None
-        return tuple(self._vector(key, item, flat) for item in self._list(key, "expected a list of points"))
+        return tuple(self._vector(key, item, flat) for item in self._list_of(object, key, "expected a list of points"))
 
     def polygons(self, key: str) -> tuple[tuple[Vector, ...], ...]:
-        """Return a list of lists of points."""
-        raw = self._list(key, "expected a list of lists of points")
-        if not all(isinstance(item, list) for item in raw):
-            raise self.wrong(key, "expected a list of lists of points")
+        raw = self._list_of(list, key, "expected a list of lists of points")
         return tuple(tuple(self._vector(key, point) for point in item) for item in raw)
 
     def counts(self, key: str) -> tuple[tuple[int, ...], ...]:
-        """Return a list of lists of integers."""
-        raw = self._list(key, "expected a list of lists of integers")
-        if not all(isinstance(item, list) and all(type(k) is int for k in item) for item in raw):
-            raise self.wrong(key, "expected a list of lists of integers")
+        message = "expected a list of lists of integers"
+        raw = self._list_of(list, key, message)
+        # bool is a subclass of int, so isinstance would accept true and false.
+        if not all(type(k) is int for item in raw for k in item):
+            raise self.wrong(key, message)
         return tuple(tuple(item) for item in raw)
 
     def done(self) -> None:
@@ -103,11 +89,17 @@ class Fields:
         for key in self._data:
             raise SceneError(f"{self.place}: {quoted(key)} is not a field of this table")
 
-    def _list(self, key: str, message: str) -> list[Any]:
+    def _typed(self, key: str, kind: type, message: str) -> Any:
         raw = self.take(key)
-        if raw is not None and not isinstance(raw, list):
+        if raw is not None and not isinstance(raw, kind):
             raise self.wrong(key, message)
-        return raw or []
+        return raw
+
+    def _list_of(self, kind: type, key: str, message: str) -> list[Any]:
+        raw = self._typed(key, list, message) or []
+        if not all(isinstance(item, kind) for item in raw):
+            raise self.wrong(key, message)
+        return list(raw)
 
     def _vector(self, key: str, raw: Any, flat: bool = False) -> Vector:
         if not isinstance(raw, list) or not (len(raw) == 3 or (flat and len(raw) == 2)):

@@ -27,7 +27,10 @@ def ghosts(solids: Sequence[Solid], facing: int = 1) -> dict[Name, list[Span]]:
 
     ``facing`` is 1 for front faces, as in the paper, or -1 for back faces, which matter only if hidden lines are drawn.
     """
+    # Only an object of at least two polyhedra has ghost lines.
     parts = Counter(solid.polyhedron.thing for solid in solids if solid.polyhedron.thing)
+    # Group the edges by object, plane of a front face, and line of the image. In one plane, edges on one line of the
+    # image are on one line in space.
     lines: dict[_Key, list[Name]] = defaultdict(list)
     for solid in solids:
         if parts[solid.polyhedron.thing] < 2:
@@ -41,6 +44,7 @@ def ghosts(solids: Sequence[Solid], facing: int = 1) -> dict[Name, list[Span]]:
                     line = line_through((a[0], a[1], a[3]), (b[0], b[1], b[3]))
                     key = (solid.polyhedron.thing, _plane_key(solid.planes[face]), _line_key(line))
                     lines[key].append((solid.number, edge.start, edge.end))
+    # Section 3.4: the part that an edge has in common with an edge of another polyhedron is a ghost.
     spans: dict[Name, list[Span]] = defaultdict(list)
     for group in lines.values():
         for name in group if len(group) > 1 else ():

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from modern.drawing.visible import BACK
-from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.clipping import beyond_near
 from modern.papers.nakamae_nishita.contours import Tables, Values, boxes, overlapping, tables, values
 from modern.papers.nakamae_nishita.crossings import Passage, as_printed, clipped
@@ -116,37 +115,30 @@ def draw(
 ) -> Drawing:
     """Draw convex polyhedra.
 
-    Parameters
-    ----------
-    made
-        The polyhedra, or a function that creates them, which is then timed as the first step.
-    observer
-        The viewpoint.
-    without
-        Names from ``REFINEMENTS`` to switch off.
-    hidden
-        Include hidden parts, and edges whose faces are all back faces, as pieces that are not seen.
-    check
-        Prove for every pair with overlapping contours that the polyhedra do not intersect.
+    ``made`` may be a function that creates the polyhedra, which is then timed as the first step. ``without`` names the
+    ``REFINEMENTS`` to switch off. With ``hidden``, hidden parts and edges between back faces become pieces that are not
+    seen. With ``check``, polyhedra with overlapping contours are proved not to intersect.
 
-    Raises
-    ------
-    SceneError
-        If polyhedra intersect, if one is not entirely in front of the observation point and there is no near plane, or
-        if a name in ``without`` is unknown.
+    Raise SceneError if polyhedra intersect, if one is not entirely in front of the observation point and there is no
+    near plane, or if a name in ``without`` is unknown.
     """
     unknown = sorted(set(without) - set(REFINEMENTS))
     if unknown:
         raise SceneError(f"{unknown[0]!r} is not one of {', '.join(REFINEMENTS)}")
     started = time.perf_counter()
+    # Time I: create the polyhedra (section 2).
     created = made() if callable(made) else made
     clipped_scene = beyond_near(created, observer)
     polyhedra = clipped_scene.polyhedra
     # Time II: project the polyhedra and find their edges and contours.
     searched = time.perf_counter()
-    origin = _origin(polyhedra)
-    solids = tuple(solid(number, polyhedron, observer, origin) for number, polyhedron in enumerate(polyhedra))
-    # Time III: compare the contours in pairs. Segments of the farther polyhedron pass behind the nearer one.
+    if not polyhedra:
+        raise SceneError("there are no polyhedra")
+    # An integer point near the scene as origin keeps the coordinates short.
+    x, y, z = (Fraction(math.floor(number)) for number in polyhedra[0].vertices[0])
+    solids = tuple(solid(number, polyhedron, observer, (x, y, z)) for number, polyhedron in enumerate(polyhedra))
+    # Time III: compare the contours in pairs (sections 3.2 and 3.3). Only the segments of the farther polyhedron can be
+    # hidden by the nearer one, so each pair is examined in one direction.
     eliminated = time.perf_counter()
     behind: list[list[list[tuple[int, Passage]]]] = [[[] for _ in item.segments] for item in solids]
     relations = []
@@ -157,6 +149,7 @@ def draw(
             _pass(behind[w.number], w, v, of_v, without)
         elif relation.nearer < 0:
             _pass(behind[v.number], v, w, of_w, without)
+    # Section 3.4: ghost lines divide two parts of one object in a plane face.
     front_ghosts: dict[Name, list[Span]] = {} if GHOSTS in without else ghosts(solids)
     passages = tuple(
         Passages(
@@ -166,44 +159,34 @@ def draw(
         for place, (segment, course) in enumerate(zip(item.segments, behind[item.number], strict=True))
     )
     back_ghosts = ghosts(solids, -1) if hidden and GHOSTS not in without else {}
+    # Section 3.5: the visible parts of every segment.
     pieces = [piece for passage in passages for piece in _pieces(solids, passage, back_ghosts, hidden)]
     if hidden:
         pieces += [piece for item in solids for piece in _back_edges(item, back_ghosts)]
     ended = time.perf_counter()
     seconds = (searched - started, eliminated - searched, ended - eliminated)
     return Drawing(
-        observer,
-        solids,
-        tuple(relations),
-        passages,
-        tuple(pieces),
-        seconds,
-        clipped_scene.cut,
-        clipped_scene.behind,
+        observer, solids, tuple(relations), passages, tuple(pieces), seconds, clipped_scene.cut, clipped_scene.behind
     )
-
-
-def _origin(polyhedra: Sequence[Polyhedron]) -> Vector:
-    if not polyhedra:
-        raise SceneError("there are no polyhedra")
-    x, y, z = (Fraction(math.floor(number)) for number in polyhedra[0].vertices[0])
-    return x, y, z
 
 
 def _relations(
     solids: Sequence[Solid], without: Collection[str], check: bool
 ) -> Iterator[tuple[Relation, Values, Values]]:
-    """Yield every pair with overlapping contours, with formula (1) of each contour at the points of the other one."""
+    """Yield the pairs with overlapping contours, with formula (1) of each contour at the other polyhedron's points."""
     contours = [item.images[: len(item.contour)] for item in solids]
+    # Property 1 of section 3.2 rejects a pair as soon as all points are outside of one segment of a contour.
     for first, second in overlapping(boxes(contours)):
         v, w = solids[first], solids[second]
         of_v = values(v.lines, w.images)
         of_w = values(w.lines, v.images) if of_v is not None else None
         if of_v is None or of_w is None:
             continue
+        # Formulas (2) and (3): the signs at the contours' vertices, which come first among the points.
         m, n = len(v.contour), len(w.contour)
         pair = tables([column[:n] for column in of_v], [row[:m] for row in of_w])
         nearer, by = by_formulas(v, w, pair, of_v, of_w)
+        # Both formulas are 0 for polyhedra that touch. A separating plane decides then, and proves the pair disjoint.
         if check or (by == UNDECIDED and TOUCHING not in without):
             side, plane = by_plane(v, w)
             if plane is None:
@@ -239,6 +222,7 @@ def _pieces(
     if not passages.behind and not passages.ghosts:
         yield Piece(passages.solid, segment.start, segment.end, _START, _END, True)
         return
+    # A mark is a fraction of the edge with the changes of the three counters there.
     marks: list[tuple[Fraction, int, int, int]] = [(_END, 0, 0, 0)]
     marks += [(place, index, 0, 0) for _, passage in passages.behind for place, index in passage.marks]
     for low, high in passages.ghosts:
@@ -268,6 +252,7 @@ def _back_edges(item: Solid, back_ghosts: dict[Name, list[Span]]) -> Iterator[Pi
     """Yield the edges between back faces without their ghost parts."""
     for edge in item.edges:
         if edge.kind == BACK:
+            # Edges between back faces are hidden everywhere. What lies between their ghost parts is drawn dashed.
             since = _START
             for low, high in sorted(back_ghosts.get((item.number, edge.start, edge.end), ())):
                 if low > since:

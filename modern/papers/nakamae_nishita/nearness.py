@@ -30,12 +30,16 @@ def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) ->
     """
     # Formula (4): at an intersection of the contours compare the depths of the two points with that image.
     for i, j in pair.crossings():
-        dr = range_difference(crossing(v, i, of_w[j]), crossing(w, j, of_v[i]))
+        # dr = (P1 - P0).(P1 - P2) is negative if P1, on V, is nearer than P2, on V'. The two points have one image, and
+        # the eye P0 is at infinity on the z axis, so P1 - P0 points along -z.
+        p, q = crossing(v, i, of_w[j]), crossing(w, j, of_v[i])
+        dr = sign(q[2] * p[3] - p[2] * q[3])
         if dr:
             return -dr, BY_CROSSING
     # Formula (5): if one contour encloses the other, test the inner vertices against the face around them.
     for outer, inner, encloses, which in ((v, w, pair.encloses, -1), (w, v, pair.enclosed, 1)):
         if encloses:
+            # A vertex may touch the face around it, where formula (5) is 0. Another vertex then decides.
             for place in inner.contour:
                 side = sign(height(_enclosing_face(outer, inner.points[place]), inner.points[place]))
                 if side:
@@ -56,14 +60,6 @@ def between(p: Homogeneous, q: Homogeneous, at_p: int, at_q: int) -> Homogeneous
     return m * p[0] + n * q[0], m * p[1] + n * q[1], m * p[2] + n * q[2], m * p[3] + n * q[3]
 
 
-def range_difference(p: Homogeneous, q: Homogeneous) -> int:
-    """Return the sign of formula (4), dr = (P1 - P0).(P1 - P2), which is negative if P1 is nearer.
-
-    The two points have one image. The eye P0 is at infinity on the z axis, so P1 - P0 points along -z.
-    """
-    return sign(q[2] * p[3] - p[2] * q[3])
-
-
 def by_plane(v: Solid, w: Solid) -> tuple[int, Plane | None]:
     """Compare V and V' by a separating plane. Return 1 if V is nearer, -1 if V' is nearer, and the plane.
 
@@ -73,6 +69,7 @@ def by_plane(v: Solid, w: Solid) -> tuple[int, Plane | None]:
     # If any plane separates two convex polyhedra, then the plane of a face does, or a plane through an edge of one
     # and a vertex of the other. Upright planes (plane[2] == 0) do not order the two in depth.
     for owner, opposite, which in ((v, w, -1), (w, v, 1)):
+        # The other polyhedron must lie on the outer side. A plate needs a point off its plane to have sides at all.
         for plane in owner.planes:
             least, greatest = _range(plane, opposite.vertices)
             if plane[2] and least >= 0 and (greatest > 0 or not _is_plate(owner)):
@@ -110,8 +107,7 @@ def _enclosing_face(solid: Solid, point: Homogeneous) -> Plane:
     for face, facing, plane in zip(solid.polyhedron.faces, solid.signs, solid.planes, strict=True):
         if facing > 0:
             corners = [(x, y, w) for x, y, _, w in (solid.points[place] for place in face)]
-            if all(
-                value(line_through(a, b), at) >= 0 for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)
-            ):
+            # A front face runs clockwise in the image, so its inside is on the right of every side.
+            if all(value(line_through(corners[k - 1], corners[k]), at) >= 0 for k in range(len(corners))):
                 return plane
     raise AssertionError("the front faces cover the inside of the contour")

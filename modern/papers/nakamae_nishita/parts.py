@@ -14,20 +14,11 @@ from emulator.files import read_bytes
 from modern.geometry.coplanar import parse_distance
 from modern.geometry.numbers import quoted
 from modern.geometry.vectors import Vector, cross, dot, minus
+from modern.papers.nakamae_nishita import shapes
 from modern.papers.nakamae_nishita.bodies import Reading, read_bodies
 from modern.papers.nakamae_nishita.fields import Fields
 from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneError, checked, outward
-from modern.papers.nakamae_nishita.shapes import (
-    column,
-    cuboid,
-    moved,
-    parallelepiped,
-    placed,
-    plate,
-    round_base,
-    scaled,
-    turned,
-)
+from modern.papers.nakamae_nishita.shapes import moved, placed, scaled, turned
 
 _ZERO: Vector = (Fraction(0), Fraction(0), Fraction(0))
 MOST = 20_000
@@ -75,10 +66,10 @@ def part(fields: Fields, folder: str = "") -> Parts:
             raise fields.wrong("file", "a part has a shape or a file, not both")
         made = _from_file(fields, folder, place)
     else:
-        shape = fields.text("shape", "")
-        if shape not in _SHAPES:
-            raise fields.wrong("shape", f"{quoted(shape)} is not one of {', '.join(_SHAPES)}")
-        made = Parts((Part(place, _SHAPES[shape](fields)),))
+        name_of_shape = fields.text("shape", "")
+        if name_of_shape not in _SHAPES:
+            raise fields.wrong("shape", f"{quoted(name_of_shape)} is not one of {', '.join(_SHAPES)}")
+        made = Parts((Part(place, _SHAPES[name_of_shape](fields)),))
     count = fields.whole("count", 3) or (1, 1, 1)
     if min(count) < 1 or count[0] * count[1] * count[2] * len(made.parts) > MOST:
         raise fields.wrong("count", f"expected at least 1 copy along each axis and at most {MOST:,} in all")
@@ -93,20 +84,9 @@ def part(fields: Fields, folder: str = "") -> Parts:
         raise fields.wrong("figures", f"figures need one connected component, but the file has {len(made.parts)}")
     thing, turn, at = fields.text("object", ""), fields.number("turn"), fields.vector("at")
     fields.done()
-    placed_parts = (
-        replace(
-            one_part,
-            thing=thing,
-            figures=figures,
-            scale=scale or Fraction(1),
-            turn=turn or Fraction(0),
-            at=at or _ZERO,
-            count=count,
-            step=step or _ZERO,
-        )
-        for one_part in made.parts
-    )
-    return replace(made, parts=tuple(placed_parts))
+    # The components of a file are placed together, as one shape would be.
+    sized = (figures, scale or Fraction(1), turn or Fraction(0), at or _ZERO, count, step or _ZERO)
+    return replace(made, parts=tuple(Part(shape.place, shape.build, thing, *sized) for shape in made.parts))
 
 
 def _from_file(fields: Fields, folder: str, place: str) -> Parts:
@@ -120,10 +100,7 @@ def _from_file(fields: Fields, folder: str, place: str) -> Parts:
         bodies = read_bodies(read_bytes(location, path), path, Reading(hull, limit))
     except EmulatorError as error:
         raise SceneError(f"{place}: file: {error}") from None
-    parts = tuple(
-        Part(f"{place}{polyhedron.name.removeprefix(path)}", partial(_named, polyhedron))
-        for polyhedron in bodies.polyhedra
-    )
+    parts = tuple(Part(f"{place}{solid.name.removeprefix(path)}", partial(_named, solid)) for solid in bodies.polyhedra)
     return Parts(parts, location, tuple(f"{place}: {note}" for note in bodies.notes))
 
 
@@ -148,6 +125,7 @@ def _figure(place: str, shape: Polyhedron, corners: tuple[Vector, ...]) -> Figur
     if len(corners) < 3:
         raise SceneError(f"{place}: figures: expected at least 3 corners, found {len(corners)}")
     for order, face in enumerate(shape.faces):
+        # All corners must lie in the plane of the face and on the inner side of each of its sides.
         normal = outward(shape, face)
         points = [shape.vertices[k] for k in face]
         sides = list(zip(points, [*points[1:], points[0]], strict=True))
@@ -164,14 +142,14 @@ def _cuboid(fields: Fields) -> Callable[[str], Polyhedron]:
     size = fields.vector("size")
     if size is None:
         raise fields.wrong("size", "a cuboid needs the lengths of its sides")
-    return partial(cuboid, x=size[0], y=size[1], z=size[2])
+    return partial(shapes.cuboid, x=size[0], y=size[1], z=size[2])
 
 
 def _parallelepiped(fields: Fields) -> Callable[[str], Polyhedron]:
     edges = fields.vectors("edges") or ()
     if len(edges) != 3:
         raise fields.wrong("edges", f"a parallelepiped has 3 edges, found {len(edges)}")
-    return partial(parallelepiped, a=edges[0], b=edges[1], c=edges[2])
+    return partial(shapes.parallelepiped, a=edges[0], b=edges[1], c=edges[2])
 
 
 def _column(fields: Fields) -> Callable[[str], Polyhedron]:
@@ -183,12 +161,8 @@ def _column(fields: Fields) -> Callable[[str], Polyhedron]:
         raise fields.wrong("height", "a column needs either a height, or the vector along which it rises")
     rise = along or (Fraction(0), Fraction(0), height or Fraction(0))
     if sides is not None and radius is not None:
-        base = tuple(round_base(fields.place, sides, radius))
-    return partial(column, base=base or (), along=rise)
-
-
-def _plate(fields: Fields) -> Callable[[str], Polyhedron]:
-    return partial(plate, corners=fields.vectors("corners", flat=True) or ())
+        base = tuple(shapes.round_base(fields.place, sides, radius))
+    return partial(shapes.column, base=base or (), along=rise)
 
 
 def _polyhedron(fields: Fields) -> Callable[[str], Polyhedron]:
@@ -199,10 +173,10 @@ def _polyhedron(fields: Fields) -> Callable[[str], Polyhedron]:
     return lambda name: checked(Polyhedron(name, vertices, from_zero))
 
 
-_SHAPES = {
+_SHAPES: dict[str, Callable[[Fields], Callable[[str], Polyhedron]]] = {
     "cuboid": _cuboid,
     "parallelepiped": _parallelepiped,
     "column": _column,
-    "plate": _plate,
+    "plate": lambda fields: partial(shapes.plate, corners=fields.vectors("corners", flat=True) or ()),
     "polyhedron": _polyhedron,
 }

@@ -7,7 +7,7 @@ to both may be drawn twice.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 
 from modern.drawing import svg
@@ -70,17 +70,14 @@ def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
         raise SceneError(f"a picture cannot be {width} pixels wide; the width is from {_NARROWEST} to {_WIDEST}")
     pixel, height = fit(_extent(drawing), width, int(width * _HIGHEST_SHAPE))
 
-    def strokes(seen: bool) -> Iterator[str]:
-        for piece in drawing.pieces:
-            if piece.seen == seen:
-                a, b = (pixel(image(end, drawing.observer)) for end in ends(drawing, piece))
-                name = f'data-edge="{piece.solid + 1}: {piece.start + 1} {piece.end + 1}"'
-                if a != b:
-                    yield svg.line(a, b, name)
+    def lines(visible: bool) -> Iterator[str]:
+        for piece, a, b in _strokes(drawing, pixel, visible):
+            if a != b:
+                yield svg.line(a, b, f'data-edge="{piece.solid + 1}: {piece.start + 1} {piece.end + 1}"')
 
     items = [
-        *svg.group(HIDDEN.key, HIDDEN.attributes, strokes(False)),
-        *svg.group(VISIBLE.key, VISIBLE.attributes, strokes(True)),
+        *svg.group(HIDDEN.key, HIDDEN.attributes, lines(False)),
+        *svg.group(VISIBLE.key, VISIBLE.attributes, lines(True)),
     ]
     if title:
         font = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
@@ -93,16 +90,22 @@ def as_hpgl(drawing: Drawing) -> str:
     """Return the text of a plot on a sheet of A4, with hidden pieces dashed."""
     pixel, height = fit(_extent(drawing), PLOT_WIDTH // 10, PLOT_HEIGHT // 10 - 2 * MARGIN)
 
-    def strokes(seen: bool) -> Iterator[Stroke]:
-        for piece in drawing.pieces:
-            if piece.seen == seen:
-                # Hundredths of a pixel are tenths of a plotter unit; a plotter's y axis points upward.
-                a, b = (pixel(image(end, drawing.observer)) for end in ends(drawing, piece))
-                start, end = ((round(p.x / 10), 10 * height - round(p.y / 10)) for p in (a, b))
-                if start != end:
-                    yield start, end
+    def strokes(visible: bool) -> Iterator[Stroke]:
+        for _, *stroke in _strokes(drawing, pixel, visible):
+            # Hundredths of a pixel are tenths of a plotter unit. A plotter's y axis points upward.
+            start, end = ((round(p.x / 10), 10 * height - round(p.y / 10)) for p in stroke)
+            if start != end:
+                yield start, end
 
     return plot(((SOLID, strokes(True)), (DASHED, strokes(False))))
+
+
+def _strokes(drawing: Drawing, pixel: Callable[[Flat], Pixel], visible: bool) -> Iterator[tuple[Piece, Pixel, Pixel]]:
+    """Yield the visible or the hidden pieces with the places of their ends."""
+    for piece in drawing.pieces:
+        if piece.seen == visible:
+            a, b = (pixel(image(end, drawing.observer)) for end in ends(drawing, piece))
+            yield piece, a, b
 
 
 def _extent(drawing: Drawing) -> list[Flat]:

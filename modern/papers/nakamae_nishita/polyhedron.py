@@ -7,9 +7,8 @@ files with faces (``bodies``) and from hulls.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from pathlib import PurePath
 
 from emulator.errors import EmulatorError
@@ -17,7 +16,7 @@ from modern.exact_hull.coordinates import common_scale, to_integers
 from modern.geometry.coplanar import Joined
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import mesh, sides
-from modern.geometry.vectors import Vector, area_vector, cross, dot, lowest, minus
+from modern.geometry.vectors import N, Vector, area_vector, cross, dot, lowest, minus, six_volumes
 
 
 class SceneError(EmulatorError):
@@ -60,39 +59,44 @@ def checked(polyhedron: Polyhedron) -> Polyhedron:
     If all faces run counterclockwise from outside, they are reversed. Raise SceneError with the name of the polyhedron
     and the number, from 1, of an invalid face or of the vertices of an invalid edge.
     """
-    name = polyhedron.name
-    _check_closed(polyhedron)
-    reversed_faces = replace(polyhedron, faces=tuple(face[::-1] for face in polyhedron.faces))
+    name, points, faces = polyhedron.name, polyhedron.vertices, polyhedron.faces
+    if not faces:
+        raise SceneError(f"{name}: there are no faces")
+    gaps = open_faults(dict(enumerate(faces)), dict(enumerate(points)), lambda a, b: f"{a + 1} and {b + 1}")
+    for gap in gaps:
+        raise SceneError(f"{name}: {gap}")
+    reversed_faces = replace(polyhedron, faces=tuple(face[::-1] for face in faces))
     faults = [next(_faults(candidate), "") for candidate in (polyhedron, reversed_faces)]
     if not faults[0]:
         return polyhedron
     if not faults[1]:
         return reversed_faces
-    raise SceneError(f"{name}: {faults[0] if _volume(polyhedron) >= 0 else faults[1]}")
+    # Report what is wrong in the sense in which most faces run: clockwise faces give a negative volume.
+    raise SceneError(f"{name}: {faults[0] if six_volumes(points, faces) <= 0 else faults[1]}")
 
 
-def _check_closed(polyhedron: Polyhedron) -> None:
-    name = polyhedron.name
-    used: set[int] = set()
+def open_faults(
+    faces: Mapping[int, Sequence[int]], points: Mapping[int, Vector], edge_name: Callable[[int, int], str]
+) -> Iterator[str]:
+    """Yield the reasons why faces are not a closed surface over these points. Messages count from 1."""
+    # In a closed surface every edge is followed once in each direction, by the two faces it belongs to.
     directed: Counter[tuple[int, int]] = Counter()
-    for order, face in enumerate(polyhedron.faces, 1):
+    for order, face in faces.items():
         if len(face) < 3 or len(set(face)) < len(face):
-            raise SceneError(f"{name}: face {order} does not have at least three different vertices")
-        used.update(face)
+            yield f"face {order + 1} does not have at least three different vertices"
         directed.update(sides(face))
-    if not polyhedron.faces:
-        raise SceneError(f"{name}: there are no faces")
     for (a, b), times in sorted(directed.items()):
         if times > 1:
-            raise SceneError(f"{name}: two faces run in the same direction along vertices {a + 1} and {b + 1}")
+            yield f"two faces run in the same direction along vertices {edge_name(a, b)}"
         if not directed[b, a]:
-            raise SceneError(f"{name}: not closed: only one face at vertices {a + 1} and {b + 1}")
+            yield f"not closed: only one face at vertices {edge_name(a, b)}"
+    used = {place for edge in directed for place in edge}
     first: dict[Vector, int] = {}
-    for place, point in enumerate(polyhedron.vertices):
+    for place, point in points.items():
         if place not in used:
-            raise SceneError(f"{name}: vertex {place + 1} belongs to no face")
+            yield f"vertex {place + 1} belongs to no face"
         if first.setdefault(point, place) != place:
-            raise SceneError(f"{name}: vertices {first[point] + 1} and {place + 1} are the same point")
+            yield f"vertices {first[point] + 1} and {place + 1} are the same point"
 
 
 def _faults(polyhedron: Polyhedron) -> Iterator[str]:
@@ -102,6 +106,7 @@ def _faults(polyhedron: Polyhedron) -> Iterator[str]:
     flat = True
     for order, face in enumerate(faces, 1):
         normal = outward(polyhedron, face)
+        # The height of every vertex over the plane of the face, in integers. All are at most 0 for a convex solid.
         a, b, c = lowest(normal)
         level = dot((a, b, c), integers[face[0]])
         heights = [a * x + b * y + c * z - level for x, y, z in integers]
@@ -110,7 +115,8 @@ def _faults(polyhedron: Polyhedron) -> Iterator[str]:
         if any(heights[place] for place in face):
             yield f"face {order} is not plane"
         if any(height > 0 for height in heights):
-            yield f"not convex: vertex {_first(heights) + 1} lies beyond face {order}"
+            beyond = next(place for place, height in enumerate(heights) if height > 0)
+            yield f"not convex: vertex {beyond + 1} lies beyond face {order}"
         if not turns_once([points[place] for place in face], (-normal[0], -normal[1], -normal[2])):
             yield f"face {order} is not convex"
         flat = flat and not any(heights)
@@ -122,32 +128,15 @@ def _faults(polyhedron: Polyhedron) -> Iterator[str]:
         yield "not one closed surface: vertices - edges + faces is not 2"
 
 
-def _first(heights: Sequence[int]) -> int:
-    return next(place for place, height in enumerate(heights) if height > 0)
-
-
-def turns_once(points: Sequence[Vector], normal: Vector) -> bool:
+def turns_once(points: Sequence[tuple[N, N, N]], normal: tuple[N, N, N]) -> bool:
     """Return True if a plane polygon is convex and runs counterclockwise once as seen from the side of ``normal``."""
-    steps = [minus(q, p) for p, q in zip(points, [*points[1:], points[0]], strict=True)]
-    bends = [dot(cross(u, v), normal) for u, v in zip(steps, [*steps[1:], steps[0]], strict=True)]
+    lines = list(sides(range(len(points))))
+    steps = [minus(points[b], points[a]) for a, b in lines]
+    bends = [dot(cross(steps[a], steps[b]), normal) for a, b in lines]
     if any(bend < 0 for bend in bends) or not all(map(any, steps)):
         return False
     # A polygon with left turns only may still run around twice. Then some corner is to the right of some side.
-    lines = zip(points, steps, strict=True)
-    return all(dot(cross(step, minus(q, p)), normal) >= 0 for p, step in lines for q in points)
-
-
-def _volume(polyhedron: Polyhedron) -> Fraction:
-    """Return six times the volume, which is negative if the faces run counterclockwise from outside."""
-    points = polyhedron.vertices
-    return sum(
-        (
-            dot(points[face[0]], cross(points[face[k + 1]], points[face[k]]))
-            for face in polyhedron.faces
-            for k in range(1, len(face) - 1)
-        ),
-        Fraction(0),
-    )
+    return all(dot(cross(steps[a], minus(q, points[a])), normal) >= 0 for a, _ in lines for q in points)
 
 
 def polyhedron_of_hull(hull: Hull, name: str = "hull", joined: Joined | None = None) -> Polyhedron:

@@ -72,6 +72,8 @@ def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[
         (right[0] * x + right[1] * y + right[2] * z, up[0] * x + up[1] * y + up[2] * z, dot(eye, (x, y, z)))
         for x, y, z in away
     ]
+    # A point at the fraction s of an edge is the same combination of the mapped ends. In parallel projection w is one
+    # denominator for all points. In perspective, division by the distance -z makes lines of sight parallel.
     if observer.point is None:
         return [(x, y, z, scale) for x, y, z in flat]
     if any(z >= 0 for _, _, z in flat):

@@ -13,7 +13,7 @@ _KINDS: tuple[Kind, ...] = get_args(Kind)
 
 
 def table1(drawing: Drawing) -> Iterator[str]:
-    """The columns of the paper's Table 1, with our own seconds for its three steps."""
+    """Yield the columns of the paper's Table 1 with the seconds that its three steps took here."""
     counts = drawing.counts
     yield "polyhedra  vertices  faces  points       I      II     III  (seconds)"
     times = "".join(f"{seconds:8.3f}" for seconds in drawing.seconds)
@@ -41,6 +41,7 @@ def _relation(drawing: Drawing, relation: Relation) -> Iterator[str]:
     yield f"V = {v.number + 1}, V' = {w.number + 1}: {nearer[relation.nearer]}, by {relation.by}"
     columns = [place + 1 for place in v.contour]
     pair = relation.tables
+    # Formulas (2) and (3): rows for the vertices of V', columns for those of V, as the paper prints the tables.
     for title, rows in (
         ("PL", pair.pl),
         ("LP", pair.lp),

@@ -21,14 +21,15 @@ _OTHER_SIDE = (-34, 37, 41)
 
 def produced(_: Lines) -> Lines:
     """Compute the lines of every result that can be computed, by its id. The print is not needed for this."""
-    lines: dict[str, Sequence[str]] = {}
-    lines.update(_crossing_numbers())
+    lines: dict[str, Sequence[str]] = dict(_crossing_numbers())
     drawings = {name: drawing(name) for name in names()}
     most = max(
         len(passage.marks) for item in drawings.values() for course in item.passages for _, passage in course.behind
     )
+    # Section 3.5: a line meets the boundary of a convex contour at most twice.
     lines["intersections"] = [f"intersection between a contour line and a segment is no more than {_NUMBERS[most]}"]
     lines["sense"] = [f"{_contour_sense()} \\times (P_A - P_B)"]
+    # Rows (a) and (b) of Table 1 have the same counts, so one scene is drawn from two directions.
     lines["table1-a"] = [_row("a", drawings["columns"])]
     lines["table1-b"] = [_row("b", drawing("columns", _OTHER_SIDE))]
     lines["table1-c"] = [_row("c", drawings["cuboids"])]
@@ -52,6 +53,7 @@ def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
 
 def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
     """Compute d of a square's upper side, from (0, 4) to (4, 4), and the first side of a polygon in each position."""
+    # Section 3.2 lists four positions of two segments. Each polygon's first side has one of them to the square's side.
     upper = 1
     for name, meaning, polygon in (
         ("d-crossing", "means that $[P_i, P_{i+1}]$ intersects", ((2, 2), (2, 6), (6, 6), (6, 2))),
@@ -65,6 +67,7 @@ def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
 def _contour_sense() -> str:
     """Return the contour's difference vector whose product with P_A - P_B has the sign of the index of formula (6)."""
     start, end, a, b = (0, 0), (0, 4), (-1, 1), (1, 2)
+    # The segment from A to B crosses the square's left side inward, so formula (6) must be positive.
     of_square = values(_lines(_SQUARE), _points((a, b)))
     assert of_square is not None
     ((_, index),) = clipped(of_square, 0, 1).marks

@@ -42,6 +42,7 @@ def column(name: str, base: Sequence[Vector], along: Vector) -> Polyhedron:
     if not rise:
         raise SceneError(f"{name}: the column does not rise from its base")
     corners = list(base) if rise > 0 else [base[0], *base[:0:-1]]
+    # Section 2 describes a column by its base and the direction in which the base is moved.
     # As seen from the top the base runs counterclockwise, which is clockwise from outside, below it.
     n = len(corners)
     walls = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
@@ -79,6 +80,7 @@ def rotation(degrees: Fraction) -> tuple[Fraction, Fraction]:
     half = math.radians(float(degrees - 90 * quarters) / 2)
     t = Fraction(math.tan(half)).limit_denominator(_FINEST)
     cosine, sine = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+    # Turns by 90 degrees are exact: they exchange the coordinates and one sign.
     for _ in range(quarters % 4):
         cosine, sine = -sine, cosine
     return cosine, sine
@@ -110,10 +112,9 @@ def _normal(name: str, corners: Sequence[Vector]) -> Vector:
     """Return a normal of a convex polygon on the side from which it runs counterclockwise."""
     if len(corners) < 3:
         raise SceneError(f"{name}: expected at least 3 corners, found {len(corners)}")
-    bends = [
-        cross(minus(q, p), minus(r, q))
-        for p, q, r in zip(corners, [*corners[1:], corners[0]], [*corners[2:], *corners[:2]], strict=True)
-    ]
+    # The first corner that is not in line with its neighbours gives the normal, in the right sense if it is convex.
+    ring = [*corners, *corners[:2]]
+    bends = [cross(minus(q, p), minus(r, q)) for p, q, r in zip(ring, ring[1:], ring[2:], strict=False)]
     normal = next((bend for bend in bends if any(bend)), _ZERO)
     if not any(normal) or any(dot(normal, minus(corner, corners[0])) for corner in corners):
         raise SceneError(f"{name}: the corners do not lie in one plane, or all lie in a line")

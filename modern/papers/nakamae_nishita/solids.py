@@ -70,11 +70,13 @@ _DRAWN = (visible.INNER, visible.CONTOUR)
 
 def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vector) -> Solid:
     """Project a polyhedron and classify its faces, edges and contour. Raise SceneError as ``project`` does."""
+    # Section 3.1: a face is a front face if its image runs clockwise. Its edges are classified by their two faces.
     points = project(polyhedron, observer, origin)
     flat: list[Flat] = [(x, y, w) for x, y, _, w in points]
     signs = [visible.facing([flat[place] for place in face]) for face in polyhedron.faces]
     planes = [_face_plane([points[place] for place in face]) for face in polyhedron.faces]
     edges = visible.classify(polyhedron.faces, signs, lambda a, b: same_plane(planes[a], planes[b]))
+    # Edges between merged faces are not drawn, except on the contour.
     if polyhedron.joined:
         edges = tuple(_merged(edge, polyhedron.joined) for edge in edges)
     chain = visible.contour(polyhedron.faces, signs)
@@ -90,6 +92,7 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
             visible_lines += [
                 (a, b, FIGURE, (figure.face,)) for a, b in zip(places, [*places[1:], places[0]], strict=True)
             ]
+    # Formula (1) is evaluated only at points of segments. Those of the contour come first, for the PL and LP tables.
     used = tuple(dict.fromkeys((*chain, *(place for start, end, *_ in visible_lines for place in (start, end)))))
     where = {place: order for order, place in enumerate(used)}
     return Solid(
