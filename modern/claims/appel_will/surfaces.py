@@ -14,12 +14,12 @@ from modern.claims.register import CheckResult, counterexample, fails_if, holds_
 from modern.claims.sampled_sets import Point, counterexample_points, plane_through, plane_value, random_triples
 from modern.exact_hull import exact_hull
 from modern.formats.off import parse_off
-from modern.geometry.vectors import cross, dot, lowest, minus
+from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
 from modern.papers.appel_will import Method, appel_will
 from modern.papers.appel_will.corners import corners, preprocess, triple_product
 from modern.papers.appel_will.results import Solid, printed_solid
 from modern.papers.appel_will.star import as_corrected
-from modern.papers.appel_will.surfaces import area_normal, lines, oriented
+from modern.papers.appel_will.surfaces import lines, oriented
 
 Whole = tuple[int, int, int]
 TETRAHEDRON: tuple[Point, ...] = ((0, 0, 0), (12, 0, 0), (0, 12, 0), (0, 0, 12))
@@ -160,7 +160,7 @@ def vertex_without_supporting_surface() -> CheckResult:
     solid = pitted()
     planes = {}
     for surface in oriented(solid.points, solid.surfaces):
-        normal = lowest(area_normal(solid.points, surface))
+        normal = lowest(area_vector(solid.points, surface))
         sign = 1 if max(normal, minus((0, 0, 0), normal)) == normal else -1
         planes[surface] = (*(sign * n for n in normal), -sign * dot(normal, solid.points[surface[0]]))
     supporting = 0
@@ -234,7 +234,7 @@ def normal_from_two_lines() -> CheckResult:
     checks, turned, shorter = [], 0, 0
     for solid in (fig_4(), crown(), bent()):
         for ring in oriented(solid.points, solid.surfaces):
-            normal = area_normal(solid.points, ring)
+            normal = area_vector(solid.points, ring)
             for k, corner in enumerate(ring):
                 u, v = (
                     minus(solid.points[b], solid.points[a])

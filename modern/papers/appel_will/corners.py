@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from modern.geometry.vectors import cross, dot, lowest, minus
+from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
 from modern.papers.appel_will.edges import IntPoint
-from modern.papers.appel_will.surfaces import Line, Surface, area_normal, lines, oriented
+from modern.papers.appel_will.surfaces import Line, Surface, lines, oriented
 
 Rule = Literal["any", "two", "concave"]
 RULES: tuple[Rule, ...] = get_args(Rule)
@@ -67,6 +67,7 @@ def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Ru
 
     Raise MapError if the surfaces do not form a closed polyhedron, ValueError for an unknown rule.
     """
+    # Fig. 18: the sign of [IKL] classifies a line only if the surfaces are oriented.
     surfaces_outward = oriented(points, surfaces)
     classified = corners(points, surfaces_outward)
     inside = tuple(corner for corner in classified if corner.product < 0)
@@ -84,10 +85,9 @@ def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Ru
 
 
 def _crowded(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[int, ...]:
-    """Find the points that lie on surfaces in more than three different planes."""
     planes_at: dict[int, set[tuple[int, ...]]] = {}
     for surface in surfaces:
-        normal = lowest(area_normal(points, surface))
+        normal = lowest(area_vector(points, surface))
         # The greater of the two opposite normals is the key, so that surfaces facing both ways share one plane.
         key = max(normal, (-normal[0], -normal[1], -normal[2]))
         for index in surface:
@@ -96,10 +96,9 @@ def _crowded(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[i
 
 
 def _concave(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> set[int]:
-    """Find the points at which a surface has an angle of more than 180 degrees."""
     concave = set()
     for surface in surfaces:
-        normal = area_normal(points, surface)
+        normal = area_vector(points, surface)
         for before, here, after in zip((surface[-1], *surface[:-1]), surface, (*surface[1:], surface[0]), strict=True):
             # The surface runs counterclockwise about its normal, so a clockwise turn is a reentrant angle.
             turn = cross(minus(points[here], points[before]), minus(points[after], points[here]))
@@ -109,5 +108,5 @@ def _concave(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> set[int
 
 
 def _inward(points: Sequence[IntPoint], surface: Surface) -> IntPoint:
-    x, y, z = lowest(area_normal(points, surface))
+    x, y, z = lowest(area_vector(points, surface))
     return -x, -y, -z

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 from modern.exact_hull.coordinates import common_scale, read_points, to_integers
 from modern.geometry.points import Points
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers.appel_will.corners import Preprocessing, Rule, preprocess
 from modern.papers.appel_will.edges import Deleted, IntPoint, Pair, convex_edges
 from modern.papers.appel_will.loops import PREFERRED, LoopTable, Rules, find_loops, surface
 from modern.papers.appel_will.star import StarTest, as_printed, in_one_pass
-from modern.papers.appel_will.surfaces import Fates, Surface, area_normal, check_surfaces, fates
+from modern.papers.appel_will.surfaces import Fates, Surface, check_surfaces, fates
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,24 +53,11 @@ LITERAL = printed(*PRINTED)
 class Assembled:
     """A hull assembled from its convex edges. Points are named by their index in the input, from 0.
 
-    Attributes
-    ----------
-    points
-        The input coordinates times ``scale``, as integers.
-    duplicates
-        Pairs (index, index of the first equal point).
-    preprocessing
-        The points deleted at inside corners, or None if no rule was chosen.
-    deleted
-        The points found between two others in the projections.
-    edges
-        The convex edge list.
-    table
-        The loop table. A polygon has one loop, which uses every edge once; a segment or a point has none.
-    surfaces
-        The topological map: the points of each loop.
-    dimension
-        The dimension of the point set, 0 to 3.
+    ``points`` are the input coordinates times ``scale``, as integers, and ``duplicates`` the pairs of an index and that
+    of the first equal point. ``preprocessing`` has the points deleted at inside corners, if a rule was chosen, and
+    ``deleted`` those found between two others in the projections. ``edges`` is the convex edge list. ``table`` is the
+    loop table: a polygon has one loop, which uses every edge once, a segment or a point none. ``surfaces`` is the
+    topological map, the points of each loop. ``dimension`` is that of the point set, 0 to 3.
     """
 
     points: tuple[IntPoint, ...]
@@ -110,7 +97,7 @@ class Assembled:
         """Return the map with every surface counterclockwise as seen from outside; a polygon stays as it is."""
         counterclockwise = []
         for points in self.surfaces:
-            normal, origin = area_normal(self.points, points), self.points[points[0]]
+            normal, origin = area_vector(self.points, points), self.points[points[0]]
             # The appendix fixes no sense of rotation. A normal with vertices in front of it points inwards.
             inward = any(dot(normal, minus(self.points[index], origin)) > 0 for index in self.vertices)
             counterclockwise.append((points[0], *points[:0:-1]) if inward else points)
@@ -155,6 +142,7 @@ def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method 
         merged = tuple(tuple(first[scaled[index]] for index in surface) for surface in surfaces)
         preprocessing = preprocess(scaled, merged, method.inside_corners)
         live.difference_update(preprocessing.deleted)
+    # The two steps of the paper: the convex edges by projections, then their loops by the appendix.
     convex = convex_edges(scaled, live, method.star)
     table = find_loops(scaled, convex.edges, method.rules)
     return Assembled(
@@ -172,9 +160,9 @@ def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method 
 
 
 def _dimension(points: Sequence[IntPoint]) -> int:
-    """Return the dimension of the affine hull of distinct points."""
     if len(points) == 1:
         return 0
+    # The first point off the line of points 0 and 1 gives a plane, and a point off this plane gives a solid.
     along = minus(points[1], points[0])
     normals = (cross(along, minus(point, points[0])) for point in points)
     normal = next((normal for normal in normals if any(normal)), None)

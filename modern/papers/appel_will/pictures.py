@@ -34,7 +34,7 @@ WIDTH, WIDER = 640, 1000
 MOST_POINTS, MOST_LINES = 400, 60
 """The greatest numbers of points and of convex edges that are numbered."""
 _SIZE, _SMALL = 13.0, 11.0
-_FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
+FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _LINE_FONT = f'font-family="{svg.FONT}" font-size="11" font-style="italic" fill="#444"'
 _HALO = 'stroke="#fff" stroke-width="3" paint-order="stroke"'
 """A white outline that keeps a number legible on top of lines."""
@@ -63,7 +63,7 @@ def checked_width(width: int | None, default: int) -> int:
 def solid_svg(
     hull: Assembled,
     points: Sequence[Point],
-    given: Sequence[Surface] = (),
+    original: Sequence[Surface] = (),
     joined: Joined | None = None,
     eye: Sequence[Fraction] | None = None,
     title: str = "",
@@ -71,21 +71,9 @@ def solid_svg(
 ) -> str:
     """Draw the hull with its convex edges, hidden ones dashed, and the polyhedron's other lines.
 
-    Parameters
-    ----------
-    points
-        The coordinates as text, as given.
-    given
-        The surfaces of the polyhedron, if known.
-    joined
-        The faces of ``as_mesh(hull)`` to merge, if any.
-    eye, width
-        As for ``modern.drawing.draw.draw_svg``.
-
-    Raises
-    ------
-    ExportError
-        If there is no hull or the view or the width is invalid.
+    ``points`` are the coordinates as text. ``original`` are the surfaces of the polyhedron, if known, and ``joined``
+    the faces of ``as_mesh(hull)`` to merge. ``eye`` and ``width`` are those of ``modern.drawing.draw.draw_svg``. Raise
+    ExportError if there is no hull or the view or the width is invalid.
     """
     record = as_record(hull, points, joined)
     picture = filter_scene(scene(record, eye), Show())
@@ -97,7 +85,12 @@ def solid_svg(
     at |= {index: at[first] for index, first in record.duplicates}
     drawn = {tuple(sorted((record.vertices[e.start], record.vertices[e.end]))): e for e in picture.edges}
     nonconvex = sorted(
-        {(min(a, b), max(a, b)) for surface in given for a, b in sides(surface) if (min(a, b), max(a, b)) not in drawn}
+        {
+            (min(a, b), max(a, b))
+            for surface in original
+            for a, b in sides(surface)
+            if (min(a, b), max(a, b)) not in drawn
+        }
     )
     lines = [(number, pair) for number, pair in enumerate(hull.edges, 1) if pair in drawn]
     numbered = len(points) <= MOST_POINTS
@@ -109,9 +102,9 @@ def solid_svg(
     items = [
         *scene_items(record, picture, layout),
         *svg.group(GIVEN.key, GIVEN.attributes, (svg.line(at[a], at[b], _named(a, b)) for a, b in nonconvex)),
-        *(_numbers(at, lines if labelled else [], [*drawn, *nonconvex], (width, layout.height)) if numbered else ()),
-        *svg.group("legend", _FONT, band(picture, width, layout.height, title, numbered)),
-        *svg.group("more", _FONT, (item for k, row in enumerate(rows) for item in row(top + _STEP * k))),
+        *(numbers(at, lines if labelled else [], [*drawn, *nonconvex], (width, layout.height)) if numbered else ()),
+        *svg.group("legend", FONT, band(picture, width, layout.height, title, numbered)),
+        *svg.group("more", FONT, (item for k, row in enumerate(rows) for item in row(top + _STEP * k))),
     ]
     return svg.page(width, top + _STEP * len(rows) + (4 if rows else 0), title or "Convex edges", items)
 
@@ -137,6 +130,7 @@ def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = 
     first_equal = dict(hull.duplicates)
     rest = [index for index in range(len(points)) if index not in vertices and index not in first_equal]
     planes = [(area_vector(hull.points, surface), hull.points[surface[0]]) for surface in hull.surfaces]
+    # Points that are not vertices are on the boundary if they lie in the plane of a surface, otherwise inside.
     on = {
         index
         for index in rest
@@ -208,6 +202,7 @@ def star(hull: Assembled, pair: Pair) -> Star:
             raise PictureError(f"point {index + 1} was deleted: {reason[index]}")
     if a == b:
         raise PictureError(f"a line needs two different points, found {a + 1} twice")
+    # Fig. 9: project all remaining points along the line, then sort their images by angle about C (Figs. 10 and 11).
     live = [index for index in range(len(hull.points)) if index not in reason]
     line = project(hull.points, pair, live).line
     images = {index: project(hull.points, pair, [index]).images[0] for index in live if index not in line}
@@ -259,8 +254,8 @@ def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = N
         *svg.group(CLOCKWISE.key, CLOCKWISE.attributes, (svg.line(at[p], at[q], _named(p, q)) for p, q in bold)),
         *svg.group("points", svg.VERTEX.attributes, (svg.circle(place, svg.RADIUS) for place in together)),
         *svg.group(CENTRE.key, CENTRE.attributes, [svg.circle(at[a], "4.5")]),
-        *svg.group("numbers", f'{_FONT} text-anchor="middle" {_HALO}', texts([*labels, centre], label_places)),
-        *svg.group("legend", _FONT, (item for k, row in enumerate(rows) for item in row(height + 12 + _STEP * k))),
+        *svg.group("numbers", f'{FONT} text-anchor="middle" {_HALO}', texts([*labels, centre], label_places)),
+        *svg.group("legend", FONT, (item for k, row in enumerate(rows) for item in row(height + 12 + _STEP * k))),
     ]
     return svg.page(width, height + _STEP * len(rows) + 12, title or f"Star polygon of line {a + 1}-{b + 1}", items)
 
@@ -278,10 +273,14 @@ def _named(a: int, b: int) -> str:
     return f'data-points="{a + 1} {b + 1}"'
 
 
-def _numbers(
-    at: Mapping[int, Pixel], lines: Sequence[tuple[int, Pair]], edges: Sequence[Sequence[int]], size: tuple[int, int]
+def numbers(
+    at: Mapping[int, Pixel],
+    lines: Sequence[tuple[int, Pair]],
+    edges: Sequence[Sequence[int]],
+    size: tuple[int, int],
+    occupied: Sequence[tuple[float, float]] = (),
 ) -> Iterator[str]:
-    """Draw the numbers of points and, in italics, of lines, placed off the lines if possible."""
+    """Draw the numbers of points and, in italics, of lines, off the ``edges`` and ``occupied`` places if possible."""
     together: dict[Pixel, list[int]] = {}
     for index, place in sorted(at.items()):
         together.setdefault(place, []).append(index)
@@ -290,8 +289,8 @@ def _numbers(
         Label((at[a].x + at[b].x) / 200, (at[a].y + at[b].y) / 200, str(number), _SMALL) for number, (a, b) in lines
     ]
     segments = [(at[a].place, at[b].place) for a, b in edges]
-    label_places = place_labels([*points, *middles], segments, [], (float(size[0]), float(size[1])))
-    yield from svg.group("numbers", f'{_FONT} text-anchor="middle"', texts(points, label_places[: len(points)]))
+    label_places = place_labels([*points, *middles], segments, occupied, (float(size[0]), float(size[1])))
+    yield from svg.group("numbers", f'{FONT} text-anchor="middle"', texts(points, label_places[: len(points)]))
     yield from svg.group("lines", f'{_LINE_FONT} text-anchor="middle"', texts(middles, label_places[len(points) :]))
 
 

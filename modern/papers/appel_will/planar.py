@@ -17,13 +17,21 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
 from modern.drawing import svg
-from modern.drawing.labels import Label, place_labels
 from modern.drawing.layout import MARGIN, Pixel, fit
 from modern.drawing.legend import wrapped
 from modern.drawing.svg import VERTEX, VISIBLE
 from modern.geometry.mesh import sides
 from modern.papers.appel_will.edges import Pair
-from modern.papers.appel_will.pictures import MOST_LINES, WIDER, WIDTH, PictureError, checked_width, text_row, texts
+from modern.papers.appel_will.pictures import (
+    FONT,
+    MOST_LINES,
+    WIDER,
+    WIDTH,
+    PictureError,
+    checked_width,
+    numbers,
+    text_row,
+)
 from modern.papers.appel_will.surfaces import Surface
 
 Place = tuple[float, float]
@@ -33,8 +41,6 @@ _TURNS, _FIRST, _ROUNDS, _STEP = 150, 200, 10, 1.1
 """Changes of the weights, relaxations before the first and before each later change, greatest factor of a change."""
 _LINE, _SMALLEST = 19, 160.0
 """The distance of legend lines in pixels, and the smallest region, in square pixels, that has its number."""
-_LINES = f'font-family="{svg.FONT}" font-size="11" font-style="italic" fill="#444"'
-_FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _SURFACES = f'font-family="{svg.FONT}" font-size="15" fill="#999" text-anchor="middle"'
 
 
@@ -59,23 +65,16 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
     pixel, height = fit(list(exact.values()), width, max(460, width * 460 // 640))
     at = {index: pixel(place) for index, place in exact.items()}
     lines = sorted({(min(a, b), max(a, b)) for surface in surfaces for a, b in sides(surface)})
-    number = {pair: str(k) for k, pair in enumerate(edges, 1)} if len(lines) <= MOST_LINES else {}
+    number = {pair: k for k, pair in enumerate(edges, 1)} if len(lines) <= MOST_LINES else {}
     # The inside of a single polygon is its own region.
     inner = [(k, surface) for k, surface in enumerate(surfaces) if k != outer or len(surfaces) == 1]
     polygons = [(k, [at[index] for index in surface]) for k, surface in inner]
-    regions = [(str(k + 1), _middle(corners)) for k, corners in polygons if _room(corners) >= _SMALLEST]
-    points = [Label(*at[index].place, str(index + 1)) for index in sorted(at)]
-    middles = [
-        Label((at[a].x + at[b].x) / 200, (at[a].y + at[b].y) / 200, number[a, b], 11.0)
-        for a, b in lines
-        if (a, b) in number
+    regions = [
+        (str(k + 1), _middle(corners))
+        for k, corners in polygons
+        if abs(_area([c.place for c in corners])) >= 2 * _SMALLEST
     ]
-    label_places = place_labels(
-        [*points, *middles],
-        [(at[a].place, at[b].place) for a, b in lines],
-        [place.place for _, place in regions],
-        (float(width), float(height)),
-    )
+    numbered = [(number[pair], pair) for pair in lines if pair in number]
     legend = "Topological map: points in black, "
     legend += "lines L of the convex edge list in italics, " if number else ""
     legend += "surfaces in grey" if len(regions) == len(inner) else "surfaces in grey if there is room"
@@ -85,9 +84,8 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
         *svg.group("surfaces", _SURFACES, (svg.text(Pixel(p.x, p.y + 500), name) for name, p in regions)),
         *svg.group(VISIBLE.key, VISIBLE.attributes, _strokes(at, lines)),
         *svg.group(VERTEX.key, VERTEX.attributes, (svg.circle(at[index], svg.RADIUS) for index in sorted(at))),
-        *svg.group("numbers", f'{_FONT} text-anchor="middle"', texts(points, label_places[: len(points)])),
-        *svg.group("lines", f'{_LINES} text-anchor="middle"', texts(middles, label_places[len(points) :])),
-        *svg.group("legend", _FONT, (item for k, row in enumerate(rows) for item in row(height + 12 + _LINE * k))),
+        *numbers(at, numbered, lines, (width, height), [place.place for _, place in regions]),
+        *svg.group("legend", FONT, (item for k, row in enumerate(rows) for item in row(height + 12 + _LINE * k))),
     ]
     return svg.page(width, height + _LINE * len(rows) + 12, title or "Topological map", items)
 
@@ -146,11 +144,5 @@ def _strokes(at: Mapping[int, Pixel], lines: Sequence[Pair]) -> Iterator[str]:
         yield svg.line(at[a], at[b], f'data-points="{a + 1} {b + 1}"')
 
 
-def _room(corners: Sequence[Pixel]) -> float:
-    """Return the area of a polygon in square pixels."""
-    return abs(_area([corner.place for corner in corners])) / 2
-
-
 def _middle(corners: Sequence[Pixel]) -> Pixel:
-    """Return the mean of a polygon's corners."""
     return Pixel(sum(c.x for c in corners) // len(corners), sum(c.y for c in corners) // len(corners))

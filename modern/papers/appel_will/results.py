@@ -14,13 +14,13 @@ from fractions import Fraction
 from importlib.resources import files
 from itertools import combinations
 
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers import Lines
 from modern.papers.appel_will.corners import corners, triple_product, vectors
 from modern.papers.appel_will.edges import IntPoint, Pair, project
 from modern.papers.appel_will.hull import Assembled, Method, appel_will
 from modern.papers.appel_will.star import as_corrected
-from modern.papers.appel_will.surfaces import Line, Surface, area_normal, oriented
+from modern.papers.appel_will.surfaces import Line, Surface, oriented
 
 FOLDER = "appel_will_1976"
 """The folder of the print under ``transcripts``."""
@@ -42,8 +42,7 @@ class Solid:
 def found_solid(name: str) -> Solid:
     """Return the object of a figure, such as ``fig14``, with this project's coordinates. Raise KeyError if unknown."""
     text = files("transcripts").joinpath(FOLDER, "coordinates.toml").read_text(encoding="utf-8")
-    entries = {entry["id"]: entry for entry in tomllib.loads(text)["solid"]}
-    entry = entries[name]
+    entry = {entry["id"]: entry for entry in tomllib.loads(text)["solid"]}[name]
     points = tuple((int(x), int(y), int(z)) for x, y, z in entry["points"])
     return Solid(points, tuple(tuple(number - 1 for number in row) for row in entry.get("surfaces", ())))
 
@@ -62,13 +61,15 @@ def produced(printed: Lines) -> Lines:
     hull = appel_will(fig4.points, fig4.surfaces, BY_STAR)
     fig14 = appel_will(found_solid("fig14").points, method=BY_STAR)
     fig23 = appel_will(found_solid("fig23").points, method=BY_STAR)
+    fig13 = sorted(deleted.point for deleted in appel_will(found_solid("fig13").points).deleted)
+    count = len(fig14.points)
     return {
         "fig4-vertex-list": list(_vertex_list(fig4)),
         "fig4-topological-map": list(_map(fig4.surfaces)),
         "fig4-hull": list(_changes(fig4, hull)),
         "fig5": list(_parallel_lines(fig4.points, (0, 1))),
-        "combinations": [_combinations(fig14)],
-        "fig13": [f"interior points {_listed(_named(_deleted(found_solid('fig13'))))}"],
+        "combinations": [f"$$C({count}, 2) = {fig14.projections}, C({count}, 3) = {math.comb(count, 3)}.$$"],
+        "fig13": [f"interior points {_listed(_named(fig13))}"],
         "fig14": list(_edge_list(fig14)),
         "figure-number": [_figure_with(printed, "vertex-list", "topological-map")],
         "fig18": list(_determinants(found_solid("fig18"))),
@@ -91,7 +92,7 @@ def _vertex_list(solid: Solid) -> Iterator[str]:
         for surface in solid.surfaces:
             if index in surface:
                 remaining = tuple(point for point in surface if point != index)
-                normal = area_normal(solid.points, remaining)
+                normal = area_vector(solid.points, remaining)
                 planes.append((normal, dot(normal, solid.points[remaining[0]])))
         # Cramer's rule for the planes p x = a, q x = b, r x = c: x = (a q*r + b r*p + c p*q) / [pqr].
         (p, a), (q, b), (r, c) = planes
@@ -114,6 +115,7 @@ def _map(surfaces: Sequence[Surface]) -> Iterator[str]:
 
 def _changes(fig4: Solid, hull: Assembled) -> Iterator[str]:
     """Compute the caption of Fig. 4."""
+    # Fig. 4: a surface in a plane of the hull is kept or respecified, every other one is deleted.
     fates = hull.fates(fig4.surfaces)
     deleted = [index for index in range(len(fig4.points)) if index not in hull.vertices]
     deleted_surfaces = [number for number, face in enumerate(fates.of) if face is None]
@@ -139,15 +141,6 @@ def _parallel_lines(points: Sequence[IntPoint], pair: Pair) -> Iterator[str]:
             yield f"line ({i + 1},{j + 1}) is not a convex point"
 
 
-def _combinations(hull: Assembled) -> str:
-    count = len(hull.points)
-    return f"$$C({count}, 2) = {hull.projections}, C({count}, 3) = {math.comb(count, 3)}.$$"
-
-
-def _deleted(solid: Solid) -> list[int]:
-    return sorted(deleted.point for deleted in appel_will(solid.points).deleted)
-
-
 def _edge_list(hull: Assembled) -> Iterator[str]:
     for label, (i, j) in enumerate(hull.edges, 1):
         yield f"{label} {i + 1} {j + 1}"
@@ -160,6 +153,7 @@ def _figure_with(names: Collection[str], *parts: str) -> str:
 
 
 def _determinants(solid: Solid) -> Iterator[str]:
+    # The columns of the determinant are the direction I and the inward normals K and L of the two surfaces.
     surfaces = oriented(solid.points, solid.surfaces)
     solid_lines = [corner.line for corner in corners(solid.points, surfaces)]
     for label, (on, beyond) in FIG_18_LINES.items():
@@ -176,6 +170,7 @@ def _determinants(solid: Solid) -> Iterator[str]:
 
 def _first_three(hull: Assembled) -> Iterator[str]:
     """Compute the upper half of Fig. 22: the entries of three loops, then a row for each edge."""
+    # Fig. 22 prints each loop next to the counts IUC of all edges after it.
     loops = hull.table.loops[:3]
     yield " ".join(f"{_numbers(len(loop.entries))} {_joined(loop.entries)}" for loop in loops)
     for label in range(1, len(hull.edges) + 1):

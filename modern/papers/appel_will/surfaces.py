@@ -72,14 +72,6 @@ def _fates(original: Sequence[Surface], hull: Sequence[Surface], face_of: Callab
     return Fates(of, unchanged, tuple(number for number in range(len(hull)) if number not in of))
 
 
-def area_normal(points: Sequence[IntPoint], surface: Surface) -> IntPoint:
-    """Return the normal of a plane surface, twice as long as its area, on the side where it runs counterclockwise.
-
-    The paper uses the cross product of two lines of the surface, which has the wrong sense at a concave point.
-    """
-    return area_vector(points, surface)
-
-
 def check_surfaces(count: int, surfaces: Sequence[Surface]) -> None:
     """Raise MapError for a surface with fewer than three points, a repeated point or an index beyond ``count``."""
     for number, surface in enumerate(surfaces, 1):
@@ -100,7 +92,8 @@ def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[S
     check_surfaces(len(points), surfaces)
     surfaces_at: defaultdict[frozenset[int], list[int]] = defaultdict(list)
     for number, surface in enumerate(surfaces):
-        normal = area_normal(points, surface)
+        # The paper takes the cross product of two lines as normal, which has the wrong sense at a concave point.
+        normal = area_vector(points, surface)
         if not any(normal):
             raise MapError(f"surface {number + 1}: it has no area")
         if any(dot(normal, minus(points[index], points[surface[0]])) for index in surface):
@@ -114,7 +107,7 @@ def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[S
             raise MapError(f"surface {numbers[0] + 1}: line {line_name} is on {count}, expected 2")
     consistent = _one_sense(surfaces, surfaces_at)
     # Six times the signed volume is the sum over the cones from the origin to the surfaces.
-    volume = sum(dot(area_normal(points, surface), points[surface[0]]) for surface in consistent)
+    volume = sum(dot(area_vector(points, surface), points[surface[0]]) for surface in consistent)
     if not volume:
         raise MapError("the surfaces enclose no volume")
     return tuple(consistent) if volume > 0 else tuple((s[0], *s[:0:-1]) for s in consistent)

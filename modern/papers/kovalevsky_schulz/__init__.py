@@ -9,18 +9,9 @@ References
 V. Kovalevsky and H. Schulz, "Convex Hulls in a 3-dimensional Space".
 """
 
-from modern.papers.kovalevsky_schulz.cells import CellList, CellListError, Economical, decoded, expanded
+from modern.papers.kovalevsky_schulz.cells import CellList, CellListError, Economical, expanded
 from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES, Of, local_corners
-from modern.papers.kovalevsky_schulz.hull import (
-    RASTER,
-    SHUFFLED,
-    Order,
-    Surface,
-    VoxelHull,
-    merged,
-    straightened,
-    voxel_hull,
-)
+from modern.papers.kovalevsky_schulz.hull import RASTER, SHUFFLED, Surface, VoxelHull, merged, straightened, voxel_hull
 from modern.papers.kovalevsky_schulz.outcome import hull_cells
 from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, VISIBLE, Coplanar, Flat, convex_polyhedron
 from modern.papers.kovalevsky_schulz.reconstruction import reconstructed
@@ -38,11 +29,9 @@ __all__ = [
     "Economical",
     "Flat",
     "Of",
-    "Order",
     "Surface",
     "VoxelHull",
     "convex_polyhedron",
-    "decoded",
     "expanded",
     "hull_cells",
     "local_corners",

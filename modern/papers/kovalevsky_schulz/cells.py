@@ -7,9 +7,9 @@ redundant list from the economical one.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import chain, islice, pairwise
+from itertools import chain, pairwise
 from typing import Any
 
 import numpy as np
@@ -252,27 +252,6 @@ def _check_cycles(sizes: Numbers, start: Numbers, face: Numbers, count: int) -> 
         raise CellListError(f"face {invalid.min() + 1}: it has fewer than three vertices, or one of them twice")
     if missing.size:
         raise CellListError(f"face {face[missing[0]] + 1}: vertex {start[missing[0]]} does not exist")
-
-
-def decoded(numbers: Iterable[int]) -> Economical:
-    """Read the economical encoding from its integers. Raise CellListError if there are too few or too many."""
-    remaining = iter(numbers)
-    vertices, faces = _take(remaining, 2)
-    points = [_take(remaining, 3) for _ in range(vertices)]
-    cycles = []
-    for _ in range(faces):
-        (size,) = _take(remaining, 1)
-        cycles.append(tuple(_take(remaining, size)))
-    if next(remaining, None) is not None:
-        raise CellListError("numbers are left over after the last face")
-    return Economical(tuple((x, y, z) for x, y, z in points), tuple(cycles))
-
-
-def _take(numbers: Iterator[int], count: int) -> list[int]:
-    taken = list(islice(numbers, max(count, 0)))
-    if len(taken) < count or count < 0:
-        raise CellListError("the numbers end before the last face")
-    return taken
 
 
 def _check_convex(points: Sequence[IntPoint], sizes: Numbers, vertex: Numbers, face: Numbers) -> None:

@@ -209,7 +209,7 @@ def unsorted_star(_: Original) -> object:
         ("appel_will.surfaces.inside_corner_at_vertex fails", "preprocess", rule_two),
         ("appel_will.surfaces.minimum_data", "fig_4", convex_solid),
         ("appel_will.surfaces.normal_from_two_lines", "cross", sum_instead_of_product),
-        ("appel_will.surfaces.normal_from_two_lines", "area_normal", always((1, 2, 3))),
+        ("appel_will.surfaces.normal_from_two_lines", "area_vector", always((1, 2, 3))),
         ("appel_will.surfaces.normal_line", "plane_through", constant_plus_one),
         ("appel_will.surfaces.objects_with_same_hull", "exact_hull", last_point_outside),
         ("appel_will.surfaces.planes_of_surfaces", "direction", squared_length),

@@ -20,7 +20,6 @@ from modern.papers.kovalevsky_schulz import (
     Economical,
     Flat,
     convex_polyhedron,
-    decoded,
     expanded,
     local_corners,
     merged,
@@ -97,7 +96,6 @@ def test_merging_keeps_a_vertex_on_an_edge_and_drops_one_within_a_face() -> None
 def test_the_economical_encoding_preserves_the_cell_list(points: list[tuple[int, int, int]], coplanar: str) -> None:
     for cells in states(points, coplanar):
         encoding = cells.economical()
-        assert decoded(encoding.integers()) == encoding
         assert expanded(encoding).economical() == encoding
         assert len(encoding.integers()) == economical_size(cells) + 2 + len(cells.faces)
 
@@ -143,21 +141,6 @@ def test_encodings_of_no_convex_surface_are_rejected(encoding: Economical, messa
     with pytest.raises(CellListError) as caught:
         expanded(encoding)
     assert message in str(caught.value)
-
-
-def test_too_few_or_too_many_numbers_are_rejected() -> None:
-    numbers = CUBE.integers()
-    for length in range(len(numbers)):
-        with pytest.raises(CellListError, match="the numbers end before the last face"):
-            decoded(numbers[:length])
-    with pytest.raises(CellListError, match="left over"):
-        decoded((*numbers, 1))
-
-
-@pytest.mark.parametrize("numbers", [(-1, 0), (0, -1), (1, 1, 0, 0, 0, -3)])
-def test_negative_counts_are_rejected(numbers: tuple[int, ...]) -> None:
-    with pytest.raises(CellListError):
-        expanded(decoded(numbers))
 
 
 def test_planes_of_polygons_with_vertices_in_line() -> None:
