@@ -91,6 +91,11 @@ def width_of(picture: Scene, width: int | None) -> int:
     """Return the requested width, or the default for the number of points. Raise ExportError if it is out of range."""
     if width is None:
         return _WIDTH if _points(picture) <= _CROWD else _WIDER
+    return checked_width(width)
+
+
+def checked_width(width: int) -> int:
+    """Return the width of a picture in pixels. Raise ExportError if it is out of range."""
     if not _NARROWEST <= width <= _WIDEST:
         raise ExportError(f"a picture cannot be {width} pixels wide; the width is from {_NARROWEST} to {_WIDEST}")
     return width

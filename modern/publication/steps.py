@@ -117,7 +117,7 @@ def hidden_lines(name: str = "house") -> tuple[Eye, tuple[Plate, ...]]:
 def _visible_spans(drawing: Drawing) -> dict[tuple[int, int, int], Spans]:
     visible: dict[tuple[int, int, int], Spans] = {}
     for piece in drawing.pieces:
-        if piece.seen:
+        if piece.visible:
             visible.setdefault((piece.solid, piece.start, piece.end), []).append((piece.first, piece.last))
     return visible
 

@@ -198,7 +198,7 @@ def wrong(drawing: Drawing, judge: Judge, samples: int = 3) -> tuple[list[tuple[
     differences, count = [], 0
     drawn: dict[tuple[int, int, int], list[tuple[Fraction, Fraction]]] = {}
     for piece in drawing.pieces:
-        if piece.seen:
+        if piece.visible:
             drawn.setdefault((piece.solid, piece.start, piece.end), []).append((piece.first, piece.last))
     edges = [(n, a, b) for n in range(len(judge.polyhedra)) for a, b in judge.edges(n)]
     for n, a, b in edges:

@@ -70,7 +70,7 @@ def _hidden(drawing: Drawing, kind: str) -> int:
         for edge in solid.edges
         if edge.kind == kind
     }
-    return sum(not p.seen and (p.solid, frozenset((p.start, p.end))) in ends for p in drawing.pieces)
+    return sum(not p.visible and (p.solid, frozenset((p.start, p.end))) in ends for p in drawing.pieces)
 
 
 def three_collinear_points() -> CheckResult:
@@ -149,7 +149,7 @@ def edges_wholly_behind() -> CheckResult:
     """Check a box behind a wall, whose edges are hidden without an intersection."""
     corrected, without = _scene("enclosed.toml"), _scene("enclosed.toml", "enclosed")
     alone = any(passage == ENCLOSED for edge_passages in corrected.passages for _, passage in edge_passages.behind)
-    newly_visible = sum(p.seen for p in without.pieces) - sum(p.seen for p in corrected.pieces)
+    newly_visible = sum(p.visible for p in without.pieces) - sum(p.visible for p in corrected.pieces)
     return fails_if(alone and newly_visible > 0, f"{newly_visible} edges of the box would be visible through the wall")
 
 

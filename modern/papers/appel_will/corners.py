@@ -108,5 +108,4 @@ def _concave(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> set[int
 
 
 def _inward(points: Sequence[IntPoint], surface: Surface) -> IntPoint:
-    x, y, z = lowest(area_vector(points, surface))
-    return -x, -y, -z
+    return lowest(area_vector(points, surface[::-1]))

@@ -111,21 +111,9 @@ class Assembled:
 def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method = CORRECTED) -> Assembled:
     """Compute the hull of at least one point by Appel and Will's method, in exact arithmetic.
 
-    Parameters
-    ----------
-    points
-        (x, y, z) each, as ints, Fractions, decimal strings, or floats (taken as the exact binary numbers they are).
-    surfaces
-        The topological map of the polyhedron, if known. Only the rules for inside corners need it.
-    method
-        The corrected method, or one with some rules as printed.
-
-    Raises
-    ------
-    PointsError
-        For invalid points.
-    MapError
-        For invalid surfaces.
+    Coordinates are ints, Fractions, decimal strings, or floats (taken as the exact binary numbers they are).
+    ``surfaces`` is the topological map of the polyhedron, which only the rules for inside corners need. Raise
+    PointsError for invalid points and MapError for invalid surfaces.
     """
     coordinates = read_points(points)
     scale = common_scale(coordinates)
@@ -145,18 +133,9 @@ def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method 
     # The two steps of the paper: the convex edges by projections, then their loops by the appendix.
     convex = convex_edges(scaled, live, method.star)
     table = find_loops(scaled, convex.edges, method.rules)
-    return Assembled(
-        scaled,
-        scale,
-        duplicates,
-        preprocessing,
-        convex.deleted,
-        convex.projections,
-        convex.edges,
-        table,
-        tuple(surface(loop.entries, convex.edges) for loop in table.loops),
-        _dimension(list(first)),
-    )
+    topological_map = tuple(surface(loop.entries, convex.edges) for loop in table.loops)
+    assembly = (preprocessing, convex.deleted, convex.projections, convex.edges, table, topological_map)
+    return Assembled(scaled, scale, duplicates, *assembly, _dimension(list(first)))
 
 
 def _dimension(points: Sequence[IntPoint]) -> int:

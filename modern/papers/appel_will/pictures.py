@@ -12,7 +12,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from modern.drawing import svg
-from modern.drawing.draw import Show, filter_scene, scene_items, width_of
+from modern.drawing.draw import Show, checked_width, filter_scene, scene_items, width_of
 from modern.drawing.labels import Label, place_labels
 from modern.drawing.layout import MARGIN, Pixel, fit, lay_out
 from modern.drawing.legend import band, band_height, wrapped
@@ -53,13 +53,6 @@ class PictureError(ExportError):
     """A picture that cannot be drawn of this hull. The message is one line."""
 
 
-def checked_width(width: int | None, default: int) -> int:
-    """Return the width of a picture, or the default. Raise PictureError if it is out of range."""
-    if width is not None and not 320 <= width <= 4000:
-        raise PictureError(f"a picture cannot be {width} pixels wide; the width is from 320 to 4000")
-    return default if width is None else width
-
-
 def solid_svg(
     hull: Assembled,
     points: Sequence[Point],
@@ -84,14 +77,8 @@ def solid_svg(
         at |= {mark.index: place for mark, place in zip(marks, places, strict=True)}
     at |= {index: at[first] for index, first in record.duplicates}
     drawn = {tuple(sorted((record.vertices[e.start], record.vertices[e.end]))): e for e in picture.edges}
-    nonconvex = sorted(
-        {
-            (min(a, b), max(a, b))
-            for surface in original
-            for a, b in sides(surface)
-            if (min(a, b), max(a, b)) not in drawn
-        }
-    )
+    original_lines = {(min(a, b), max(a, b)) for surface in original for a, b in sides(surface)}
+    nonconvex = sorted(original_lines.difference(drawn))
     lines = [(number, pair) for number, pair in enumerate(hull.edges, 1) if pair in drawn]
     numbered = len(points) <= MOST_POINTS
     labelled = numbered and 0 < len(lines) <= MOST_LINES
@@ -129,13 +116,10 @@ def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = 
     merged_away = set(hull.vertices).difference(vertices)
     first_equal = dict(hull.duplicates)
     rest = [index for index in range(len(points)) if index not in vertices and index not in first_equal]
-    planes = [(area_vector(hull.points, surface), hull.points[surface[0]]) for surface in hull.surfaces]
+    solid_faces = hull.surfaces if hull.dimension == 3 else ()
+    planes = [(area_vector(hull.points, surface), hull.points[surface[0]]) for surface in solid_faces]
     # Points that are not vertices are on the boundary if they lie in the plane of a surface, otherwise inside.
-    on = {
-        index
-        for index in rest
-        if hull.dimension == 3 and any(not dot(n, minus(hull.points[index], p)) for n, p in planes)
-    }
+    on = {index for index in rest if any(not dot(n, minus(hull.points[index], p)) for n, p in planes)}
     if hull.dimension == 3:
         within = [()] * len(surfaces) if joined is None else joined_points(hull, joined)
         faces = [(surface, merged_away.intersection(inner)) for surface, inner in zip(surfaces, within, strict=True)]
@@ -220,9 +204,9 @@ def star(hull: Assembled, pair: Pair) -> Star:
 def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = None) -> str:
     """Draw the star polygon of a pair of points as seen along their line.
 
-    ``width`` is in pixels, by default 640. Raise PictureError for an invalid pair or width.
+    ``width`` is in pixels, by default 640. Raise ExportError for an invalid pair or width.
     """
-    width = checked_width(width, WIDTH)
+    width = WIDTH if width is None else checked_width(width)
     polygon = star(hull, pair)
     a, b = pair
     # The test works on affine images. The picture shows the true parallel projection along the line.
@@ -295,7 +279,6 @@ def numbers(
 
 
 def texts(labels: Sequence[Label], places: Sequence[tuple[float, float]]) -> Iterator[str]:
-    """Draw labels at their places."""
     for label, (x, y) in zip(labels, places, strict=True):
         yield svg.text(Pixel(round(100 * x), round(100 * (y + label.size * 0.35))), label.text)
 
@@ -311,7 +294,6 @@ def sample_row(style: Style) -> Row:
 
 
 def text_row(text: str, bold: bool = False) -> Row:
-    """Return a legend row with text only."""
 
     def row(base: int) -> Iterator[str]:
         yield svg.text(Pixel(MARGIN * 100, base * 100), text, 'font-weight="bold"' if bold else "")

@@ -17,6 +17,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
 from modern.drawing import svg
+from modern.drawing.draw import checked_width
 from modern.drawing.layout import MARGIN, Pixel, fit
 from modern.drawing.legend import wrapped
 from modern.drawing.svg import VERTEX, VISIBLE
@@ -28,7 +29,6 @@ from modern.papers.appel_will.pictures import (
     WIDER,
     WIDTH,
     PictureError,
-    checked_width,
     numbers,
     text_row,
 )
@@ -50,14 +50,15 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
     ``edges`` is the convex edge list, from which the lines take their numbers. If it has more than ``MOST_LINES``
     lines, they are not numbered. ``width`` is in pixels; the default is 640, or 1000 for more than ``CROWD`` points.
 
-    Raise PictureError for a map without surfaces or with more than ``MOST`` points, and for a width out of range.
+    Raise ExportError for a map without surfaces or with more than ``MOST`` points, and for a width out of range.
     """
     if not surfaces:
         raise PictureError("there are no surfaces, so there is no map to draw")
     count = len({index for surface in surfaces for index in surface})
     if count > MOST:
         raise PictureError(f"a map of {count} points cannot be drawn legibly; the limit is {MOST} points")
-    width = checked_width(width, WIDTH if count <= CROWD else WIDER)
+    default = WIDTH if count <= CROWD else WIDER
+    width = default if width is None else checked_width(width)
     # The surface with most points becomes the outside, which leaves the most room for the others.
     outer = max(range(len(surfaces)), key=lambda number: (len(surfaces[number]), -number))
     places = embedded(surfaces, outer)

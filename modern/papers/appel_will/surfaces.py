@@ -43,12 +43,7 @@ class Fates:
 
 
 def fates(points: Sequence[IntPoint], original: Sequence[Surface], hull: Sequence[Surface]) -> Fates:
-    """Compare the surfaces of a polyhedron with those of its hull."""
-    return _fates(
-        original,
-        hull,
-        lambda surface: next((number for number, face in enumerate(hull) if _lies_in(points, surface, face)), None),
-    )
+    return _fates(original, hull, lambda surface, number: _lies_in(points, surface, hull[number]))
 
 
 def fates_by_points(original: Sequence[Surface], faces: Sequence[Collection[int]], hull: Sequence[Surface]) -> Fates:
@@ -57,19 +52,14 @@ def fates_by_points(original: Sequence[Surface], faces: Sequence[Collection[int]
     A surface lies in the merged face that contains all of its points. ``faces`` lists all points of each merged face,
     ``hull`` those of its polygon.
     """
-    return _fates(
-        original,
-        hull,
-        lambda surface: next((number for number, face in enumerate(faces) if set(face) >= set(surface)), None),
-    )
+    return _fates(original, hull, lambda surface, number: set(faces[number]) >= set(surface))
 
 
-def _fates(original: Sequence[Surface], hull: Sequence[Surface], face_of: Callable[[Surface], int | None]) -> Fates:
-    of = tuple(map(face_of, original))
-    unchanged = frozenset(
-        k for k, number in enumerate(of) if number is not None and set(original[k]) == set(hull[number])
-    )
-    return Fates(of, unchanged, tuple(number for number in range(len(hull)) if number not in of))
+def _fates(original: Sequence[Surface], hull: Sequence[Surface], lies_in: Callable[[Surface, int], bool]) -> Fates:
+    numbers = range(len(hull))
+    of = tuple(next((number for number in numbers if lies_in(surface, number)), None) for surface in original)
+    unchanged = (k for k, number in enumerate(of) if number is not None and set(original[k]) == set(hull[number]))
+    return Fates(of, frozenset(unchanged), tuple(number for number in numbers if number not in of))
 
 
 def check_surfaces(count: int, surfaces: Sequence[Surface]) -> None:
@@ -116,11 +106,8 @@ def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[S
 def lines(surfaces: Sequence[Surface]) -> tuple[Line, ...]:
     """List every line of oriented surfaces once, directed as on its surface of lower number."""
     owner = {line: number for number, surface in enumerate(surfaces) for line in sides(surface)}
-    return tuple(
-        Line(line, number, owner[line[1], line[0]])
-        for line, number in owner.items()
-        if number < owner[line[1], line[0]]
-    )
+    both_sides = ((line, number, owner[line[1], line[0]]) for line, number in owner.items())
+    return tuple(Line(line, on, beyond) for line, on, beyond in both_sides if on < beyond)
 
 
 def _one_sense(surfaces: Sequence[Surface], surfaces_at: dict[frozenset[int], list[int]]) -> list[Surface]:

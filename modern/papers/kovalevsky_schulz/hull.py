@@ -170,31 +170,15 @@ def voxel_hull(
 ) -> VoxelHull:
     """Compute the hull of a solid's voxels.
 
+    ``volume`` may be an array of truth values indexed [x, y, z]. ``of`` is ``centres`` or ``vertices``, for the hull of
+    the voxels' centres or corners. ``neighbours`` is 6 or 26, the number of neighbours in the test for local corners.
+    ``coplanar`` is ``visible`` (the default) or ``invisible``, see ``convex_polyhedron``. ``order`` is ``raster`` as in
+    the paper, or ``shuffled``, a faster and reproducible random order. If only ``coplanar`` is set, the order is
+    ``raster``. If neither is set, no points are inserted and there are no triangles.
+
     The hull does not depend on ``neighbours``, ``coplanar`` and ``order``. The number of triangles does, and so do the
-    vertices in line with others.
-
-    Parameters
-    ----------
-    volume
-        A volume, or an array of truth values indexed [x, y, z].
-    of
-        ``centres`` for the hull of the voxels' centres, ``vertices`` for the hull of their corners.
-    neighbours
-        6 or 26, the number of neighbours in the test for local corners.
-    coplanar
-        ``visible`` or ``invisible``, see ``convex_polyhedron``. The default is ``visible``.
-    order
-        ``raster`` as in the paper, or ``shuffled``, a faster and reproducible random order. If only ``coplanar`` is
-        given, it is ``raster``. If neither is given, no points are inserted and there are no triangles.
-
-    Raises
-    ------
-    VolumeError
-        For a volume of two dimensions.
-    NoVoxels
-        For a volume without voxels.
-    ValueError
-        For another value of an option.
+    vertices in line with others. Raise VolumeError for a volume of two dimensions, NoVoxels for a volume without
+    voxels, and ValueError for another value of an option.
     """
     volume = as_volume(volume)
     if not volume.count:

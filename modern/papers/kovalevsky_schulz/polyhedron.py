@@ -58,7 +58,6 @@ class Flat:
 
     @property
     def kind(self) -> str:
-        """``point``, ``segment`` or ``polygon``."""
         return _KINDS[self.dimension]
 
 
@@ -262,7 +261,6 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
 
 
 def flat_hull(points: Sequence[IntPoint]) -> Flat:
-    """Compute the hull of distinct points in one plane."""
     flat = exact_hull(points)
     return Flat(flat.dimension, tuple(points[number] for number in flat.polygon or flat.vertices))
 

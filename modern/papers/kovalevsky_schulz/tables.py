@@ -42,7 +42,6 @@ def face_rows(cells: CellList) -> Iterator[str]:
 
 
 def all_rows(cells: CellList) -> Iterator[str]:
-    """Yield the three tables with their headings."""
     yield from (VERTEX_HEADING, *vertex_rows(cells))
     yield from (EDGE_HEADING, *edge_rows(cells))
     yield from (FACE_HEADING, *face_rows(cells))

@@ -122,29 +122,24 @@ def _components(surface: FileMesh, name: str) -> list[_Component]:
     groups: dict[int, list[int]] = {}
     for order in range(len(surface.faces)):
         groups.setdefault(root(order), []).append(order)
-    return [
-        _Component(
-            f"{name}, component {number} of {len(groups)}" if len(groups) > 1 else name,
-            tuple(group),
-            tuple(sorted({place for order in group for place in surface.faces[order]})),
-        )
-        for number, group in enumerate(groups.values(), 1)
-    ]
+    components = []
+    for number, group in enumerate(groups.values(), 1):
+        label = f"{name}, component {number} of {len(groups)}" if len(groups) > 1 else name
+        vertices = {place for order in group for place in surface.faces[order]}
+        components.append(_Component(label, tuple(group), tuple(sorted(vertices))))
+    return components
 
 
 def _body(surface: FileMesh, component: _Component, reading: Reading) -> tuple[Polyhedron, list[str]]:
     """Return a component as a convex polyhedron, and notes on the changes that made it one."""
     name = component.name
-    gaps = solids.open_faults(
-        {order: surface.faces[order] for order in component.faces},
-        {place: coordinates(surface.points[place]) for place in component.vertices},
-        partial(_edge_name, surface),
-    )
-    fault = next(gaps, "")
+    faces = {order: surface.faces[order] for order in component.faces}
+    points = {place: coordinates(surface.points[place]) for place in component.vertices}
+    fault = next(solids.open_faults(faces, points, partial(_edge_name, surface)), "")
     if fault and not reading.hull:
         raise SceneError(f"{name}: {fault}")
     # The exact hull of the component's vertices either replaces the component or proves that it is convex.
-    hull = as_hull(exact_hull([coordinates(surface.points[place]) for place in component.vertices]))
+    hull = as_hull(exact_hull([*points.values()]))
     if hull.dimension < 3:
         return _of_hull(hull, name, None) if reading.hull else checked(_as_given(_closed(surface, component))), []
     joined = None if reading.within is None else _joined(hull, reading.within, name)

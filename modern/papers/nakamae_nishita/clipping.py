@@ -96,17 +96,11 @@ def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Obser
     # Renumber the vertices that remain.
     used = sorted({place for face in faces for place in face})
     names = {place: order for order, place in enumerate(used)}
-    return replace(
-        polyhedron,
-        vertices=tuple(points[place] for place in used),
-        faces=tuple(tuple(names[place] for place in face) for face in faces),
-        figures=tuple(
-            Figure(orders.index(figure.face), corners)
-            for figure in polyhedron.figures
-            if figure.face in orders and (corners := _cut(figure.corners, observer))
-        ),
-        joined=tuple(groups),
-    )
+    vertices = tuple(points[place] for place in used)
+    renumbered = tuple(tuple(names[place] for place in face) for face in faces)
+    on_faces = ((orders.index(f.face), _cut(f.corners, observer)) for f in polyhedron.figures if f.face in orders)
+    figures = tuple(Figure(order, corners) for order, corners in on_faces if corners)
+    return replace(polyhedron, vertices=vertices, faces=renumbered, figures=figures, joined=tuple(groups))
 
 
 def _cut(corners: Sequence[Vector], observer: Observer) -> tuple[Vector, ...]:

@@ -54,16 +54,16 @@ def overlapping(all_boxes: Sequence[Box | None]) -> Iterator[tuple[int, int]]:
     if len(nonempty) < 2:
         return
     # The grid covers all boxes, with about as many rows and columns as the square root of their number.
-    left, right = min(box[0] for _, box in nonempty), max(box[1] for _, box in nonempty)
-    low, high = min(box[2] for _, box in nonempty), max(box[3] for _, box in nonempty)
+    x_min, x_max = min(box[0] for _, box in nonempty), max(box[1] for _, box in nonempty)
+    y_min, y_max = min(box[2] for _, box in nonempty), max(box[3] for _, box in nonempty)
     resolution = min(math.isqrt(len(nonempty)) + 1, _CELLS)
-    per_x, per_y = resolution / (right - left), resolution / (high - low)
+    per_x, per_y = resolution / (x_max - x_min), resolution / (y_max - y_min)
     cells: dict[tuple[int, int], list[tuple[int, Box, int, int]]] = defaultdict(list)
     for index, box in nonempty:
-        first_column, first_row = int((box[0] - left) * per_x), int((box[2] - low) * per_y)
+        first_column, first_row = int((box[0] - x_min) * per_x), int((box[2] - y_min) * per_y)
         # Enter the box in every cell that it touches.
-        for column in range(first_column, int((box[1] - left) * per_x) + 1):
-            for row in range(first_row, int((box[3] - low) * per_y) + 1):
+        for column in range(first_column, int((box[1] - x_min) * per_x) + 1):
+            for row in range(first_row, int((box[3] - y_min) * per_y) + 1):
                 cells[column, row].append((index, box, first_column, first_row))
     pairs = []
     for (column, row), group in cells.items():

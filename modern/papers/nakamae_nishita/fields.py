@@ -26,7 +26,6 @@ class Fields:
         return self._data.pop(key, None)
 
     def wrong(self, key: str, message: str) -> SceneError:
-        """Return the error for a field."""
         return SceneError(f"{self.place}: {key}: {message}")
 
     def text(self, key: str, default: str) -> str:

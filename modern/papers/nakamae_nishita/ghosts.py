@@ -41,8 +41,9 @@ def ghosts(solids: Sequence[Solid], facing: int = 1) -> dict[Name, list[Span]]:
             a, b = solid.points[edge.start], solid.points[edge.end]
             for face in edge.faces:
                 if solid.signs[face] == facing:
-                    line = line_through((a[0], a[1], a[3]), (b[0], b[1], b[3]))
-                    key = (solid.polyhedron.thing, _plane_key(solid.planes[face]), _line_key(line))
+                    # Opposite coefficients describe one line, but the two sides of a plane are different faces.
+                    line = _lowest(line_through((a[0], a[1], a[3]), (b[0], b[1], b[3])))
+                    key = (solid.polyhedron.thing, _lowest(solid.planes[face]), max(line, tuple(-n for n in line)))
                     lines[key].append((solid.number, edge.start, edge.end))
     # Section 3.4: the part that an edge has in common with an edge of another polyhedron is a ghost.
     spans: dict[Name, list[Span]] = defaultdict(list)
@@ -70,13 +71,6 @@ def _fraction(a: Homogeneous, b: Homogeneous, c: Homogeneous) -> Fraction:
     return Fraction(at_a, at_a - at_b)
 
 
-def _plane_key(plane: Sequence[int]) -> tuple[int, ...]:
-    divisor = math.gcd(*plane)
-    return tuple(number // divisor for number in plane)
-
-
-def _line_key(line: Sequence[int]) -> tuple[int, ...]:
-    divisor = math.gcd(*line)
-    if next(number for number in line if number) < 0:
-        divisor = -divisor
-    return tuple(number // divisor for number in line)
+def _lowest(numbers: Sequence[int]) -> tuple[int, ...]:
+    divisor = math.gcd(*numbers)
+    return tuple(number // divisor for number in numbers)

@@ -56,7 +56,7 @@ class Piece:
     end: int
     first: Fraction
     last: Fraction
-    seen: bool
+    visible: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +117,7 @@ def draw(
 
     ``made`` may be a function that creates the polyhedra, which is then timed as the first step. ``without`` names the
     ``REFINEMENTS`` to switch off. With ``hidden``, hidden parts and edges between back faces become pieces that are not
-    seen. With ``check``, polyhedra with overlapping contours are proved not to intersect.
+    visible. With ``check``, polyhedra with overlapping contours are proved not to intersect.
 
     Raise SceneError if polyhedra intersect, if one is not entirely in front of the observation point and there is no
     near plane, or if a name in ``without`` is unknown.
@@ -151,13 +151,11 @@ def draw(
             _pass(behind[v.number], v, w, of_w, without)
     # Section 3.4: ghost lines divide two parts of one object in a plane face.
     front_ghosts: dict[Name, list[Span]] = {} if GHOSTS in without else ghosts(solids)
-    passages = tuple(
-        Passages(
-            item.number, place, tuple(course), tuple(front_ghosts.get((item.number, segment.start, segment.end), ()))
-        )
-        for item in solids
-        for place, (segment, course) in enumerate(zip(item.segments, behind[item.number], strict=True))
-    )
+    passages = []
+    for item in solids:
+        for place, (segment, course) in enumerate(zip(item.segments, behind[item.number], strict=True)):
+            spans = front_ghosts.get((item.number, segment.start, segment.end), ())
+            passages.append(Passages(item.number, place, tuple(course), tuple(spans)))
     back_ghosts = ghosts(solids, -1) if hidden and GHOSTS not in without else {}
     # Section 3.5: the visible parts of every segment.
     pieces = [piece for passage in passages for piece in _pieces(solids, passage, back_ghosts, hidden)]
@@ -165,9 +163,8 @@ def draw(
         pieces += [piece for item in solids for piece in _back_edges(item, back_ghosts)]
     ended = time.perf_counter()
     seconds = (searched - started, eliminated - searched, ended - eliminated)
-    return Drawing(
-        observer, solids, tuple(relations), passages, tuple(pieces), seconds, clipped_scene.cut, clipped_scene.behind
-    )
+    near_plane = (clipped_scene.cut, clipped_scene.behind)
+    return Drawing(observer, solids, tuple(relations), tuple(passages), tuple(pieces), seconds, *near_plane)
 
 
 def _relations(
@@ -236,16 +233,16 @@ def _pieces(
     since = _START
     for place, index, ghost_change, back_change in sorted(marks):
         if place > last:
-            state = "" if ghost or (order and (back or not hidden)) else "hidden" if order else "seen"
+            state = "" if ghost or (order and (back or not hidden)) else "hidden" if order else "visible"
             # Neighbouring intervals with the same state are one piece.
             if state != drawn:
                 if drawn:
-                    yield Piece(passages.solid, segment.start, segment.end, since, last, drawn == "seen")
+                    yield Piece(passages.solid, segment.start, segment.end, since, last, drawn == "visible")
                 since, drawn = last, state
             last = place
         order, ghost, back = order + index, ghost + ghost_change, back + back_change
     if drawn:
-        yield Piece(passages.solid, segment.start, segment.end, since, _END, drawn == "seen")
+        yield Piece(passages.solid, segment.start, segment.end, since, _END, drawn == "visible")
 
 
 def _back_edges(item: Solid, back_ghosts: dict[Name, list[Span]]) -> Iterator[Piece]:

@@ -11,11 +11,11 @@ from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 
 from modern.drawing import svg
+from modern.drawing.draw import checked_width
 from modern.drawing.layout import MARGIN, Pixel, fit
 from modern.drawing.svg import HIDDEN, VISIBLE
 from modern.drawing.view import Flat
 from modern.papers.nakamae_nishita.hidden import Drawing, Piece
-from modern.papers.nakamae_nishita.polyhedron import SceneError
 from modern.papers.nakamae_nishita.projection import Homogeneous, image
 
 Point = tuple[int, int]
@@ -49,7 +49,6 @@ def _moves(strokes: Iterable[Stroke]) -> Iterator[str]:
 
 
 _HIGHEST_SHAPE = Fraction(3, 4)
-_NARROWEST, _WIDEST = 320, 4000
 _BAND = 24
 
 
@@ -64,11 +63,9 @@ def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
     """Return the text of an SVG file.
 
     The attribute ``data-edge`` of a line names its polyhedron and the two vertices of its edge, from 1. The numbers of
-    figures' corners follow those of the vertices. Raise SceneError for a width out of range.
+    figures' corners follow those of the vertices. Raise ExportError for a width out of range.
     """
-    if not _NARROWEST <= width <= _WIDEST:
-        raise SceneError(f"a picture cannot be {width} pixels wide; the width is from {_NARROWEST} to {_WIDEST}")
-    pixel, height = fit(_extent(drawing), width, int(width * _HIGHEST_SHAPE))
+    pixel, height = fit(_extent(drawing), checked_width(width), int(width * _HIGHEST_SHAPE))
 
     def lines(visible: bool) -> Iterator[str]:
         for piece, a, b in _strokes(drawing, pixel, visible):
@@ -103,7 +100,7 @@ def as_hpgl(drawing: Drawing) -> str:
 def _strokes(drawing: Drawing, pixel: Callable[[Flat], Pixel], visible: bool) -> Iterator[tuple[Piece, Pixel, Pixel]]:
     """Yield the visible or the hidden pieces with the places of their ends."""
     for piece in drawing.pieces:
-        if piece.seen == visible:
+        if piece.visible == visible:
             a, b = (pixel(image(end, drawing.observer)) for end in ends(drawing, piece))
             yield piece, a, b
 

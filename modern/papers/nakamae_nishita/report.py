@@ -42,11 +42,8 @@ def _relation(drawing: Drawing, relation: Relation) -> Iterator[str]:
     columns = [place + 1 for place in v.contour]
     pair = relation.tables
     # Formulas (2) and (3): rows for the vertices of V', columns for those of V, as the paper prints the tables.
-    for title, rows in (
-        ("PL", pair.pl),
-        ("LP", pair.lp),
-        ("d", tuple(tuple(pair.crossing_number(i, j) for i in range(len(columns))) for j in range(len(pair.pl)))),
-    ):
+    d = tuple(tuple(pair.crossing_number(i, j) for i in range(len(columns))) for j in range(len(pair.pl)))
+    for title, rows in (("PL", pair.pl), ("LP", pair.lp), ("d", d)):
         yield f"  {title:4}" + "".join(f"{column:4d}" for column in columns)
         for place, row in zip(w.contour, rows, strict=True):
             yield f"  {place + 1:4d}" + "".join(f"{number:4d}" for number in row)

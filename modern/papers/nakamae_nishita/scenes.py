@@ -77,7 +77,6 @@ DEFAULT_EYE: Vector = (Fraction(EYES[0][0]), Fraction(EYES[0][1]), Fraction(EYES
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of the project's own scenes."""
     folder = files("modern.papers.nakamae_nishita").joinpath("scenes")
     return tuple(sorted(item.name[:-5] for item in folder.iterdir() if item.name.endswith(".toml")))
 
@@ -115,7 +114,8 @@ def _made(polyhedron: Polyhedron, _: str) -> Polyhedron:
 def parse(text: str, source: str, folder: str = "") -> SceneFile:
     """Read a scene from its text. Paths of its parts are relative to ``folder``. Raise SceneError."""
     try:
-        data = tomllib.loads(text, parse_float=_decimal)
+        # TOML floats are read as exact decimals. TOML allows underscores between digits.
+        data = tomllib.loads(text, parse_float=lambda decimal: number(decimal.replace("_", "")))
     except tomllib.TOMLDecodeError as error:
         raise SceneError(_located(source, text, str(error))) from None
     except (ValueError, RecursionError) as error:
@@ -128,14 +128,9 @@ def parse(text: str, source: str, folder: str = "") -> SceneFile:
     if not tables:
         raise SceneError(f"{source}: there are no parts")
     entries = [part(Fields(table, f"{source}: part {k}"), folder) for k, table in enumerate(tables, 1)]
-    return SceneFile(
-        source,
-        title,
-        sight,
-        tuple(item for parts in entries for item in parts.parts),
-        tuple(parts.file for parts in entries if parts.file),
-        tuple(note for parts in entries for note in parts.notes),
-    )
+    parts = tuple(item for entry in entries for item in entry.parts)
+    paths = tuple(entry.file for entry in entries if entry.file)
+    return SceneFile(source, title, sight, parts, paths, tuple(note for entry in entries for note in entry.notes))
 
 
 def _sight(fields: Fields) -> Sight:
@@ -164,11 +159,6 @@ def _middle(polyhedra: Sequence[Polyhedron]) -> Vector:
     columns = list(zip(*(point for polyhedron in polyhedra for point in polyhedron.vertices), strict=True))
     x, y, z = ((min(column) + max(column)) / 2 for column in columns)
     return x, y, z
-
-
-def _decimal(text: str) -> Fraction:
-    """Read a TOML float as an exact decimal."""
-    return number(text.replace("_", ""))
 
 
 def _located(source: str, text: str, message: str) -> str:

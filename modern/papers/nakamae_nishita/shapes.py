@@ -93,12 +93,10 @@ def turned(degrees: Fraction) -> Move:
 
 
 def scaled(times: Fraction) -> Move:
-    """Return the scaling about the origin."""
     return lambda p: (times * p[0], times * p[1], times * p[2])
 
 
 def moved(shift: Vector) -> Move:
-    """Return the translation by a vector."""
     return lambda p: plus(p, shift)
 
 

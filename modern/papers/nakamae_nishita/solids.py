@@ -60,7 +60,6 @@ class Solid:
 
     @property
     def vertices(self) -> tuple[Homogeneous, ...]:
-        """The images of the vertices."""
         return self.points[: len(self.polyhedron.vertices)]
 
 
@@ -89,25 +88,15 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
         places = range(corner, corner + len(figure.corners))
         corner += len(figure.corners)
         if signs[figure.face] > 0:
-            visible_lines += [
-                (a, b, FIGURE, (figure.face,)) for a, b in zip(places, [*places[1:], places[0]], strict=True)
-            ]
+            visible_lines += [(a, b, FIGURE, (figure.face,)) for a, b in sides(places)]
     # Formula (1) is evaluated only at points of segments. Those of the contour come first, for the PL and LP tables.
     used = tuple(dict.fromkeys((*chain, *(place for start, end, *_ in visible_lines for place in (start, end)))))
     where = {place: order for order, place in enumerate(used)}
-    return Solid(
-        number,
-        polyhedron,
-        tuple(points),
-        tuple(signs),
-        edges,
-        chain,
-        tuple(line_through(flat[a], flat[b]) for a, b in (sides(chain) if chain else ())),
-        tuple(planes),
-        tuple(Segment(a, b, where[a], where[b], kind, front) for a, b, kind, front in visible_lines),
-        used,
-        tuple(points[place] for place in used),
-    )
+    lines = tuple(line_through(flat[a], flat[b]) for a, b in (sides(chain) if chain else ()))
+    segments = tuple(Segment(a, b, where[a], where[b], kind, front) for a, b, kind, front in visible_lines)
+    images = tuple(points[place] for place in used)
+    classified = (tuple(signs), edges, chain, lines, tuple(planes))
+    return Solid(number, polyhedron, tuple(points), *classified, segments, used, images)
 
 
 def plane_through(p: Homogeneous, q: Homogeneous, r: Homogeneous) -> Plane:

@@ -24,7 +24,6 @@ Place = tuple[Fraction, Fraction, Fraction]
 
 
 def voxels_of(region: Voxels) -> list[Voxel]:
-    """List the voxels of a region by their indices."""
     return [(x, y, z) for x, y, z in np.argwhere(region).tolist()]
 
 

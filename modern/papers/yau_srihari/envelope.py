@@ -17,18 +17,9 @@ import numpy as np
 
 from modern.digital.columns import Grid
 from modern.digital.intervals import lower_chain, write_heights
+from modern.papers.yau_srihari import quadtree as trees
 from modern.papers.yau_srihari.printed import Printed
-from modern.papers.yau_srihari.quadtree import (
-    NO_COLUMN,
-    Leaf,
-    Place,
-    Point,
-    Quadtree,
-    line,
-    no_columns,
-    with_columns,
-    written,
-)
+from modern.papers.yau_srihari.quadtree import NO_COLUMN, Leaf, Place, Point, Quadtree, written
 from modern.papers.yau_srihari.search import Candidates, Normal, Search, normal_of
 
 
@@ -39,9 +30,9 @@ def reduced_tree(tree: Quadtree) -> Quadtree:
     every line y = const.
     """
     for axis in (0, 1):
-        vertices = [(at, t, z) for at in range(tree.side) for t, z in lower_chain(line(tree, axis, at))]
+        vertices = [(at, t, z) for at in range(tree.side) for t, z in lower_chain(trees.line(tree, axis, at))]
         at, t, z = np.array(vertices, dtype=np.int64).T
-        tree = with_columns(no_columns(tree.side), *((at, t) if axis == 0 else (t, at)), z)
+        tree = trees.with_columns(trees.no_columns(tree.side), *((at, t) if axis == 0 else (t, at)), z)
     return tree
 
 
@@ -317,7 +308,6 @@ def _rounded(numerator: int, denominator: int, printed: Printed) -> int:
 
 
 def _along(chain: list[Point], printed: Printed) -> dict[Place, Leaf]:
-    """Return the leaves of an envelope over one line."""
     leaves = {(x, y): Leaf(z) for x, y, z in chain}
     for (x, y, z), (i, j, k) in pairwise(chain):
         # An edge passes over gcd - 1 digital points between its ends, at equal distances.

@@ -66,23 +66,11 @@ def _component_count(count: int, a: Grid, b: Grid) -> int:
 class OctreeHull:
     """The digital hull of a solid and all intermediate results.
 
-    Attributes
-    ----------
-    side
-        The side of the cube that the trees divide.
-    solid, hull
-        The octrees of the solid and of its digital hull.
-    lowest, highest
-        The quadtrees of the floor and the ceiling.
-    lower
-        The convex envelope of the floor.
-    upper
-        The convex envelope of the negated ceiling, with negated heights.
-    filled
-        The hull as truth values in the shape of the volume.
-    components
-        The number of 6-connected components of the volume. If there is one, section 3.3 takes the digital points of
-        the Euclidean hull for the digital convex hull.
+    ``side`` is the side of the cube that the trees divide. ``solid`` and ``hull`` are octrees, ``lowest`` and
+    ``highest`` the quadtrees of the floor and the ceiling. ``lower`` is the convex envelope of the floor, and ``upper``
+    that of the negated ceiling, with negated heights. ``filled`` is the hull in the shape of the volume. ``components``
+    counts the 6-connected components of the volume. If there is one, section 3.3 takes the digital points of the
+    Euclidean hull for the digital convex hull.
     """
 
     side: int
@@ -112,12 +100,10 @@ class OctreeHull:
 
     @property
     def solid_voxels(self) -> int:
-        """The number of voxels of the solid."""
         return trees.count(self.solid)
 
     @property
     def voxels(self) -> int:
-        """The number of voxels of the hull."""
         return trees.count(self.hull)
 
     @property
@@ -128,19 +114,10 @@ class OctreeHull:
 
 
 def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = None) -> OctreeHull:
-    """Compute the digital hull of a volume by octrees.
+    """Compute the digital hull of a volume, or of truth values with two or three axes, by octrees.
 
-    Parameters
-    ----------
-    volume
-        Truth values with two or three axes.
-    printed
-        The statements of the paper to apply as printed; none by default.
-
-    Raises
-    ------
-    VolumeError
-        If the array has other values or axes, no voxels, or needs a cube of more than ``MAX_CELLS`` voxels.
+    ``printed`` selects statements of the paper to apply as printed. Raise VolumeError if the array has other values or
+    axes, no voxels, or needs a cube of more than ``MAX_CELLS`` voxels.
     """
     volume = as_volume(volume)
     printed = printed or Printed()

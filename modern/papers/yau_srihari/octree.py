@@ -56,7 +56,6 @@ class Octree:
         return self.side.bit_length() - 1
 
     def voxels(self) -> Grid:
-        """Return the number of voxels of each leaf."""
         return np.int64(1) << 3 * (self.depth - self.levels)
 
     def corners(self) -> Grid:

@@ -47,7 +47,6 @@ class Quadtree:
 
     @property
     def side(self) -> int:
-        """The side of the square."""
         return len(self.values)
 
     @property
@@ -68,13 +67,11 @@ class Quadtree:
 
 
 def no_columns(side: int) -> Quadtree:
-    """Return the tree without columns."""
     none = np.zeros((side, side), dtype=np.bool_)
     return Quadtree(np.zeros((side, side), dtype=np.int64), none, none, np.ones((side, side), dtype=np.int64))
 
 
 def sons_of(tree: Quadtree) -> tuple[Quadtree, ...]:
-    """Return the four sons of a node."""
     half = tree.side // 2
     parts = [(slice(i * half, (i + 1) * half), slice(j * half, (j + 1) * half)) for i, j in QUADRANTS]
     return tuple(Quadtree(tree.values[p], tree.there[p], tree.marked[p], tree.sides[p]) for p in parts)
@@ -116,12 +113,10 @@ def _lowest(tree: Octree, downward: bool) -> Quadtree:
 
 
 def mirrored(tree: Quadtree) -> Quadtree:
-    """Return the tree of the negated heights."""
     return replace(tree, values=-tree.values)
 
 
 def heights(tree: Quadtree) -> dict[Place, int]:
-    """Return the height of every column by (x, y)."""
     x, y = np.nonzero(tree.there)
     return dict(zip(zip(x.tolist(), y.tolist(), strict=True), tree.values[x, y].tolist(), strict=True))
 

@@ -137,7 +137,6 @@ class Search:
         return -angle_zero if self.printed.angle else angle_zero
 
     def take(self, point: Point) -> None:
-        """Compare a point with the best points so far."""
         score = self.score(point)
         assert score is not None
         if self.best is None or score > self.best:

@@ -226,7 +226,7 @@ def test_a_polygon_has_a_map_and_maps_that_cannot_be_drawn_are_rejected() -> Non
     ring = tuple(range(MOST + 1))
     with pytest.raises(PictureError, match=rf"^a map of {MOST + 1} points cannot be drawn legibly"):
         map_svg((ring, ring[::-1]), ())
-    with pytest.raises(PictureError, match="9 pixels wide"):
+    with pytest.raises(ExportError, match="9 pixels wide"):
         map_svg(square.surfaces, square.edges, width=9)
 
 

@@ -143,7 +143,9 @@ def test_rounded_faces_are_rejected_with_their_deviation_and_merged_within_a_dis
     assert len({(piece.start, piece.end) for piece in drawing.pieces}) == 30
     separate_faces = Polyhedron("d", result.polyhedra[0].vertices, result.polyhedra[0].faces)
     unmerged = draw([separate_faces], parallel((3, -5, 2)), hidden=True)
-    assert {(p.start, p.end, p.seen) for p in drawing.pieces} < {(p.start, p.end, p.seen) for p in unmerged.pieces}
+    assert {(p.start, p.end, p.visible) for p in drawing.pieces} < {
+        (p.start, p.end, p.visible) for p in unmerged.pieces
+    }
     assert "joined" in {edge.kind for edge in drawing.solids[0].edges}
     with pytest.raises(CoplanarError, match=r"^d: within 2 the 36 faces would become 2; "):
         bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(2)), "d")

@@ -263,7 +263,7 @@ def test_two_plates_in_one_plane_hide_nothing() -> None:
         plate("a", [vector(*p, 0) for p in square]) for square in (((0, 0), (2, 0), (2, 2)), ((1, 0), (3, 0), (3, 2)))
     ]
     drawing = draw(plates, parallel((1, -1, 3)))
-    assert all(piece.seen and (piece.first, piece.last) == (0, 1) for piece in drawing.pieces)
+    assert all(piece.visible and (piece.first, piece.last) == (0, 1) for piece in drawing.pieces)
     assert len(drawing.pieces) == 6
 
 

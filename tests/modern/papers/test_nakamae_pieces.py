@@ -125,7 +125,7 @@ def test_the_judge_detects_missing_pieces() -> None:
 
 def pieces(drawing: Drawing) -> set[tuple[str, int, int, Fraction, Fraction]]:
     return {
-        (drawing.solids[p.solid].polyhedron.name, p.start, p.end, p.first, p.last) for p in drawing.pieces if p.seen
+        (drawing.solids[p.solid].polyhedron.name, p.start, p.end, p.first, p.last) for p in drawing.pieces if p.visible
     }
 
 
@@ -167,7 +167,7 @@ def _length(drawing: Drawing, visible: bool) -> Fraction:
     """Return the total length of the visible or hidden pieces of edges parallel to the axes."""
     total = Fraction(0)
     for piece in drawing.pieces:
-        if piece.seen == visible:
+        if piece.visible == visible:
             points = drawing.solids[piece.solid].polyhedron.vertices
             edge = [abs(a - b) for a, b in zip(points[piece.start], points[piece.end], strict=True)]
             total += sum(edge) * (piece.last - piece.first)

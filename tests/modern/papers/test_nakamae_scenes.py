@@ -294,7 +294,7 @@ def test_the_svg_has_one_line_for_each_piece() -> None:
     groups = {item.attrib["class"]: item for item in root if "class" in item.attrib}
     for name, seen in (("seen", True), ("hidden", False)):
         drawn = [item.attrib["data-edge"] for item in groups[name]]
-        expected = [f"{p.solid + 1}: {p.start + 1} {p.end + 1}" for p in drawing.pieces if p.seen == seen]
+        expected = [f"{p.solid + 1}: {p.start + 1} {p.end + 1}" for p in drawing.pieces if p.visible == seen]
         assert set(drawn) == set(expected)
     wide, tall = int(root.attrib["width"]), int(root.attrib["height"])
     for item in groups["seen"]:
