@@ -16,13 +16,12 @@ from typing import Final, Literal
 
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import cross, dot, lowest, minus
-from modern.papers.kovalevsky_schulz.cells import IntPoint
+from modern.papers.kovalevsky_schulz.cells import IntPoint, Plane
 from modern.papers.kovalevsky_schulz.polyhedron import independent
 
 Treatment = Literal["quadrangles", "extended"]
 QUADRANGLES: Final = "quadrangles"
 EXTENDED: Final = "extended"
-Plane = tuple[int, int, int, int]
 Edge = tuple[int, int]
 
 

@@ -12,16 +12,13 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from modern.digital.columns import reduced
 from modern.digital.hull import independent
 from modern.digital.polytope import polyhedron
-from modern.papers.kovalevsky_schulz.cells import CellList, Economical, IntPoint, expanded
+from modern.papers.kovalevsky_schulz.cells import CellList, Economical, IntPoint, Numbers, expanded
 from modern.papers.kovalevsky_schulz.corners import Points
 from modern.papers.kovalevsky_schulz.polyhedron import Flat, flat_hull
-
-Numbers = NDArray[np.int64]
 
 
 def hull_cells(points: Points) -> CellList | Flat:

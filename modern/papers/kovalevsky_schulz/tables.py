@@ -11,10 +11,6 @@ from fractions import Fraction
 
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint
 
-VERTEX_HEADING = "Vertex\tCoordinates\tEdges"
-EDGE_HEADING = "Edge\tStartP\tEndP\tLeftF\tRightF"
-FACE_HEADING = "Face\tn\tPairs (P, L)"
-
 
 def coordinates(_: int, point: IntPoint) -> str:
     return str(point)
@@ -42,9 +38,9 @@ def face_rows(cells: CellList) -> Iterator[str]:
 
 
 def all_rows(cells: CellList) -> Iterator[str]:
-    yield from (VERTEX_HEADING, *vertex_rows(cells))
-    yield from (EDGE_HEADING, *edge_rows(cells))
-    yield from (FACE_HEADING, *face_rows(cells))
+    yield from ("Vertex\tCoordinates\tEdges", *vertex_rows(cells))
+    yield from ("Edge\tStartP\tEndP\tLeftF\tRightF", *edge_rows(cells))
+    yield from ("Face\tn\tPairs (P, L)", *face_rows(cells))
 
 
 def _listed(items: Iterable[object]) -> str:

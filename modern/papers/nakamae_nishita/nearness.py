@@ -51,12 +51,8 @@ def crossing(solid: Solid, order: int, values: list[int]) -> Homogeneous:
     """Return the point of a contour segment whose image is on a line with these ``values`` at the solid's points."""
     after = (order + 1) % len(solid.contour)
     p, q = solid.images[order], solid.images[after]
-    return between(p, q, values[order], values[after])
-
-
-def between(p: Homogeneous, q: Homogeneous, at_p: int, at_q: int) -> Homogeneous:
-    """Return the point between p and q where a linear function with these values of opposite signs is 0."""
-    m, n = abs(at_q), abs(at_p)
+    # The two values have opposite signs. Each end is weighted with the value at the other one.
+    m, n = abs(values[after]), abs(values[order])
     return m * p[0] + n * q[0], m * p[1] + n * q[1], m * p[2] + n * q[2], m * p[3] + n * q[3]
 
 

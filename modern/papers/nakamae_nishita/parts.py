@@ -100,11 +100,11 @@ def _from_file(fields: Fields, folder: str, place: str) -> Parts:
         bodies = read_bodies(read_bytes(location, path), path, Reading(hull, limit))
     except EmulatorError as error:
         raise SceneError(f"{place}: file: {error}") from None
-    parts = tuple(Part(f"{place}{solid.name.removeprefix(path)}", partial(_named, solid)) for solid in bodies.polyhedra)
+    parts = tuple(Part(f"{place}{solid.name.removeprefix(path)}", partial(named, solid)) for solid in bodies.polyhedra)
     return Parts(parts, location, tuple(f"{place}: {note}" for note in bodies.notes))
 
 
-def _named(polyhedron: Polyhedron, name: str) -> Polyhedron:
+def named(polyhedron: Polyhedron, name: str) -> Polyhedron:
     return replace(polyhedron, name=name)
 
 

@@ -21,7 +21,7 @@ from modern.drawing.view import EYES, choose
 from modern.geometry.numbers import number, quoted
 from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.fields import Fields
-from modern.papers.nakamae_nishita.parts import Part, make, part
+from modern.papers.nakamae_nishita.parts import Part, make, named, part
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, outward
 from modern.papers.nakamae_nishita.projection import Observer, parallel, perspective
 
@@ -103,12 +103,8 @@ def of_polyhedra(polyhedra: Sequence[Polyhedron], title: str, notes: Sequence[st
     points = list(dict.fromkeys(point for polyhedron in polyhedra for point in polyhedron.vertices))
     eye = choose(points, [outward(polyhedron, face) for polyhedron in polyhedra for face in polyhedron.faces])
     sight = Sight((Fraction(eye[0]), Fraction(eye[1]), Fraction(eye[2])))
-    parts = (Part(polyhedron.name, partial(_made, polyhedron)) for polyhedron in polyhedra)
+    parts = (Part(polyhedron.name, partial(named, polyhedron)) for polyhedron in polyhedra)
     return SceneFile(title, title, sight, tuple(parts), notes=tuple(notes))
-
-
-def _made(polyhedron: Polyhedron, _: str) -> Polyhedron:
-    return polyhedron
 
 
 def parse(text: str, source: str, folder: str = "") -> SceneFile:

@@ -80,7 +80,9 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
         edges = tuple(_merged(edge, polyhedron.joined) for edge in edges)
     chain = visible.contour(polyhedron.faces, signs)
     visible_lines: list[tuple[int, int, Kind, tuple[int, ...]]] = [
-        (edge.start, edge.end, edge.kind, _front(edge.faces, signs)) for edge in edges if edge.kind in _DRAWN
+        (edge.start, edge.end, edge.kind, tuple(face for face in edge.faces if signs[face] > 0))
+        for edge in edges
+        if edge.kind in _DRAWN
     ]
     # A figure is visible if its face is (section 1, merit 4). Its corners follow the vertices in ``points``.
     corner = len(polyhedron.vertices)
@@ -139,7 +141,3 @@ def _merged(edge: Edge, joined: Sequence[int]) -> Edge:
     first, last = edge.faces[0], edge.faces[-1]
     within = edge.kind in (visible.INNER, visible.BACK) and joined[first] == joined[last]
     return replace(edge, kind=visible.JOINED) if within else edge
-
-
-def _front(faces: Sequence[int], signs: Sequence[int]) -> tuple[int, ...]:
-    return tuple(face for face in faces if signs[face] > 0)
