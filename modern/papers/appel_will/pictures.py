@@ -88,7 +88,7 @@ def solid_svg(
     top = layout.height + band_height(picture, width, title, numbered)
     items = [
         *scene_items(record, picture, layout),
-        *svg.group(GIVEN.key, GIVEN.attributes, (svg.line(at[a], at[b], _named(a, b)) for a, b in nonconvex)),
+        *svg.group(GIVEN.key, GIVEN.attributes, (svg.line(at[a], at[b], named_line(a, b)) for a, b in nonconvex)),
         *(numbers(at, lines if labelled else [], [*drawn, *nonconvex], (width, layout.height)) if numbered else ()),
         *svg.group("legend", FONT, band(picture, width, layout.height, title, numbered)),
         *svg.group("more", FONT, (item for k, row in enumerate(rows) for item in row(top + _STEP * k))),
@@ -234,8 +234,8 @@ def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = N
     rows += [sample_row(style) for style in (SIDE, *([CLOCKWISE] if bold else []), RAY)]
     items = [
         *svg.group(RAY.key, RAY.attributes, (svg.line(at[a], place) for place in together)),
-        *svg.group(SIDE.key, SIDE.attributes, (svg.line(at[p], at[q], _named(p, q)) for p, q in thin)),
-        *svg.group(CLOCKWISE.key, CLOCKWISE.attributes, (svg.line(at[p], at[q], _named(p, q)) for p, q in bold)),
+        *svg.group(SIDE.key, SIDE.attributes, (svg.line(at[p], at[q], named_line(p, q)) for p, q in thin)),
+        *svg.group(CLOCKWISE.key, CLOCKWISE.attributes, (svg.line(at[p], at[q], named_line(p, q)) for p, q in bold)),
         *svg.group("points", svg.VERTEX.attributes, (svg.circle(place, svg.RADIUS) for place in together)),
         *svg.group(CENTRE.key, CENTRE.attributes, [svg.circle(at[a], "4.5")]),
         *svg.group("numbers", f'{FONT} text-anchor="middle" {_HALO}', texts([*labels, centre], label_places)),
@@ -253,7 +253,7 @@ def _verdict(polygon: Star, pair: Pair) -> str:
     return f"{subject} inside or on a side; the line is not a convex edge"
 
 
-def _named(a: int, b: int) -> str:
+def named_line(a: int, b: int) -> str:
     return f'data-points="{a + 1} {b + 1}"'
 
 

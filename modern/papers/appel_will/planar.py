@@ -13,7 +13,7 @@ W. T. Tutte, "How to draw a graph", Proceedings of the London Mathematical Socie
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 
 from modern.drawing import svg
@@ -29,6 +29,7 @@ from modern.papers.appel_will.pictures import (
     WIDER,
     WIDTH,
     PictureError,
+    named_line,
     numbers,
     text_row,
 )
@@ -83,7 +84,7 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
     rows = [*([text_row(title, bold=True)] if title else []), *map(text_row, wrapped(legend, width - 2 * MARGIN))]
     items = [
         *svg.group("surfaces", _SURFACES, (svg.text(Pixel(p.x, p.y + 500), name) for name, p in regions)),
-        *svg.group(VISIBLE.key, VISIBLE.attributes, _strokes(at, lines)),
+        *svg.group(VISIBLE.key, VISIBLE.attributes, (svg.line(at[a], at[b], named_line(a, b)) for a, b in lines)),
         *svg.group(VERTEX.key, VERTEX.attributes, (svg.circle(at[index], svg.RADIUS) for index in sorted(at))),
         *numbers(at, numbered, lines, (width, height), [place.place for _, place in regions]),
         *svg.group("legend", FONT, (item for k, row in enumerate(rows) for item in row(height + 12 + _LINE * k))),
@@ -138,11 +139,6 @@ def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
 def _area(corners: Sequence[Place]) -> float:
     """Return twice the signed area of a polygon."""
     return sum(a * d - b * c for (a, b), (c, d) in zip(corners, [*corners[1:], corners[0]], strict=True))
-
-
-def _strokes(at: Mapping[int, Pixel], lines: Sequence[Pair]) -> Iterator[str]:
-    for a, b in lines:
-        yield svg.line(at[a], at[b], f'data-points="{a + 1} {b + 1}"')
 
 
 def _middle(corners: Sequence[Pixel]) -> Pixel:

@@ -65,12 +65,12 @@ def by_plane(v: Solid, w: Solid) -> tuple[int, Plane | None]:
     # If any plane separates two convex polyhedra, then the plane of a face does, or a plane through an edge of one
     # and a vertex of the other. Upright planes (plane[2] == 0) do not order the two in depth.
     for owner, opposite, which in ((v, w, -1), (w, v, 1)):
-        # The other polyhedron must lie on the outer side. A plate needs a point off its plane to have sides at all.
+        # The other polyhedron must lie on the outer side. For a plate, one of its points must also be off the plane.
         for plane in owner.planes:
             least, greatest = _range(plane, opposite.vertices)
-            if plane[2] and least >= 0 and (greatest > 0 or not _is_plate(owner)):
+            if plane[2] and least >= 0 and (greatest > 0 or len(owner.planes) > 2):
                 return which * sign(plane[2]), plane
-    if _is_plate(v) and _is_plate(w) and not any(height(v.planes[0], p) for p in w.vertices):
+    if len(v.planes) == len(w.planes) == 2 and not any(height(v.planes[0], p) for p in w.vertices):
         return 0, v.planes[0]
     for plane in (*_edge_planes(v, w), *_edge_planes(w, v)):
         (low, high), (least, greatest) = _range(plane, v.vertices), _range(plane, w.vertices)
@@ -91,10 +91,6 @@ def _edge_planes(v: Solid, w: Solid) -> Iterator[Plane]:
         if edge.kind != FLAT:
             for point in w.vertices:
                 yield plane_through(v.points[edge.start], v.points[edge.end], point)
-
-
-def _is_plate(solid: Solid) -> bool:
-    return len(solid.planes) == 2
 
 
 def _enclosing_face(solid: Solid, point: Homogeneous) -> Plane:

@@ -16,7 +16,7 @@ from modern.geometry.vectors import Vector
 from modern.papers.appel_will import appel_will
 from modern.papers.appel_will.hull import Assembled
 from modern.papers.appel_will.loops import Loop
-from modern.papers.appel_will.pictures import solid_svg, star, star_svg
+from modern.papers.appel_will.pictures import solid_svg, star, star_svg, texts
 from modern.papers.appel_will.planar import embedded, map_svg
 from modern.papers.appel_will.results import Solid, found_solid, printed_solid
 from modern.papers.appel_will.star import vorticity
@@ -140,10 +140,6 @@ def loop_svg(hull: Assembled, number: int) -> str:
             if count == uses:
                 yield svg.line(at[a], at[b], f'data-uses="{uses}"')
 
-    def label_texts(labels: Sequence[Label], where: Sequence[tuple[float, float]]) -> Iterator[str]:
-        for label, (x, y) in zip(labels, where, strict=True):
-            yield svg.text(Pixel(round(100 * x), round(100 * (y + label.size * 0.35))), label.text)
-
     if number - 1 == outer:
         ring = [Pixel(100, 100), Pixel(100 * WIDTH - 100, 100)]
         ring += [Pixel(p.x, 100 * height - 100) for p in reversed(ring)]
@@ -156,8 +152,8 @@ def loop_svg(hull: Assembled, number: int) -> str:
         *ground,
         *(item for uses, style in enumerate(_USES) for item in svg.group(f"uses-{uses}", style, edges(uses))),
         *svg.group("points", svg.VERTEX.attributes, (svg.circle(at[index], svg.RADIUS) for index in sorted(at))),
-        *svg.group("numbers", f'{_FONT} font-weight="bold"', label_texts(names, put[: len(names)])),
-        *svg.group("counts", _FONT.replace('"13"', '"11"'), label_texts(middles, put[len(names) :])),
+        *svg.group("numbers", f'{_FONT} font-weight="bold"', texts(names, put[: len(names)])),
+        *svg.group("counts", _FONT.replace('"13"', '"11"'), texts(middles, put[len(names) :])),
     ]
     return svg.page(WIDTH, height, f"Loop {number}", items)
 
