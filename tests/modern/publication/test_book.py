@@ -22,30 +22,30 @@ compiler = pytest.importorskip("typst", reason="the book is set by typst")
 
 
 def unescaped(written: str) -> str:
-    """What Typst reads in a string of its code."""
-    found = re.sub(r'\\(["\\n])', lambda m: "\n" if m[1] == "n" else m[1], written[1:-1])
-    return re.sub(r"\[U\+([0-9A-F]+)\]", lambda m: chr(int(m[1], 16)), found)
+    """Return the text that Typst reads in a string of its code mode."""
+    unquoted = re.sub(r'\\(["\\n])', lambda m: "\n" if m[1] == "n" else m[1], written[1:-1])
+    return re.sub(r"\[U\+([0-9A-F]+)\]", lambda m: chr(int(m[1], 16)), unquoted)
 
 
 @given(st.text(st.characters(exclude_characters="\t[]", exclude_categories=["Cs"]), max_size=40))
 @settings(deadline=None)
-def test_text_is_preserved(words: str) -> None:
-    assert unescaped(string(words)) == words
+def test_text_is_preserved(text: str) -> None:
+    assert unescaped(string(text)) == text
 
 
 def test_no_character_is_interpreted_as_markup(tmp_path: Path) -> None:
-    words = '= #let x = 1 ; *a* _b_ `c` $d$ <e> @f [g] // h \\ i "j" - k + l / m ~ 1. n'
-    (tmp_path / "b.typ").write_text(f"{say(words)}\n#metadata({string(words)}) <it>\n")
-    (found,) = json.loads(compiler.query(str(tmp_path / "b.typ"), "<it>"))
-    assert found["value"] == words
+    text = '= #let x = 1 ; *a* _b_ `c` $d$ <e> @f [g] // h \\ i "j" - k + l / m ~ 1. n'
+    (tmp_path / "b.typ").write_text(f"{say(text)}\n#metadata({string(text)}) <it>\n")
+    (metadata,) = json.loads(compiler.query(str(tmp_path / "b.typ"), "<it>"))
+    assert metadata["value"] == text
 
 
 @given(st.text(max_size=20), st.text(max_size=20))
 @settings(deadline=None)
-def test_different_texts_have_different_labels(one: str, other: str) -> None:
-    assert re.fullmatch(r"[A-Za-z0-9.-]*", label(one))
-    if one.replace(" ", "-").replace("_", "-") != other.replace(" ", "-").replace("_", "-"):
-        assert label(one) != label(other)
+def test_different_texts_have_different_labels(first: str, second: str) -> None:
+    assert re.fullmatch(r"[A-Za-z0-9.-]*", label(first))
+    if first.replace(" ", "-").replace("_", "-") != second.replace(" ", "-").replace("_", "-"):
+        assert label(first) != label(second)
 
 
 def typst(text: str, name: str = "how-to/x.md", known: tuple[str, ...] = ()) -> str:
@@ -53,18 +53,18 @@ def typst(text: str, name: str = "how-to/x.md", known: tuple[str, ...] = ()) -> 
 
 
 def test_markdown_is_translated_to_typst() -> None:
-    found = typst("# A *b*\n\nSee `c` and [d](../e.md#f).\n\n- one\n- two\n\n| x | y |\n|---|---|\n| 1 | 2 |\n")
-    title, words, items, table_ = [part for part in found.split("\n\n") if part]
+    markup = typst("# A *b*\n\nSee `c` and [d](../e.md#f).\n\n- one\n- two\n\n| x | y |\n|---|---|\n| 1 | 2 |\n")
+    title, paragraph, items, table_ = [part for part in markup.split("\n\n") if part]
     assert title == f'#[] <{label("how-to/x.md")}>\n== #"A b"; <{label("how-to/x.md", "a-b")}>'
-    assert words == '#"See ";#raw("c");#" and ";#"d";#".";', "what is not in the book is no link"
+    assert paragraph == '#"See ";#raw("c");#" and ";#"d";#".";', "a link that leads out of the book is plain text"
     assert items.split() == '#list([#"one"; ], [#"two"; ])'.split()
     assert table_.startswith("#tabular(8.5pt, (auto, auto,), ")
 
 
 def test_the_title_of_a_table_stays_with_it() -> None:
     assert typst("**Sizes**\n\n| a |\n|---|\n| 1 |\n").startswith("#block(sticky: true, [#strong[")
-    for other in ("**Sizes** of sets\n", "Of **sizes**\n", "Sizes\n"):
-        assert "sticky" not in typst(other)
+    for paragraph in ("**Sizes** of sets\n", "Of **sizes**\n", "Sizes\n"):
+        assert "sticky" not in typst(paragraph)
 
 
 def test_a_link_within_the_book_is_a_reference() -> None:
@@ -76,9 +76,9 @@ def test_a_link_within_the_book_is_a_reference() -> None:
 def test_a_role_is_a_reference_or_plain_text() -> None:
     known = (label("card", "program3", "147+2"),)
     assert f"#to(<{known[0]}>)" in typst("At {card}`program3 147+2` it stands.", known=known)
-    found = typst("At {card}`program3 9+9` it stands.", known=known)
-    assert "{card}" not in found
-    assert '#raw("program3 9+9");' in found
+    markup = typst("At {card}`program3 9+9` it stands.", known=known)
+    assert "{card}" not in markup
+    assert '#raw("program3 9+9");' in markup
 
 
 WIDTHS = st.lists(st.tuples(st.integers(1, 12), st.integers(0, 80)), min_size=1, max_size=12)
@@ -114,22 +114,22 @@ def test_pictures_use_the_fonts_of_the_book() -> None:
 
 
 def test_every_card_and_row_of_the_listings_occurs_once() -> None:
-    found = "".join(listings())
+    markup = "".join(listings())
     for name in programs.NAMES:
         for card in facing(name).cards:
-            assert found.count(f"<{label('card', name, card.place)}>") == 1
+            assert markup.count(f"<{label('card', name, card.place)}>") == 1
     for name in programs.TEXTS:
         for row in texts()[name].rows:
-            assert found.count(f"<{label('row', row.id)}>") <= 1
-    missing = [r.id for n in programs.TEXTS for r in texts()[n].rows if f"<{label('row', r.id)}>" not in found]
+            assert markup.count(f"<{label('row', row.id)}>") <= 1
+    missing = [r.id for n in programs.TEXTS for r in texts()[n].rows if f"<{label('row', r.id)}>" not in markup]
     assert missing == []
 
 
 def test_every_statement_occurs_once() -> None:
-    found = "".join(statements())
+    markup = "".join(statements())
     for name in DOCUMENTS:
         for row in statements_of(name):
-            assert found.count(f"<{label('row', row.id)}>") == 1
+            assert markup.count(f"<{label('row', row.id)}>") == 1
 
 
 def test_every_document_of_a_chapter_exists() -> None:
@@ -146,11 +146,11 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
 
 def test_every_reference_of_the_book_resolves(whole: tuple[str, Path]) -> None:
     text, folder = whole
-    made = re.findall(r" <([\w.-]+)>", text)
-    assert len(made) == len(set(made)), sorted({one for one in made if made.count(one) > 1})[:5]
-    wanted = set(re.findall(r"#to\(<([\w.-]+)>\)", text))
-    assert len(wanted) > 50
-    assert wanted <= set(made)
+    labels = re.findall(r" <([\w.-]+)>", text)
+    assert len(labels) == len(set(labels)), sorted({name for name in labels if labels.count(name) > 1})[:5]
+    references = set(re.findall(r"#to\(<([\w.-]+)>\)", text))
+    assert len(references) > 50
+    assert references <= set(labels)
     pictures = set(re.findall(r'"([\w.-]+\.svg)"', text))
     assert pictures == {file.name for file in folder.iterdir()}
 
@@ -178,5 +178,5 @@ def test_without_typst_the_message_names_the_package(
 
 
 def test_places_returns_the_labels_of_a_document() -> None:
-    found = places("x.md", "# A\n\n## B c\n\n## B c\n\nTerm\n: words\n")
-    assert set(found) >= {label("x.md"), label("x.md", "a"), label("x.md", "b-c"), label("x.md", "b-c-1")}
+    labels = places("x.md", "# A\n\n## B c\n\n## B c\n\nTerm\n: words\n")
+    assert set(labels) >= {label("x.md"), label("x.md", "a"), label("x.md", "b-c"), label("x.md", "b-c-1")}

@@ -88,8 +88,8 @@ def switch_on(page: Page) -> None:
 
 def stands(page: Page, *states: str) -> str:
     """Wait until the machine waits or the run has ended, and return the state."""
-    wanted = ", ".join(f"#desk[data-state={state}]" for state in states or ("waits", "ended"))
-    page.wait_for_selector(wanted, timeout=LONG)
+    selector = ", ".join(f"#desk[data-state={state}]" for state in states or ("waits", "ended"))
+    page.wait_for_selector(selector, timeout=LONG)
     return str(page.get_attribute("#desk", "data-state"))
 
 
@@ -141,28 +141,28 @@ def play(page: Page, pair: Pair) -> Played:
     if not load(page, pair):
         return gave(page, False)
     assert stands(page) == "waits"
-    left = [line for line in pair.operator if not line.startswith("*")]
+    actions = [line for line in pair.operator if not line.startswith("*")]
     typed_by_hand: list[str] = []
-    while left and left[0].startswith("SWITCH"):
-        page.click(f"[data-switch='{left.pop(0).split()[1]}']")
-    words = "START"
+    while actions and actions[0].startswith("SWITCH"):
+        page.click(f"[data-switch='{actions.pop(0).split()[1]}']")
+    action = "START"
     while True:
         page.evaluate("document.getElementById('desk').dataset.state = 'asked'")
-        if words.startswith("ENTER"):
-            page.fill("#desk-line", words[6:])
+        if action.startswith("ENTER"):
+            page.fill("#desk-line", action[6:])
             page.press("#desk-line", "Enter")
-            typed_by_hand.append(words[6:].upper())
-        elif words.startswith("SWITCH"):
-            page.click(f"[data-switch='{words.split()[1]}']")
+            typed_by_hand.append(action[6:].upper())
+        elif action.startswith("SWITCH"):
+            page.click(f"[data-switch='{action.split()[1]}']")
         else:
-            page.click(f"[data-words='{words}']")
+            page.click(f"[data-words='{action}']")
         if stands(page) == "ended":
             break
-        words = left.pop(0) if left else "START"
-    found = gave(page, True)
+        action = actions.pop(0) if actions else "START"
+    output = gave(page, True)
     for line in typed_by_hand:
-        found.typed.remove(line)
-    return found
+        output.typed.remove(line)
+    return output
 
 
 @pytest.mark.parametrize("pair", [p for p in PAIRS if p.shows != "endless"], ids=lambda pair: pair.name)
@@ -184,7 +184,7 @@ def test_a_rejection_with_switch_1_off_and_on(tab: Page) -> None:
     draw = random.Random(1)
     points = [[str(draw.randint(-999, 999) / 10) for _ in range(3)] for _ in range(20)]
     cards = data_deck(points, "decimals.deck").text()
-    found = []
+    outputs = []
     for switch in ((), ("SWITCH 1 ON",)):
         first = play(tab, Pair("one", "program1", "decimals.deck", cards=cards))
         assert first.typed == ["POINTS ARE NOT COPLANAR"]
@@ -195,8 +195,8 @@ def test_a_rejection_with_switch_1_off_and_on(tab: Page) -> None:
         played(desk, Pair("one", "program1", "decimals.deck", cards=cards))
         assert on_page == played(desk, pair)
         assert "DATA NOT ACCEPTABLE" in on_page.typed
-        found.append((on_page.typed, on_page.punched))
-    assert found[0] != found[1], "switch 1 makes the program type more"
+        outputs.append((on_page.typed, on_page.punched))
+    assert outputs[0] != outputs[1], "switch 1 makes the program type more"
 
 
 def test_an_endless_loop_can_be_stopped(tab: Page) -> None:
@@ -221,8 +221,8 @@ def test_an_endless_loop_can_be_stopped(tab: Page) -> None:
 def test_console_commands_are_answered(tab: Page) -> None:
     assert load(tab, Pair("x", "program1", "example1"))
     stands(tab)
-    for words, answer in (("BREAK 131", "BREAK 131"), ("SWITCH", "1 OFF, 2 OFF"), ("NONSENSE", "is not a command")):
-        tab.fill("#desk-line", words)
+    for command, answer in (("BREAK 131", "BREAK 131"), ("SWITCH", "1 OFF, 2 OFF"), ("NONSENSE", "is not a command")):
+        tab.fill("#desk-line", command)
         tab.press("#desk-line", "Enter")
         tab.wait_for_function("w => document.getElementById('desk-paper').textContent.includes(w)", arg=answer)
     assert tab.locator("#desk-variables").inner_text().startswith("X(51): 0 of 51 defined")

@@ -87,7 +87,7 @@ def test_duplicate_column_names_are_rejected() -> None:
 def test_the_type_of_a_column_fits_all_its_cells() -> None:
     about = described()
     made = json.loads(data_package(about, {name: data.decode() for name, data in TABLES.items()}))
-    fields = {field["name"]: field["type"] for each in made["resources"] for field in each["schema"]["fields"]}
+    fields = {field["name"]: field["type"] for table in made["resources"] for field in table["schema"]["fields"]}
     assert fields == {"kind": "string", "count": "integer", "share": "number", "card": "integer", "words": "string"}
 
 
@@ -141,8 +141,8 @@ def test_the_identifier_is_the_hash_of_the_git_tree(tmp_path: Path) -> None:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_bytes(data)
     (tmp_path / "a").chmod(0o755)
-    for words in (["init", "-q"], ["add", "-A"]):
-        subprocess.run(["git", *words], cwd=tmp_path, check=True)
+    for arguments in (["init", "-q"], ["add", "-A"]):
+        subprocess.run(["git", *arguments], cwd=tmp_path, check=True)
     tree = subprocess.run(
         ["git", "write-tree"], cwd=tmp_path, check=True, capture_output=True, text=True
     ).stdout.strip()
@@ -159,7 +159,7 @@ def test_without_git_build_results_are_omitted(tmp_path: Path) -> None:
 
 def test_the_readme_names_the_required_packages(made: tuple[Path, Path]) -> None:
     text = (made[0] / "data" / "README.txt").read_text(encoding="utf-8")
-    for words in (
+    for phrase in (
         "lark==",
         "mpmath==",
         "numpy==",
@@ -167,7 +167,7 @@ def test_the_readme_names_the_required_packages(made: tuple[Path, Path]) -> None
         "hull1620 reproduce",
         "swh:1:dir:",
     ):
-        assert words in text
+        assert phrase in text
     assert "setuptools" not in text, "the wheel does not need it"
     assert not re.search(r"\brows/", text), "what is not in the bag is not spoken of"
 

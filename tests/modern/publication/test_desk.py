@@ -116,13 +116,13 @@ def test_the_command_repeats_a_session_from_the_log(
     monkeypatch.chdir(tmp_path)
     pair = next(pair for pair in PAIRS if pair.shows == "game")
     desk = Desk()
-    found = played(desk, pair)
+    session = played(desk, pair)
     log = tmp_path / "log"
     log.write_text(desk.log())
     again = tmp_path / "again"
-    words = [word for word in pair.command(tmp_path) if not word.startswith("--operator")]
-    _, out, _ = call(capsys, *words, f"--operator={log}", "--log", str(again))
-    assert out.splitlines() == found.punched
+    arguments = [word for word in pair.command(tmp_path) if not word.startswith("--operator")]
+    _, out, _ = call(capsys, *arguments, f"--operator={log}", "--log", str(again))
+    assert out.splitlines() == session.punched
     assert operator_lines(again.read_text()) == operator_lines(desk.log())
 
 
@@ -139,5 +139,5 @@ desk.act("START")
 assert desk.run(1e9)["ended"]
 print(sorted({{name.partition(".")[0] for name in sys.modules}} - set({own}) - set(sys.stdlib_module_names)))
 """
-    found = subprocess.run([sys.executable, "-S", "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert found.stdout.strip() == "[]"
+    process = subprocess.run([sys.executable, "-S", "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert process.stdout.strip() == "[]"

@@ -19,7 +19,7 @@ from tests.support.paths import ROOT
 
 
 def parsed(html: str) -> None:
-    """That HTML of ours nests as XML does: void elements closed, entities known."""
+    """Parse HTML as XML, with void elements closed, and fail if its elements are not nested correctly."""
     closed = re.sub(r"<(input|br|img|hr|col)\b([^>]*)>", r"<\1\2/>", html).replace("&nbsp;", " ")
     closed = re.sub(r" (checked|hidden|disabled|open)(?=[ />])", r' \1=""', closed)
     fromstring(f"<x>{closed}</x>")
@@ -34,7 +34,7 @@ def test_every_card_of_the_print_and_of_the_run_is_shown(number: int) -> None:
         if part.reports:
             produced = next(r.produced for r in part.reports if r.state == "examples")
             assert [card.run for card in part.cards] == list(produced)
-            assert all(not card.differs for card in part.cards), "every example comes out to the character"
+            assert all(not card.differs for card in part.cards), "every example is reproduced to the character"
         else:
             assert part.device == "deck"
 
@@ -43,10 +43,10 @@ def test_every_card_of_the_print_and_of_the_run_is_shown(number: int) -> None:
 def test_every_line_of_the_witness_is_shown_once_with_its_text(number: int) -> None:
     witness = {line.id: line.text for line in load_chapter().text.witness}
     for part in example(number):
-        seen = [source for card in part.cards for source in card.sources]
-        assert len({source.line for source in seen}) == len(seen)
-        assert all(source.text == witness[source.line] for source in seen)
-        assert bool(seen) != part.stated
+        sources = [source for card in part.cards for source in card.sources]
+        assert len({source.line for source in sources}) == len(sources)
+        assert all(source.text == witness[source.line] for source in sources)
+        assert bool(sources) != part.stated
 
 
 def test_exactly_the_changes_of_rows_are_marked() -> None:
@@ -67,7 +67,7 @@ def test_a_row_of_chapter_6_is_shown_in_its_example() -> None:
 
 
 @pytest.mark.parametrize(
-    ("one", "other", "spans"),
+    ("expected", "actual", "spans"),
     [
         ("abc", "abc", ()),
         ("abc", "axc", ((1, 2),)),
@@ -76,8 +76,10 @@ def test_a_row_of_chapter_6_is_shown_in_its_example() -> None:
         ("", "x", ((0, 1),)),
     ],
 )
-def test_differing_returns_the_spans_that_differ(one: str, other: str, spans: tuple[tuple[int, int], ...]) -> None:
-    assert differing(one, other) == spans
+def test_differing_returns_the_spans_that_differ(
+    expected: str, actual: str, spans: tuple[tuple[int, int], ...]
+) -> None:
+    assert differing(expected, actual) == spans
 
 
 @pytest.mark.parametrize("number", EXAMPLES)

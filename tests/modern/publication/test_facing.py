@@ -16,7 +16,7 @@ from modern.publication.uses import uses
 
 
 def card(program: str, place: str) -> Card:
-    return next(each for each in facing(program).cards if each.place == place)
+    return next(entry for entry in facing(program).cards if entry.place == place)
 
 
 def shown(card: Card) -> list[str]:
@@ -25,75 +25,75 @@ def shown(card: Card) -> list[str]:
 
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_the_cards_equal_the_committed_deck(name: str) -> None:
-    text = "".join(each.text + "\n" for each in facing(name).cards)
+    text = "".join(card.text + "\n" for card in facing(name).cards)
     committed = programs.sources().joinpath(f"{name}.f").read_bytes()
     assert hashlib.sha256(text.encode()).digest() == hashlib.sha256(committed).digest()
-    assert [each.number for each in facing(name).cards] == list(range(1, len(text.splitlines()) + 1))
+    assert [card.number for card in facing(name).cards] == list(range(1, len(text.splitlines()) + 1))
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_places_are_unique_and_counted_from_the_preceding_number(name: str) -> None:
     cards = facing(name).cards
-    assert len({each.place for each in cards}) == len(cards)
+    assert len({card.place for card in cards}) == len(cards)
     last, steps = 0, 0
-    for each in cards:
-        if each.kind in ("comment", "title"):
-            assert each.place == "title" or each.place.startswith("before-")
+    for card in cards:
+        if card.kind in ("comment", "title"):
+            assert card.place == "title" or card.place.startswith("before-")
             continue
-        number = re.match(r"\s*(\d+)", each.text)
+        number = re.match(r"\s*(\d+)", card.text)
         last, steps = (int(number[1]), 0) if number else (last, steps + 1)
-        assert each.place == (f"{last}+{steps}" if steps else f"{last}")
+        assert card.place == (f"{last}+{steps}" if steps else f"{last}")
 
 
 def test_places_of_program_3() -> None:
-    places = [each.place for each in facing("program3").cards[:6]]
+    places = [entry.place for entry in facing("program3").cards[:6]]
     assert places == ["title", "0+1", "0+2", "100", "before-100+1", "100+1"]
     assert card("program3", "147").text == "  147 IF (NE-K) 133, 154, 148"
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_counting_may_continue_past_the_next_number(name: str) -> None:
-    cards = [each for each in facing(name).cards if each.kind not in ("comment", "title")]
-    first = {each.label: at for at, each in enumerate(cards) if each.label}
-    names = [each.place for each in cards] + [also for each in cards for also in each.also]
+    cards = [card for card in facing(name).cards if card.kind not in ("comment", "title")]
+    first = {card.label: at for at, card in enumerate(cards) if card.label}
+    names = [card.place for card in cards] + [also for card in cards for also in card.also]
     assert len(set(names)) == len(names)
-    for at, each in enumerate(cards):
-        for also in each.also:
+    for at, card in enumerate(cards):
+        for also in card.also:
             label, _, steps = also.partition("+")
             assert first[int(label)] + int(steps) == at
 
 
 def test_147_plus_2_is_two_cards_after_147() -> None:
-    assert [each.place for each in facing("program3").cards if "147+2" in (each.place, *each.also)] == ["148+1"]
+    assert [card.place for card in facing("program3").cards if "147+2" in (card.place, *card.also)] == ["148+1"]
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_every_line_of_the_witness_is_shown_once(name: str) -> None:
-    """A line that makes several cards is shown in parts, which together are the line."""
-    found = facing(name)
+    """A line that became several cards is shown in parts, which together are the line."""
+    listing = facing(name)
     parts: dict[int, list[str]] = {}
-    for each in found.cards:
-        for piece in each.witness:
+    for card in listing.cards:
+        for piece in card.witness:
             parts.setdefault(piece.line, []).append(piece.text)
-            assert piece.part == (Counter(p.line for c in found.cards for p in c.witness)[piece.line] > 1)
-    for _, pieces in found.dropped:
+            assert piece.part == (Counter(p.line for c in listing.cards for p in c.witness)[piece.line] > 1)
+    for _, pieces in listing.dropped:
         for piece in pieces:
             parts.setdefault(piece.line, []).append(piece.text)
     assert {line: "".join(texts) for line, texts in parts.items()} == {
-        int(line.id): line.text for line in found.text.witness
+        int(line.id): line.text for line in listing.text.witness
     }
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_unmarked_characters_are_equal_on_both_sides(name: str) -> None:
-    for each in facing(name).cards:
-        if not each.witness:
-            assert each.changed == ((0, len(each.text)),)
+    for card in facing(name).cards:
+        if not card.witness:
+            assert card.changed == ((0, len(card.text)),)
             continue
-        left = "".join(unmarked(piece.text, piece.changed) for piece in each.witness)
-        assert left == unmarked(each.text, each.changed)
-        if left and "".join("".join(p.text for p in each.witness).split()) != "".join(each.text.split()):
-            assert each.rows, each
+        unchanged = "".join(unmarked(piece.text, piece.changed) for piece in card.witness)
+        assert unchanged == unmarked(card.text, card.changed)
+        if unchanged and "".join("".join(p.text for p in card.witness).split()) != "".join(card.text.split()):
+            assert card.rows, card
 
 
 def unmarked(text: str, spans: tuple[tuple[int, int], ...]) -> str:
@@ -116,16 +116,16 @@ def test_every_row_is_on_a_page() -> None:
     ],
 )
 def test_changed_characters(program: str, place: str, witness: list[str], deck: list[str]) -> None:
-    found = card(program, place)
-    assert shown(found) == witness
-    assert [found.text[a:b] for a, b in found.changed] == deck
+    changed_card = card(program, place)
+    assert shown(changed_card) == witness
+    assert [changed_card.text[a:b] for a, b in changed_card.changed] == deck
 
 
 def test_a_line_with_several_cards_is_divided_at_their_starts() -> None:
     parts = [
-        (each.place, piece.text.strip())
-        for each in facing("program1").cards
-        for piece in each.witness
+        (card.place, piece.text.strip())
+        for card in facing("program1").cards
+        for piece in card.witness
         if piece.line == 68
     ]
     assert len(parts) == 28
@@ -140,20 +140,20 @@ def test_an_inserted_card_has_no_witness() -> None:
 
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_variants_of_a_layer_give_the_deck_of_that_layer(name: str) -> None:
-    found = facing(name)
+    listing = facing(name)
     base = programs.built_in(name).layers
-    for layer in {other.layer for each in found.cards for other in each.variants}:
+    for layer in {variant.layer for card in listing.cards for variant in card.variants}:
         lines = []
-        for each in found.cards:
-            here = [other for other in each.variants if other.layer == layer]
-            lines += here[0].cards if here else (each.text,)
-            assert all(other.rows for other in here), each
-        assert lines == [line.text for line in build(found.text, (*base, layer))]
+        for card in listing.cards:
+            here = [variant for variant in card.variants if variant.layer == layer]
+            lines += here[0].cards if here else (card.text,)
+            assert all(variant.rows for variant in here), card
+        assert lines == [line.text for line in build(listing.text, (*base, layer))]
 
 
 def test_jumps_of_program_3() -> None:
     known = uses("program3")
-    place = {each.number: each.place for each in facing("program3").cards}
+    place = {card.number: card.place for card in facing("program3").cards}
     came = {(place[jump.card], jump.taken) for jump in known.to(known.labels[133]) if jump.kind == "jump"}
     assert ("103", "\u2212") in came
     assert all(jump.target in place and jump.card in place for jump in known.jumps)
@@ -161,7 +161,7 @@ def test_jumps_of_program_3() -> None:
 
 def test_names_of_program_3() -> None:
     names = {name.name: name for name in uses("program3").names}
-    place = {each.number: each.place for each in facing("program3").cards}
+    place = {card.number: card.place for card in facing("program3").cards}
     kelec = names["KELEQ"]
     assert (kelec.floating, kelec.shape) == (False, ())
     assert place[kelec.set[0]] == "100"
@@ -172,7 +172,7 @@ def test_names_of_program_3() -> None:
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_executions_add_up_to_the_statements_of_a_run(name: str) -> None:
     for run in runs(name):
-        assert run.executions.keys() <= {each.number for each in facing(name).cards if each.kind == "statement"}
+        assert run.executions.keys() <= {card.number for card in facing(name).cards if card.kind == "statement"}
         assert abs(sum(run.times.values()) - run.seconds) < 1e-6
     assert [run.example for run in runs("program3")] == [5, 6]
 

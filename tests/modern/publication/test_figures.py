@@ -71,7 +71,7 @@ REFERENCES = (
 
 
 def typed(text: str) -> list[str]:
-    """The digits of a text that are no references to a page, a chapter, a year or the like."""
+    """Return the numbers in a text, except those of pages, chapters, years and the like."""
     text = text.replace("**", "")
     for pattern in REFERENCES:
         text = re.sub(pattern, "", text, flags=re.MULTILINE | re.DOTALL | re.IGNORECASE)
@@ -79,7 +79,7 @@ def typed(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    ("text", "found"),
+    ("text", "numbers"),
     [
         ("13.8 % of the seventies", ["13.8"]),
         ("in 1963 (p. 117-118, chapter 7)", []),
@@ -87,8 +87,8 @@ def typed(text: str) -> list[str]:
         ("`program3 147` and [x](a.md#1)", []),
     ],
 )
-def test_a_typed_result_is_detected(text: str, found: list[str]) -> None:
-    assert typed(text) == found
+def test_a_typed_result_is_detected(text: str, numbers: list[str]) -> None:
+    assert typed(text) == numbers
 
 
 def test_names_are_replaced_by_figures() -> None:

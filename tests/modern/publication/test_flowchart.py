@@ -28,12 +28,12 @@ LOOP = ("DO 10 I=1,3", "10 CONTINUE", "20 GO TO 20", "END")
 @pytest.mark.parametrize("name", NAMES)
 def test_every_transition_of_a_listing_is_drawn_once_without_collisions(name: str) -> None:
     compiled = built_in(name)
-    found = flow(compiled)
-    drawn = drawn_ways(found)
+    control_flow = flow(compiled)
+    drawn = drawn_ways(control_flow)
     assert not ways(compiled) - drawn
-    # What is drawn beside those are ways to the statement that follows.
+    # The chart also draws the transitions to the next statement.
     assert all(taken == "" for _, taken, _ in drawn - ways(compiled))
-    assert faults(chart(found)) == []
+    assert faults(chart(control_flow)) == []
 
 
 @settings(max_examples=50, deadline=None)
@@ -46,17 +46,17 @@ def test_charts_of_random_programs_have_no_collisions(cards: list[str]) -> None:
         return
     if compiled is None:
         return
-    found = flow(compiled)
-    assert not ways(compiled) - drawn_ways(found)
+    control_flow = flow(compiled)
+    assert not ways(compiled) - drawn_ways(control_flow)
     for height in (1100, 300):
-        drawn = chart(found, height)
+        drawn = chart(control_flow, height)
         assert faults(drawn) == []
         assert all(page.height <= height or len(page.boxes) == 1 for page in drawn.pages)
 
 
 def test_boxes_of_a_small_program() -> None:
-    """A DO is its first value and the question after its last statement; an IF leaves at three sides."""
-    found = flow(
+    """A DO becomes its first assignment and a decision after its last statement.  An IF has exits on three sides."""
+    control_flow = flow(
         program(
             "READ 9,N",
             "J=0",
@@ -70,7 +70,7 @@ def test_boxes_of_a_small_program() -> None:
             "END",
         )
     )
-    assert [(box.kind, box.name, box.lines) for box in found.boxes] == [
+    assert [(box.kind, box.name, box.lines) for box in control_flow.boxes] == [
         ("input/output", "card 1", ("READ 9,N",)),
         ("processing", "card 2", ("J=0", "I=1")),
         ("processing", "card 4", ("J=J+I",)),
@@ -81,32 +81,32 @@ def test_boxes_of_a_small_program() -> None:
         ("processing", "3", ("J=1",)),
         ("end", "card 10", ("END",)),
     ]
-    assert [(way.taken, way.side, way.target) for way in found.boxes[5].exits] == [
+    assert [(way.taken, way.side, way.target) for way in control_flow.boxes[5].exits] == [
         ("-", "left", 6),
         ("0", "down", 3),
         ("+", "right", 7),
     ]
-    assert [(way.taken, way.side, way.target) for way in found.boxes[4].exits] == [
+    assert [(way.taken, way.side, way.target) for way in control_flow.boxes[4].exits] == [
         ("again", "left", 2),
         ("done", "down", 5),
     ]
 
 
 def test_a_go_to_is_a_line_without_a_number_and_a_step_with_one() -> None:
-    found = flow(program("1 A=1.", "GO TO 3", "2 GO TO 1", "3 IF(A)1,2,2", "END"))
-    assert [(box.kind, box.name, box.cards) for box in found.boxes] == [
+    control_flow = flow(program("1 A=1.", "GO TO 3", "2 GO TO 1", "3 IF(A)1,2,2", "END"))
+    assert [(box.kind, box.name, box.cards) for box in control_flow.boxes] == [
         ("processing", "1", (1, 2)),
         ("step", "2", (3,)),
         ("decision", "3", (4,)),
         ("end", "card 5", (5,)),
     ]
-    assert found.boxes[0].exits[0].target == 2
+    assert control_flow.boxes[0].exits[0].target == 2
 
 
 def test_a_computed_go_to_names_the_values_of_each_statement() -> None:
-    found = flow(program("1 I=2", "GO TO (1,2,1),I", "2 STOP", "END"))
-    assert [(way.taken, way.target) for way in found.boxes[1].exits] == [("1, 3", 0), ("2", 2)]
-    assert found.boxes[1].lines == ("I",)
+    control_flow = flow(program("1 I=2", "GO TO (1,2,1),I", "2 STOP", "END"))
+    assert [(way.taken, way.target) for way in control_flow.boxes[1].exits] == [("1, 3", 0), ("2", 2)]
+    assert control_flow.boxes[1].lines == ("I",)
 
 
 def test_a_statement_that_goes_to_itself() -> None:
@@ -114,7 +114,7 @@ def test_a_statement_that_goes_to_itself() -> None:
 
 
 def _shifted(drawn: Chart, x: int) -> Chart:
-    """The chart with every rail's upright part moved."""
+    """Return the chart with the vertical part of every rail moved."""
     page = drawn.pages[0]
     paths = tuple(
         replace(path, corners=tuple((x, b) if 0 < k < 3 else (a, b) for k, (a, b) in enumerate(path.corners)))
@@ -169,8 +169,8 @@ def test_a_box_links_to_the_address_of_the_caller() -> None:
 
 def test_single_pages_add_up_to_the_whole_chart() -> None:
     drawn = chart(flow(built_in("program1")))
-    one = [chart_svg(drawn, k) for k in range(1, len(drawn.pages) + 1)]
-    heights = [int(ET.fromstring(text).get("height", "0")) for text in one]
+    sheets = [chart_svg(drawn, k) for k in range(1, len(drawn.pages) + 1)]
+    heights = [int(ET.fromstring(text).get("height", "0")) for text in sheets]
     assert sum(heights) == int(ET.fromstring(chart_svg(drawn)).get("height", "0"))
     with pytest.raises(IndexError):
         chart_svg(drawn, len(drawn.pages) + 1)

@@ -20,7 +20,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def _html(argument: str) -> etree._Element:
-    """What is made, which has to nest as XML does."""
+    """Parse the generated HTML as XML, which fails if its elements are not nested correctly."""
     return etree.fromstring(f"<div>{''.join(part.html for part in make('machine', argument).parts)}</div>")
 
 
@@ -32,72 +32,73 @@ def _rectangles(picture: str, group: str) -> list[etree._Element]:
 def test_the_regions_fill_core_without_gaps(name: str) -> None:
     regions = core_map(name).regions
     assert (regions[0].low, regions[-1].high) == (0, CORE - 1)
-    assert all(one.high + 1 == other.low for one, other in pairwise(regions))
+    assert all(lower.high + 1 == upper.low for lower, upper in pairwise(regions))
     assert sum(region.positions for region in regions) == CORE == 40_000
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_regions_equal_those_of_the_storage_map(name: str) -> None:
-    """What ``hull1620 map`` prints: every array's addresses, the data's length, what is free."""
-    found = core_map(name)
+    """``hull1620 map`` prints the same addresses of arrays, length of data and free space."""
+    storage = core_map(name)
     printed = "\n".join(map_lines(programs.program(name), CORE))
     arrays = re.findall(r"^  (\S+\(\d+\)) +array +(\d+) +(\d+) +(\d+)$", printed, re.MULTILINE)
-    told = [(r.name, str(r.fields[0][1]), str(r.high), str(r.low)) for r in found.regions if r.kind == ARRAY]
-    assert told[::-1] == arrays
+    arrays_of_map = [(r.name, str(r.fields[0][1]), str(r.high), str(r.low)) for r in storage.regions if r.kind == ARRAY]
+    assert arrays_of_map[::-1] == arrays
     data = re.search(r"data: (\d+) positions, from (\d+) down to (\d+)", printed)
     assert data is not None
-    assert found.positions(ARRAY) + found.positions(SINGLE) == int(data[1])
+    assert storage.positions(ARRAY) + storage.positions(SINGLE) == int(data[1])
     free = re.search(r"free between: ~(\d+)", printed)
     assert free is not None
-    assert found.positions(FREE) == int(free[1])
-    assert found.positions(PROGRAM) == code_positions(programs.program(name))
-    assert (found.positions(SYSTEM), found.positions(NAMES)) == (8_300, 120)
+    assert storage.positions(FREE) == int(free[1])
+    assert storage.positions(PROGRAM) == code_positions(programs.program(name))
+    assert (storage.positions(SYSTEM), storage.positions(NAMES)) == (8_300, 120)
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_a_map_is_drawn_to_scale(name: str) -> None:
-    found = core_map(name)
-    rectangles = _rectangles(map_svg(found), "regions")
-    assert [int(each.get("data-positions", "")) for each in rectangles] == [r.positions for r in found.regions]
-    heights = [float(each.get("height", "")) * PER_PIXEL for each in rectangles]
-    assert heights == pytest.approx([region.positions for region in found.regions])
+    storage = core_map(name)
+    rectangles = _rectangles(map_svg(storage), "regions")
+    positions = [int(rectangle.get("data-positions", "")) for rectangle in rectangles]
+    assert positions == [region.positions for region in storage.regions]
+    heights = [float(rectangle.get("height", "")) * PER_PIXEL for rectangle in rectangles]
+    assert heights == pytest.approx([region.positions for region in storage.regions])
     assert sum(heights) == pytest.approx(CORE)
-    bases = [float(each.get("y", "")) + float(each.get("height", "")) for each in rectangles]
-    assert [(bases[0] - base) * PER_PIXEL for base in bases] == pytest.approx([r.low for r in found.regions])
+    bases = [float(rectangle.get("y", "")) + float(rectangle.get("height", "")) for rectangle in rectangles]
+    assert [(bases[0] - base) * PER_PIXEL for base in bases] == pytest.approx([r.low for r in storage.regions])
 
 
 def test_program_3_is_the_fullest() -> None:
-    """The thesis's 51 points fit; in half the core no program does."""
+    """The 51 points of the thesis fit into 40,000 positions.  No program fits into half of them."""
     maps = {name: core_map(name) for name in programs.NAMES}
-    assert min(maps.values(), key=lambda found: found.positions(FREE)).program == "program3"
-    for found in maps.values():
-        points = dict(found.points)
+    assert min(maps.values(), key=lambda storage: storage.positions(FREE)).program == "program3"
+    for storage in maps.values():
+        points = dict(storage.points)
         assert points[20_000] == 0
         assert points[40_000] >= 51
 
 
 def test_bars_of_time_are_complete_and_to_scale() -> None:
-    found = example_runs()
-    assert [(run.example, run.program) for run in found] == [
+    all_runs = example_runs()
+    assert [(run.example, run.program) for run in all_runs] == [
         *((1, "program1_examples"), (2, "program1_examples"), (3, "program1_examples")),
         *((4, "program1_examples"), (4, "program2"), (5, "program1_examples"), (5, "program3")),
         *((6, "program1_examples"), (6, "program3")),
     ]
-    for run in found:
+    for run in all_runs:
         assert {row.cause for row in run.rows} == {cause for causes in PARTS.values() for cause in causes}
         assert sum(seconds_of(run)) == pytest.approx(run.total)
-    rectangles = _rectangles(time_svg(found), "parts")
+    rectangles = _rectangles(time_svg(all_runs), "parts")
     scales = [
-        float(each.get("width", "")) / float(each.get("data-seconds", ""))
-        for each in rectangles
-        if float(each.get("width", "")) > 5
+        float(rectangle.get("width", "")) / float(rectangle.get("data-seconds", ""))
+        for rectangle in rectangles
+        if float(rectangle.get("width", "")) > 5
     ]
     assert len(scales) > 20
     assert max(scales) / min(scales) < 1.003
     bars: dict[str, float] = {}
-    for each in rectangles:
-        bars[each.get("y", "")] = bars.get(each.get("y", ""), 0) + float(each.get("width", ""))
-    assert [wide / scales[0] for wide in bars.values()] == pytest.approx([run.total for run in found], rel=0.005)
+    for rectangle in rectangles:
+        bars[rectangle.get("y", "")] = bars.get(rectangle.get("y", ""), 0) + float(rectangle.get("width", ""))
+    assert [wide / scales[0] for wide in bars.values()] == pytest.approx([run.total for run in all_runs], rel=0.005)
 
 
 def test_the_page_describes_the_longest_part_correctly() -> None:
@@ -109,8 +110,8 @@ def test_the_page_describes_the_longest_part_correctly() -> None:
 
 def test_the_table_agrees_with_the_bars() -> None:
     rows = _html("time").findall(".//tbody/tr")
-    told = [[float(str(cell.text)) for cell in row.findall("td")] for row in rows]
-    for cells, run in zip(told, example_runs(), strict=True):
+    cells_of_rows = [[float(str(cell.text)) for cell in row.findall("td")] for row in rows]
+    for cells, run in zip(cells_of_rows, example_runs(), strict=True):
         assert cells == pytest.approx([*seconds_of(run), run.total], abs=0.051)
 
 

@@ -28,7 +28,7 @@ NAMES = ("appel-will", "kovalevsky-schulz", "yau-srihari", "nakamae-nishita")
 
 @pytest.fixture(scope="module", params=NAMES)
 def html(request: pytest.FixtureRequest) -> etree._Element:
-    """What is made for a paper, which has to nest as XML does."""
+    """Parse the HTML of a paper as XML, which fails if its elements are not nested correctly."""
     made = make("papers", request.param)
     return etree.fromstring(f"<div>{''.join(part.html for part in made.parts)}</div>")
 
@@ -51,20 +51,19 @@ def test_an_unknown_paper_is_rejected() -> None:
 
 
 def test_line_widths_of_a_loop_show_the_uses() -> None:
-    """Fig. 22: each loop's IUC; at the end of processing all are 2."""
+    """Fig. 22 prints the uses (IUC) after each loop; at the end all are 2."""
     hull = appel_will(found_solid("fig14").points)
     for number, loop in enumerate(hull.table.loops, 1):
         picture = etree.fromstring(papers.loop_svg(hull, number))
         drawn = [int(line.get("data-uses", "")) for line in picture.iter(f"{SVG}line")]
         assert sorted(drawn) == sorted(loop.uses)
-        beside = [int(text.text or "") for text in picture.findall(f".//{SVG}g[@class='counts']/{SVG}text")]
-        assert beside == list(loop.uses)
+        numbers = [int(text.text or "") for text in picture.findall(f".//{SVG}g[@class='counts']/{SVG}text")]
+        assert numbers == list(loop.uses)
     assert set(drawn) == {2}
 
 
 def test_a_line_inside_its_star_polygon_is_not_an_edge() -> None:
-    """The middle of the line lies inside of the hull: on the inner side of every plane through three vertices that has
-    all points on one side."""
+    """The middle of the line lies inside the hull: on the inner side of every supporting plane."""
     solid = printed_solid(printed_lines(next(paper for paper in PAPERS if paper.name == "appel-will")))
     hull = appel_will(solid.points, solid.surfaces)
     a, b = papers.within(hull)
@@ -77,7 +76,7 @@ def test_a_line_inside_its_star_polygon_is_not_an_edge() -> None:
 
 
 def _length(plate: Plate, *kinds: str) -> float:
-    """The length in space of all strokes of these kinds."""
+    """Return the length in space of all strokes of the given kinds."""
     return sum(math.dist(s.start, s.end) for s in plate.strokes if s.kind in kinds)
 
 
@@ -90,29 +89,29 @@ def test_the_next_step_lacks_what_a_step_removes() -> None:
 
 
 def test_the_first_step_has_all_edges_and_figures_of_the_scene() -> None:
-    given = scene("house").make()
-    edges = sum(sum(map(len, item.faces)) // 2 for item in given)
-    figures = sum(len(figure.corners) for item in given for figure in item.figures)
+    solids = scene("house").make()
+    edges = sum(sum(map(len, item.faces)) // 2 for item in solids)
+    figures = sum(len(figure.corners) for item in solids for figure in item.figures)
     _, (everything, *_) = steps.hidden_lines()
     assert len(everything.strokes) == edges + figures
 
 
 def test_the_last_step_is_the_drawing() -> None:
-    given = scene("house")
-    drawing = draw(given.make, given.sight.observer(given.make))
+    house = scene("house")
+    drawing = draw(house.make, house.sight.observer(house.make))
     _, plates = steps.hidden_lines()
     assert plates[-1].count(SEEN) == len(drawing.pieces)
 
 
 def test_the_cells_of_the_ball_satisfy_euler() -> None:
-    """Voxels by Pythagoras; of the closed surfaces Euler's formula, and two triangles more than twice the vertices."""
-    found = steps.cells()
-    counts = dict(found.counts)
-    radius = Fraction(found.diameter, 2)
-    reach = range(-found.diameter, found.diameter + 1)
+    """Count the voxels by their distance from the centre, and apply Euler's formula to the closed surfaces."""
+    complexes = steps.cells()
+    counts = dict(complexes.counts)
+    radius = Fraction(complexes.diameter, 2)
+    reach = range(-complexes.diameter, complexes.diameter + 1)
     inside = {(x, y, z) for x in reach for y in reach for z in reach if x * x + y * y + z * z <= radius**2}
     corners, edges, squares, voxels = counts["the ball's voxels and their boundary"]
-    assert voxels == len(inside) == ball(found.diameter).count
+    assert voxels == len(inside) == ball(complexes.diameter).count
     pairs = sum(sum(abs(p - q) for p, q in zip(a, b, strict=True)) == 1 for a, b in combinations(inside, 2))
     assert squares == 6 * voxels - 2 * pairs
     assert (corners - edges + squares, 4 * squares) == (2, 2 * edges)
@@ -120,13 +119,13 @@ def test_the_cells_of_the_ball_satisfy_euler() -> None:
     assert (e, f) == (3 * v - 6, 2 * v - 4)
     v, e, f, _ = counts["its hull, coplanar triangles merged"]
     assert v - e + f == 2
-    _, vertices, lines, faces = found.plates
+    _, vertices, lines, faces = complexes.plates
     assert (len(vertices.points), len(lines.strokes)) == (v, e)
     assert 0 < len(faces.panes) < f
 
 
 def test_the_hull_of_three_rods_is_a_corner_of_the_grid() -> None:
-    """Its voxels are those with x + y + z <= 7, 120 by the formula for tetrahedral numbers."""
+    """The hull has the 120 voxels with x + y + z <= 7, a tetrahedral number."""
     hull, levels = steps.rods()
     n = steps.RODS
     assert (hull.solid_voxels, hull.voxels) == (3 * n - 2, n * (n + 1) * (n + 2) // 6)

@@ -110,5 +110,5 @@ from modern.publication.parting import parted
 assert parted("0 0 0, 1 0 0".replace(", ", chr(10)))["true"]["dimension"] == 1
 print("numpy" in sys.modules)
 """
-    found = subprocess.run([sys.executable, "-S", "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert found.stdout.strip() == "False"
+    process = subprocess.run([sys.executable, "-S", "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert process.stdout.strip() == "False"

@@ -90,7 +90,7 @@ def test_the_home_page_links_to_the_examples_of_its_questions(site: Path) -> Non
 def test_pages_load_nothing_from_other_servers(site: Path) -> None:
     for page in pages(site).values():
         loaded = page.root.xpath('//link[@rel!="canonical"]/@href | //script/@src | //img/@src | //iframe/@src')
-        assert [str(one) for one in loaded if "//" in str(one)] == []
+        assert [str(address) for address in loaded if "//" in str(address)] == []
     for sheet in (site / "_static").rglob("*.css"):
         assert not re.search(r"url\(\s*[\"']?(https?:)?//", sheet.read_text(encoding="utf-8")), sheet
 

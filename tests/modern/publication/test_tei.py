@@ -111,10 +111,10 @@ def test_every_row_has_reason_evidence_certainty_and_rejected_readings(name: str
         app = first[row.id]
         notes = {note.get("type"): note.text for note in app.iterfind(TEI + "note")}
         assert (notes["reason"], notes["evidence"]) == (row.reason, row.evidence)
-        ours = next(one for one in app if one.get("cert"))
+        ours = next(reading for reading in app if reading.get("cert"))
         assert (ours.get("cert"), ours.get("cause")) == (CERTAINTY[row.certainty], row.cause)
-        rejected = [one.text for one in app.iterfind(TEI + "rdg") if one.get("type") == "rejected"]
-        assert rejected == [one.reading for one in row.rejected]
+        rejected = [reading.text for reading in app.iterfind(TEI + "rdg") if reading.get("type") == "rejected"]
+        assert rejected == [rejection.reading for rejection in row.rejected]
 
 
 def test_a_changed_character_changes_one_character_of_the_deck() -> None:
@@ -148,15 +148,15 @@ def test_the_command_writes_reads_and_validates(tmp_path: Path, capsys: pytest.C
 
 
 def test_an_invalid_document_is_reported_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    other = tmp_path / "other.rng"
-    other.write_text(schema().replace('<element name="ab">', '<element name="p">'))
-    code, out, err = call(capsys, "tei", "program1", "--check", str(other))
+    other_schema = tmp_path / "other.rng"
+    other_schema.write_text(schema().replace('<element name="ab">', '<element name="p">'))
+    code, out, err = call(capsys, "tei", "program1", "--check", str(other_schema))
     assert (code, err) == (1, "")
     assert re.fullmatch(r"program1: line \d+: .+\n", out)
 
 
 @pytest.mark.parametrize(
-    ("words", "message"),
+    ("arguments", "message"),
     [
         (("tei",), "expected a text, or --all with a folder; the texts are program1,"),
         (("tei", "program4"), "unknown text 'program4'; expected one of program1,"),
@@ -174,7 +174,7 @@ def test_an_invalid_document_is_reported_in_one_line(tmp_path: Path, capsys: pyt
     ],
 )
 def test_wrong_use_is_reported_in_one_line(
-    words: tuple[str, ...],
+    arguments: tuple[str, ...],
     message: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
@@ -185,7 +185,7 @@ def test_wrong_use_is_reported_in_one_line(
     Path("bad.xml").write_text("", encoding="utf-8")
     Path("other.xml").write_text("<TEI/>", encoding="utf-8")
     Path("good.xml").write_text(written("program2"), encoding="utf-8")
-    code, out, err = call(capsys, *words)
+    code, out, err = call(capsys, *arguments)
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert message in err
 
@@ -195,7 +195,7 @@ def test_a_damaged_document_is_read_or_rejected_with_one_line(
 ) -> None:
     draw = random.Random(1963)
     source = written("chapter6")
-    seen = set()
+    exit_codes = set()
     for _ in range(12):
         at = draw.randrange(len(source))
         damaged = tmp_path / "damaged.xml"
@@ -205,8 +205,8 @@ def test_a_damaged_document_is_read_or_rejected_with_one_line(
         )
         code, _, err = call(capsys, "tei", "--read", str(damaged), "--part", "example1/program1.deck")
         assert (code, err.count("\n")) in ((0, 0), (2, 1)), err
-        seen.add(code)
-    assert 2 in seen
+        exit_codes.add(code)
+    assert 2 in exit_codes
     wide = tmp_path / "wide.xml"
     wide.write_text(re.sub(r'quantity="\d+"', 'quantity="81"', source), encoding="utf-8")
     code, _, err = call(capsys, "tei", "--read", str(wide), "--part", "example1/program1.deck")
