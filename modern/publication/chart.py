@@ -130,6 +130,7 @@ def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
     """
     count = len(flow.boxes)
     sizes = [_size(box)[0] + _ARROW + _DOWN for box in flow.boxes]
+    # across[cut] is the number of jumps that a page break before the box `cut` would interrupt.
     across = [0] * (count + 1)
     for place, box in enumerate(flow.boxes):
         for way in box.exits:
@@ -142,10 +143,12 @@ def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
         candidates, used = [], 0
         for start in range(end - 1, -1, -1):
             used += sizes[start]
+            # The sum of the sizes is a lower bound; only the plan knows the room for connectors and joins.
             if start < end - 1 and (used > height or _plan(flow, range(start, end)).height > height):
                 break
             candidates.append((best[start][0] + 10 + across[start], start))
         best[end] = min(candidates)
+    # Follow the best breaks back from the last box.
     pages, end = [], count
     while end:
         pages.append((best[end][1], end))
@@ -209,9 +212,11 @@ def _page(flow: Flow, first: int, end: int) -> Page:
             level = corners[-1][1]
             lane = plan.lanes.get((way.target, side), -1)
             if lane < 0:
+                # The target is on another page, or every lane of the side is taken: the line ends in a connector.
                 centre = (edge + outward * (ZONE // 2), level)
                 paths.append(Path(place, k, (*corners, (centre[0] - outward * RADIUS, level)), -1, centre))
                 continue
+            # The line leaves the box, follows its rail to the level above the target, and enters the target from above.
             x, join = edge + outward * (ZONE + lane * LANE), plan.joins[landing]
             corners += [(x, level), (x, join), (SPINE, join), (SPINE, plan.placed[landing].top)]
             paths.append(Path(place, k, tuple(corners), lane))
@@ -276,6 +281,7 @@ def _stack(
     turns, lands, joins = [], [], []
     y = MARGIN
     for place in inside:
+        # From top to bottom: the connector that leads to the box, the end of its rails, the box, the turn below it.
         lands.append(y + _LAND // 2)
         y += _LAND if place in landed else 0
         joins.append(y)

@@ -140,6 +140,7 @@ class Desk:
         furthest = self._seconds(session) + pace * milliseconds / 1000
         ending, failure = None, ""
         while True:
+            # The clock is read only between parts of a slice, each with a given number of operations.
             goal = session.state.work + (self.small if not pace else max(1, self.small // 200))
             try:
                 ending = run_with_operator(session, self._logged, goal, self._see)

@@ -147,6 +147,7 @@ def _source(family: Sequence[Segments]) -> Source:
     text, spans = "", []
     for piece in line.pieces:
         if isinstance(piece, Place):
+            # Compare the witness with our reading, which may continue on lines that the row inserts.
             old = reading((piece,), ())
             continuation = [part.pieces for part in inserted if part.id.startswith(f"{piece.row.id}.")]
             new = " ".join(reading(pieces, _LAYERS) for pieces in ((piece,), *continuation))

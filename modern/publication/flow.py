@@ -172,6 +172,7 @@ def _forwarded(boxes: Sequence[Box]) -> list[Box | None]:
     forwarded: list[Box | None] = list(boxes)
     come_from = _sources(boxes)
     for place, box in enumerate(boxes):
+        # A box is removed only if control reaches it from nowhere but the box before it.
         before = forwarded[place - 1] if place else None
         if box.kind != "step" or box.label or come_from[place] != [place - 1] or before is None:
             continue
@@ -190,6 +191,7 @@ def _merged(boxes: Sequence[Box | None]) -> tuple[Box, ...]:
         if box is None:
             continue
         last = merged[-1] if merged else None
+        # Two boxes are one if they are of the same kind and no jump arrives between them.
         joins_last = (
             last is not None
             and last.kind == box.kind in ("processing", "input/output")

@@ -78,6 +78,7 @@ def true_hull(points: Sequence[Whole]) -> tuple[int, tuple[tuple[int, ...], ...]
     A polygon has one face, a line the loop of its two ends, and a point the loop of itself.  Only the first of equal
     points is used.  A loop has corners only, not the other points on its edges or in its face.
     """
+    # Extend from a point to a line, a plane and space, and stop as soon as no point leaves the flat.
     places = sorted({point: n for n, point in reversed(list(enumerate(points)))}.values())
     first = places[0]
     second = next((n for n in places if points[n] != points[first]), None)
@@ -99,6 +100,7 @@ def _faces(points: Sequence[Whole], places: Sequence[int]) -> Iterator[tuple[int
     known_faces: set[frozenset[int]] = set()
     for a, b, c in combinations(places, 3):
         normal = cross(minus(points[b], points[a]), minus(points[c], points[a]))
+        # Skip three points on a line, and three points of a face that is known already.
         if not any(normal) or any({a, b, c} <= face for face in known_faces):
             continue
         # A plane through three points supports a face if all points lie on one side of it.

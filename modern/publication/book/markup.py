@@ -194,7 +194,7 @@ class Markdown:
 
     def _inline(self, token: Token) -> str:
         out: list[str] = []
-        ends: list[str] = []
+        ends: list[str] = []  # what closes each open link: nothing if the link has no target in the book
         for child in token.children or ():
             match child.type:
                 case "text":

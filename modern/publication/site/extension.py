@@ -51,6 +51,7 @@ class MadeDirective(SphinxDirective):
         for part in content.parts:
             inner = self._inner(part)
             if part.heading:
+                # A section closes the open sections of its own and of deeper levels.
                 while stack[-1][0] >= part.level:
                     stack.pop()
                 section = nodes.section("", nodes.title("", part.heading), *inner, ids=[part.id], names=[part.id])
