@@ -1,1 +1,1 @@
-"""What several commands share."""
+"""Functions and arguments that several commands use."""
