@@ -22,7 +22,7 @@ from modern.cli.shared.volumes import (
     volume_of,
 )
 from modern.digital.hull import digital_hull
-from modern.digital.scans import label_boxes, label_volume
+from modern.digital.scans import label_boxes, label_notes, label_volume
 from modern.digital.solids import Volume
 from modern.digital.volumes import write_array
 from modern.digital.world import voxel_volume
@@ -114,7 +114,7 @@ def _tabulate_labels(args: argparse.Namespace) -> None:
             write(args.output % label)
     if args.csv is not None:
         write_text(args.csv, csv_text(rows, unit))
-    print_notes(note_lines(scan.notes))
+    print_notes(note_lines((*scan.notes, *label_notes(scan))))
     print_notes([printable(f"{scan.source}: {counted(len(boxes), 'label')}; {spacing_words(scan.world)}")])
     if not args.fill:
         print_notes([printable(coordinate_words(world, not args.centres))])

@@ -85,6 +85,8 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
         if name in fields and _number(fields, name, source):
             raise VolumeError(f"{source}: line {fields[name][0]}: {name}: expected 0")
     if "data file" in fields:
+        if not body and not data.endswith((b"\n", b"\r")):
+            raise VolumeError(f"{source}: the header is truncated: its last line has no end")
         body = _read_data_file(source, *fields["data file"])
     expected = math.prod(sizes) * kind.itemsize
     if encoding.lower() in _PACKED:
@@ -218,6 +220,8 @@ def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -
     width = len(steps[0])
     if width > _MOST_AXES:
         return None, (*notes, f"{source}: line {line}: the space has {width} axes; the position is ignored")
+    if "space directions" not in fields and any(min(step) < 0 for step in steps):
+        notes.append(f"{source}: line {line}: spacings: a negative number reverses its axis")
     origin = _origin(fields, width, source)
     space = fields.get("space", (0, ""))[1]
     space = _SPACES.get(space.lower(), space.lower() if space.lower() in ANATOMICAL else space)

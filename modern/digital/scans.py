@@ -99,13 +99,29 @@ def chosen(scan: Scan, choice: Choice | None = None) -> Chosen:
             raise NoVoxels(f"{scan.source}: there are no voxels: every value is 0")
         most, least = (_text(number) for number in (highest, choice.threshold))
         raise NoVoxels(f"{scan.source}: there are no voxels: the greatest value is {most}, below the threshold {least}")
-    volume = Volume(truth, scan.origin, scan.source, scan.notes, scan.world)
+    notes = (*scan.notes, *label_notes(scan)) if choice.labels else scan.notes
+    volume = Volume(truth, scan.origin, scan.source, notes, scan.world)
     return Chosen(volume, choice, lowest, highest, present, scan.values.dtype == np.bool_)
 
 
 def labels_of(scan: Scan) -> tuple[int, ...]:
     """Return the integer values of a scan except 0, in order. Other values are not labels."""
     return tuple(sorted({label for part in _parts(scan.values) for label in _labels(part)}))
+
+
+def label_notes(scan: Scan) -> tuple[str, ...]:
+    """Return a note about the voxels that have no label because their values are not integers."""
+    if scan.values.dtype.kind != "f":
+        return ()
+    count, distinct = 0, np.empty(0, scan.values.dtype)
+    for part in _parts(scan.values):
+        fractional = part[~(np.isfinite(part) & (part == np.floor(part)))]
+        count += fractional.size
+        distinct = np.unique(np.concatenate([distinct, fractional]))
+    if not count:
+        return ()
+    counts = f"{count} voxel(s) with {len(distinct)} value(s)"
+    return (f"{scan.source}: {counts} that are not integers, such as {distinct[0]:.6g}, have no label",)
 
 
 def label_boxes(scan: Scan, labels: Sequence[int] = ()) -> dict[int, tuple[slice, ...]]:

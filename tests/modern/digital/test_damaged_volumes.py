@@ -428,3 +428,9 @@ def test_a_truncated_slice_is_not_left_out_of_its_series() -> None:
         Path("ct/5.dcm").write_bytes(whole[:length])
         with pytest.raises(VolumeError, match=r"^ct/5\.dcm: "):
             read_scan("ct")
+
+
+def test_a_detached_nrrd_header_that_ends_within_a_line_is_rejected() -> None:
+    nhdr("a.raw", True)
+    lines = Path("a.nhdr").read_bytes().replace(b"space origin: (-10,5,0.25)\n", b"") + b"spacings: nan nan na"
+    assert rejection(saved("a.nhdr", lines)) == "the header is truncated: its last line has no end"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import locale
 import math
 import os
+import struct
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -356,3 +357,39 @@ def test_time_limit_grows_with_the_size_of_the_files(monkeypatch: pytest.MonkeyP
         with pytest.raises(VolumeError, match="ended with exit code 1"):
             read_scan(name)
     assert limits == [60, 64, 61, 64]
+
+
+def oriented(qform_code: int, sform_code: int, rows: tuple[float, ...], slope: float = 1) -> Scan:
+    """Read a NIfTI file whose sform has other rows than its qform."""
+    data = bytearray(nifti(VALUES, (0.5, 0.25, 2), (10, 20, 30)))
+    struct.pack_into("<2h", data, 252, qform_code, sform_code)
+    struct.pack_into("<12f", data, 280, *rows)
+    struct.pack_into("<2f", data, 112, slope, 0)
+    Path("a.nii").write_bytes(data)
+    return read_scan("a.nii")
+
+
+def test_nifti_forms_that_differ_are_noted() -> None:
+    moved = (0.5, 0, 0, 13, 0, 0.25, 0, 20, 0, 0, 2, 34)
+    scan = oriented(1, 2, moved)
+    assert scan.notes == ("a.nii: qform and sform differ by up to 5 mm; the qform is used",)
+    assert scan.world is not None
+    assert scan.world.origin == (-10, -20, 30)
+    scan = oriented(1, 1, moved)
+    assert scan.notes == ("a.nii: qform and sform differ by up to 5 mm; the sform is used",)
+    assert scan.world is not None
+    assert scan.world.origin == (-13, -20, 34)
+    assert oriented(1, 1, (0.5, 0, 0, 10.001, 0, 0.25, 0, 20, 0, 0, 2, 30)).notes == ()
+    assert oriented(0, 1, moved).notes == ()
+    assert oriented(2, 0, moved).notes == ()
+
+
+def test_spacing_of_a_nifti_sform_that_differs_is_noted() -> None:
+    scan = oriented(0, 1, (1, 0, 0, 10, 0, 2, 0, 20, 0, 0, 3, 30))
+    assert scan.notes == ("a.nii: the sform has the spacing 1 2 3 mm, but pixdim has 0.5 0.25 2 mm, which is used",)
+
+
+def test_scaled_nifti_values_are_noted() -> None:
+    scan = oriented(1, 0, (0,) * 12, 0.5)
+    assert np.array_equal(scan.values, VALUES / 2)
+    assert scan.notes == ("a.nii: the values are scaled: 0.5 times the stored value plus 0 (scl_slope, scl_inter)",)

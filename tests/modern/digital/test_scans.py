@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from hull1620 import digital_hull, read_volume
-from modern.digital.scans import Choice, Scan, chosen, label_boxes, label_volume, labels_of, listed_labels
+from modern.digital.scans import Choice, Scan, chosen, label_boxes, label_notes, label_volume, labels_of, listed_labels
 from modern.digital.solids import NoVoxels, VolumeError
 from modern.digital.volumes import write_npy
 
@@ -140,3 +140,13 @@ def test_read_volume_selects_by_threshold_and_by_label(tmp_path: Any) -> None:
         read_volume(path, threshold="x")
     with pytest.raises(VolumeError, match="spacing: expected 3 numbers, found 2"):
         read_volume(path, spacing=(1, 2))
+
+
+def test_voxels_whose_values_are_not_integers_are_counted_in_a_note() -> None:
+    scan = Scan(np.array([[0, 1, 1.25], [2.25, 1.25, np.inf]]), (0, 0), "scan")
+    note = "scan: 4 voxel(s) with 3 value(s) that are not integers, such as 1.25, have no label"
+    assert label_notes(scan) == (note,)
+    assert chosen(scan, Choice(labels=(1,))).volume.notes == (note,)
+    assert chosen(scan).volume.notes == ()
+    assert label_notes(Scan(np.array([[0.0, 1.0, 3.0]]), (0, 0), "scan")) == ()
+    assert label_notes(Scan(np.array([[0, 1, 3]]), (0, 0), "scan")) == ()

@@ -6,6 +6,7 @@ import gzip
 import io
 import tracemalloc
 from collections.abc import Callable
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -337,3 +338,21 @@ def test_damaged_npy_headers_are_reported_in_one_line(tmp_path: Path, header: by
     path.write_bytes(b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head + bytes(64))
     with pytest.raises(VolumeError, match="not an NPY array of numbers"):
         read_volume(str(path))
+
+
+def test_negative_spacing_is_rejected() -> None:
+    for spacing in ((-1, 1, 1), (1, 1, Fraction(-1, 2)), ("1", "-2", "1")):
+        with pytest.raises(VolumeError, match="ball:8:voxel: spacing: expected positive numbers, found -"):
+            read_volume("ball:8", spacing=spacing)
+
+
+def test_negative_spacings_of_an_nrrd_file_are_noted() -> None:
+    volume = parse_volume(nrrd(STEPS.astype("u1"), "uchar", "spacings: -1 1 1"), "a.nrrd")
+    assert volume.notes == ("a.nrrd: line 8: spacings: a negative number reverses its axis",)
+
+
+@pytest.mark.parametrize("name", ["a.hdr", "a.img"])
+def test_pairs_of_files_are_named_as_unsupported(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_bytes(bytes(348))
+    with pytest.raises(VolumeError, match=r"a pair of files \.hdr and \.img .* is not supported"):
+        read_volume(str(tmp_path / name))
