@@ -1,5 +1,6 @@
 """The compiled engine, which runs one program over many decks: the interpreter's loop on integers, compiled by numba.
 
 ``batch.py`` is the interface.  ``runner.py`` converts programs and decks to arrays.  numba compiles ``deck.py``,
-``devices.py`` and ``kernel.py``.  What these do not support runs on :class:`emulator.machine.machine.Machine` instead.
+``devices.py`` and ``kernel.py``.  A deck that needs an unsupported operation runs on
+:class:`emulator.machine.machine.Machine` instead.
 """

@@ -45,7 +45,8 @@ def run_decks(
 ) -> int:
     """Run the decks in order, and return the number of decks run.
 
-    It is smaller than the number of decks if the log is full.  The next deck must then be run again with an empty log.
+    If the log becomes full, it is smaller than the number of decks given.  The caller must then run the next deck again
+    with an empty log.
     """
     used = 0
     for d in range(len(cards.first) - 1):
@@ -107,7 +108,7 @@ def run_deck(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run one deck, whose cards the registers of the devices name, and return the reason for its end."""
+    """Run one deck and return the reason for its end.  The registers of the devices hold the bounds of the deck."""
     limit, strict, types_errors, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers
     devices[dev.ANY_READ] = any_read
@@ -129,8 +130,8 @@ def run_deck(
                 status = end_record(marks, cards, desk)
         elif reason == interpreter.AT_EVENT:
             status = error(registers[EVENT], marks, desk, types_errors)
-        # Without ``powers_multiply`` the exact power is truncated once.  Repeated multiplication gives the same for
-        # exponents from -1 to 2; others would need more than 64 bits.
+        # Without ``powers_multiply`` the exact power is truncated once.  For exponents from -1 to 2 repeated
+        # multiplication gives the same result.  Other exponents would need more than 64 bits.
         elif reason == interpreter.AT_POWERX and (rules.powers_multiply or -1 <= core.mantissas[address] <= 2):
             if registers[FAC] != 0 and not -1 <= core.mantissas[address] <= 2:
                 owe(registers, multiplied(core.mantissas[address]))
@@ -151,7 +152,7 @@ def run_deck(
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
         elif reason == interpreter.AT_PAUSE:
-            # START is pressed at once.  A notice needs each PAUSE once, in the order of their first occurrence.
+            # START is pressed at once.  The notices list each PAUSE once, in the order of their first occurrence.
             if pauses[marks.statements[pc]] == 0:
                 devices[dev.PAUSES] += 1
                 pauses[marks.statements[pc]] = devices[dev.PAUSES]

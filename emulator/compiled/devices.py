@@ -48,14 +48,14 @@ BEGUN, TAKEN, PUNCHED, TYPED, LINE_END = b"BRPT\n"
 # The number of the error code F8; those of E1 to E8 are 1 to 8.
 F8 = 9
 CODES = 10
-# The columns of the line buffer, more than a record of any device has.
+# The number of columns of the line buffer.  No record of any device is longer.
 LINE_ROOM = 4096
 ERROR_WORDS = b"ERROR E0"
 # The digits of a number in the log.
 STAMP = 6
 
 
-# numba passes an array as seven or more numbers in every call, so that each function receives few tuples of arrays.
+# numba passes an array as seven or more numbers in every call, so each function receives as few arrays as possible.
 class Marks(NamedTuple):
     """The parts of the object code that devices use: second operand and statement of each instruction, and verbs."""
 
@@ -267,7 +267,7 @@ def stamp(number: int, desk: Desk) -> None:
 
 
 def error(number: int, marks: Marks, desk: Desk, types_errors: int) -> int:
-    """Count an error code and, if the arithmetic does so, type it."""
+    """Count an error code, and type it if ``types_errors`` is set."""
     registers = desk.registers
     desk.errors[CODES * marks.statements[registers[AT]] + number] += 1
     owe(registers, ERROR)
@@ -299,7 +299,7 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
     kind, width, decimals = forms.specs[part + KIND], forms.specs[part + WIDTH], forms.specs[part + DECIMALS]
     fixed = marks.seconds[registers[AT]] < 0
     column = devices[COLUMN]
-    # Every case with a message is left to the interpreter: a field of the other mode, a bad number, a remark.
+    # The interpreter handles every case with a message: a field of the wrong mode, an invalid number or a remark.
     if (kind == I_FIELD) != fixed:
         return NOT_HERE
     if devices[VERB] == READ:

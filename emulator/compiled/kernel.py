@@ -46,8 +46,8 @@ def owe(registers: Row, steps: int) -> None:
 def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit: int, most: int, strict: int) -> int:
     """Run until there is a reason to return, and return it.  Registers and storage are changed in place.
 
-    ``limit``, ``most`` and ``strict`` are those of :func:`emulator.machine.interpreter.run`, and so are the operations,
-    whose sources are cited there.
+    ``limit``, ``most``, ``strict`` and the operations are the same as in :func:`emulator.machine.interpreter.run`,
+    which cites the source of each operation.
     """
     operations, addresses, subscripts, seconds, table, targets, loops, _, charges = code
     mantissas, exponents = core.mantissas, core.exponents
@@ -237,7 +237,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
         elif operation == op.SWITCH:
             pc = targets[address] if core.switches[seconds[pc] - 1] else targets[address + 1]
         elif operation == op.ITEM:
-            # One number of a list.  The instruction comes again for each element of a whole array.
+            # One number of a list.  The instruction is repeated for each element of a whole array.
             if work > most + interpreter.SLACK:
                 reason = interpreter.AT_COSTLY
                 break
@@ -272,7 +272,8 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
         else:
             reason = interpreter.AT_STOP
             break
-    # AT is the instruction the reason is about: the next one (PC) after an error, the one before it after a service.
+    # AT is the instruction that caused the return.  After an error PC still points to it.  After a service PC is beyond
+    # it.
     stays = reason in (
         interpreter.AT_UNDEFINED,
         interpreter.AT_BOUNDS,

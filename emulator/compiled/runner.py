@@ -1,7 +1,7 @@
-"""The compiled engine with a program: packed decks in, one row of numbers and a log for each deck out.
+"""The compiled engine with a program.  It reads packed decks and returns one row of numbers and a log for each deck.
 
-numba compiles :func:`emulator.compiled.deck.run_decks` and the functions it calls without changes.  Products must fit
-into 64 bits, so that numbers have at most nine digits.
+numba compiles :func:`emulator.compiled.deck.run_decks` and the functions it calls without changes.  Numbers have at
+most nine digits, because products must fit into 64 bits.
 """
 
 from __future__ import annotations
@@ -89,7 +89,10 @@ def packed(deck: Deck) -> bytes | None:
 
 
 def packed_text(text: str) -> bytes | None:
-    """Return the same for the text of a deck, or None if it is not a deck; reading it by cards then raises an error."""
+    """Return 80 codes for each card of a deck's text, or None if the text is not a deck.
+
+    If the interpreter then reads the text, it raises an error.
+    """
     lines = text.replace("\r\n", "\n").split("\n")
     if lines[-1] == "":
         lines.pop()

@@ -1,8 +1,8 @@
 """The compiler: from the syntax tree to object code, with statement numbers, DO loops, input, output and storage.
 
-Sources: C26-5619 for the forms of statements and, on p. 56, for the error types.  The DO follows IBM's object code as
-executed: its variable is stepped and compared at the bottom of the loop, so a loop runs at least once and leaves the
-first value beyond its limit.
+Sources: C26-5619 for the forms of statements and, on p. 56, for the error types.  The DO behaves as IBM's object code
+did when we executed it.  Its variable is stepped and compared at the bottom of the loop.  So a loop runs at least once,
+and its variable ends at the first value beyond the limit.
 """
 
 from __future__ import annotations
@@ -166,7 +166,7 @@ class _Translation:
                 spec = FormatSpec(())
             else:
                 self.diagnostics.extend(warnings)
-            # The first FORMAT of a number counts.  _check_labels reports the second one.
+            # If two FORMATs have the same number, the first one is used.  _check_labels reports the second one.
             positions += spec.positions
             self.formats.setdefault(statement.label, spec)
         self.format_places = {label: place for place, label in enumerate(self.formats)}

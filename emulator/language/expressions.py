@@ -128,7 +128,7 @@ class Emitter:
             if len(term.rest) != 1 or term.rest[0][0] != "*":
                 raise Refused(term.place, "a subscript is v, c, v+c, v-c, c*v, c*v+c or c*v-c")
             factor, term = self._whole(term.first), term.rest[0][1]
-        # A constant subscript has no variable: the factor and the constant give the addend.
+        # A constant subscript has no variable.  Its factor and its constant are combined into the addend.
         if isinstance(term, Number):
             return -1, 0, factor * self._whole(term) + addend
         if (
@@ -148,7 +148,8 @@ class Emitter:
 
     def fixed(self, expression: Expression) -> bool:
         """Return True for a fixed-point expression.  Raise Refused (error type 5) if it mixes the modes."""
-        # The mode is asked for at every level of parentheses, so it is cached to keep deep expressions linear.
+        # Every level of parentheses calls this method, so the mode is cached to keep the time for deep expressions
+        # linear.
         mode = self.modes.get(id(expression))
         if mode is None:
             mode = self.modes[id(expression)] = self._mode(expression)
@@ -218,8 +219,9 @@ class Emitter:
     def _chain(self, first: Expression, rest: tuple[tuple[str, Expression], ...], table: dict[str, int]) -> None:
         """Emit code for operands from left to right.
 
-        ``waiting`` is the left operand while it is in a field.  An operand that must be computed takes the accumulator
-        while the left operand waits in a field, in a temporary if necessary, and the operation is then reversed.
+        ``waiting`` is the left operand while it is in a field.  If the right operand must be computed, it needs the
+        accumulator.  The left operand then stays in a field, if necessary a temporary one, and the operation is
+        reversed.
         """
         waiting = self.simple(first)
         if waiting is None:

@@ -140,7 +140,7 @@ FOREIGN_FIELDS = {
 
 
 def identify(kind: str, text: str) -> ForeignStatement | None:
-    """Return the foreign statement that ``text`` (without number and blanks) is, or None.
+    """Return the description of the foreign statement ``text`` (without number and blanks), or None if it is not one.
 
     Call this only for a statement that does not parse.  ``kind`` is the kind that ``classify`` gave it.
     """

@@ -58,7 +58,10 @@ class FormatSpec:
 
     @property
     def charge(self) -> int:
-        """The statements that one pass through this FORMAT counts against the run's limit: 0 unless it is very long."""
+        """The work, in statements, that one pass through this FORMAT adds to the run.
+
+        It is 0 unless the FORMAT is very long.
+        """
         columns = sum(len(spec.text) for spec in self.specs if isinstance(spec, Literal))
         return len(self.specs) // STEPS + columns // _COLUMNS_A_UNIT
 
@@ -109,8 +112,8 @@ def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]
 def _suggest_width(failed: _Reader) -> Refused | None:
     """Return a better message for a FORMAT that parses if its last Hollerith field has another width, or None.
 
-    A field that is too wide takes in the delimiter after its text.  A field that is too narrow leaves part of its text,
-    at which the reader fails.
+    A field that is too wide includes the delimiter after its text.  A field that is too narrow leaves part of its text
+    unread, and the reader fails there.
     """
     if failed.hollerith is None:
         return None

@@ -3,8 +3,8 @@
 Operations have the names of IBM's subroutine set (C26-5619 p. 60-69).  An instruction is four integers: operation,
 address or table index, subscript (an index into :attr:`Program.subscripts`, or -1), and second operand.  An address is
 the number of a field of the storage map (emulator/language/storage.py), counted from 0 downward from the top of core.
-The second operand of an ITEM is the number of fields from its address on that pass through the list one after the
-other, one or all of an array, negated for fixed point.
+The second operand of an ITEM is the number of fields that the list transfers, beginning at its address: one field or a
+whole array.  The number is negative for fixed point.
 """
 
 from __future__ import annotations
@@ -240,7 +240,7 @@ def flatten(program: Program) -> Flat:
     table = [n for s in program.subscripts for n in (s.v1, s.c1, s.o1, s.rows, s.v2, s.c2, s.o2, s.columns)]
     loops = [n for loop in program.loops for n in loop]
     begins = [1 if c.begins else 2 if c.what == LIST_PASS else 0 for c in program.counters]
-    # The work of a section is the number of its operations.  Items are counted when they are transferred.
+    # The work of a section depends on the number of its operations.  List items are counted when they are transferred.
     lengths = [0] * len(program.counters)
     counter = 0
     for instruction in program.code:

@@ -50,7 +50,7 @@ _CACHED_LENGTH = 200
 _AFTER_END = "a card after END; the program's data belong in a separate deck"
 _EDGE = (LAST_COLUMN, LAST_COLUMN + 1)
 _CODE = re.compile(r"[=+*/(),]")
-"""Characters that an identification in columns 73 to 80 would hardly contain."""
+"""Characters that are unlikely in an identification in columns 73 to 80."""
 _FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
 
 
@@ -58,8 +58,9 @@ _FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
 class Parsed:
     """The result of parsing a deck: the statements that parse, and a message for each that does not.
 
-    ``refused`` holds the statement numbers of the others.  ``foreign_names`` holds the names that statements of another
-    FORTRAN declare as arrays or functions, so that statements using these names cannot be checked.
+    ``refused`` holds the statement numbers of the statements that do not parse.  ``foreign_names`` holds the names that
+    statements of another FORTRAN declare as arrays or functions, so that statements using these names cannot be
+    checked.
     """
 
     statements: tuple[tree.Statement, ...]
@@ -119,7 +120,7 @@ def _begins_subprogram(source: Source) -> bool:
 
 
 def _column_warnings(source: Source) -> Iterator[Diagnostic]:
-    """Yield warnings about columns that other compilers read differently, or that nobody reads."""
+    """Yield warnings about columns that other compilers read differently or that no compiler reads."""
     first = source.cards[0]
     if source.label and not first.columns(1, 5).strip() and first.columns(6, 6).isdigit():
         what = f"statement number {source.label} begins in column 6, where other compilers expect a continuation mark"

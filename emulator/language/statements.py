@@ -25,7 +25,7 @@ _VERB = re.compile(r"READ|ACCEPT|PUNCH|PRINT|TYPE")
 _NUMBER = re.compile(r"[ 0-9]*")
 _FORMAT = re.compile(r"\s*F\s*O\s*R\s*M\s*A\s*T\s*\(")
 _DO = re.compile(r"DO\d+,?[A-Z][A-Z0-9]*=")
-# The first prefix that matches decides the kind, so a longer prefix stands before the shorter one it contains.
+# The first prefix that matches determines the kind, so a prefix precedes every shorter prefix that it begins with.
 _PREFIXES = (
     ("GOTO(", "computed_go_to"),
     ("GOTO", "go_to"),
@@ -74,7 +74,7 @@ class Source:
 
 
 def is_comment(card: Card) -> bool:
-    """Return True for a card without a statement, or with C in column 1 and no statement form.
+    """Return True for a blank card, and for a card with C in column 1 whose text does not have the form of a statement.
 
     The manual (p. 12) requires two blanks after the C.  IBM's FORTRAN II-D and PDQ FORTRAN also accept ``C-----`` and
     ``C TEXT`` (executed).  See :func:`may_be_comment` for a card that has a statement form but does not parse.
@@ -146,7 +146,8 @@ def _continues(card: Card) -> bool:
     """
     if card.columns(1, 5).strip() or card.columns(6, 6) in (" ", "0"):
         return False
-    # Only a text that is no statement, or has unbalanced parentheses or a stray comma, continues the card before.
+    # A card continues the previous one only if its text is not a statement, or has unbalanced parentheses or a stray
+    # comma.
     source = _source((card,))
     if source.kind == "format":
         return False
@@ -161,7 +162,7 @@ def _source(cards: tuple[Card, ...]) -> Source:
     number = _NUMBER.match(raw)
     start = number.end() if number else 0
     label = raw[:start].replace(" ", "")
-    # A number without a statement is reported at the number.
+    # The message about a number without a statement refers to the place of the number.
     place = _place(cards, start if start < len(raw) else raw.index(label[0]))
     # A FORMAT keeps its blanks, because they count in Hollerith fields.
     match = _FORMAT.match(raw, start)

@@ -2,7 +2,7 @@
 
 Fields are assigned downward from the top of core in order of first appearance.  An array takes one field per element,
 with element 1 at the highest address, and the arrays of one DIMENSION follow each other without a gap (C26-5619
-p. 66-69).  How subscripts are computed, and that nothing checks them, was observed by executing IBM's code.  The 120
+p. 66-69).  Executing IBM's code showed how subscripts are computed and that no code checks them.  The 120
 positions at the top hold the names of the library functions.  The object program begins at 08300 (p. 67).
 """
 

@@ -36,7 +36,7 @@ class Rules(NamedTuple):
     - ``limit``: ``10**P``, which every mantissa is below.
     - ``least``: ``10**(P - 1)``, the smallest normalized mantissa.
     - ``guard``: the digits beyond P that the smaller operand of a sum keeps.
-    - ``sticky``: the digits lost beyond these still count as a fraction.
+    - ``sticky``: the digits lost beyond the guard digits still affect rounding, as a fraction.
     - ``round_sums``, ``round_products``, ``round_quotients``: round the result half up instead of truncating it.
     - ``keeps_left_zero``: zero plus zero keeps the sign of the zero in FAC.
     - ``signed_underflow``, ``signed_sums``: a product or quotient, or a sum, that underflows keeps its sign.
@@ -62,8 +62,8 @@ class Rules(NamedTuple):
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     """Return the sum of two numbers that are not zero.
 
-    The operand with the smaller exponent is shifted right and loses digits *before* the addition.  It loses all of them
-    here, and keeps some in :func:`add_guarded`.
+    The operand with the smaller exponent is shifted right and loses digits *before* the addition.  Here it loses all
+    digits that are shifted out.  :func:`add_guarded` keeps some of them.
     """
     if rules.guard:
         return add_guarded(ma, ea, mb, eb, rules)
@@ -92,7 +92,7 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
 
 
 def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
-    """Return the same sum if ``guard`` of the digits beyond P survive the addition (rounding needs one).
+    """Return the sum of two numbers that are not zero, computed with ``guard`` digits beyond P (rounding needs one).
 
     With ``sticky`` the digits lost still count as a fraction, so that the sum is rounded like the exact sum.
     """
@@ -118,7 +118,7 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, 
     if same:
         size += addend
     else:
-        # The digits lost are a positive fraction of the addend, so the exact difference lies below this one.
+        # The lost digits are a positive fraction of the subtrahend, so the exact difference is smaller than this one.
         size -= addend
         if sticky and lost:
             size -= 1
@@ -265,7 +265,7 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
     for _ in range(times - 1):
         m_before, e_before = m, e
         m, e = multiply(m, e, size, exponent, rules)
-        # Stop early at a power that no longer changes (of one) or is out of range for good.
+        # Stop early if the power no longer changes (the base is one) or can no longer return to the range.
         if m == m_before and e == e_before:
             break
         if e > MAX_EXPONENT + 1 or e < MIN_EXPONENT - 1:
@@ -287,7 +287,7 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """A decimal arithmetic: the number of digits, the rules for the digits it cannot keep, and its source.
+    """A decimal arithmetic: its number of digits, its rules for truncation and rounding, and its source.
 
     ``types_errors`` is True if every error of the arithmetic types its code (emulator.errors.explanations).
     """
@@ -356,9 +356,9 @@ FAMILIES = tuple(f"{family}:P" for family in _FAMILIES)
 def profile(name: str) -> Profile:
     """Return the profile of a name: ``truncating``, ``ibm1962``, or a family with P from 2 to 28, as ``rounding:8``.
 
-    ``guarded:P`` is ``truncating:P``, except that a sum keeps the first of the digits that the smaller operand would
-    lose before the addition.  ``rounding:P`` gives the exact result of + - * / rounded half up in magnitude.  Raise
-    ArgumentError for any other name.
+    ``guarded:P`` differs from ``truncating:P`` in sums only: the smaller operand keeps one more digit during the
+    addition.  ``rounding:P`` gives the exact result of + - * / rounded half up in magnitude.  Raise ArgumentError for
+    any other name.
     """
     expect(name, str, "name")
     if name in PROFILES:

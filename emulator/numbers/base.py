@@ -212,7 +212,7 @@ def decimal_text(whole: int, power: int) -> str:
 def decimal_length(whole: int) -> int:
     """Return the number of decimal digits of an integer.  Unlike ``str`` it has no limit of some thousand digits."""
     size = abs(whole)
-    # Estimate from the bits (log10(2) = 0.30103), never too large, then correct upward.
+    # Estimate the length from the bits (log10(2) = 0.30103).  The estimate is never too large, so only increase it.
     length = max(int(size.bit_length() * 0.30102999566398120) - 1, 1)
     while size >= 10**length:
         length += 1

@@ -1,10 +1,10 @@
 """``float64`` and ``float32``: IEEE 754 numbers, rounded to nearest.
 
-A decimal is converted to the nearest number (for single precision, of the nearest double).  Overflow gives an infinity
-and an invalid operation gives NaN, each reported with the 1620's error code.  An IF cannot determine the sign of NaN.
-Output is the shortest decimal that reads back as the same number, truncated to the field, so .3 is punched as
-.30000000E+00 although the number held is slightly smaller.  Single precision is double precision rounded after every
-operation, which for + - * / and SQRT is the correctly rounded result.
+A decimal is converted to the nearest double.  For single precision, that double is then rounded to single precision.
+Overflow gives an infinity and an invalid operation gives NaN, each reported with the 1620's error code.  An IF cannot
+determine the sign of NaN.  Output is the shortest decimal that reads back as the same number, truncated to the field,
+so .3 is punched as .30000000E+00 although the number held is slightly smaller.  Single precision is double precision
+rounded after every operation, which for + - * / and SQRT is the correctly rounded result.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ class FloatNumbers(Numbers):
 
     def divide(self, dividend: float, divisor: float) -> float:
         if divisor == 0:
-            # Signed zeros: the sign of the infinity is that of the quotient, and 0/0 is NaN.
+            # Division by zero: the infinity has the sign of the quotient, in which zeros have signs, and 0/0 is NaN.
             negative = math.copysign(1, dividend) != math.copysign(1, divisor)
             quotient = math.nan if dividend == 0 or dividend != dividend else -_INFINITE if negative else _INFINITE
             raise Trap(accumulator.ZERO_DIVISOR, quotient)
@@ -179,6 +179,6 @@ class FloatNumbers(Numbers):
         """Return the shortest decimal that reads back as the same number."""
         if not self._single or value - value != 0:
             return repr(value)
-        # 17 digits always suffice, so the search ends.
+        # The search always ends, because 17 digits are enough.
         shorter = (float(f"{value:.{k}g}") for k in range(1, 18))
         return repr(next(number for number in shorter if _single(number) == value))

@@ -1,7 +1,8 @@
 """Conversion between numbers and card columns, on integers: the rules of emulator/numbers/fields.py.
 
 Columns are a mutable sequence of ASCII codes.  The functions use only integers and loops, so that numba can compile
-them and the interpreter and the compiled engine share one source.  emulator/numbers/fields.py words the statuses.
+them and the interpreter and the compiled engine share one source.  emulator/numbers/fields.py contains the message for
+each status.
 """
 
 from __future__ import annotations
@@ -13,7 +14,8 @@ from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, 
 # ASCII codes of the characters of a number. DIGIT is the code of 0.
 BLANK, PLUS, MINUS, POINT, DIGIT, LETTER_E = 32, 43, 45, 46, 48, 69
 
-# The status of a field that was read: below zero an error, above zero a warning.  CUT + n: n digits, some of them lost.
+# The status of a field that was read: below zero an error, above zero a warning.  CUT + n: the number has n digits, and
+# some of them were lost.
 NO_NUMBER, OUT_OF_RANGE = -1, -2
 FINE, BLANK_FIELD, BLANKS_INSIDE, BLANKS_AS_ZEROS, FOUR_KEPT, CUT = range(6)
 
@@ -186,8 +188,8 @@ def write_e(
 ) -> int:
     """Write an E field from column ``at`` on.  Return the column after it, or -1 if the field cannot hold the number.
 
-    The field holds sign, digits, point, digits, E, sign and two digits.  A field of fourteen or more columns shows
-    eight digits, a narrower one its width less six (C26-5619 p. 39).
+    The field holds sign, digits, point, digits, E, sign and two digits.  A field of at least fourteen columns shows
+    eight digits.  A narrower field of w columns shows w - 6 digits (C26-5619 p. 39).
     """
     count = 8 if width >= E_COLUMNS else width - 6
     if count < 1 or decimals > count:

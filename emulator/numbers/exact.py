@@ -20,12 +20,12 @@ Exact = Rational | RootSum
 
 
 class _SignedZero(int):
-    """Zero with a minus sign.  Every operation on it except a reversal of sign gives a plain number."""
+    """Zero with a minus sign.  Every operation on it except negation gives a plain number."""
 
 
 _MINUS = _SignedZero(0)
 
-# The longest number that may be stored, all parts together: repeated squaring would otherwise fill the memory.
+# The largest total length of a stored number, in bits.  Without this limit, repeated squaring would fill the memory.
 MAX_BITS = 100_000
 
 _TOO_LONG = f"exact arithmetic does not hold a number of more than {MAX_BITS} bits"
@@ -105,7 +105,7 @@ class ExactNumbers(Numbers):
             return work.fractions(a, b)
         if operation == "SQRT":
             return 5 + work.quotient(2 * a, 2 * a)
-        # A test needs the sign alone.  The integer part and a card need a division.
+        # A test needs only the sign.  The integer part and output to a card need a division.
         return 0 if operation == "sign" else 2 + 4 * work.product(a, a) + work.quotient(a, a)
 
     def to_integer(self, value: Exact) -> int:
@@ -166,7 +166,7 @@ class ExactNumbers(Numbers):
 
 
 def _too_long(base: Exact, count: int) -> bool:
-    """Return True if a power of a rational number is certainly too long: a part of n bits is at least 2**(n - 1)."""
+    """Return True if a power of a rational number is certainly too long.  A part of n bits is at least 2**(n - 1)."""
     return not isinstance(base, RootSum) and (_longest(base) - 1) * abs(count) > MAX_BITS
 
 
@@ -175,7 +175,7 @@ def _parts(value: Exact) -> tuple[tuple[int, Rational], ...]:
 
 
 def _length(value: Exact) -> int:
-    """Return the number of bits of all parts of a number."""
+    """Return the total number of bits of all parts of a number."""
     return sum(n.bit_length() + c.numerator.bit_length() + c.denominator.bit_length() for n, c in _parts(value))
 
 
@@ -188,7 +188,7 @@ def _root_steps(operation: str, first: Exact, second: Exact) -> int:
     """Return the steps of an operation with a sum of roots: every pair of terms, compared with every kind of root."""
     a, b, terms_first, terms_second = _longest(first), _longest(second), len(_parts(first)), len(_parts(second))
     radicands = [n.bit_length() for n, _ in (*_parts(first), *_parts(second))]
-    # Finding the kind of a term takes one integer square root per root that the sum already has.
+    # To find the kind of a term, one integer square root is computed for each root that the sum already contains.
     roots = 2 + work.quotient(2 * max(radicands), 2 * max(radicands))
     if operation in ("add", "subtract"):
         return (terms_first + terms_second) ** 2 * roots + terms_first * work.fractions(a, b)

@@ -43,7 +43,8 @@ _REMARKS = {
 class Remark:
     """A warning about a number that was read.  ``status`` is defined in emulator/numbers/columns.py.
 
-    For a number with too many digits, ``digits`` and ``digits_kept`` count them, or ``text`` is the integer as punched.
+    For a floating-point number with too many digits, ``digits`` is their number and ``digits_kept`` the number kept.
+    For an integer with too many digits, ``text`` is the integer as punched.
     """
 
     status: int

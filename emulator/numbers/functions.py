@@ -1,9 +1,9 @@
-"""Library functions and powers: the exact value, truncated to the profile's digits, or rounded if products are rounded.
+"""Library functions and powers.
 
-SIN, COS, ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  That the result is the exact value truncated
-was observed for SQRT by executing IBM's code, and is an assumption for the others (OPEN-QUESTIONS 9).  Error codes and
-results for invalid arguments follow GOTRAN's table F1 to F6 (C26-5594 p. 28), and IBM FORTRAN II-D for SQRT of a
-negative number.
+The result is the exact value, truncated to the profile's digits, or rounded if the profile rounds products.  SIN, COS,
+ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  Executing IBM's code showed that SQRT truncates the
+exact value.  For the other functions this is an assumption (OPEN-QUESTIONS 9).  Error codes and results for invalid
+arguments follow GOTRAN's table F1 to F6 (C26-5594 p. 28), and IBM FORTRAN II-D for SQRT of a negative number.
 """
 
 from __future__ import annotations
@@ -111,7 +111,8 @@ def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules) -> tupl
     """Return ``(size * 10**power_of_ten) ** count``, truncated or rounded to the digits of the rules."""
     whole, scale = size ** abs(count), power_of_ten * abs(count)
     if count < 0:
-        # A reciprocal may have endless digits.  P + 2 of them determine its first P + 1, which _cut needs.
+        # A reciprocal may have infinitely many digits.  Its first P + 2 digits determine the P + 1 digits that _cut
+        # needs.
         digits = decimal_length(whole) + rules.digits + 1
         whole, scale = 10**digits // whole, -scale - digits
     return _cut(whole, scale, rules)
@@ -161,8 +162,8 @@ def _context(digits: int) -> Any:
 def _cut_value(compute: Callable[[Any], Any], rules: Rules, more: int) -> Value:
     """Compute a value with increasing precision until its first P digits are certain (Ziv's strategy).
 
-    ``more`` is the number of digits that the computation itself loses.  A value that is still undecided after 200 extra
-    digits is taken as exactly a P-digit number.
+    ``more`` is the number of digits that the computation itself loses.  If 200 extra digits do not decide the rounding,
+    the value is assumed to equal a P-digit number exactly.
     """
     extra = 15
     while True:
@@ -186,12 +187,12 @@ def _digits(value: Any, context: Any) -> tuple[int, int]:
 
 
 def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | None:
-    """Return the value with P digits, or None if the next digits are all nines or all zeros and decide nothing."""
+    """Return the value with P digits, or None if only nines or only zeros follow, so that rounding is undecided."""
     if not value:
         return 0, ZERO
     number, power_of_ten = _digits(value, context)
     text = str(abs(number))
-    # The last six digits may be wrong, so they do not count.
+    # The last six digits may be wrong, so they are ignored.
     tail = text[rules.digits : -6]
     if tail.strip("0") == "" or tail.strip("9") == "":
         return None

@@ -1,7 +1,7 @@
 """``mp:BITS``: binary floating point with any number of bits, rounded to nearest, computed by mpmath.
 
-Binary exponents range from -100,000 to 100,000.  A number beyond overflows to an infinity or underflows to zero, with
-the 1620's error code.  Input and output are those of the other binary numbers (:mod:`.binary`).
+Binary exponents range from -100,000 to 100,000.  A number outside this range overflows to an infinity or underflows to
+zero, with the 1620's error code.  Input and output are those of the other binary numbers (:mod:`.binary`).
 """
 
 from __future__ import annotations
@@ -155,7 +155,8 @@ class MultiprecisionNumbers(Numbers):
             return least + (work.quotient(bits, bits) if second < 0 else 0)
         if operation in ("add", "subtract", "sign", "to_integer"):
             return 3 + bits // 5000
-        # Reducing an angle loses the digits before its point, and a card needs all digits of a large or small number.
+        # Reducing an angle loses as many digits as it has before its point.  Output to a card needs all digits of a
+        # large or small number.
         _, mantissa, exponent, size = first._mpf_
         reach = abs(int(exponent + size)) if mantissa else 0
         if operation == "card":

@@ -11,12 +11,12 @@ and if the shadow is at least twice as near to t as x is, |y - t| <= |x - y|, so
     |x - t| <= 2 |x - y|.
 
 :meth:`ShadowedNumbers.error` returns this bound.  The condition holds unless a computation has lost all b bits of x and
-64 more.  Nothing is assumed about how errors grow: what cancels in x cancels in y.  (Bounds that are carried from
-operand to result, as in N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., 2002, section 3.3, need
-no condition, but they double with each step of a loop that forgets its errors.)
+64 more.  No assumption about the growth of errors is needed: a cancellation in x also occurs in y.  (Bounds that are
+carried from operand to result, as in N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., 2002,
+section 3.3, need no condition, but they double with each step of a loop that forgets its errors.)
 
 A number computed without rounding from numbers that were not rounded, starting with cards and constants, has no shadow
-and the bound 0.  FIX gives an integer, which is compared as such.
+and the bound 0.  FIX gives an integer, which is compared as an integer.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from emulator.numbers.multiprecision import MultiprecisionNumbers
 
 # Bits of a shadow beyond twice those of its number.
 _CARE = 64
-# Steps of work that the test for rounding costs.
+# The cost of the test for rounding, in steps of work.
 _STEPS = 4
 # The longest number, in bits, that is tested. A longer one counts as rounded.
 _LONGEST = 4_096
@@ -126,7 +126,7 @@ class ShadowedNumbers(Numbers):
     def _done(
         self, name: str, first: Shadowed, second: Shadowed, exactly: Callable[[Fraction, Fraction], Fraction | None]
     ) -> Shadowed:
-        """Apply an operation of the inner system.  Compute a shadow if it rounded or an operand had been rounded."""
+        """Apply an operation of the inner system.  Compute a shadow if the result or an operand was rounded."""
         trap = None
         try:
             value = getattr(self.inner, name)(first.value, second.value)

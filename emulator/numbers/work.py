@@ -1,12 +1,13 @@
 """Estimates of the work of costly operations, from the sizes of their numbers.
 
 A run is limited by a number of statements.  Each statement counts 1, and so does each pass of an indexed list, each
-number and each line.  A statement on one card has at most STEPS - 1 operations.  An operation that takes longer counts
-as the number of statements that would take the same time: STEPS steps are one unit of work.  The estimate is made
-before the operation, in integers, so that a run ends at the same statement on every machine.
+number and each line.  A statement on one card has at most STEPS - 1 operations.  A longer operation counts as the
+number of statements that would take the same time.  STEPS steps are one unit of work.  The estimate is made before the
+operation, in integers, so that a run ends at the same statement on every machine.
 
 Times were measured in microseconds with CPython 3.11 on one core of an AMD EPYC.  A step is an operation of the
-eight-digit arithmetics, which takes 0.9 to 1.5, counted as 1.2.  A unit is 41, and 5,000,000 units are 205 seconds.
+eight-digit arithmetics.  It takes 0.9 to 1.5 microseconds and is counted as 1.2.  A unit of work takes 41 microseconds,
+and 5,000,000 units take 205 seconds.
 
 =====================  ====  ======  =======  ========  ======================================  ==========
 bits                    300   3,000   10,000   100,000  formula, in steps                       at 100,000
@@ -27,7 +28,7 @@ from math import isqrt
 
 # Steps in a unit of work.
 STEPS = 34
-# Steps of an error code: the interpreter is left and entered again.
+# The steps that an error code costs, because the interpreter returns and is called again.
 ERROR = 4
 _PRODUCT, _QUOTIENT, _SERIES, _DECIMAL = 8_000, 650_000, 12_000, 40_000
 
