@@ -19,6 +19,7 @@ KEYWORDS = frozenset(("v", "vn", "vt", "vp", "f", "l", "p", "o", "g", "s", "mtll
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
+    """Return the text of an OBJ file.  Raise ExportError if a coordinate cannot be written."""
     lines = [f"v {point}" for point in mesh.decimals(digits)]
     elements = {0: ["p 1"], 1: ["l 1 2"]}
     lines += elements.get(mesh.dimension) or [

@@ -24,6 +24,7 @@ def minus(p: tuple[N, N, N], q: tuple[N, N, N]) -> tuple[N, N, N]:
 
 
 def cross(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
+    """Return the vector product of u and v."""
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 

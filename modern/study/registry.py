@@ -15,7 +15,11 @@ from modern.study.store import Store
 
 
 class Study(Protocol):
-    """The interface of a module of :mod:`modern.study.builtin`: title, default samples, plan and report."""
+    """The interface of a module of :mod:`modern.study.builtin`.
+
+    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the module says what they count.  plan:
+    makes the plan with the given number of samples.  report: makes the report from the finished rows.
+    """
 
     TITLE: str
     SAMPLES: int
@@ -42,6 +46,7 @@ def names() -> tuple[str, ...]:
 
 
 def study(name: str) -> Study:
+    """Return the built-in study of that name.  Raise KeyError if it is unknown."""
     if name not in names():
         raise KeyError(name)
     module: Study = import_module(f"{builtin.__name__}.{name.replace('-', '_')}")
@@ -49,6 +54,7 @@ def study(name: str) -> Study:
 
 
 def entries() -> Iterator[Entry]:
+    """Yield the entries of all built-in studies."""
     for name in names():
         module = study(name)
         plan = module.plan(module.SAMPLES, SEED)
