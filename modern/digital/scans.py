@@ -120,8 +120,8 @@ def label_notes(scan: Scan) -> tuple[str, ...]:
         distinct = np.unique(np.concatenate([distinct, fractional]))
     if not count:
         return ()
-    counts = f"{count} voxel(s) with {len(distinct)} value(s)"
-    return (f"{scan.source}: {counts} that are not integers, such as {distinct[0]:.6g}, have no label",)
+    values = f"distinct values: {len(distinct)}, such as {distinct[0]:.6g}"
+    return (f"{scan.source}: voxels left out because their values are not integers: {count} ({values})",)
 
 
 def label_boxes(scan: Scan, labels: Sequence[int] = ()) -> dict[int, tuple[slice, ...]]:

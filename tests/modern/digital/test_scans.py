@@ -144,7 +144,7 @@ def test_read_volume_selects_by_threshold_and_by_label(tmp_path: Any) -> None:
 
 def test_voxels_whose_values_are_not_integers_are_counted_in_a_note() -> None:
     scan = Scan(np.array([[0, 1, 1.25], [2.25, 1.25, np.inf]]), (0, 0), "scan")
-    note = "scan: 4 voxel(s) with 3 value(s) that are not integers, such as 1.25, have no label"
+    note = "scan: voxels left out because their values are not integers: 4 (distinct values: 3, such as 1.25)"
     assert label_notes(scan) == (note,)
     assert chosen(scan, Choice(labels=(1,))).volume.notes == (note,)
     assert chosen(scan).volume.notes == ()
