@@ -74,7 +74,7 @@ class Source:
 
 
 def is_comment(card: Card) -> bool:
-    """Return True for a blank card, and for a card with C in column 1 whose text does not have the form of a statement.
+    """Return True for a card without a statement, and for one with C in column 1 that lacks the form of a statement.
 
     The manual (p. 12) requires two blanks after the C.  IBM's FORTRAN II-D and PDQ FORTRAN also accept ``C-----`` and
     ``C TEXT`` (executed).  See :func:`may_be_comment` for a card that has a statement form but does not parse.

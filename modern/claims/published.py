@@ -116,7 +116,7 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
     results: list[PublishedResult] = []
     free = [line.id for line in corrected]
     for entry in data["result"]:
-        # Every line of the print belongs to one result; lines are taken in the order of results.toml.
+        # Every line of the print belongs to one result.  The lines are assigned in the order of results.toml.
         first, last = str(entry["lines"][0]), str(entry["lines"][-1])
         if first not in free or last not in free:
             raise ApparatusError(
@@ -144,7 +144,7 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
 
 
 def judge(paper: Paper, result: PublishedResult, produced: Sequence[str]) -> Finding:
-    """Compare produced lines with the corrected print; a result must differ if the data say that it does."""
+    """Compare produced lines with the corrected print.  If the data say that the result differs, it must differ."""
     same = [line.split() for line in produced] == [line.split() for line in result.corrected]
     kind: Kind
     if result.cannot:

@@ -1,9 +1,9 @@
 """The register of statements of the five documents, and the computation of their verdicts.
 
 ``transcripts/statements`` holds one file for each document and one row for each statement.  A row records a verdict and
-names the evidence from which :func:`judge` computes it again: a *claim* is a function of this package, a *result* is a
-published result that ``reproduce`` judges as well, and a *test* replaces them if the check takes too long.  A statement
-that cannot be tested has a reason instead.
+names the evidence from which :func:`judge` computes it again: a *claim* is a function of this package, and a *result*
+is a published result that ``reproduce`` judges too.  If the check takes too long, the row names a *test* instead.  If a
+statement cannot be tested, the row gives the reason.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ class Judged:
 
     @property
     def agrees(self) -> bool:
-        """Return True if the computed verdict, if any, is the recorded one."""
+        """Return True if the computed verdict equals the recorded one, or if no verdict was computed."""
         return self.computed in (None, self.statement.verdict)
 
 
@@ -162,7 +162,7 @@ def _as_tuple(value: str | Iterable[str]) -> tuple[str, ...]:
 
 
 def judge(statement: Statement, results: Results) -> Judged:
-    """Compute the verdict of a row from its evidence; the worst verdict counts.
+    """Compute the verdict of a row from its evidence.  If there are several verdicts, the worst is used.
 
     Raise StatementError if the row names a claim or result that does not exist.
     """
@@ -211,7 +211,7 @@ _VERDICT_OF_FINDING: Mapping[str, Verdict] = {
 
 
 class Judgements:
-    """The verdicts on results: those given at the start, and others computed at their first use."""
+    """The verdicts on published results.  Some are given at the start; the others are computed at their first use."""
 
     def __init__(self, reports: Iterable[Report] = ()) -> None:
         self.known: dict[tuple[str, str], Verdict] = {}

@@ -20,8 +20,8 @@ Plane = tuple[int, int, int, int]
 # The number of sets of each dimension that ``reproduce`` samples; the tests sample more.
 COUNT = "2"
 _COORDINATE_LIMIT, _FEWEST_POINTS, _MOST_POINTS = 5, 7, 11
-# The first two sets of each dimension contain the cases that claims are about: points inside the hull, a point on its
-# boundary and, in space, a face with four corners.
+# The first two sets of each dimension contain the special cases that the claims need: points inside the hull, a point
+# on its boundary and, in space, a face with four corners.
 _SEEDS = {2: 1965, 3: 313}
 
 
@@ -36,7 +36,7 @@ class Approximation:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SampledSet:
-    """Distinct points, the exact hull by the procedure of chapter 3, and the judge's hull."""
+    """Distinct points, their exact hull by the procedure of chapter 3, and the hull that ``exact_hull`` computes."""
 
     points: tuple[Point, ...]
     hull: Hull
@@ -110,7 +110,7 @@ def sampled_sets(dimension: int, count: int) -> tuple[SampledSet, ...]:
             distinct[(x, y, z) if dimension == 3 else (x, y, x - 2 * y + 3)] = None
         points = tuple(distinct)
         judge = exact_hull(points)
-        # A few draws have another dimension, for example coplanar points in space.
+        # Skip the few samples that have another dimension, for example coplanar points in space.
         if judge.dimension == dimension:
             sets.append(SampledSet(points, convex_hull(points, history=True), judge))
     return tuple(sets)

@@ -1,9 +1,9 @@
-"""Apply the apparatus of a text: a text is its witness plus the rows of its apparatus.
+"""Build a text by applying the rows of its apparatus to its witness.
 
-A *witness* is the OCR text of a printed page, kept verbatim.  Lines beginning with ``## `` are page marks of the
-editor and not part of the witness.  A *row* is one emendation: its place, the reading of the witness, the accepted
-reading (the lemma), the reason and the evidence.  :func:`build` applies the rows of chosen layers.  Each line of the
-result records which witness line or which row it comes from.
+A *witness* is the OCR text of a printed page, kept verbatim.  Lines beginning with ``## `` are page marks that the
+editor added.  They are not part of the witness.  A *row* is one emendation: its place, the reading of the witness, the
+accepted reading (the lemma), the reason and the evidence.  :func:`build` applies the rows of chosen layers.  Each line
+of the result records which witness line or which row it comes from.
 
 ``fortran_src/README.md`` describes the file format.  This module knows nothing about FORTRAN or hulls.
 """
@@ -31,7 +31,7 @@ _SNAPSHOT_EVERY = 16
 # Kinds that insert text that the witness does not have.
 _ADDS = ("lost", "lost-sign", "slip")
 _CAUSES = ("ocr", "typist", "author", "editor", "undecidable")
-# The default cause of a row by its layer. For the other layers the cause is the editor.
+# The default cause of the rows of a layer.  For layers not listed here it is the editor.
 _CAUSE = {"ocr": "ocr", "typist": "typist", "author": "author", "print": "undecidable", "lacuna": "undecidable"}
 _FIELDS = ("id", "layer", "kind", "reason", "evidence", "change")
 _OPTIONAL = ("ground", "cause", "editor", "date", "rdg")
@@ -46,12 +46,13 @@ class ApparatusError(EmulatorError, ValueError):
 class Change:
     """One change of a row.
 
-    ``line`` is the id of a line: a witness line number ("17") or an inserted card ("P1-031.2").  ``witness`` is a
-    fragment that occurs there exactly once, and ``lemma`` replaces it.  A lemma with line ends makes several lines.
-    A line that becomes empty is removed from the text.  With ``after``, the lines of the lemma are inserted after the
-    line instead.  With ``through``, every line from ``line`` to ``through`` is removed.  With ``form``, those lines are
-    kept and set out as on the coding form: the number in columns 1 to 5 and the statement from column 7, or from
-    column 1 if it would pass column 72.  With ``dense``, the blanks of the line are removed.
+    ``line`` is the id of a line: a witness line number ("17") or an inserted card ("P1-031.2").  ``lemma`` replaces the
+    fragment ``witness``, which must occur exactly once in the line.  A lemma that contains line ends produces several
+    lines.  A line that becomes empty is removed from the text.  With ``after``, the lines of the lemma are inserted
+    after the line instead.  With ``through``, every line from ``line`` to ``through`` is removed.  With ``form``, those
+    lines are kept but arranged as on the coding form.  The number is placed in columns 1 to 5.  The statement begins in
+    column 7, or in column 1 if it would otherwise extend beyond column 72.  With ``dense``, the blanks of the line are
+    removed.
     """
 
     line: str
@@ -110,12 +111,12 @@ class Row:
 
     @property
     def witness(self) -> str:
-        """The reading of the witness for a table: fragments joined with vertical bars."""
+        """The reading of the witness as shown in a table: the fragments, joined with vertical bars."""
         return " | ".join(_shown(change.witness) or _scope(change) for change in self.changes)
 
     @property
     def lemma(self) -> str:
-        """The accepted reading for a table."""
+        """The accepted reading as shown in a table."""
         return " | ".join(_shown(change.lemma) or _effect(change) for change in self.changes)
 
 
@@ -137,7 +138,8 @@ class Text:
     rows: tuple[Row, ...]
     layers: tuple[str, ...]
     default: tuple[str, ...]
-    # A cache by layers: their rows in order, and snapshots of the page before some rows, which builds share.
+    # A cache, by layers, of their rows in order and of snapshots of the page before some rows.  Builds share the
+    # snapshots.
     pages: dict[tuple[str, ...], tuple[tuple[Row, ...], dict[int, _Page]]] = field(
         default_factory=dict, init=False, compare=False, repr=False
     )
@@ -152,7 +154,8 @@ class Text:
 def read_witness(source: str, furniture: Collection[str] = ()) -> tuple[Line, ...]:
     """Return the lines of a witness, numbered from 1 without the page marks.
 
-    Blank lines and ``furniture`` (lines that belong to no text, such as code fences) are counted but left out.
+    Blank lines and ``furniture`` are counted but not returned.  Furniture is lines that belong to no text, such as code
+    fences.
     """
     lines: list[Line] = []
     page, number = "", 0
@@ -193,9 +196,9 @@ def build(
 ) -> tuple[Line, ...]:
     """Return the lines of the witness after the rows of ``layers`` (by default, the text's default layers).
 
-    The rows ``without`` are left out, and ``instead`` replaces the row with the same id.  Layers always apply in the
-    text's order.  Raises ApparatusError for an unknown layer, and RowMisfit if the witness fragment of a row does not
-    occur exactly once in its line.
+    The rows whose ids are in ``without`` are not applied.  ``instead`` is a row that replaces the row with the same id.
+    Layers always apply in the text's order.  Raises ApparatusError for an unknown layer, and RowMisfit if the witness
+    fragment of a row does not occur exactly once in its line.
     """
     chosen = set(text.default if layers is None else layers)
     unknown = chosen.difference(text.layers)
@@ -221,7 +224,7 @@ def build(
 
 
 def built_without(text: Text, row_id: str) -> tuple[frozenset[str], tuple[Line, ...]]:
-    """Return a row with the rows that depend on it, and the text of all layers without them.
+    """Return the ids of a row and of the rows that depend on it, and the text of all layers without these rows.
 
     A row depends on another if it changes a card that the other inserts, or a fragment that the other supplies.
     """
@@ -236,7 +239,7 @@ def built_without(text: Text, row_id: str) -> tuple[frozenset[str], tuple[Line, 
 
 
 class RowMisfit(ApparatusError):
-    """The fragment of a row does not occur at the place that the row names."""
+    """Raised if the fragment of a row does not occur at the place that the row names."""
 
     def __init__(self, row_id: str, message: str) -> None:
         super().__init__(f"row {row_id}: {message}")
@@ -284,7 +287,10 @@ class _Page:
         self._at[line.id] = Line(line.id, text, line.page, (*line.rows, row.id))
 
     def _insert(self, row: Row, behind: Line, texts: Sequence[str], inserted: int) -> int:
-        """Insert lines after another one.  Their ids continue the numbering of the row; return its last number."""
+        """Insert lines after the line ``behind``.  Their ids continue the numbering of the row.
+
+        Return the last number used.
+        """
         if texts:
             new = [f"{row.id}.{inserted + k}" for k in range(1, len(texts) + 1)]
             at = self._order.index(behind.id) + 1

@@ -1,7 +1,7 @@
 """The worked examples of chapter 4 (theorems 4.1, 4.2 with Table 1, and 4.8) as exact data.
 
-Each point and plane names its line of the corrected print (witness and apparatus of ``transcripts/chapter4``) and the
-words there.  :func:`theorem_faults` parses those words and compares.
+Each point and plane names a line of the corrected print (witness and apparatus of ``transcripts/chapter4``) and quotes
+its words.  :func:`theorem_faults` parses these words and compares the result with the data.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ class Theorem:
     """A worked example.
 
     ``extremes`` maps lx, sx, ly, sy, lz and sz (the points with largest and smallest x, y and z) to point names;
-    ``signs`` holds (plane, point, sign).  ``lost`` names points that the OCR lost and that the text does not
-    determine; they have no coordinates.
+    ``signs`` holds (plane, point, sign).  ``lost`` names the points that the OCR lost and the text does not determine.
+    They have no coordinates.
     """
 
     id: str
@@ -131,7 +131,7 @@ def printed_plane(equation: str) -> Vector:
 
 
 def theorem_faults(theorem: Theorem, text: Text, lines: Sequence[Line] | None = None) -> tuple[str, ...]:
-    """Return differences of a theorem's data from the lines of the print, and claims that exact arithmetic refutes."""
+    """Return the differences between a theorem's data and the print, and the claims that exact arithmetic refutes."""
     faults: list[str] = []
     at = {line.id: "".join(line.text.split()) for line in (build(text) if lines is None else lines)}
     name = f"theorem {theorem.id}"
@@ -181,7 +181,7 @@ def _named(point: Point, printed_line: str) -> bool:
 
 
 def _extreme_faults(theorem: Theorem, label: str, name: str) -> list[str]:
-    """Check that no point, except lost ones, is more extreme than the named one."""
+    """Check that no point is more extreme than the named one.  Lost points are ignored."""
     axis, point = "xyz".index(label[1]), theorem.point(name)
     if point is None:
         return [] if name in theorem.lost else [f"theorem {theorem.id}: {name} does not exist"]

@@ -23,7 +23,8 @@ Output = Literal["punch", "typewriter"]
 # The kind of a device file: the input deck, the punched cards or the typed lines.
 Device = Literal["deck", "punch", "typewriter"]
 
-# The layer of a device file: only its blanks come from the layout, or the text states it and does not print it.
+# The layer of a device file: ``layout`` if only its blanks come from the layout, ``stated`` if the thesis states its
+# text but does not print it.
 Origin = Literal["layout", "stated"]
 
 # The contents of a card; empty for headings and blank cards.
@@ -149,7 +150,7 @@ def _device(raw: Mapping[str, Any], shapes: Mapping[str, CardShape]) -> DeviceLa
 
 @dataclass(frozen=True, slots=True)
 class Print:
-    """The output of one device in one example as the thesis prints it, or for a typewriter states it, line by line."""
+    """The lines that one device writes in one example.  The thesis prints them, or, for a typewriter, states them."""
 
     example: int
     program: int

@@ -1,8 +1,8 @@
 """The printed examples of chapter 6 as card images, with the printed line of every character.
 
 A device file is the corrected print (witness and apparatus, :mod:`modern.edition.apparatus`) set into the columns of
-``layout.toml``.  The print gives every nonblank character and their order; the layout gives the rest.  No run of a
-program is an input.
+``layout.toml``.  The print supplies all nonblank characters and their order.  The layout supplies the columns and blank
+cards.  No output of a program is used.
 """
 
 from __future__ import annotations
@@ -38,7 +38,10 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """A card of a device file, or a typed line, which has no tokens.  ``number`` includes blank cards, from 1."""
+    """A card of a device file, or a typed line, which has no tokens.
+
+    ``number`` counts all cards, blank ones too, from 1.
+    """
 
     example: int
     program: int
@@ -63,7 +66,7 @@ class Chapter:
     places: Mapping[str, int] = field(default_factory=dict, compare=False)
     # A cache of cards by device file and lines, shared by a chapter and its variants.
     read: dict[tuple[str, ...], tuple[Card, ...]] = field(default_factory=dict, compare=False)
-    # A cache of the latest variant without a row, because several checks of a row use it.
+    # A cache of the last chapter built without a row, because several checks of the row use it.
     last: dict[str, Chapter] = field(default_factory=dict, compare=False)
 
 
@@ -85,7 +88,7 @@ def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, wit
 
 
 def without_row(chapter: Chapter, row_id: str) -> Chapter:
-    """Return the chapter without a row and the rows that depend on it, with all layers."""
+    """Return the chapter with all layers, but without a row and the rows that depend on it."""
     if row_id not in chapter.last:
         gone, lines = built_without(chapter.text, row_id)
         chapter.last.clear()

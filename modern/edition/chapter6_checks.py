@@ -37,7 +37,10 @@ def check_chapter(chapter: Chapter, folder: Traversable | None = None) -> tuple[
 
 
 def check_tie(chapter: Chapter) -> tuple[str, ...]:
-    """Check that cards and print have the same characters, and that each printed line is a card or a heading."""
+    """Check that cards and print have the same characters.
+
+    Also check that each printed line is a card or a heading.
+    """
     faults: list[str] = []
     used: list[str] = list(chapter.layout.headings)
     for entry in chapter.layout.devices:
@@ -109,7 +112,7 @@ def records(text: str, values: int) -> tuple[tuple[tuple[Field, str], ...], ...]
         elif remaining:
             card_fields[-1].append((Field(column, column + item.width - 1, False), ""))
             column, remaining = column + item.width, remaining - 1
-        else:  # The list is exhausted: the literals before the next numeric field were punched, the rest is not.
+        else:  # The list is exhausted: the literals before the next numeric field are punched, and the rest is not.
             break
     if remaining:
         raise Refused(Place(1, len(text)), f"the FORMAT has no field for {remaining} of {values} numbers")
@@ -137,7 +140,7 @@ def _whole_formats(entry: DeviceLayout, sizes: dict[tuple[int, int, int], int]) 
 
 
 def check_arithmetic(chapter: Chapter) -> tuple[str, ...]:
-    """Check that the parts of an example have the same points and N, and that its planes support the hull."""
+    """Check that all decks of an example have the same points and N, and that its planes support the hull."""
     faults: list[str] = []
     for example in sorted({d.example for d in chapter.layout.devices}):
         deck = sorted(numbers(card) for card in of_role(chapter, example, 1, "point", "deck"))

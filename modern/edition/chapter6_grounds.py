@@ -5,7 +5,7 @@ out.  This detects both superfluous and wrong rows.  Grounds use the print alone
 
 The kinds of ground (table ``ground`` of a row; ``also`` may hold a second ground, which must hold too):
 
-``width``       without the row, its lines contain something that is not a number of the field; with it, they do not
+``width``       without the row, its lines contain text that is not a number of the field; with it, they do not
 ``deck``        the numbers of ``example, program, device, card`` (or only number ``field``) occur in the row's line
 ``arithmetic``  ``check = "plane"``: equation n vanishes at its printed vertices, which are the named ones;
                 ``"carrier"``: the plane of example 4 vanishes at all points; ``"centre"``: the centre is the mean of
@@ -123,7 +123,7 @@ def _count(chapter: Chapter, row: Row, value: Decimal) -> int:
 
 
 def vertices(chapter: Chapter, example: int, program: int) -> tuple[tuple[Decimal, ...], ...]:
-    """Return the points to which the planes of an output refer: vertices, endpoints, or the first four points."""
+    """Return the points to which the planes of an output refer: its vertices or endpoints, or the first four points."""
     roles: tuple[Role, ...] = ("vertex", "endpoint", "point")
     for role in roles:
         if point_cards := of_role(chapter, example, program, role):
@@ -209,7 +209,7 @@ def _order(chapter: Chapter, row: Row, ground: Ground) -> bool:
 
 
 def _by_columns(chapter: Chapter, row: Row, ids: Sequence[str]) -> bool:
-    """Return True if the row alone sorts the pieces of the witness by their columns, and they were not sorted."""
+    """Return True if the pieces of the witness are not in the order of their columns and the row alone sorts them."""
     witness = [line for line in chapter.text.witness if line.id in ids]
     ordered = sorted(witness, key=lambda line: len(line.text) - len(line.text.lstrip()))
     others = frozenset(r.id for r in chapter.text.rows) - {row.id}

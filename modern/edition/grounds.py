@@ -8,10 +8,11 @@ The ground of a row names the evidence, and :func:`check_row` removes the row an
 ``forced``    with the row, the card equals a similar card with the names exchanged; without it, it does not
 ``cosmetic``  the object code is the same with and without the row
 
-If a row consists of several steps (:mod:`modern.edition.readings`), the ground must fail without each single step.
+If a row consists of several steps (:mod:`modern.edition.readings`), each step is also removed alone, and the ground
+must fail each time.
 
-A row of an optional layer is judged with its whole layer switched on in all three programs, and with the layers that
-its ground names.  All rows of the layer are compared with all rows except this one.
+To judge a row of an optional layer, its layer and the layers that its ground names are added to all three programs.
+The result with all rows of the layer is compared with the result without this row.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from modern.thesis.job import run_hull
 LISTED = Options(limit=200_000)
 # The tables and cards of the optional layers need 60,000 digits of memory.
 LAYERED = Options(limit=1_000_000, core=60_000)
-# A job without a row counts as different once it takes this many times the statements of the job with the row.
+# A job without a row counts as different if it executes this many times the statements of the job with the row.
 LIMIT_FACTOR = 4
 
 
@@ -68,7 +69,7 @@ def check_decks() -> Iterator[Proof]:
 
 def _compiles(name: str, built: Deck, same: bool) -> bool:
     try:
-        # All rows are judged by the committed deck, so its compiled program is shared.
+        # Every row is compared with the committed deck, so the compiled program of that deck is shared.
         return bool(programs.program(name) if same else compile_deck(built))
     except CompileError:
         return False
@@ -196,8 +197,8 @@ def _deck(row: Row, step: Step | None) -> tuple[bool, str]:
     if program is None:
         return False, f"without it the deck does not compile: {message}"
     if whole.storage != program.storage and len(whole.code) == len(program.code):
-        # The row only changes the size of an array.  The cards may be the same without it, but the run then leaves the
-        # array, which is enough to show that the row is needed.
+        # The row changes only the size of an array.  Without it the cards may be the same, but a subscript exceeds the
+        # smaller array.  This shows that the row is needed.
         ending = _outcome(_name(row), layers_for(row), program, data).ending
         if isinstance(ending, Ending) and ending.kind == "bounds" and _has_room(whole, ending):
             return True, f"deck {deck_name} needs the larger array; without it: {ending.message}"
@@ -210,7 +211,7 @@ def _deck(row: Row, step: Step | None) -> tuple[bool, str]:
 
 
 def _has_room(program: Program, ending: Ending) -> bool:
-    """Return True if the element at which a run stopped exists in the program's array."""
+    """Return True if the array element at which another run stopped exists in this program."""
     shape = next(entry.shape for entry in program.storage.entries if entry.name == ending.name)
     return all(1 <= n <= size for n, size in zip(ending.subscripts, shape, strict=True))
 
@@ -238,7 +239,10 @@ class _Outcome:
         return self.ending.message if isinstance(self.ending, Ending) else str(self.ending)
 
     def same_as(self, other: _Outcome) -> bool:
-        """Return True for equal output and the same kind of ending; a removed row changes card numbers."""
+        """Return True if the output and the kind of ending are equal.
+
+        Messages may differ, because they contain card numbers.
+        """
         return self.lines == other.lines and _reason(self.ending) == _reason(other.ending)
 
 
@@ -250,7 +254,7 @@ def _reason(ending: Ending | EmulatorError) -> tuple[object, ...]:
 
 @cache
 def _with_row(name: str, layers: tuple[str, ...], deck_name: str) -> _Outcome:
-    """Return the outcome of a deck with all rows; cached, because one deck judges many rows."""
+    """Return the outcome of a deck with all rows.  It is cached, because one deck is used to judge many rows."""
     data = ground_deck(deck_name)
     assert data is not None
     return _outcome(name, layers, programs.with_layers(name, layers), data)
@@ -288,7 +292,7 @@ def _forced(row: Row, step: Step | None) -> tuple[bool, str]:
 
 
 def _card(deck: Deck, place: str) -> str:
-    """Return the statement at LABEL or LABEL+n without blanks and number."""
+    """Return the statement at the place LABEL or LABEL+n, without its blanks and its number."""
     label, _, steps = place.partition("+")
     statements = list(sources(deck))
     at = next(i for i, s in enumerate(statements) if s.label == label)

@@ -1,7 +1,7 @@
 """Rules for the readings of the layer ``ocr``: each kind of row may change the witness only in certain ways.
 
-The lemma of a row is made from the witness by *steps*.  Each step replaces the characters that the OCR gives by those
-that are read, such as ``l`` by ``1``.  The pairs that may be exchanged are listed in
+The lemma of a row is made from the witness by *steps*.  Each step replaces characters of the OCR text by the correct
+ones, for example ``l`` by ``1``.  The pairs that may be exchanged are listed in
 ``fortran_src/apparatus/confusables.toml``.  :func:`steps` finds the steps of a row.  The kinds:
 
 ``displaced``   the words of the witness in another order
@@ -46,7 +46,7 @@ RULED = (*CLASSES, *KEEPS, "displaced", "lost", "doubled", "overlaid")
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Characters of the witness and those read instead, with the class and evidence other than our rows."""
+    """Characters of the witness and those that replace them, with their class and any evidence besides our rows."""
 
     witness: str
     lemma: str
@@ -56,7 +56,10 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A pair of a change, and its start in the witness (``at``) and the lemma (``to``), counted without blanks."""
+    """A replacement by a pair.
+
+    It starts at index ``at`` of the witness and ``to`` of the lemma; blanks are not counted.
+    """
 
     change: int
     at: int
@@ -94,8 +97,8 @@ def steps(row: Row) -> tuple[Step, ...] | None:
 def _way(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> list[tuple[int, int, Pair]] | None:
     """Return the pairs of a cheapest alignment of both texts: equal characters cost nothing, a pair costs one.
 
-    This is the dynamic programme of an edit distance, over (position in the witness, position in the lemma).  The state
-    that a cell was reached from is kept, so that the pairs can be read back from the end.
+    This is the dynamic programme of an edit distance, over (position in the witness, position in the lemma).  Each cell
+    stores the cell from which it was reached, so that the pairs can be traced back from the end.
     """
     best: dict[tuple[int, int], tuple[int, tuple[int, int] | None, Pair | None]] = {(0, 0): (0, None, None)}
     for i in range(len(witness) + 1):
@@ -162,7 +165,7 @@ def attested(rows: Iterable[Row]) -> Counter[tuple[str, str]]:
 
 
 def reading_faults(row: Row, places: Mapping[tuple[str, str], int]) -> Iterator[str]:
-    """Yield the ways in which a row breaks the rule of its kind; ``places`` comes from :func:`attested`."""
+    """Yield a message for each violation of the rule of a row's kind.  ``places`` is the result of :func:`attested`."""
     if row.layer != "ocr":
         return
     if row.kind not in RULED:

@@ -1,9 +1,9 @@
 """Run the examples of chapter 6 and give a verdict on every printed result.
 
-Each example runs twice: with program 1 in the state that produced the examples, which was reconstructed from them, and
-as chapter 5 lists it, which chooses its first points differently.  Programs 2 and 3 then read the punched cards.  The
-print proves numbers, signs, order and words.  It does not prove blank cards and columns, which the OCR lost and the
-FORMATs supply; a verdict distinguishes the two.
+Each example runs twice, with two states of program 1.  One state produced the examples and was reconstructed from them.
+The other is the listing of chapter 5, which chooses its first points differently.  Programs 2 and 3 then read the
+punched cards.  The print proves numbers, signs, order and words.  It does not prove blank cards and columns, which the
+OCR lost and the FORMATs supply; a verdict distinguishes the two.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ ORDER: Final = "exact in another order"
 DIFFERENT: Final = "different"
 Kind = Literal["exact", "exact except for spacing", "exact in another order", "different"]
 
-# The parts that can agree in another order: the points of an intermediate deck, or the parts of a hull.
+# The parts of an output that may be the same but in another order: the points of an intermediate deck, or the parts of
+# a hull.
 Part = Literal["points", "inside", "boundary", "vertices", "equations"]
 
 _NUMBER = re.compile(r"[+-]?\.\d+E[+-]\d\d|(?<![A-Z0-9.])\d+")
@@ -41,10 +42,10 @@ _NUMBER = re.compile(r"[+-]?\.\d+E[+-]\d\d|(?<![A-Z0-9.])\d+")
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """A verdict on the output of one device, with the numbers of printed numbers, words and cards, and of blank cards.
+    """A verdict on the output of one device, with counts of printed numbers, words and cards, and of blank cards.
 
-    ``differences`` are (card, printed, produced), with an empty string for a missing card.  ``same`` counts the parts
-    that agree in another order.
+    ``differences`` are (card, printed, produced), with an empty string for a missing card.  ``same`` gives the number
+    of elements of each part that agrees in another order.  It is empty for any other verdict.
     """
 
     kind: Kind
@@ -154,7 +155,7 @@ def compare(printed: Sequence[str], produced: Sequence[str], final: bool, orient
 
 
 def _agreement(printed: Sequence[str], final: bool) -> tuple[tuple[Part, int], ...]:
-    """Count the parts that two results in different order have in common."""
+    """Return the parts of a result, such as its vertices, with the number of elements of each."""
     if not final:
         middle = read_intermediate(printed)
         return (("points", len(middle.points)),) if middle else ()

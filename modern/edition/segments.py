@@ -1,8 +1,8 @@
 """A text with both readings of every emendation, for TEI's parallel segmentation (TEI P5 Guidelines, 12.2.3).
 
-:func:`modern.edition.apparatus.build` applies rows and returns only the result.  Here the same rows make *places*:
-pieces of a line with an old and a new reading and their row.  Places nest, because a row of a later layer may change
-the result of an earlier one.  :func:`reading` extracts any state of the text from this tree.
+:func:`modern.edition.apparatus.build` applies rows and returns only the result.  Here the same rows produce *places*.
+A place is a piece of a line with its old reading, its new reading and the row.  Places nest, because a row of a later
+layer may change the result of an earlier one.  :func:`reading` extracts any state of the text from this tree.
 """
 
 from __future__ import annotations
@@ -100,8 +100,8 @@ class _SegmentedText:
         last = first + len(change.witness)
         lemma, *rest = change.lemma.split("\n")
         if row.layer not in self._default:
-            # Optional layers can be combined, and two of them may change the same statement.  So a place of such a
-            # layer holds only the characters that differ.
+            # Optional layers can be combined, and two of them may change the same statement.  A place of such a layer
+            # therefore holds only the characters that differ.
             first, lemma = _trimmed(change.witness, first, lemma)
             if not rest:
                 tail = _common_prefix(text[first:last][::-1], lemma[::-1])
@@ -164,12 +164,13 @@ def _changed(
         elif start >= last:
             behind.append(piece)
         elif isinstance(piece, str):
-            # Plain text is cut at the ends of the fragment.
+            # Plain text is split at both ends of the fragment.
             before += _pieces(text[: max(first - start, 0)])
             within += _pieces(text[max(first - start, 0) : last - start])
             behind += _pieces(text[last - start :]) if last < end else ()
         else:
-            # A place that the fragment only overlaps cannot be cut: it goes whole into the old reading.
+            # A place that the fragment overlaps only in part cannot be split, so the whole place becomes part of the
+            # old reading.
             text_before += text[: max(first - start, 0)]
             text_after += text[last - start :] if last < end else ""
             within.append(piece)

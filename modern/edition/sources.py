@@ -1,8 +1,9 @@
-"""The documents, the excerpts of them that are witnesses, and the line of a document from which a line comes.
+"""The documents, the excerpts that serve as witnesses, and the line of a document from which each witness line comes.
 
-The data are ``fortran_src/SOURCES.toml``.  The project works from the OCR text of each document.  It does not contain
-that text, but stated excerpts of it, the witnesses, each with a hash.  :func:`check_files` verifies the hashes.
-:func:`check_against` compares the excerpts with the whole text of a document if a user has it.
+The data are ``fortran_src/SOURCES.toml``.  The project works from the OCR text of each document.  It contains only
+excerpts of that text.  These are the witnesses.  Each excerpt is recorded with its lines and a hash.
+:func:`check_files` verifies the hashes.  :func:`check_against` compares the excerpts with the whole text of a document
+if a user has it.
 """
 
 from __future__ import annotations
@@ -43,7 +44,10 @@ class Document:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Lines of a witness, or only words of them (``part``), which begin at line ``at`` of the document."""
+    """Consecutive lines of a witness, which begin at line ``at`` of the document.
+
+    With ``part``, they hold only some words of the document's lines.
+    """
 
     first: int
     last: int
@@ -172,7 +176,7 @@ def _same(lines: list[str], whole: list[str], stretch: Stretch, number: int) -> 
     witness_line, document_line = lines[number - 1], whole[stretch.at + number - stretch.first - 1]
     if not stretch.part:
         return witness_line == document_line
-    # The witness may leave words out, but not change their order: each word is looked up in the rest of the line.
+    # The witness may omit words but not change their order, so each word is searched for in the rest of the line.
     rest = iter(document_line.split())
     return witness_line.strip() in document_line or all(word in rest for word in witness_line.split())
 

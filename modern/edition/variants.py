@@ -1,12 +1,13 @@
-"""Variants of the listings: each token altered in every way in which an OCR or a typist might have altered it.
+"""Variants of the listings.  Each one alters a token as an OCR program or a typist might have altered it.
 
-One token is altered at a time:
+The alterations are:
 
-* Each digit of a statement number is exchanged for every other digit, and the number for the others of its statement.
-* A name is exchanged for every other name of its statement with the same mode (fixed or floating point).
-* An operator is exchanged for every other operator.
+* Each digit of a statement number is replaced by every other digit.  The number is replaced by each of the other
+  numbers in its statement.
+* A name is replaced by every other name of its statement with the same mode (fixed or floating point).
+* An operator is replaced by every other operator.
 * Each digit of a constant is changed by one, up and down.
-* A character is exchanged for those that it is confused with (``fortran_src/apparatus/confusables.toml``).
+* A character is replaced by each character with which it may be confused (``fortran_src/apparatus/confusables.toml``).
 * The counts and separators of a FORMAT, and one letter of every literal, are changed.
 * Each card is left out once.
 
@@ -174,7 +175,7 @@ def _names() -> frozenset[str]:
 
 @cache
 def _confused(char: str) -> tuple[str, ...]:
-    """Return the card characters that are confused with this one, in either direction."""
+    """Return the card characters for which this one may be misread, or which may be misread as this one."""
     pairs = [(p.witness, p.lemma) for p in table() if p.cls == "confusable" and len(p.witness) == len(p.lemma) == 1]
     partners = [b for a, b in (*pairs, *((b, a) for a, b in pairs)) if a == char]
     return tuple(dict.fromkeys(c for c in partners if c in CHARACTERS))

@@ -5,9 +5,9 @@ The checks of a variant (:mod:`modern.edition.variants`), in this order:
 ``compiler``  the deck no longer compiles
 ``no change`` the object code is the same, so the variant is not a different reading and is not counted
 ``print``     an example of chapter 6 is no longer reproduced.  Program 1 runs in the state of the examples if the card
-              is in it, and programs 2 and 3 run on the printed intermediate decks.  For a card that only the listing
-              has, the listing must no longer agree with the print up to order.
-``machine``   a deck whose cards are known from a second restoration gives a different result
+              is in it, and programs 2 and 3 run on the printed intermediate decks.  If the card occurs only in the
+              listing, the output of the listing must differ from the print in more than its order.
+``machine``   a deck gives other cards than those that a second restoration of the listing confirms
 ``equation``  the card computes a formula of chapter 3 (:data:`EQUATIONS`, compiled by hand)
 ``sibling``   at least two other cards of the listings have the form of the card (:func:`alike`), and the variant has a
               form that no card has
@@ -95,7 +95,7 @@ def benches(runs: str) -> dict[str, Bench]:
         for kind, number, deck in data:
             decks[first].append((kind, number, deck))
             steps = run_hull(deck, programs.program, Options(limit=200_000), first).steps
-            # The print comes from the state of the examples, the second restoration from the listing.
+            # The state of the examples produced the print.  The second restoration is of the listing.
             punched_by = "program1_examples" if kind == "print" else "program1"
             if len(steps) > 1 and first == punched_by:
                 decks[steps[1].name].append((kind, number, punched_deck(steps[0])))
@@ -191,7 +191,7 @@ def _result(program: Program, bench: Bench, d: int) -> Result | None:
 
 
 def _disagrees(program: Program, bench: Bench, d: int) -> bool:
-    """Return True if program 1 as listed no longer agrees with the print up to order."""
+    """Return True if the output of program 1 as listed differs from the print in more than its order."""
     actual, example = _result(program, bench, d), bench.examples[d]
     if actual is None or actual.typed != bench.results[d].typed:
         return True
@@ -265,7 +265,7 @@ def _judge(chunk: Sequence[Variant]) -> list[str]:
 
 
 def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int = 20) -> dict[str, str]:
-    """Judge every variant, or the first ``most``, and return the answers by key.
+    """Judge every variant, or the first ``most`` of them, and map the key of each to the check that detects it.
 
     Answers are kept in ``folder/variants.jsonl``.  Raises FileError if ``runs`` holds no deck, and if the folder holds
     answers for other listings or cannot be written.
@@ -280,7 +280,7 @@ def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int =
         lines = path.read_text(encoding="utf-8").split("\n") if path.exists() else []
         if lines and json.loads(lines[0]) != {"decks": print_of}:
             raise FileError(f"{path}: holds answers for other listings")
-        # If a run was killed, its last line may be incomplete: it is dropped and judged again.
+        # If a run was killed, its last line may be incomplete.  The line is then removed and its variant judged again.
         done = {key: answer for line in lines[1:-1] for key, answer in [json.loads(line)]}
         with path.open("w", encoding="utf-8") as file:
             file.write(json.dumps({"decks": print_of}) + "\n")

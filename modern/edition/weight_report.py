@@ -13,7 +13,7 @@ from modern.edition import programs
 from modern.edition.variants import Variant
 from modern.edition.weight import EQUATIONS, NOTICED, alike, by_card, equation_of, ordered, silent
 
-# The checks that confirm a reading, apart from the compiler.
+# The checks, other than the compiler, that confirm a reading.
 CONFIRMING = ("print", "machine", "equation", "sibling")
 
 
@@ -44,7 +44,10 @@ def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
 
 
 def unvouched(answers: Mapping[str, str]) -> list[Variant]:
-    """Return a variant of each card that only the compiler confirms: it has two or more undetected variants."""
+    """Return a variant of each card that only the compiler confirms.
+
+    Such a card has two or more undetected variants.
+    """
     return [
         variant
         for variant, count in by_card(answers)
