@@ -3,6 +3,8 @@
 It covers cards, compiler, interpreter, arithmetic, FORMAT, devices and timing.  :mod:`hull1620` lists its public names.
 """
 
+# Part of the distribution hull1620.
+
 from __future__ import annotations
 
 import sys

@@ -8,6 +8,8 @@
 - ``read_volume``: voxels from a file, such as NRRD, NPY, NIfTI or DICOM
 - ``read_points``, ``data_deck``: points from a file of any supported format; points as a data deck
 - ``read_deck``, ``compile_deck``: cards from a file; a compiled FORTRAN program
+- ``load_program``: program 1, 2 or 3 of the thesis, compiled
+- ``EmulatorError``: the base class of the errors that invalid input raises
 - ``Machine``, ``Options``, ``numbers``: a run of a program on the 1620, its options, its arithmetic
 - ``run_hull``, ``read_hull``: the programs of 1963 applied to a data deck; a hull from the cards they punch
 - ``diverge``: one program run in two arithmetics in step
@@ -17,11 +19,14 @@
 
 from __future__ import annotations
 
+import os
+from contextlib import suppress
+from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from emulator.compiled.batch import run_batch
-    from emulator.errors import CardError, CompileError, DeckError, Diagnostic, EmulatorError, FileError
+    from emulator.errors import ArgumentError, CardError, CompileError, DeckError, Diagnostic, EmulatorError, FileError
     from emulator.language.cards import Card, Deck, deck_from_lines, deck_from_text, read_deck
     from emulator.language.compiler import compile_deck, translate
     from emulator.language.objectcode import Program
@@ -33,7 +38,17 @@ if TYPE_CHECKING:
     from emulator.numbers import Numbers, numbers
     from emulator.numbers.arithmetic import Profile, profile
     from hull1620.hull import Hull
-    from hull1620.hulls import convex_hull, data_deck, draw, exact_hull, read_points, reproduce, run_hull, save
+    from hull1620.hulls import (
+        convex_hull,
+        data_deck,
+        draw,
+        exact_hull,
+        load_program,
+        read_points,
+        reproduce,
+        run_hull,
+        save,
+    )
     from hull1620.voxels import voxel_hull
     from modern.digital.hull import DigitalHull, digital_hull
     from modern.digital.solids import NoVoxels, Volume, VolumeError
@@ -50,7 +65,15 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "emulator.compiled.batch": ("run_batch",),
-    "emulator.errors": ("CardError", "CompileError", "DeckError", "Diagnostic", "EmulatorError", "FileError"),
+    "emulator.errors": (
+        "ArgumentError",
+        "CardError",
+        "CompileError",
+        "DeckError",
+        "Diagnostic",
+        "EmulatorError",
+        "FileError",
+    ),
     "emulator.language.cards": ("Card", "Deck", "deck_from_lines", "deck_from_text", "read_deck"),
     "emulator.language.compiler": ("compile_deck", "translate"),
     "emulator.language.objectcode": ("Program",),
@@ -67,6 +90,7 @@ _HOMES = {
         "data_deck",
         "draw",
         "exact_hull",
+        "load_program",
         "read_points",
         "reproduce",
         "run_hull",
@@ -88,6 +112,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "ArgumentError",
     "Card",
     "CardError",
     "CardHull",
@@ -134,6 +159,7 @@ __all__ = [
     "diverge",
     "draw",
     "exact_hull",
+    "load_program",
     "measure",
     "numbers",
     "profile",
@@ -149,6 +175,29 @@ __all__ = [
     "translate",
     "voxel_hull",
 ]
+
+
+def _check_packages() -> None:
+    """Raise ImportError if another file would be imported instead of a package that is installed next to this one."""
+    folder = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    for name in ("emulator", "modern", "fortran_src", "transcripts"):
+        spec = find_spec(name)
+        found = "" if spec is None else str(next(iter(spec.submodule_search_locations or ()), spec.origin))
+        own = os.path.join(folder, name)
+        if found and os.path.realpath(found) != os.path.realpath(own):
+            message = f"{found} hides the package {name!r} of hull1620; rename it, or work in another folder"
+            raise ImportError(message, name=__name__, path=found)
+        # Another distribution with a package of this name would have overwritten its first file.
+        file = os.path.join(own, "__init__.py")
+        with suppress(OSError), open(file, encoding="utf-8", errors="replace") as source:
+            if _MARK not in source.read():
+                message = f"another distribution has overwritten {file}; install hull1620 in a separate environment"
+                raise ImportError(message, name=__name__, path=file)
+
+
+# A comment in the first file of every package that is installed with hull1620.
+_MARK = "# Part of the distribution hull1620."
+_check_packages()
 
 
 def __getattr__(name: str) -> object:

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
+from emulator.errors import ArgumentError, EmulatorError, expect
 from emulator.language.cards import Deck
+from emulator.language.objectcode import Program
 from emulator.machine.result import Options
+from emulator.numbers.arithmetic import TRUNCATING
+from emulator.numbers.decimal import DecimalNumbers
 from hull1620.hull import Hull, Path
 from modern import exact_hull as judge
 from modern import port
@@ -19,7 +24,7 @@ from modern.exact_hull.coordinates import read_points as exact_points
 from modern.formats import deck as decks
 from modern.formats.points import read_input
 from modern.geometry.hull import NOT_CLOSED, HullRefused
-from modern.geometry.numbers import exact_text
+from modern.geometry.numbers import exact_text, quoted
 from modern.geometry.points import Points
 from modern.port.procedure import Epsilon, OnRefusal
 from modern.thesis import job
@@ -174,6 +179,7 @@ def read_points(path: Path) -> tuple[tuple[str, str, str], ...]:
     EmulatorError
         The file cannot be read or holds no points; the message names the line or card.
     """
+    expect(path, (str, os.PathLike), "path")
     return read_input(os.fspath(path)).points
 
 
@@ -222,15 +228,58 @@ def run_hull(deck: Deck, layers: Sequence[str] = (), options: Options | None = N
     Returns
     -------
     HullRun
-        ``result.final.result.punched`` are the punched cards, which ``read_hull`` reads.  ``result.refusal`` is the
-        message of a refusal, or empty.
+        ``result.final.result.punched`` are the punched cards, which ``read_hull`` reads.  ``result.refusal`` says why
+        there is no hull, or is empty.
 
     Raises
     ------
     EmulatorError
-        The deck cannot be read.
+        An argument is invalid, or a card holds something that is not a number.
+
+    Warns
+    -----
+    UserWarning
+        ``hull1620 hull`` rejects the deck or warns about it, for example because it has more than 51 points.
     """
-    return job.run_hull(deck, programs.loader(tuple(layers)), options)
+    expect(deck, Deck, "deck")
+    expect(options, (Options, type(None)), "options")
+    expect(layers, (tuple, list), "layers")
+    rules = (
+        options.numbers.profile.rules if options and isinstance(options.numbers, DecimalNumbers) else TRUNCATING.rules
+    )
+    try:
+        messages = [warning.message for warning in decks.check(deck, rules, "epsilon" in layers).warnings]
+    except EmulatorError as error:
+        messages = [str(error)]
+    for message in messages:
+        warnings.warn(message, stacklevel=2)
+    return job.run_hull(deck, programs.loader(tuple(map(str, layers))), options)
+
+
+def load_program(name: str, layers: Sequence[str] = ()) -> Program:
+    """Compile a built-in program of the thesis by its name.
+
+    Parameters
+    ----------
+    name : str
+        ``program1``, ``program2``, ``program3`` or ``program1_examples``.
+    layers : sequence of str, optional
+        Layers of the apparatus that are added to the listing.
+
+    Raises
+    ------
+    EmulatorError
+        There is no program of this name, or it has no such layer.
+
+    Examples
+    --------
+    >>> program = load_program("program3")
+    """
+    expect(name, str, "name")
+    if name not in programs.NAMES:
+        raise ArgumentError(f"no program is called {quoted(name)}; the names are {', '.join(programs.NAMES)}")
+    expect(layers, (tuple, list), "layers")
+    return programs.program(name, tuple(map(str, layers)))
 
 
 def reproduce(*names: str) -> bool:

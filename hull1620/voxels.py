@@ -27,7 +27,8 @@ def voxel_hull(
     Parameters
     ----------
     volume : Volume or array_like, shape (nx, ny, nz)
-        A volume from ``read_volume``, or an array in which every nonzero value is a voxel.
+        A volume from ``read_volume``, a SimpleITK image with its spacing, origin and direction, or an array.  Every
+        nonzero value of an image or array is a voxel.
     centres : bool, optional
         Take the hull of the voxels' centres instead of their corners, which are half a voxel away from the centres.
     spacing : sequence of 3 numbers, optional

@@ -3,6 +3,8 @@
 The names below are the public interface; they are imported when first used.
 """
 
+# Part of the distribution hull1620.
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING

@@ -12,6 +12,7 @@ from typing import TypeVar
 
 from emulator.compiled import devices, kernel
 from emulator.compiled.runner import BLOCK, INSTEAD, WAYS, Run, Runner, packed, packed_text, why_plain
+from emulator.errors import ArgumentError, expect
 from emulator.jit.functions import NotInstalled
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import Program
@@ -40,10 +41,18 @@ def run_batch(
     CardError, DeckError
         As :meth:`emulator.machine.machine.Machine.run` does, for the first deck with an error.
     """
+    expect(program, Program, "program")
+    try:
+        decks = iter(decks)
+    except TypeError:
+        raise ArgumentError(f"decks: expected decks, found {type(decks).__name__}") from None
+    expect(options, (Options, type(None)), "options")
     options = options or Options()
     runner = _runner(program, options, note)
     results: list[Result] = []
     for block in _blocks(decks):
+        for deck in block:
+            expect(deck, Deck, "deck")
         runs = runner.runs([packed(deck) for deck in block]) if runner else iter([None] * len(block))
         for deck, run in zip(block, runs, strict=True):
             results.append(

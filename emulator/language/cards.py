@@ -6,10 +6,11 @@ trailing blanks of a line are the blank columns of its card.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from emulator.errors import CardError, DeckError, LowerCaseError
+from emulator.errors import CardError, DeckError, LowerCaseError, expect
 from emulator.files import read_bytes, source_name
 
 COLUMNS = 80
@@ -66,11 +67,13 @@ class Deck:
 
 def deck_from_lines(source: str, lines: Iterable[str]) -> Deck:
     """Make a deck from lines without line ends.  Raise CardError for an invalid character or a line over 80 columns."""
+    expect(lines, Iterable, "lines")
     return Deck(source, tuple(read_line(source, number, line) for number, line in enumerate(lines, 1)))
 
 
 def deck_from_text(source: str, text: str) -> Deck:
     """Make a deck from the text of a file with LF or CRLF line ends.  The last line need not be terminated."""
+    expect(text, str, "text")
     # A line end after the last card does not start another card.
     lines = text.replace("\r\n", "\n").split("\n")
     if lines and lines[-1] == "":
@@ -80,12 +83,14 @@ def deck_from_text(source: str, text: str) -> Deck:
     return deck_from_lines(source, lines)
 
 
-def read_deck(path: str, change: Callable[[str], str] | None = None) -> Deck:
+def read_deck(path: str | os.PathLike[str], change: Callable[[str], str] | None = None) -> Deck:
     """Read a deck file, or standard input if ``path`` is ``-``.
 
     ``change`` is applied to the text before it is divided into cards.  Raise FileError if the file cannot be read,
     DeckError if it holds no punched card, and CardError for an invalid card.
     """
+    expect(path, (str, os.PathLike), "path")
+    path = os.fspath(path)
     return deck_from_bytes(source_name(path), read_bytes(path), change)
 
 

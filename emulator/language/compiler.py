@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import assert_never
 
-from emulator.errors import CompileError, DeckError, Diagnostic, Refused, merge_repeated
+from emulator.errors import CompileError, DeckError, Diagnostic, Refused, expect, merge_repeated
 from emulator.language import objectcode as op
 from emulator.language import tree
 from emulator.language.cards import Deck
@@ -45,6 +45,7 @@ def compile_deck(deck: Deck) -> Program:
 
 def translate(deck: Deck) -> tuple[Program | None, tuple[Diagnostic, ...]]:
     """Compile a source deck.  Return the program, or None if there are errors, and all messages in order of cards."""
+    expect(deck, Deck, "deck")
     parsed = parse(deck)
     if not parsed.statements and not parsed.diagnostics:
         raise DeckError(f"{deck.source}: the source deck has no statement")

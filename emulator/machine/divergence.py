@@ -22,7 +22,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from emulator.errors import EmulatorError
+from emulator.errors import EmulatorError, expect
 from emulator.language.cards import Deck
 from emulator.language.control_flow import successors
 from emulator.language.objectcode import Program
@@ -131,6 +131,14 @@ def diverge(
     CardError, DeckError
         If both runs find the same error in the deck, or if the program does not fit the machine.
     """
+    for value, kind, name in (
+        (program, Program, "program"),
+        (deck, Deck, "deck"),
+        (studied, Numbers, "studied"),
+        (reference, Numbers, "reference"),
+        (options, (Options, type(None)), "options"),
+    ):
+        expect(value, kind, name)
     options = options or Options()
     # An exact reference has no rounding errors.  Any other reference computes bounds of its errors during the run.
     if rounding and math.isfinite(reference.digits):

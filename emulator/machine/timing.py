@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import Counter as Tally
 from dataclasses import dataclass
 
+from emulator.errors import expect
 from emulator.language import objectcode as op
 from emulator.language.objectcode import Program
 from emulator.machine.result import Result
@@ -93,6 +94,8 @@ class Timing:
 
 def measure(program: Program, result: Result) -> Timing:
     """Return the time table of a run.  ``statements`` pairs an index into ``program.statements`` with its count."""
+    expect(program, Program, "program")
+    expect(result, Result, "result")
     operations: Tally[str] = Tally()
     subscripts: Tally[int] = Tally()
     times = 0

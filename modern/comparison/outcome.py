@@ -61,8 +61,8 @@ def places(points: Sequence[Vector]) -> dict[Vector, int]:
 
 
 def from_cards(name: str, run: HullRun, points: Sequence[Vector]) -> Outcome:
-    if run.refusal:
-        return Outcome(name, run.refusal, -1)
+    if run.typed_refusal:
+        return Outcome(name, run.typed_refusal, -1)
     failed = next((step for step in run.steps if not step.result.ending.normal), None)
     if failed is not None:
         ending = failed.result.ending

@@ -101,7 +101,7 @@ def digital_hull(
     Parameters
     ----------
     volume
-        A volume, or an array with two or three axes in which every value other than 0 is a voxel.
+        A volume, a SimpleITK image, or an array with two or three axes; every value other than 0 is a voxel.
     fast
         True for compiled code (numba, the extra ``fast``), False for plain Python, None for the faster one. The result
         is the same.
@@ -132,14 +132,34 @@ def placed(
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> Volume:
     """Return a volume unchanged, or an array with its position as a volume of the values other than 0."""
+    if hasattr(volume, "GetDirection"):
+        return placed(*_of_image(volume))
     if not isinstance(volume, Volume):
-        array = _truth(np.asarray(volume))
+        array = _truth(_array(volume))
         volume = Volume(array, (0,) * array.ndim, world=world_of(array.ndim, spacing, origin, directions))
     elif spacing is not None or origin is not None or directions is not None:
         raise VolumeError(f"{volume.source}: a Volume has a position; spacing, origin and directions are for arrays")
     if not _truth(volume.array).any():
         raise NoVoxels("there are no points")
     return volume
+
+
+def _array(values: object) -> NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise VolumeError(f"not an array: {str(error)[:100]}") from None
+
+
+def _of_image(image: Any) -> tuple[NDArray[Any], Sequence[Any], Sequence[Any], Sequence[Sequence[Any]]]:
+    """Return the array of a SimpleITK image, indexed [x, y, z], its spacing, origin and directions."""
+    from SimpleITK import GetArrayFromImage
+
+    if image.GetNumberOfComponentsPerPixel() != 1:
+        raise VolumeError("expected an image with one number for each voxel")
+    # GetDirection has the rows of a matrix, whose columns are the directions of the axes.
+    matrix = np.reshape(image.GetDirection(), (image.GetDimension(),) * 2)
+    return GetArrayFromImage(image).T, image.GetSpacing(), image.GetOrigin(), matrix.T.tolist()
 
 
 def _truth(array: NDArray[Any]) -> Truth:

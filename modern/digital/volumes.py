@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from emulator.errors import expect
 from emulator.files import read_bytes, source_name, writing_bytes
 from modern.digital.arrays import NPY, NPZ, parse_npy, parse_npz, parse_raw
 from modern.digital.itk import SERIES, kind_of, read_itk
@@ -89,6 +90,7 @@ def read_volume(
     VolumeError
         If the volume is invalid.
     """
+    expect(path, (str, os.PathLike), "path")
     stated = Stated(None if shape is None else tuple(shape), dtype, array, series, spacing, origin)
     try:
         least = None if threshold is None else Fraction(real(threshold))

@@ -1,19 +1,19 @@
-"""Surfaces read from OFF, OBJ and STL files (ASCII or binary), recognised as in ``modern.formats.points``.
+"""Surfaces read from OFF, OBJ, PLY and STL files (PLY and STL also binary), recognised as in ``modern.formats.points``.
 
 The result holds the points and faces of the file.  The caller decides whether the faces close and what they enclose.
-Equal corners of an STL file are one point; every vertex of OFF and OBJ is a separate point.
+Equal corners of an STL file are one point; every vertex of OFF, OBJ and PLY is a separate point.
 """
 
 from __future__ import annotations
 
 from emulator.errors import FileError
 from emulator.files import decoded
-from modern.formats import obj, off, stl
+from modern.formats import obj, off, ply, stl
 from modern.formats.points import kind_of
 from modern.formats.tokens import FileMesh
 
 # The formats of points (``POINTS``) from which faces are also read.
-SURFACES = ("off", "obj", "stl")
+SURFACES = ("off", "obj", "ply", "stl")
 
 
 def surface_kind(data: bytes, source: str) -> str:
@@ -23,10 +23,12 @@ def surface_kind(data: bytes, source: str) -> str:
 
 
 def parse_mesh(data: bytes, source: str) -> FileMesh:
-    """Return the surface in a file, which may have no faces.  Raise FileError if it is not OFF, OBJ or STL."""
+    """Return the surface in a file, which may have no faces.  Raise FileError if it is not OFF, OBJ, PLY or STL."""
     kind = surface_kind(data, source)
     if not kind:
-        raise FileError(f"{source}: expected faces in OFF, OBJ or STL; this file holds only points")
+        raise FileError(f"{source}: expected faces in OFF, OBJ, PLY or STL; this file holds only points")
+    if kind == "ply":
+        return ply.surface(data, source)
     if kind == "stl" and stl.is_binary(data):
         return stl.surface_binary(data, source)
     reader = {"off": off.parse_off, "obj": obj.surface, "stl": stl.surface}[kind]

@@ -2,20 +2,21 @@
 
 Written files are ASCII.  A polyhedron is written with its faces, a polygon with one face, a segment as an element
 ``edge``, a point as one vertex.  The properties are declared ``double``: a reader may round them, but the text is
-exact.  The reader returns the vertices of ASCII and binary files of either byte order.  In a binary file no list may
-precede the vertices or be among their properties.
+exact.  The reader returns the vertices and faces of ASCII and binary files of either byte order.  It rejects triangle
+strips if faces are needed.
 """
 
 from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import islice
+from typing import Any
 
 from emulator.errors import FileError
-from modern.formats.tokens import Line, count, decimal, error, last_line, lines, take
+from modern.formats.tokens import FileMesh, count, decimal, error, last_line, lines
 from modern.geometry.mesh import Mesh
 from modern.geometry.numbers import Point, float_text, quoted
 
@@ -39,6 +40,7 @@ def write(mesh: Mesh, digits: int | None = None) -> str:
 _TYPES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d"}
 _SIZED = {"int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i", "uint32": "I"}
 _CODES = {**_TYPES, **_SIZED, "float32": "f", "float64": "d"}
+_INTEGERS = {name for name, code in _CODES.items() if code not in "fd"}
 _ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">"}
 _END = b"end_header"
 _MOST_HEADER = 1 << 16
@@ -46,37 +48,84 @@ _MOST_HEADER = 1 << 16
 
 @dataclass(frozen=True, slots=True)
 class _Element:
-    """An element of a header: (name, struct code) of its properties, with the code "" for a list."""
+    """An element of a header: the name of each property, its struct code, and for a list that of its length or ""."""
 
     name: str
     count: int
-    properties: list[tuple[str, str]] = field(default_factory=list)
+    properties: list[tuple[str, str, str]] = field(default_factory=list)
+
+    @property
+    def plural(self) -> str:
+        return {"vertex": "vertices", "face": "faces"}.get(self.name, self.name)
+
+    def index(self, *names: str) -> int | None:
+        """Return the index of the property with one of these names, or None."""
+        return next((k for k, (name, _, _) in enumerate(self.properties) if name in names), None)
+
+
+# A function that reads the next item, which has this element and this number from 0.  It returns the line of the item,
+# or its number from 1 in a binary file, and its properties: tokens or numbers, or lists of them.
+Reader = Callable[[_Element, int], tuple[int, list[Any]]]
 
 
 def parse(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
     """Return the vertices of a PLY file, exactly, and the line of each one or, in a binary file, its number from 1."""
+    mesh = surface(data, source, with_faces=False)
+    return mesh.points, mesh.lines
+
+
+def surface(data: bytes, source: str, with_faces: bool = True) -> FileMesh:
+    """Return the vertices and faces of a PLY file, as ``parse``; without ``with_faces`` the faces are not read."""
     end = data.find(_END, 0, _MOST_HEADER)
     if end < 0:
         raise FileError(f"{source}: line 1, column 1: the header has no line end_header")
     line_end = data.find(b"\n", end)
     body = len(data) if line_end < 0 else line_end + 1
     kind, elements = _header(data[:end].decode("ascii", "replace"), source)
-    vertex_index = next((index for index, element in enumerate(elements) if element.name == "vertex"), None)
-    if vertex_index is None:
+    by_name = {element.name: element for element in elements}
+    if "vertex" not in by_name:
         raise FileError(f"{source}: line 1, column 1: the header announces no element vertex")
-    names = [name for name, _ in elements[vertex_index].properties]
-    if not {"x", "y", "z"} <= set(names):
+    columns = [by_name["vertex"].index(axis) for axis in "xyz"]
+    if None in columns:
         raise FileError(f"{source}: line 1, column 1: a vertex has no properties x, y and z")
-    columns = [names.index(axis) for axis in "xyz"]
-    elements = elements[: vertex_index + 1]
-    if kind in _ORDERS:
-        return _binary(data, body, elements, columns, _ORDERS[kind], source)
-    try:
-        text = data.decode("ascii")
-    except UnicodeDecodeError as wrong:
-        line = data.count(b"\n", 0, wrong.start) + 1
-        raise FileError(f"{source}: line {line}, column 1: not ASCII, although the header says so") from None
-    return _text(text, data.count(b"\n", 0, body), elements, columns, source)
+    if with_faces and (strips := {"tristrips", "tristrip"} & by_name.keys()):
+        raise FileError(f"{source}: the faces are an element {strips.pop()}, which is not read; only face is")
+    indices = by_name["face"].index("vertex_indices", "vertex_index") if "face" in by_name else None
+    if with_faces and "face" in by_name and (indices is None or by_name["face"].properties[indices][1] in "fd"):
+        raise FileError(f"{source}: line 1, column 1: a face has no list vertex_indices")
+    read = _binary(data, body, _ORDERS[kind], source) if kind in _ORDERS else _text(data, body, source)
+    points: list[Point] = []
+    point_lines: list[int] = []
+    faces: list[tuple[int, ...]] = []
+    remaining = {"vertex", "face"} if with_faces and indices is not None else {"vertex"}
+    for element in elements:
+        for number in range(element.count if element.properties else 0):
+            line, values = read(element, number)
+            if element.name == "vertex":
+                points.append(_point(source, line, [values[column or 0] for column in columns], kind))
+                point_lines.append(line)
+            elif element.name == "face" and with_faces:
+                faces.append(_face(source, line, values[indices or 0], by_name["vertex"].count))
+        remaining.discard(element.name)
+        if not remaining:
+            break
+    return FileMesh(source, tuple(points), tuple(point_lines), tuple(faces))
+
+
+def _point(source: str, line: int, values: list[Any], kind: str) -> Point:
+    if kind in _ORDERS and not all(map(math.isfinite, values)):
+        raise FileError(f"{source}: vertex {line}: a coordinate is not finite")
+    x, y, z = (float_text(value) if kind in _ORDERS else decimal(source, line, value) for value in values)
+    return x, y, z
+
+
+def _face(source: str, line: int, values: list[Any], vertices: int) -> tuple[int, ...]:
+    face = tuple(count(source, line, value) if isinstance(value, tuple) else int(value) for value in values)
+    wrong = [index for index in face if not 0 <= index < vertices]
+    if wrong or not face:
+        message = f"there is no vertex {wrong[0]}; they are numbered from 0 to {vertices - 1}" if wrong else "no vertex"
+        raise FileError(f"{source}: face in line {line}: {message}")
+    return face
 
 
 def _header(text: str, source: str) -> tuple[str, list[_Element]]:
@@ -89,10 +138,10 @@ def _header(text: str, source: str) -> tuple[str, list[_Element]]:
                 kind = name
             case ["element", name, _]:
                 elements.append(_Element(name, count(source, line, tokens[2])))
-            case ["property", "list", _, _, name] if elements:
-                elements[-1].properties.append((name, ""))
+            case ["property", "list", size, data_type, name] if elements and size in _INTEGERS and data_type in _CODES:
+                elements[-1].properties.append((name, _CODES[data_type], _CODES[size]))
             case ["property", data_type, name] if elements and data_type in _CODES:
-                elements[-1].properties.append((name, _CODES[data_type]))
+                elements[-1].properties.append((name, _CODES[data_type], ""))
             case header_line:
                 raise error(source, line, tokens[0], f"{quoted(' '.join(header_line))} is not a line of a PLY header")
     if not kind:
@@ -100,43 +149,57 @@ def _header(text: str, source: str) -> tuple[str, list[_Element]]:
     return kind, elements
 
 
-def _text(
-    text: str, header_lines: int, elements: list[_Element], columns: list[int], source: str
-) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the vertices of an ASCII file, the last of ``elements``; each item of an element is one line."""
-    rows: Iterator[Line] = (line for line in lines(text, "") if line[0] > header_lines)
-    last = last_line(text)
-    for element in elements[:-1]:
-        for _ in take(rows, element.count, source, last, element.name):
-            pass
-    points: list[Point] = []
-    point_lines: list[int] = []
-    for line, tokens in take(rows, elements[-1].count, source, last, "vertices"):
-        if len(tokens) <= max(columns):
-            raise error(source, line, tokens[-1], f"the vertex ends after {len(tokens)} of its properties")
-        x, y, z = (decimal(source, line, tokens[column]) for column in columns)
-        points.append((x, y, z))
-        point_lines.append(line)
-    return tuple(points), tuple(point_lines)
+def _text(data: bytes, start: int, source: str) -> Reader:
+    """Return the reader of an ASCII file, in which each item is one line."""
+    try:
+        text = data.decode("ascii")
+    except UnicodeDecodeError as wrong:
+        line = data.count(b"\n", 0, wrong.start) + 1
+        raise FileError(f"{source}: line {line}, column 1: not ASCII, although the header says so") from None
+    header_lines, last = data.count(b"\n", 0, start), last_line(text)
+    rows = (row for row in lines(text, "") if row[0] > header_lines)
+
+    def read(element: _Element, number: int) -> tuple[int, list[Any]]:
+        line, tokens = next(rows, (0, []))
+        if not tokens:
+            message = f"the file ends after {number} of {element.count} {element.plural}"
+            raise FileError(f"{source}: line {last}, column 1: {message}")
+        values: list[Any] = []
+        position = 0
+        for _, _, size in element.properties:
+            length = 1
+            if size and position < len(tokens):
+                length = count(source, line, tokens[position])
+                position += 1
+            if position + length > len(tokens):
+                raise error(source, line, tokens[-1], f"the {element.name} ends after {len(values)} of its properties")
+            values.append(tokens[position : position + length] if size else tokens[position])
+            position += length
+        return line, values
+
+    return read
 
 
-def _binary(
-    data: bytes, start: int, elements: list[_Element], columns: list[int], order: str, source: str
-) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the vertices of a binary file, the last of ``elements``; the data begin at ``start``."""
-    for element in elements:
-        if not all(code for _, code in element.properties):
-            raise FileError(f"{source}: lists before or among the vertices of a binary file are not supported")
-    rows = [struct.Struct(order + "".join(code for _, code in element.properties)) for element in elements]
-    start += sum(row.size * element.count for row, element in zip(rows[:-1], elements, strict=False))
-    vertices, row = elements[-1].count, rows[-1]
-    if start + vertices * row.size > len(data):
-        raise FileError(f"{source}: the file ends after {max(0, len(data) - start) // row.size} of {vertices} vertices")
-    points: list[Point] = []
-    for number in range(vertices):
-        values = row.unpack_from(data, start + number * row.size)
-        x, y, z = (float(values[column]) for column in columns)
-        if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
-            raise FileError(f"{source}: vertex {number + 1}: a coordinate is not finite")
-        points.append((float_text(x), float_text(y), float_text(z)))
-    return tuple(points), tuple(range(1, vertices + 1))
+def _binary(data: bytes, start: int, order: str, source: str) -> Reader:
+    """Return the reader of a binary file."""
+    offset = start
+
+    def unpack(codes: str) -> tuple[Any, ...]:
+        nonlocal offset
+        values = struct.unpack_from(order + codes, data, offset)
+        offset += struct.calcsize(order + codes)
+        return values
+
+    def read(element: _Element, number: int) -> tuple[int, list[Any]]:
+        try:
+            if not any(size for _, _, size in element.properties):
+                return number + 1, list(unpack("".join(code for _, code, _ in element.properties)))
+            values: list[Any] = []
+            for _, code, size in element.properties:
+                values.append(list(unpack(f"{int(unpack(size)[0])}{code}")) if size else unpack(code)[0])
+        except struct.error:
+            message = f"the file ends after {number} of {element.count} {element.plural}"
+            raise FileError(f"{source}: {message}") from None
+        return number + 1, values
+
+    return read

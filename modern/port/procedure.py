@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from emulator.errors import ArgumentError
+from emulator.errors import ArgumentError, expect
 from emulator.jit.functions import require_numba
 from modern.geometry.hull import DETERMINED, ERROR, Hull, HullRefused
 from modern.geometry.numbers import quoted, read_epsilon
@@ -50,8 +50,9 @@ def convex_hull(
     hull was determined (unless ``on_refusal`` is ``"return"``), RangeError if an intermediate result is too large for
     a float, and ArgumentError for any other invalid argument or if kernels were requested and numba is missing.
     """
+    expect(on_refusal, str, "on_refusal")
     if on_refusal not in ("raise", "return"):
-        raise ArgumentError(f"on_refusal: expected 'raise' or 'return', found {quoted(str(on_refusal))}")
+        raise ArgumentError(f"on_refusal: expected 'raise' or 'return', found {quoted(on_refusal)}")
     if fast:
         require_numba()
     size = read_epsilon(epsilon)

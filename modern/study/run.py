@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sqlite3
 import sys
 from collections.abc import Callable, Iterable, Sequence
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from emulator.compiled.runner import compile_engine, why_plain
+from emulator.errors import expect
 from emulator.files import UNFINISHED
 from emulator.jit.functions import NotInstalled
 from emulator.language.cards import deck_from_lines
@@ -86,6 +88,8 @@ def run_study(
     A script that uses more than one worker must call this function under ``if __name__ == "__main__":``, because each
     worker process begins by importing the script.
     """
+    expect(plan, Plan, "plan")
+    expect(folder, (str, os.PathLike), "folder")
     check_plan(plan)
     folder = Path(folder)
     with ExitStack() as stack:

@@ -12,6 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from emulator.errors import expect
+
 Point = tuple[Fraction, ...]
 
 _FLOAT = re.compile(r"-?\.\d+E[+-]\d\d")
@@ -75,6 +77,9 @@ def sections(cards: Sequence[str]) -> Sections:
 
 def read_hull(cards: Sequence[str]) -> CardHull:
     """Read the hull on cards that a last program punched, as exact numbers."""
+    expect(cards, (tuple, list), "cards")
+    for card in cards:
+        expect(card, str, "a card")
     texts = sections(cards)
     inside, boundary, vertices, equations, plane = (
         tuple(tuple(map(number, row)) for row in texts.points[name]) for name in SECTIONS

@@ -21,7 +21,7 @@ Load = Callable[[str], Program]
 Watch = Callable[[Program, Machine], None]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Step:
     """The run of one program: the name of the built-in, its number in the thesis, the deck that it read, the result."""
 
@@ -31,8 +31,11 @@ class Step:
     deck: Deck
     result: Result
 
+    def __repr__(self) -> str:
+        return f"<step: {self.name}, {len(self.deck.cards)} cards read, {len(self.result.punched)} cards punched>"
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, repr=False)
 class HullRun:
     """The runs of the programs for one data set, in order; the last one punched the final cards."""
 
@@ -43,13 +46,23 @@ class HullRun:
         return self.steps[-1]
 
     @property
-    def refusal(self) -> str:
+    def typed_refusal(self) -> str:
         """The message with which a program stopped, DATA NOT ACCEPTABLE or ERROR IN PROGRAM; otherwise empty."""
         return next((r for r in (refusal(step.result) for step in self.steps) if r), "")
 
     @property
+    def refusal(self) -> str:
+        """Why there is no hull: the typed refusal, or how the machine stopped; otherwise empty."""
+        endings = (step.result.ending for step in self.steps)
+        return self.typed_refusal or next((ending.message for ending in endings if not ending.normal), "")
+
+    @property
     def complete(self) -> bool:
-        return not self.refusal and all(step.result.ending.normal for step in self.steps)
+        return not self.refusal
+
+    def __repr__(self) -> str:
+        names = " and ".join(step.name for step in self.steps)
+        return f"<hull run: {names}, {len(self.final.result.punched)} cards punched; {self.refusal or 'complete'}>"
 
 
 class Refusals:

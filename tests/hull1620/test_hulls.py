@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import sys
 from contextlib import suppress
 from decimal import Decimal
 from fractions import Fraction
@@ -27,6 +28,7 @@ from hull1620 import (
     digital_hull,
     draw,
     exact_hull,
+    load_program,
     read_hull,
     read_points,
     reproduce,
@@ -287,6 +289,43 @@ def test_points_become_cards_and_punched_cards_become_a_hull(tmp_path: Path) -> 
         data_deck([(0.1, 0, 0)])
     assert data_deck([(0.1, 0, 0)], truncate=True).cards[1].text.startswith("+.10000000E+00")
     assert run_hull(data_deck(points, epsilon="1e-3"), layers=("epsilon",)).complete
+
+
+def test_a_run_of_60_points_warns_and_its_refusal_explains() -> None:
+    points = np.random.default_rng(1).integers(-9, 10, (60, 3))
+    with pytest.warns(UserWarning, match="N is 60; the programs accept 1 to 51 points"):
+        run = run_hull(data_deck(points))
+    assert not run.complete
+    assert "X(52)" in run.refusal
+    assert run.refusal in repr(run)
+    assert max(len(repr(run)), *(len(repr(step)) for step in run.steps)) < 300
+
+
+def test_a_program_of_the_thesis_is_loaded_by_its_name() -> None:
+    assert load_program("program3").source == "program3.f"
+    assert load_program("program3", ("epsilon",)).statements != load_program("program3").statements
+    with pytest.raises(EmulatorError, match="no program is called 'program4'; the names are program1, program2"):
+        load_program("program4")
+
+
+@pytest.mark.parametrize("call", [lambda: convex_hull(CUBE, fast=True), lambda: exact_hull(CUBE, fast=True)])
+def test_fast_without_numba_is_an_error_for_every_input(call: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "numba", None)
+    with pytest.raises(EmulatorError, match=r"needs numba: pip install 'hull1620\[fast\]'"):
+        call()
+
+
+def test_an_image_of_simpleitk_has_its_hull_in_its_coordinates() -> None:
+    sitk = pytest.importorskip("SimpleITK")
+    image = sitk.GetImageFromArray(np.ones((2, 3, 4), np.uint8))  # z, y, x
+    image.SetSpacing((0.5, 2, 1))
+    image.SetOrigin((10, 20, 30))
+    image.SetDirection((0, -1, 0, 1, 0, 0, 0, 0, 1))
+    hull = voxel_hull(image)
+    assert hull.volume == 24
+    # The axis x has the direction (0, 1, 0), and y (-1, 0, 0).
+    assert hull.points.min(axis=0).tolist() == [5, 19.75, 29.5]
+    assert hull.points.max(axis=0).tolist() == [11, 21.75, 31.5]
 
 
 def test_an_example_is_reproduced(capsys: pytest.CaptureFixture[str]) -> None:

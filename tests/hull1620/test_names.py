@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pydoc
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -71,6 +72,33 @@ def test_an_import_loads_no_other_package() -> None:
         "import sys, hull1620; print({name.split('.')[0] for name in sys.modules} & {'modern', 'emulator', 'numpy'})"
     )
     assert python("-c", words).stdout == "set()\n"
+
+
+@pytest.mark.parametrize(
+    "name", ["emulator.py", "modern.py", "transcripts.py", "fortran_src.py", "emulator/__init__.py"]
+)
+def test_a_file_that_hides_a_package_is_named_with_the_remedy(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).parent.mkdir(exist_ok=True)
+    (tmp_path / name).write_text("", encoding="utf-8")
+    hiding = tmp_path / (name if name.endswith("n.py") or "/" not in name else name.partition("/")[0])
+    package = name.partition("/")[0].removesuffix(".py")
+    message = f"{hiding} hides the package {package!r} of hull1620; rename it, or work in another folder"
+    for words in (["-c", "import hull1620"], ["-m", "hull1620", "--help"]):
+        done = python(*words, cwd=tmp_path)
+        assert (done.returncode, done.stdout) == (1, "")
+        assert message in done.stderr.splitlines()[-1]
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_a_distribution_that_overwrites_a_package_is_reported(tmp_path: Path) -> None:
+    for name in ("hull1620", "emulator", "modern", "fortran_src", "transcripts"):
+        (tmp_path / name).mkdir()
+        shutil.copy(ROOT / name / "__init__.py", tmp_path / name)
+    (tmp_path / "modern" / "__init__.py").write_text("", encoding="utf-8")
+    done = python("-m", "hull1620", "--help", cwd=tmp_path)
+    assert (done.returncode, len(done.stderr.splitlines())) == (1, 1)
+    assert "another distribution has overwritten" in done.stderr
+    assert "install hull1620 in a separate environment" in done.stderr
 
 
 def test_an_import_takes_less_than_a_tenth_of_a_second() -> None:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import random
+import struct
 from fractions import Fraction
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from emulator.errors import EmulatorError
+from emulator.errors import EmulatorError, FileError
 from modern.exact_hull import exact_hull
 from modern.formats.export import export_text
 from modern.formats.meshes import parse_mesh
@@ -38,9 +40,9 @@ def shape(polyhedron: Polyhedron) -> set[frozenset[tuple[Fraction, ...]]]:
 
 
 @settings(deadline=None, max_examples=20)
-@given(st.integers(0, 10**6), st.integers(1, 4), st.booleans(), st.sampled_from(("off", "obj", "stl")))
+@given(st.integers(0, 10**6), st.integers(1, 4), st.booleans(), st.sampled_from(["off", "obj", "ply", "stl"]))
 def test_components_are_the_solids_written_to_the_file(seed: int, number: int, inward: bool, form: str) -> None:
-    """Write disjoint solids as OFF, OBJ or STL, with shuffled faces that all run inward or all outward."""
+    """Write disjoint solids as OFF, OBJ, PLY or STL, with shuffled faces that all run inward or all outward."""
     source = random.Random(seed)
     points: list[tuple[object, ...]] = []
     faces: list[tuple[int, ...]] = []
@@ -64,6 +66,8 @@ def test_components_are_the_solids_written_to_the_file(seed: int, number: int, i
         rows = ["v " + " ".join(map(str, p)) for p in points]
         signs = [source.choice((str(k + 1), str(k - len(points)), f"{k + 1}/1/2")) for k in range(len(points))]
         data = "\n".join([*rows, *("f " + " ".join(signs[k] for k in face) for face in faces), ""]).encode()
+    elif form == "ply":
+        data = ply(points, faces, source.choice(("ascii", "binary_little_endian", "binary_big_endian")))
     else:
         data = binary_stl(cut(points, faces))  # type: ignore[arg-type]
     result = bodies(parse_mesh(data, f"a.{form}"), Reading(), "a")
@@ -75,6 +79,36 @@ def test_components_are_the_solids_written_to_the_file(seed: int, number: int, i
             assert shape(polyhedron) in solids
     merged = [{p for face in solid for p in face} for solid in solids]
     assert sorted(map(sorted, merged)) == sorted(sorted(p.vertices) for p in result.polyhedra)
+
+
+def ply(points: Any, faces: Any, form: str) -> bytes:
+    """Return a PLY file whose faces, with a list of colours, come before its vertices, with a list of weights."""
+    lines = ["ply", f"format {form} 1.0", f"element face {len(faces)}", "property list uchar uchar colours"]
+    lines += ["property list uchar int vertex_indices", f"element vertex {len(points)}", "property float x"]
+    lines += ["property list ushort double weights", "property double y", "property int z", "end_header", ""]
+    if form == "ascii":
+        rows = [f"1 7 {len(face)} {' '.join(map(str, face))}" for face in faces] + [
+            f"{x} 0 {y} {z}" for x, y, z in points
+        ]
+        return ("\n".join([*lines[:-1], *rows]) + "\n").encode()
+    order = "<" if form == "binary_little_endian" else ">"
+    body = [struct.pack(f"{order}BBB{len(face)}i", 1, 7, len(face), *face) for face in faces]
+    body += [struct.pack(f"{order}fHddi", float(x), 1, 0.5, float(y), int(z)) for x, y, z in points]
+    return "\n".join(lines).encode() + b"".join(body)
+
+
+def test_the_faces_of_an_invalid_ply_file_are_rejected_with_their_place() -> None:
+    data = ply(CUBE, CUBE_FACES, "ascii")
+    assert len(parse_mesh(data, "a.ply").faces) == 6
+    for old, new, message in (
+        (b"4 0 ", b"4 9 ", "there is no vertex 9; they are numbered from 0 to 7"),
+        (b"vertex_indices", b"corners", "a face has no list vertex_indices"),
+        (b"element face 6", b"element tristrips 6", "an element tristrips, which is not read"),
+        (b"element vertex 8", b"element vertex 9", "the file ends after 8 of 9 vertices"),
+    ):
+        assert old in data
+        with pytest.raises(FileError, match=message):
+            parse_mesh(data.replace(old, new, 1), "a.ply")
 
 
 def test_touching_solids_in_an_stl_file_are_separate_components() -> None:
