@@ -18,9 +18,10 @@ class UnrelatedCards(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class CardDifferences:
-    """The vertices missed and added by punched cards, the faces ``not_found``, and false faces.
+    """The vertices that punched cards miss or add, the exact faces that they lack (``not_found``), and false faces.
 
-    ``polygons`` has the vertices that the cards list on each false face; ``others`` counts those with fewer than two.
+    ``polygons`` has the vertices that the cards list on each false face. ``others`` counts the false faces with fewer
+    than two vertices.
     """
 
     missed: tuple[int, ...] = ()

@@ -1,4 +1,4 @@
-"""Compare an outcome with that of the exact hull: what is missing, what is extra, and how large the errors are."""
+"""Compare an outcome with that of the exact hull: missing and extra points and equations, and numerical errors."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ NEAR = Fraction(1, 1000)
 class Disagreement:
     """The differences between an outcome and that of the exact hull.  Points are indices into the input.
 
-    ``misfiled`` points have a wrong class, boundary or inside.  ``error`` is the largest error of a coefficient among
-    the matched equations, relative to the largest coefficient of x, y and z (for D: to the largest of all).
-    ``excluded`` is the largest distance of a point outside an equation, to about twelve digits.  ``places`` has for
-    each equation of the outcome the index of the exact equation that it matches, or -1.
+    ``misfiled`` points have the wrong class, boundary or inside.  ``error`` is the largest error of a coefficient among
+    the matched equations, relative to the largest coefficient of x, y and z (the error of D: to the largest of all
+    four).  ``excluded`` is the largest distance of an input point outside an equation, to about twelve digits.
+    ``places`` has for each equation of the outcome the index of the exact equation that it matches, or -1.
     """
 
     missed: frozenset[int]
@@ -61,7 +61,7 @@ def disagreement(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> 
         else set()
     )
     misfiled |= {i for i in classes if i not in exact_classes and i not in missed}
-    # Match the equations, and count those that match none or the same one as another.
+    # Match the equations. Count the equations without a match and those that match the same exact equation as another.
     matches = _match(outcome.equations, judge.equations)
     places = tuple(match.place for match in matches)
     hits = Counter(places)
@@ -69,7 +69,7 @@ def disagreement(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> 
     missing = len(judge.equations) - len(hits) if outcome.equations or classified else 0
     doubled = sum(hits.values()) - len(hits)
     error = max((match.error for match in matches if match.place >= 0), default=Fraction(0))
-    # An equation that is exactly one of the hull excludes no point.
+    # An equation that equals an equation of the hull excludes no point.
     inexact = [e for e, match in zip(outcome.equations, matches, strict=True) if match.place < 0 or match.error]
     distance, farthest = _excluded(inexact, points)
     return Disagreement(
@@ -92,7 +92,7 @@ class _Match(NamedTuple):
 
 
 def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Match]:
-    """Match each equation with the nearest exact one, the first of equally near ones."""
+    """Match each equation with the nearest exact equation. Of equally near ones, choose the first."""
     by_integers: dict[tuple[int, ...], int] = {}
     for place, equation in enumerate(exact):
         by_integers.setdefault(integers_of(equation), place)

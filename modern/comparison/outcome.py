@@ -24,17 +24,17 @@ from modern.thesis.job import HullRun
 Vector = tuple[Fraction, ...]
 Equation = tuple[Fraction, Fraction, Fraction, Fraction]
 
-# The status for the ending of a run; every other kind of ending is the status itself.
+# The status for each kind of ending of a run.  A kind that is not listed here is itself the status.
 _STATUS = {"limit": "endless", "bounds": "out of bounds", "outside": "out of bounds", "undefined": "undefined value"}
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """The result of one route for a point set; points are indices.
+    """The result of one route for a point set. Points are identified by their index.
 
-    ``status`` is ``determined``, or the reason why there is no hull, and ``dimension`` -1 if it is not determined.
-    ``strange`` counts points in the result that are not in the input. ``faulty`` are the equations of program 1 that do
-    not vanish at the points that they should contain. ``ending`` is that of a run that failed.
+    ``status`` is ``determined``, or the reason why there is no hull. ``dimension`` is -1 if the hull is not determined.
+    ``strange`` counts points in the result that are not in the input. ``faulty`` holds the equations of program 1 that
+    do not vanish at the points that they should contain. ``ending`` is the ending of a failed run.
     """
 
     name: str
@@ -119,9 +119,7 @@ def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
 
 
 def as_hull(judged: ExactHull) -> Hull:
-    """Return an exact hull, in the order of the input, in the form of the port's results, with all numbers as exact
-    text.
-    """
+    """Convert an exact hull to the type of the port's results. Points keep their order; numbers are exact text."""
     points = [tuple(Fraction(number, judged.scale) for number in point) for point in judged.scaled]
     if judged.dimension == 3:
         polygons = [facet.polygon for facet in judged.facets]

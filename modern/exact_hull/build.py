@@ -43,7 +43,10 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
 
 
 def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequence[int] | None = None) -> list[int]:
-    """Return the points in the plane of a facet, among ``others`` or else all points that are not vertices."""
+    """Return the points that lie in the plane of a facet.
+
+    Search ``others``, or all points that are not vertices if ``others`` is None.
+    """
     if others is None:
         vertices = {index for facet in facets for index in facet.polygon}
         others = [index for index in range(len(points)) if index not in vertices]
@@ -67,7 +70,7 @@ def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequ
 
 
 def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Sequence[int] = ()) -> list[Facet]:
-    """Return the faces of distinct points, of which the four in ``simplex`` are affinely independent.
+    """Return the faces of the hull of distinct points.  The four points in ``simplex`` are affinely independent.
 
     The points in ``first`` are inserted before all others; every other point inside is then discarded at once.
     """
@@ -104,7 +107,7 @@ def _proposed(points: Sequence[IntPoint], fast: bool | None) -> tuple[list[Facet
 
 @dataclass(frozen=True, slots=True)
 class _Distinct:
-    """The points as integers with a common scale, and those that do not repeat an earlier one with their indices."""
+    """The points as integers with a common scale, and the distinct points with their indices."""
 
     scale: int
     scaled: list[IntPoint]
@@ -172,7 +175,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
 
 
 def _classified(prepared: _Distinct, dimension: int, facets: Sequence[Facet], boundary: Sequence[int]) -> ExactHull:
-    """Return the result without plane and polygon; ``facets`` and ``boundary`` refer to the distinct points."""
+    """Return the result without its plane and polygon.  ``facets`` and ``boundary`` index the distinct points."""
     count, indices = len(prepared.distinct), np.array(prepared.indices)
     vertices = sorted({index for facet in facets for index in facet.polygon} or {0})
     inside = np.ones(count, np.bool_)

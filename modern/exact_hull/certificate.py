@@ -55,7 +55,7 @@ def rank(vectors: Iterable[Sequence[int]]) -> int:
     """Return the rank of vectors of three integers, by fraction-free elimination."""
     rows: list[tuple[int, list[int]]] = []
     for vector in vectors:
-        # Eliminate the pivots of the rows so far; what remains is zero if the vector depends on them.
+        # Eliminate the pivots of the previous rows.  The remainder is zero if the vector depends on those rows.
         rest = list(vector)
         for pivot, row in rows:
             if rest[pivot]:
@@ -234,7 +234,7 @@ def _check_segment(hull: ExactHull) -> int:
 
 
 def _proved(hull: ExactHull) -> tuple[int, Incidences]:
-    """Check the facets and classes of a hull of dimension 1 to 3; return the number of edges, and counts."""
+    """Check the facets and classes of a hull of dimension 1 to 3.  Return the number of edges and the incidences."""
     # Many points and facets: prove convexity locally, if the surface is not too thin for float64.
     if hull.dimension == 3 and len(hull.scaled) * len(hull.facets) >= MANY:
         with suppress(Undecided):  # then every plane is evaluated at every point
@@ -248,7 +248,7 @@ def _proved(hull: ExactHull) -> tuple[int, Incidences]:
 def certify(points: Points, hull: ExactHull) -> Certificate:
     """Prove that ``hull`` is the convex hull of ``points``, or raise CertificateError.
 
-    The points are those of ``exact_hull``, but not an iterator, because they are read again.
+    ``points`` are the points passed to ``exact_hull``.  They cannot be an iterator, because they are read twice.
     """
     _check_integers(points, hull)
     _check_classes(hull)

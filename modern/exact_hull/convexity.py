@@ -162,11 +162,11 @@ class _Proof:
 
     @cached_property
     def middle(self) -> tuple[IntPoint, int]:
-        """o as integers and their common divisor."""
+        """The point o as integers and their common divisor."""
         return self.images.exactly(self.o)
 
     def signs(self, facets: Ints, points: Ints) -> Ints:
-        """Return the sign of each plane at the point of the same position."""
+        """Return the sign of the plane of each facet at the point with the same position in ``points``."""
         base = self.images.places[self.sides.corner[self.sides.first[facets]]]
         approximate = np.einsum("ij,ij->i", self.normals[facets], self.images.places[points] - base)
         signs: Ints = np.sign(approximate).astype(np.int64)
@@ -270,7 +270,7 @@ class _Proof:
             raise CertificateError(f"point {points[row]} is {where} a facet, which contradicts its class")
 
     def _located(self, away: Floats) -> tuple[Ints, NDArray[np.bool_]]:
-        """Return for each difference from o the triangle whose cone contains it, and whether that is certain."""
+        """Return the triangle whose cone contains each difference from o, and True if that is certain."""
         cones = self.cones
         # Start at the triangle, of a sample, whose direction from o is closest to that of the point.
         sample = np.linspace(0, len(cones.corners) - 1, min(_STARTS, len(cones.corners))).astype(np.int64)
@@ -294,7 +294,7 @@ class _Proof:
         return at, certain
 
     def _walked(self, triangle: int, point: int) -> int:
-        """Return the triangle whose cone contains a point, by exact signs, from a triangle near it; or -1."""
+        """Walk from a triangle to the one whose cone contains a point, by exact signs.  Return -1 if that fails."""
         for _ in range(_STEPS):
             beyond = [edge for edge in range(3) if self.wall_sign(triangle, edge, point) < 0]
             if not beyond:
@@ -312,7 +312,7 @@ class _Proof:
 
 
 def prove(hull: ExactHull) -> tuple[int, Incidences]:
-    """Check all of the above for dimension 3 and valid classes; return the number of edges, and counts.
+    """Prove conditions a to f for a hull of dimension 3 with valid classes.  Return the number of edges and incidences.
 
     Raise CertificateError if a check fails, and Undecided if there is no suitable o or ray.
     """

@@ -1,4 +1,4 @@
-"""Integer planes and the facets in them, for the construction only; the certificate has its own functions.
+"""Integer planes and their facets, for the construction only.  The certificate does not use these functions.
 
 The triangles of a polyhedron that share a plane become one polygon.  Points in one line or one plane need no surface:
 their facets, the ends of a segment or the edges of a polygon, are found by sorting.
@@ -38,7 +38,10 @@ def plane_at(normal: IntPoint, p: IntPoint) -> Plane:
 
 
 def plane_through(p: IntPoint, q: IntPoint, r: IntPoint) -> Plane:
-    """Return the plane of three points, not reduced; they are counterclockwise seen from its positive side."""
+    """Return the plane through three points, not in lowest terms.
+
+    The points are counterclockwise as seen from the positive side of the plane.
+    """
     return plane_at(cross(minus(q, p), minus(r, p)), p)
 
 
@@ -50,7 +53,10 @@ def lowest_terms(plane: Plane) -> Plane:
 
 
 def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
-    """Return at most four affinely independent points of distinct ones; their number minus one is the dimension."""
+    """Return the indices of at most four affinely independent points, one more than the dimension.
+
+    The points must be distinct.
+    """
     if len(points) == 1:
         return (0,)
     origin = points[0]
@@ -76,7 +82,7 @@ def rotated(polygon: Sequence[int]) -> tuple[int, ...]:
 
 
 def corners_only(cycle: Sequence[int], points: Sequence[IntPoint]) -> list[int]:
-    """Return a convex cycle of points without those that lie on the line between their neighbours."""
+    """Remove from a convex cycle every point that lies on the line between its neighbours."""
     corners = []
     for before, here, after in zip((cycle[-1], *cycle[:-1]), cycle, (*cycle[1:], cycle[0]), strict=True):
         if any(cross(minus(points[here], points[before]), minus(points[after], points[here]))):

@@ -19,7 +19,7 @@ BOUND = 2.0**-47
 
 @dataclass(frozen=True, slots=True)
 class Incidences:
-    """The pairs (plane, point) with the value 0, one with a point outside, and the numbers of values computed."""
+    """The pairs (plane, point) whose value is 0, a pair whose point is outside, and the numbers of computed values."""
 
     touching: list[tuple[int, int]]
     outside: tuple[int, int] | None

@@ -67,10 +67,10 @@ def surface(grid: NDArray[np.int64]) -> Surface:
 class Room(NamedTuple):
     """Work arrays of a step.  The kernel itself allocates none, because numba then compiles much faster.
 
-    ``near`` tells for each point whether it may lie on the surface.  ``visible`` and ``fresh`` are the visible and the
-    new triangles of a step, ``heads`` the first points of the lists of the former.  ``edges`` (n, 2) and ``outer`` (n,
-    3) hold the horizon as (slot, edge), and as (start, end, triangle beyond).  ``todo`` is a stack of slots with
-    waiting points, ``queued`` tells whether each slot is on it, and ``free`` holds empty slots.
+    ``near`` is True for each point that may lie on the surface.  ``visible`` and ``fresh`` are the visible and the new
+    triangles of a step.  ``heads`` has the first point in the list of each visible triangle.  ``edges`` (n, 2) holds
+    the horizon as (slot, edge), and ``outer`` (n, 3) as (start, end, triangle beyond).  ``todo`` is a stack of slots
+    with waiting points, ``queued`` is True for each slot on the stack, and ``free`` holds empty slots.
     """
 
     near: NDArray[np.bool_]
@@ -158,7 +158,10 @@ def distribute(known: Any, p: int, slots: Any, count: int, exact: bool) -> bool:
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
-    """Write and count the triangles that a point sees, from ``start`` on, and the edges (slot, edge) around them."""
+    """Find the triangles that a point sees, searching from ``start``, and the edges (slot, edge) around them.
+
+    Write both into the arrays and return their counts.
+    """
     mark, neighbours = known.mark, known.neighbours
     visible[0] = start
     mark[start] = 2 * step

@@ -128,7 +128,7 @@ def check_planes(hull: ExactHull, sides: Polygons) -> Objects:
 
 
 def values(planes: Objects, scaled: Sequence[IntPoint], facets: Ints, points: Ints) -> Objects:
-    """Return the value of each plane at the point of the same position, as Python integers."""
+    """Return the value of each facet's plane at the point with the same position in ``points``, as Python integers."""
     distinct, positions = np.unique(points, return_inverse=True)
     coordinates: Objects = np.array([scaled[index] for index in distinct.tolist()], object).reshape(-1, 3)
     plane, at = planes[facets], coordinates[positions]
@@ -137,7 +137,10 @@ def values(planes: Objects, scaled: Sequence[IntPoint], facets: Ints, points: In
 
 @dataclass(frozen=True, slots=True)
 class Images:
-    """The images u, ``places`` (n, 3), of points x = c + s u, where ``low`` is c and ``shifts`` the exponents of s."""
+    """The images u of points x = c + s u.
+
+    ``places`` (n, 3) holds the images, ``low`` is c, and ``shifts`` holds the exponents of s.
+    """
 
     low: tuple[int, ...]
     shifts: tuple[int, ...]

@@ -2,8 +2,8 @@
 
 The points are rounded to a grid of 2**30 steps for each axis (coordinates that fit are unchanged), and the hull of the
 rounded points grows in rounds.  In each round every triangle nominates the farthest of the points that wait outside it
-(Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Those nominated points
-are inserted together whose visible regions neither overlap nor share an edge.  Every edge of the new surface then
+(Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Nominated points are
+inserted together if their visible regions neither overlap nor share an edge.  Every edge of the new surface then
 has two triangles that would also be adjacent if only one of these points had been inserted, so the surface is convex
 again.  For the same reason a point that waits at a removed triangle is compared only with the triangles of the point
 that removed it.  "Sees" is strict, as in :mod:`modern.exact_hull.surface`.
@@ -51,7 +51,7 @@ class Proposal:
 
 
 def on_grid(points: Sequence[IntPoint]) -> tuple[Ints, bool]:
-    """Return the points rounded to integers from 0 to 2**30 - 1 (n, 3), and whether rounding changed none of them."""
+    """Return the points rounded to integers from 0 to 2**30 - 1 (n, 3), and True if rounding changed no point."""
     grid, exact = np.empty((len(points), 3), np.int64), True
     for axis, column in enumerate(columns_of(points)):
         low, high = int(column.min()), int(column.max())
@@ -105,7 +105,10 @@ def _chosen(fast: bool | None, count: int) -> Function | None:
 
 
 def _simplex(grid: Ints) -> list[int] | None:
-    """Return four points that are far from each other, the fourth inside the plane of the others; None if coplanar."""
+    """Return four points that are far from each other, or None if all points are coplanar.
+
+    The fourth point is on the inner side of the plane of the other three.
+    """
     # a and b are extreme on the longest axis, c is farthest from their line, d from the plane of the three.
     axis = int(np.ptp(grid, axis=0).argmax())
     a, b = int(grid[:, axis].argmin()), int(grid[:, axis].argmax())
@@ -124,7 +127,10 @@ def _simplex(grid: Ints) -> list[int] | None:
 
 
 def exact_signs(normals: Ints, differences: Ints) -> Ints:
-    """Return the exact signs of the scalar products of rows, of normals below 2**61 and differences below 2**30."""
+    """Return the exact sign of the scalar product of each row of ``normals`` with that row of ``differences``.
+
+    Normals are below 2**61 and differences below 2**30 in absolute value.
+    """
     # Split each number of the normal into 2**31 high + low, and carry the high part of the low sum.
     high = ((normals >> 31) * differences).sum(axis=1)
     low = ((normals & LOW) * differences).sum(axis=1)
@@ -179,7 +185,7 @@ class _Growing:
         self.made = end
 
     def _signed(self, values: Floats, points: Ints, triangles: Ints) -> Floats:
-        """Return the values, with those in doubt replaced by their exact sign times 1e-300."""
+        """Return the values.  A value whose sign is uncertain becomes its exact sign times 1e-300."""
         doubtful = np.flatnonzero(abs(values) <= DOUBT)
         if doubtful.size:
             point, triangle = points[doubtful], triangles[doubtful]
@@ -188,12 +194,13 @@ class _Growing:
         return values
 
     def _set_aside(self, points: Ints, largest: Floats) -> None:
-        """Record those of the given points, none of which is outside, that may lie on the surface."""
+        """Record the given points that may lie on the surface.  None of the given points is outside."""
         self.near.append(points[largest == 0] if self.exact else points[largest >= NEAR])
 
     def _tried_against_all(self, points: Ints, first: int) -> tuple[Ints, Ints, Floats]:
-        """Return the points that see a triangle from ``first`` on, the one with the largest value for each, and the
-        value.
+        """Compare the points with all triangles from index ``first`` on.
+
+        Return the points that see one of these triangles, the triangle with the largest value for each, and that value.
         """
         triangles = np.arange(first, self.made)
         chosen, largest = np.empty(len(points), np.int64), np.empty(len(points))
@@ -211,7 +218,10 @@ class _Growing:
         return points[outside], chosen[outside], largest[outside]
 
     def _tried_against_own(self, points: Ints, remover: Ints, starts: Ints, counts: Ints) -> tuple[Ints, Ints, Floats]:
-        """Do the same with the new triangles of each point's remover only: ``counts`` triangles from ``starts`` on."""
+        """Compare each point only with the new triangles of its remover: ``counts`` triangles from ``starts`` on.
+
+        The return value is that of ``_tried_against_all``.
+        """
         # One row for each pair of a point and a triangle of its remover.
         pairs = counts[remover]
         ends = np.cumsum(pairs)
@@ -265,7 +275,10 @@ class _Growing:
         return True
 
     def _nominated(self) -> tuple[Ints, Ints]:
-        """Return points to insert and their triangles, the highest last; no neighbour has a higher point."""
+        """Return candidate points and their triangles, in increasing height.
+
+        No neighbour of these triangles has a higher point.
+        """
         highest = np.full(self.made, -1.0)
         np.maximum.at(highest, self.home, self.height)
         top = self.height == highest[self.home]

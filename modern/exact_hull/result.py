@@ -42,7 +42,7 @@ class Certificate:
     dimension, points, vertices, edges, facets: those of the hull.
     arithmetic: "int64", or "float64 and integers" if a floating-point filter was used, or "none" for a point.
     evaluations: the number of exact signs of a plane at a point.
-    in_integers: how many of these signs the floating-point filter could not determine.
+    in_integers: the number of these signs that the floating-point filter could not determine.
     """
 
     dimension: int

@@ -162,7 +162,7 @@ class Surface:
         return value(self.planes[triangle], self.frame.integers[p]) > 0
 
     def _distribute(self, points: list[int], triangles: range) -> None:
-        """Assign to every point one of the triangles that it sees, or none.  ``triangles`` ends with the newest one."""
+        """Assign to every point one of ``triangles`` that it sees, or none.  The range ends at the newest triangle."""
         if not points:
             return
         bound = self.frame.bound

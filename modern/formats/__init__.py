@@ -11,10 +11,12 @@ How to add a format in which hulls are written:
 
 How to add a format from which points are read:
 
-1. Write the reader in ``modern/formats/NAME.py``.  It returns the points as decimal text and the place of each one.
+1. Write the reader in ``modern/formats/NAME.py``.  It returns the points as decimal text, and the position of each
+   point in the file (for example its line).
 2. Add NAME to ``POINTS`` below.
-3. In ``points.py`` teach ``recognise`` how such a file begins, and call the reader in ``parse_input``.  A binary
-   format is recognised and read in ``parse_bytes`` instead.  Every command that accepts points then accepts the format.
+3. In ``points.py`` extend ``recognise`` so that it detects the beginning of such a file, and call the reader in
+   ``parse_input``.  For a binary format extend ``parse_bytes`` instead.  Every command that accepts points then accepts
+   the format.
 
 How to add a format from which faces are read (for ``hidden-line`` and its scenes): add it to points as above, write a
 function that returns a ``FileMesh`` (``tokens.py``), and add it to ``SURFACES`` and ``parse_mesh`` in ``meshes.py``.

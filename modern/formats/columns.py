@@ -6,7 +6,10 @@ from collections.abc import Iterable, Iterator, Sequence
 
 
 def aligned(rows: Iterable[Sequence[str]], right: Sequence[bool] | bool = False) -> Iterator[str]:
-    """Yield the rows as lines whose columns have equal widths, two blanks apart; ``right`` aligns columns right."""
+    """Yield the rows as lines with aligned columns, separated by two blanks.
+
+    ``right`` selects right alignment for all columns or for each column.
+    """
     cells = list(rows)
     columns = range(len(cells[0]) if cells else 0)
     widths = [max(len(row[k]) for row in cells) for k in columns]

@@ -37,7 +37,10 @@ def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def _normalised(line: str, separator: str) -> str:
-    """Return a line for the csv reader: empty for a comment, with single blanks if blanks separate the fields."""
+    """Return a line for the csv reader.
+
+    A comment becomes an empty line.  If blanks separate the fields, they become single blanks.
+    """
     if line.lstrip().startswith("#"):
         return ""
     return line if separator else " ".join(line.split())
@@ -61,7 +64,7 @@ def begins_with_point(text: str) -> bool:
 
 
 def points(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the points of a list, x y z in a row, and the line of each one.  Raise FileError for another row."""
+    """Return the points of a list and the line of each point.  Raise FileError for a row that is not x, y, z."""
     numbered = [(_point(row, source, line), line) for line, row in rows(text, source)]
     return tuple(point for point, _ in numbered), tuple(line for _, line in numbered)
 

@@ -40,7 +40,7 @@ class DataSet:
 
 @dataclass(frozen=True, slots=True)
 class DeckWarning:
-    """A warning about a card: its place, and either a text or a remark of the FORMAT reader on the number ``name``."""
+    """A warning about a card: its position, and either a text or the FORMAT reader's remark on the number ``name``."""
 
     source: str
     card: int
@@ -95,7 +95,10 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
 
 
 class UnfitPoint(ArgumentError):
-    """A coordinate, by ``point`` and ``field`` from 1, that no card can hold, perhaps only because of its digits."""
+    """A coordinate that no card can hold, for example because it has too many digits.
+
+    ``point`` and ``field`` number the point and the coordinate from 1.
+    """
 
     def __init__(self, point: int, field: int, why: str, digits: bool) -> None:
         super().__init__(f"point {point}, field {field}: {why}")
@@ -122,7 +125,7 @@ def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = Fal
 
 
 def with_epsilon(deck: Deck, epsilon: object) -> Deck:
-    """Return the deck of one data set with e, a number or its text, punched after N, for the layer ``epsilon``.
+    """Return the deck of one data set with e punched after N, as the layer ``epsilon`` reads it.
 
     Raise ArgumentError if e is invalid or no card can hold it.
     """
@@ -169,9 +172,10 @@ def _decimal(number: FieldNumber) -> str:
 
 
 def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) -> CheckedDeck:
-    """Check every data set of a deck; with ``epsilon`` the programs read e after N.
+    """Check every data set of a deck.  If ``epsilon`` is true, the card with N also holds e.
 
-    Raise CardError for an invalid N (1 to 51), coordinate or e, and DeckError if the deck has fewer than N points.
+    Raise CardError for an invalid coordinate or e, or if N is not from 1 to 51.  Raise DeckError if the deck has fewer
+    than N points.
     """
     sets: list[DataSet] = []
     warnings: list[DeckWarning] = []
@@ -241,7 +245,7 @@ def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning])
 
 
 def _point(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) -> tuple[tuple[int, int], ...]:
-    """Return mantissa and exponent of the three numbers of a card, the same for all zeros."""
+    """Check a card and return the mantissa and exponent of its three numbers.  All zeros have the same pair."""
     numbers = []
     for axis, (first, columns) in zip("xyz", _fields(card), strict=True):
         try:

@@ -1,6 +1,6 @@
-"""A hull for other programs: text in any of the formats, or a ``trimesh.Trimesh``.
+"""Export a hull to other programs, as text in any of the formats or as a ``trimesh.Trimesh``.
 
-OFF, OBJ and PLY preserve the faces as polygons, STL splits them into triangles, and JSON has everything.  The vertices
+OFF, OBJ and PLY preserve the faces as polygons.  STL splits them into triangles.  JSON has all data.  The vertices
 of a mesh are those of ``Hull.vertices``, in that order; only JSON also contains boundary and inside points.
 """
 
@@ -43,16 +43,16 @@ def format_of(path: str) -> str:
 
 
 def write_hull(hull: Hull, path: str, form: str | None = None, digits: int | None = None) -> None:
-    """Write a hull to a file (``-``: standard output); on failure an existing file is unchanged.
+    """Write a hull to a file, or to standard output if ``path`` is ``-``.  A failure leaves an existing file unchanged.
 
-    The format is ``form``, one of ``HULLS``, or the one for the extension of the file.  Raise ExportError if the
-    format cannot hold the hull, and FileError if the file cannot be written.
+    ``form`` is one of ``HULLS``.  If it is None, the extension of the file determines the format.  Raise ExportError if
+    the format cannot hold the hull, and FileError if the file cannot be written.
     """
     write_text(path, export_text(hull, form or format_of(path), digits))
 
 
 def to_trimesh(hull: Hull) -> Any:
-    """Return a ``trimesh.Trimesh`` of the vertices, in their order, and of the faces split into triangles.
+    """Return a ``trimesh.Trimesh`` of the hull.  Vertices keep their order; faces are split into triangles.
 
     Coordinates are rounded to the nearest binary float.  Raise ExportError if trimesh is not installed, the hull has no
     area, or a number is too large for a float.

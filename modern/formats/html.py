@@ -1,7 +1,7 @@
-"""HTML: a page that shows a hull and turns it, and that loads nothing from elsewhere.
+"""HTML: a self-contained page that shows a hull, which the reader can rotate.
 
-The page responds to dragging, the arrow keys, the mouse wheel, +, - and 0.  Without JavaScript it says so and still has
-a table of the exact vertices.
+The page responds to dragging, the arrow keys, the mouse wheel, +, - and 0.  Without JavaScript it shows a notice and a
+table of the exact vertices.
 """
 
 from __future__ import annotations
@@ -14,7 +14,11 @@ from modern.geometry.mesh import ExportError, Mesh
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """Return the text of the page: its picture uses binary floats, its table exact vertices or ``digits`` digits."""
+    """Return the text of the page.
+
+    The picture uses binary floats.  The table has exact vertices; those without a finite decimal expansion are rounded
+    to ``digits`` significant digits.
+    """
     try:
         points = [[float(number) for number in point] for point in mesh.numbers()]
     except OverflowError:

@@ -1,8 +1,9 @@
 """JSON: the complete data of a hull, with every number exact.
 
 Coordinates and coefficients are strings, decimals or fractions ``p/q``.  The integers of equations in lowest terms are
-strings too, because many JSON readers round large numbers.  Indices refer to ``points``, from 0.  The reader returns
-the points of a hull, of any object with ``points`` or ``vertices``, or of a list; they may be numbers or strings.
+strings too, because many JSON readers round large numbers.  Indices refer to ``points`` and count from 0.  The reader
+accepts a hull, any object with the member ``points`` or ``vertices``, or a list of points.  Coordinates may be numbers
+or strings.
 """
 
 from __future__ import annotations
@@ -40,7 +41,10 @@ def document(hull: Hull) -> dict[str, Any]:
 
 
 def write(hull: Hull) -> str:
-    """Return the text of a JSON file: one line for each member, and for each item of a list of lists or objects."""
+    """Return the text of a JSON file.
+
+    Each member is on one line.  A list of lists or of objects has one line for each item.
+    """
     members = ",\n".join(f" {json.dumps(name)}: {_member(value)}" for name, value in document(hull).items())
     return "{\n" + members + "\n}\n"
 

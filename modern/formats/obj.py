@@ -29,7 +29,7 @@ def write(mesh: Mesh, digits: int | None = None) -> str:
 
 
 def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the vertices as text and the line of each one.  Raise FileError for an invalid vertex."""
+    """Return the vertices as text, and the line of each vertex.  Raise FileError for an invalid vertex."""
     vertices = [(vertex(source, line, tokens, 1, True), line) for line, tokens in lines(text) if tokens[0][0] == "v"]
     return tuple(point for point, _ in vertices), tuple(line for _, line in vertices)
 
@@ -50,7 +50,7 @@ def surface(text: str, source: str) -> FileMesh:
 
 
 def _corner(source: str, line: int, token: Token, vertices_before: int, count: int) -> int:
-    """Return the index of a vertex of a face; a negative number counts back from the vertices before the face."""
+    """Return the index of a vertex of a face.  A negative number counts back from the last vertex before the face."""
     match = re.fullmatch(r"(-?)([0-9]{1,9})(?:/-?[0-9]*){0,2}", token[0])
     if not match:
         raise error(source, line, token, f"{quoted(token[0])} is not a vertex of a face")

@@ -69,13 +69,13 @@ Reader = Callable[[_Element, int], tuple[int, list[Any]]]
 
 
 def parse(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the vertices of a PLY file, exactly, and the line of each one or, in a binary file, its number from 1."""
+    """Return the exact vertices of a PLY file and the line of each vertex (in a binary file, its number from 1)."""
     mesh = surface(data, source, with_faces=False)
     return mesh.points, mesh.lines
 
 
 def surface(data: bytes, source: str, with_faces: bool = True) -> FileMesh:
-    """Return the vertices and faces of a PLY file, as ``parse``; without ``with_faces`` the faces are not read."""
+    """Return the exact vertices and the faces of a PLY file.  If ``with_faces`` is false, do not read the faces."""
     end = data.find(_END, 0, _MOST_HEADER)
     if end < 0:
         raise FileError(f"{source}: line 1, column 1: the header has no line end_header")

@@ -42,7 +42,10 @@ def write(mesh: Mesh, digits: int | None = None) -> str:
 
 
 def unit_text(vector: Vector) -> str:
-    """Return the unit vector of ``vector``, or zero, as three numbers truncated to nine decimals by integers only."""
+    """Return the unit vector of ``vector`` as three numbers truncated to nine decimals, using only integers.
+
+    The zero vector remains zero.
+    """
     square = dot(vector, vector)
     return " ".join(_truncated_quotient(component, square) for component in vector)
 
@@ -62,7 +65,7 @@ def is_binary(data: bytes) -> bool:
 
 
 def surface_binary(data: bytes, source: str) -> FileMesh:
-    """Return the triangles of a binary file as exact decimals; the "line" of a point is its first triangle."""
+    """Return the triangles of a binary file as exact decimals.  A point's "line" is its first triangle."""
     indices: dict[Point, int] = {}
     first_triangles: list[int] = []
     faces = []
@@ -79,7 +82,7 @@ def surface_binary(data: bytes, source: str) -> FileMesh:
 
 
 def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the distinct corners of an ASCII file as text, and the line in which each one first appears."""
+    """Return the distinct corners of an ASCII file as text, and the line in which each corner first appears."""
     mesh = surface(text, source, check_triangles=False)
     return mesh.points, mesh.lines
 

@@ -26,7 +26,10 @@ class FileMesh:
 
 
 def lines(text: str, comment: str = "#") -> Iterator[Line]:
-    """Yield the lines that have tokens.  A line is ignored from ``comment`` on unless that is empty."""
+    """Yield the lines that have tokens.
+
+    The rest of a line after the text ``comment`` is ignored.  If ``comment`` is empty, there are no comments.
+    """
     for line_number, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
         content = line.split(comment, 1)[0] if comment else line
         tokens = [(match[0], match.start() + 1) for match in re.finditer(r"\S+", content)]
@@ -48,7 +51,10 @@ def take(rows: Iterator[Line], count: int, source: str, last: int, what: str) ->
 
 
 def vertex(source: str, line: int, tokens: list[Token], first: int = 0, allow_more: bool = False) -> Point:
-    """Return the three coordinates from token ``first`` on.  Raise FileError for others, unless ``allow_more``."""
+    """Return the three coordinates that begin at token ``first``.
+
+    Raise FileError if they are invalid, or if more tokens follow and ``allow_more`` is false.
+    """
     numbers = len(tokens) - first
     if numbers < 3 or (numbers > 3 and not allow_more):
         where = tokens[min(first + 3, len(tokens) - 1)]
@@ -76,5 +82,5 @@ def decimal(source: str, line: int, token: Token) -> str:
 
 
 def error(source: str, line: int, token: Token, message: str) -> FileError:
-    """Return an error whose message gives the place of a token."""
+    """Return an error whose message gives the line and column of a token."""
     return FileError(f"{source}: line {line}, column {token[1]}: {message}")

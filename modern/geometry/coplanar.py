@@ -4,10 +4,10 @@ Points in binary floats are seldom exactly coplanar: the hull of a dodecahedron 
 leaves the hull as it is and derives a second hull with joined faces from it:
 
 1. Take the faces from the largest area to the smallest, and of equal areas the first one.
-2. To a face that is not yet joined, join all faces that are connected to it through edges, turn the same way (their
-   normals have a positive scalar product) and have every vertex within E of the plane of that first face.  Distances
-   are compared exactly, by their squares.
-3. The joined face is the polygon around its faces.  A vertex inside it is left out.
+2. Skip a face that already belongs to a joined face.  Otherwise join to it every face that is connected to it through
+   edges, has a normal with a positive scalar product with its normal, and has all vertices within E of its plane.
+   Distances are compared exactly, by their squares.
+3. The joined face is the polygon that bounds this group of faces.  A vertex in the interior of the polygon is dropped.
 
 An E that is too large for the solid raises CoplanarError: all points lie within E of the plane of the largest face, or
 fewer than four faces remain, or a joined face is not a simple polygon that is convex to within E.
@@ -42,10 +42,10 @@ class CoplanarError(ExportError):
 class Joined:
     """A convex surface with faces joined ``within`` the distance E.
 
-    ``groups`` are the indices of the faces that make up each joined face, beginning with the one whose plane is used,
-    and ``loops`` their polygons, counterclockwise from outside.  Points that are ``left_out`` are on no loop.
-    ``square`` is the square of the largest distance of a vertex from the plane of its joined face, and ``beyond`` that
-    of the smallest E that would join one more face, or None.
+    ``groups`` has for each joined face the indices of the faces that it replaces.  The joined face has the plane of the
+    first one.  ``loops`` are the polygons of the joined faces, counterclockwise seen from outside.  ``left_out`` points
+    belong to no polygon.  ``square`` is the square of the largest distance of a vertex from the plane of its joined
+    face.  ``beyond`` is the square of the smallest E that would join one more face, or None.
     """
 
     within: Fraction
@@ -67,7 +67,10 @@ class Joined:
 
 
 def parse_distance(value: object) -> Fraction:
-    """Return E as a fraction, from decimal text, a fraction ``p/q`` or any real number.  Raise CoplanarError."""
+    """Return E as a fraction.
+
+    ``value`` is decimal text, a fraction ``p/q`` or a real number.  Raise CoplanarError if it is invalid.
+    """
     try:
         distance = Fraction(real(value))
     except ValueError as error:
@@ -138,7 +141,7 @@ def join(surface: Mesh, within: Fraction) -> Joined:
 
 
 def joined_mesh(surface: Mesh, joined: Joined) -> Mesh:
-    """Return the surface with joined faces, without the points that are left out."""
+    """Return the surface with joined faces, without the points in ``joined.left_out``."""
     left_out = set(joined.left_out)
     remaining = [index for index in range(len(surface.points)) if index not in left_out]
     new_indices = {index: new for new, index in enumerate(remaining)}
@@ -147,10 +150,11 @@ def joined_mesh(surface: Mesh, joined: Joined) -> Mesh:
 
 
 def coplanar(hull: Hull, within: object) -> tuple[Hull, Joined | None]:
-    """Return a hull with faces joined within a distance, and how they were joined; a flat hull is returned unchanged.
+    """Return the hull with its coplanar faces joined, and a record of the joining.
 
-    A joined face has the equation of its largest face, and its vertices lie within the distance of that plane.
-    Vertices inside joined faces become boundary points.  Raise CoplanarError if the distance is invalid or too large,
+    A hull without volume is returned unchanged, with None.  A joined face has the equation of the largest face that it
+    replaces, and its vertices lie within the distance of that plane.  Vertices inside joined faces become boundary
+    points.  Raise CoplanarError if the distance is invalid or too large,
     and ExportError if the hull was not determined.
     """
     limit = parse_distance(within)
@@ -187,7 +191,7 @@ def _face(hull: Hull, group: Sequence[int], loop: Sequence[int], left_out: set[i
 
 
 def join_summary(joined: Joined) -> str:
-    """Return a line for the user: the numbers of faces, the largest distance, and the next larger distance."""
+    """Return a line for the user: the numbers of faces, the largest deviation, and the E that would join more faces."""
     within = distance_text(joined.within)
     following = "" if joined.beyond is None else f"the next face would be joined from {root_text(joined.beyond)} on"
     if len(joined.groups) == joined.faces:
@@ -223,7 +227,7 @@ def distance_text(value: Fraction) -> str:
 
 
 def _plain(value: Decimal) -> str:
-    """Return the number without trailing zeros and with an exponent only if it is long: 40, 0.002, 1e-9."""
+    """Return the number without trailing zeros.  Only a long number has an exponent: 40, 0.002, 1e-9."""
     short = value.normalize()
     return f"{short:f}" if -5 < short.adjusted() < _LONGEST else f"{short:g}"
 
@@ -239,7 +243,7 @@ def _integers(surface: Mesh) -> tuple[list[IntVector], int]:
 
 
 def _depth(points: Sequence[IntVector], normal: IntVector, base: int, indices: Sequence[int]) -> int:
-    """Return the square of the largest distance of points from the plane at point ``base``, times |normal|^2."""
+    """Return |normal|^2 times the square of the largest distance of the points from the plane through ``base``."""
     level = dot(normal, points[base])
     return max(abs(level - dot(normal, points[index])) for index in indices) ** 2
 
@@ -265,7 +269,7 @@ def _loop(surface: Mesh, group: Sequence[int], within: Fraction) -> tuple[int, .
 def _check_convex(
     points: Sequence[IntVector], scale: int, loop: Sequence[int], normal: IntVector, within: Fraction
 ) -> None:
-    """Raise CoplanarError if, seen along the normal, a corner lies deeper than E inside the polygon's convex hull."""
+    """Raise CoplanarError if a corner, seen along the normal, is more than E inside the convex hull of the polygon."""
     size = dot(normal, normal)
     corners = [points[index] for index in loop]
     hull = _outer(corners, normal)

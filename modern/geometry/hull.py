@@ -24,7 +24,7 @@ T = TypeVar("T")
 
 
 class LazyTuple(Sequence[T]):
-    """A tuple whose members are computed on first access, although its length is known.  It is equal to that tuple."""
+    """A sequence of known length whose members are computed on first access.  It equals the tuple of its members."""
 
     def __init__(self, count: int, make: Callable[[], Iterable[T]]) -> None:
         self._count = count
@@ -65,7 +65,7 @@ class LazyTuple(Sequence[T]):
 
 
 def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
-    """Return the members as a tuple, without copying a tuple."""
+    """Return the members as a tuple.  A tuple is returned without a copy."""
     return members.all() if isinstance(members, LazyTuple) else tuple(members)
 
 
@@ -83,9 +83,9 @@ class Face:
     defining
         The points MM, NN, KK (for a line MM, NN) from which the equation was made.
     polygon
-        The vertices on it in cyclic order, counterclockwise seen from outside; for a line its two vertices.
+        The vertices on the plane in cyclic order, counterclockwise seen from outside.  A line has two vertices.
     on
-        All other points of the input on it.
+        All other input points that lie on the plane or line.
     """
 
     coefficients: Coefficients
@@ -100,10 +100,10 @@ class Stage:
     """An approximation H_j of the construction (thesis p. 8-9, 22-33).
 
     number: j.
-    added: the point that became a vertex, or the points of H_1.
-    checked: NETC, the number of the equation outside of which it lay; 0 for H_1.
-    outside: the number of equations outside of which it lay.
-    struck: the points inside H_j, which the procedure eliminates.
+    added: the point that became a vertex.  For H_1 these are its initial points.
+    checked: NETC, the number of the equation that found the added point outside; 0 for H_1.
+    outside: the number of equations that have the added point outside.
+    struck: the points inside H_j, which the procedure eliminates from the search.
     equations: the defining points of each equation, in the order of the table.
     """
 
@@ -140,17 +140,17 @@ class Hull:
         beyond their arrays, or ``the faces do not close to a surface`` if epsilon merged too many.
     dimension: 0 to 3.
     points: the input as numbers of the arithmetic.
-    vertices, boundary, inside: points in the order in which the programs punch them.  For a segment the programs punch
-        only the ends, and the points between them are inside.
+    vertices, boundary, inside: points in the order in which the programs punch them.  The programs punch only the ends
+        of a segment.  The points between the ends belong to ``inside``.
     duplicates: pairs of a point and the first point with the same coordinates.  The thesis requires distinct points,
         so duplicates are reported and otherwise ignored.
     plane: the plane of a polygon, as punched.
-    lines: two equations for each line, of a segment and of the three sides of three points.
+    lines: two equations for the line of a segment, or for each of the three sides of a triangle of three points.
     centre: the point C of a polyhedron.
     statement: program and label of the statement that decided the status.
     corrected: rows of the layer ``corrected`` whose branch differed from that of the listing.
-    history: the approximations, if they were requested.
-    coplanar: if faces were joined, how.  The vertices of a face then lie only near its plane.
+    history: the approximations H_j, if the caller requested them.
+    coplanar: a description of joined faces, or None.  The vertices of a joined face lie only near its plane.
     """
 
     arithmetic: str

@@ -54,7 +54,7 @@ class Mesh:
         return tuple(sorted({(min(a, b), max(a, b)) for face in self.faces for a, b in sides(face)}))
 
     def planes(self, hull: Hull) -> Iterator[tuple[Fraction, Fraction, Fraction, Fraction]]:
-        """Yield A, B, C, D of each face's plane, with an outward normal: for a polyhedron the equations of the hull."""
+        """Yield A, B, C, D of each face's plane with outward normal.  A polyhedron uses the equations of the hull."""
         points = self.numbers()
         for order, polygon in enumerate(self.faces):
             if self.dimension == 3:
@@ -65,7 +65,7 @@ class Mesh:
             yield a, b, c, d
 
     def squared_areas(self) -> tuple[Fraction, ...]:
-        """Return the square of each face's area, which is rational although the area may not be."""
+        """Return the square of each face's area.  The square is rational even if the area is not."""
         points = self.numbers()
         normals = (area_vector(points, face) for face in self.faces)
         return tuple(dot(normal, normal) / 4 for normal in normals)
@@ -134,6 +134,6 @@ def _cycle(lines: list[tuple[int, ...]], count: int) -> tuple[int, ...]:
 
 
 def _turned(face: tuple[int, ...], points: tuple[Vector, ...], plane: tuple[str, ...]) -> tuple[int, ...]:
-    """Return the face, reversed if necessary, counterclockwise seen from the side to which (A, B, C) points."""
+    """Return the face counterclockwise as seen from the side to which (A, B, C) points; reverse it if necessary."""
     normal = coordinates(plane[:3])
     return face if dot(area_vector(points, face), normal) >= 0 else (face[0], *face[:0:-1])

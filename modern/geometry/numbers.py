@@ -1,7 +1,7 @@
 """Exact numbers and their text: decimals and fractions to numbers, and back.
 
-``exact_text`` gives the text of numbers in a hull, ``decimal_text`` and ``finite_decimal`` that in files and messages.
-They differ in where they begin to use an exponent.
+``exact_text`` formats the numbers of a hull.  ``decimal_text`` and ``finite_decimal`` format numbers in files and
+messages.  These functions begin to use an exponent at different lengths.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _SAFE_BITS = 10_000
 
 
 class PointsError(ArgumentError):
-    """An invalid point, counted from 0, or one that an arithmetic cannot represent; the message is one line."""
+    """A point that is invalid or that an arithmetic cannot represent.  The one-line message counts points from 0."""
 
 
 def quoted(text: str) -> str:
@@ -80,7 +80,7 @@ def number(text: str) -> Fraction:
 
 
 def real(value: object) -> Exact:
-    """Return a real number of any type exactly; a binary float, also one of numpy, has the value it stores.
+    """Return the exact value of a real number of any type.  A binary float, also of numpy, has the value it stores.
 
     Text may be a decimal or a fraction ``p/q``.  Raise ValueError for infinities, NaN, booleans, numbers whose
     numerator or denominator exceeds 10**13999, and all other types.
@@ -109,7 +109,7 @@ def real(value: object) -> Exact:
 
 
 def read_epsilon(epsilon: object) -> tuple[Fraction, bool] | None:
-    """Return e of chapter 7 and whether it is relative (``"rel:E"``), or None for None.
+    """Return e of chapter 7 and True if it is relative (``"rel:E"``).  Return None if ``epsilon`` is None.
 
     Raise ArgumentError unless e is a real number, also as text, that is not negative.
     """
@@ -144,10 +144,11 @@ def integer_text(value: int) -> str:
 
 
 def decimal_text(text: str, digits: int | None = None) -> str:
-    """Return a decimal with the value of ``text``: the text itself, without a plus sign, if it is a decimal.
+    """Return a decimal or a fraction as decimal text.
 
-    A fraction p/q becomes its finite decimal.  Otherwise it is rounded to ``digits`` significant digits, or
-    raises ValueError if ``digits`` is None.
+    A decimal is returned without its plus sign and otherwise unchanged.  A fraction p/q with a finite decimal expansion
+    becomes that decimal.  Any other fraction is rounded to ``digits`` significant digits, or raises ValueError if
+    ``digits`` is None.
     """
     stripped = text.strip()
     value = value_of(stripped)
@@ -165,7 +166,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
 
 
 def sum_of_roots(squares: Iterable[Fraction], digits: int) -> Decimal:
-    """Return the sum of square roots to the given number of digits; it is exact if no root has more digits."""
+    """Return the sum of square roots to ``digits`` digits.  The sum is exact if no root needs more digits."""
     work, total = Context(prec=digits + _GUARD, Emin=MIN_EMIN, Emax=MAX_EMAX), Decimal(0)
     for square in squares:
         # The quotient of two roots, unlike the root of a quotient, is exact if both roots are integers.
@@ -211,7 +212,7 @@ def float_text(value: float | Exact) -> str:
 
 
 def scaled_decimal(integer: int, exponent: int) -> str:
-    """Return integer * 10**exponent as a decimal string of at most 80 digits, or with an exponent if it is longer."""
+    """Return integer * 10**exponent as a decimal string.  More than 80 digits are written with an exponent."""
     if integer == 0:
         return "0"
     sign, digits = ("-" if integer < 0 else ""), integer_text(abs(integer))

@@ -1,4 +1,4 @@
-"""Points as arguments of functions: the check of the container and of each point."""
+"""Check the container and the shape of points that are passed to functions."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ def check_array(points: NDArray[Any]) -> None:
 
 
 def point_rows(points: Any) -> Iterator[list[Any]]:
-    """Yield the three coordinates of each point; their values are not checked.
+    """Yield the three coordinates of each point, without checking their values.
 
-    Raise PointsError, which counts points from 0, if there are no points, or for anything that is not a sequence of
-    points with three coordinates.
+    Raise PointsError if ``points`` is empty or is not a sequence of points with three coordinates.  The message counts
+    points from 0.
     """
     if isinstance(points, np.ndarray):
         check_array(points)

@@ -1,6 +1,7 @@
 """Vectors of three exact numbers, integers or fractions; the results have the type of the arguments.
 
-The exact hull (:mod:`modern.exact_hull`) and the port have their own functions, because it checks the port's results.
+The exact hull (:mod:`modern.exact_hull`) and the port do not share these functions, because the exact hull checks the
+results of the port.
 """
 
 from __future__ import annotations
@@ -41,7 +42,10 @@ def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
 
 
 def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
-    """Return the normal, on the side from which the corners run counterclockwise, with twice the area as length."""
+    """Return a normal of the face whose length is twice the area.
+
+    The corners are counterclockwise as seen from the tip of the normal.
+    """
     origin = points[face[0]]
     total = minus(origin, origin)
     for here, ahead in pairwise(face[1:]):

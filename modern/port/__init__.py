@@ -11,8 +11,8 @@ To add an arithmetic for the port:
 2. Name it in ``NAMES`` and construct it in ``fixed_arithmetic``, both in ``points.py``.
 3. Test it in ``tests/modern/port/test_port_floats.py``, or in ``test_port_cards.py`` if the programs have it too.
 
-A decimal arithmetic that differs only in its digits or its rounding needs nothing here. Add its ``Profile`` in
-``emulator/numbers/arithmetic.py``, and the programs and the port both know it.
+A decimal arithmetic that differs only in its digits or its rounding needs no change here. Add its ``Profile`` in
+``emulator/numbers/arithmetic.py``. The programs and the port then both provide it.
 """
 
 from modern.geometry.hull import HullRefused

@@ -2,8 +2,8 @@
 
 A vector is a numpy array of floats or of Python objects. The formulas (:mod:`modern.port.formulas`) use its
 operators, so that the same code of the procedure serves every arithmetic. A quantity has a *degree*: 1 for
-coordinates, 2 for the coefficients A, B, C of a plane and 3 for D. An arithmetic needs it to convert numbers that it
-holds in a scaled unit.
+coordinates, 2 for the coefficients A, B, C of a plane and 3 for D. An arithmetic that stores numbers in a scaled unit
+needs the degree to convert them.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Arithmetic(ABC):
         """Return -1, 0 or 1 for each value: the three branches of a FORTRAN IF."""
 
     def within(self, values: Vector, slack: Vector) -> NDArray[np.bool_]:
-        """Return for each value whether it lies in the closed interval from -slack to +slack."""
+        """Return True for each value in the closed interval from -slack to +slack."""
         return np.asarray(self.sign(slack - abs(values)) >= 0)
 
     @abstractmethod
@@ -98,7 +98,7 @@ class Arithmetic(ABC):
         return not self.sign(self.filled([value]))[0]
 
     def last_largest(self, values: Vector) -> int:
-        """Return the index of the largest value, the last of equals, comparing by the signs of differences."""
+        """Return the index of the last largest value. Values are compared by the signs of their differences."""
         # The listing's search replaces its candidate when the difference is zero or negative (program 1, 135 and 185;
         # program 3, 122), so the last of equal values wins.
         index, largest = 0, values[0]
@@ -116,7 +116,7 @@ class Arithmetic(ABC):
         return np.array(order, np.intp)
 
     def last_largest_square(self, values: Vector) -> int:
-        """Return the index of the largest square, the last of equals."""
+        """Return the index of the value with the largest square. Of equal squares, choose the last."""
         return self.last_largest(values * values)
 
     def all_squares_zero(self, values: Vector) -> bool:
@@ -127,5 +127,5 @@ class Arithmetic(ABC):
         return self.is_zero(self.root(first_square) + self.root(second_square) - self.root(total_square))
 
     def farthest(self, o1: Vector, o2: Vector, o3: Vector) -> int:
-        """Return the index of the largest O1**2 + O2**2 + O3**2, the last of equals (thesis p. 15)."""
+        """Return the index of the last largest O1**2 + O2**2 + O3**2 (thesis p. 15)."""
         return self.last_largest(o1 * o1 + o2 * o2 + o3 * o3)

@@ -20,7 +20,7 @@ MIN_BITS, MAX_BITS = 2, 100_000
 
 @dataclass(frozen=True)
 class FloatArithmetic(Arithmetic):
-    """IEEE 754 single or double precision; a decimal is rounded to a double, and that to a single if requested."""
+    """IEEE 754 double or single precision. A decimal is rounded to a double, then to a single if requested."""
 
     dtype: type[np.floating[Any]]
 

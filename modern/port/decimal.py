@@ -1,8 +1,8 @@
 """Numbers of the 1620 as Python numbers, under a profile of :mod:`emulator.numbers.arithmetic`.
 
-``a op b`` computes what the accumulator computes when it holds a; the result of an operation that would report an error
-code is used without a report. The left operand matters to ``ibm1962``, in which zero plus zero keeps the accumulator's
-sign.
+``a op b`` is the result of the operation when the accumulator holds a. If the machine would report an error code, the
+result is used without a report. The order of the operands matters in ``ibm1962``, in which zero plus zero keeps the
+sign of the accumulator, the left operand.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ class Arithmetic1620(Arithmetic):
             return Number1620(0, MINUS_ZERO if minus else ZERO, self.rules)
         digits = self.profile.digits
         size = abs(Fraction(value))
-        # The numbers of digits of numerator and denominator give the exponent, or one more than it.
+        # The digit counts of numerator and denominator give an estimate: the exponent, or one more than the exponent.
         exponent = decimal_length(size.numerator) - decimal_length(size.denominator) + 1
         if size < Fraction(10) ** (exponent - 1):
             exponent -= 1

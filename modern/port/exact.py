@@ -82,10 +82,10 @@ class ExactArithmetic(Arithmetic):
 
 
 def exact_arithmetic(coordinates: Sequence[Exact], wide: bool = False) -> ExactArithmetic:
-    """Return the exact arithmetic for these coordinates; ``wide`` forbids int64.
+    """Return the exact arithmetic for these coordinates. If ``wide`` is true, it does not use int64.
 
-    The unit is a twelfth of the one that the common denominator of the coordinates requires. C is the mean of three
-    or four points, so in this unit C and the points relative to C are integers too.
+    The unit is 1 / (12 d), where d is the common denominator of the coordinates. C is the mean of three or four points,
+    so in this unit C and the points relative to C are integers too.
     """
     unit = 12 * math.lcm(*{value.denominator for value in coordinates})
     largest = max(abs(value.numerator) * (unit // value.denominator) for value in coordinates)

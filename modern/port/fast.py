@@ -32,7 +32,7 @@ _WORTH_LOADING = 5_000
 
 @dataclass(frozen=True, slots=True)
 class Steps:
-    """The two operations that the kernels replace: a stage of growth, and the points that satisfy each equation."""
+    """The two operations that the kernels replace: a stage of growth, and the search for points on each equation."""
 
     stage: Callable[[Polyhedron, bool], growth.Grown | None]
     satisfied: Callable[[Equations, PointTable], list[NDArray[np.int64]]]
@@ -48,8 +48,9 @@ PLAIN = Steps(growth.stage, plain_satisfied)
 def choose(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, fast: bool | None) -> Steps:
     """Choose the implementation for these points.
 
-    ``fast`` selects numpy (False), the kernels (True), or the kernels if numba is installed and they pay (None): with
-    many points, or if they are loaded already. Raise NotInstalled if ``fast`` is True and numba is missing.
+    ``fast`` selects numpy (False) or the kernels (True). None selects the kernels if numba is installed and they save
+    time, that is, for many points or if they are already loaded. Raise NotInstalled if ``fast`` is True and numba is
+    missing.
     """
     if fast is False or not isinstance(arithmetic, FloatArithmetic) or not _in_range(arithmetic, points, slack):
         return PLAIN
@@ -64,7 +65,7 @@ def choose(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, fast
 
 
 def _in_range(arithmetic: FloatArithmetic, points: PointTable, slack: Slack | None) -> bool:
-    """Return True if no number of the procedure can overflow, which numpy reports and compiled code does not.
+    """Return True if no number of the procedure can overflow. numpy reports an overflow; compiled code does not.
 
     The largest numbers are squares of a plane's coefficients, at most 36 M**4 for coordinates up to M. Values at a
     point are at most 24 M**3. The slack is e, the same for all equations, times a coefficient.
@@ -97,7 +98,7 @@ def with_kernels(grow: Function, find_satisfied: Function) -> Steps:
     """Return the steps that run the given kernels, compiled or as plain Python functions."""
 
     def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
-        """Run one stage if the hull is watched, otherwise as many as the kernel can."""
+        """Run one stage if a caller watches the hull, otherwise as many stages as the kernel can run."""
         cloud, slots, state = _cloud(hull), _slots(hull.table, _spare(hull)), _state(hull)
         scratch = workspace.scratch_for(len(slots.alive), slots.coefficients.dtype)
         code = grow(cloud, slots, scratch, state, _rules(hull), first, 1 if hull.watch else -1)

@@ -13,7 +13,7 @@ from modern.port.table import Equations, PointTable
 
 
 class Remaining:
-    """The points after the first ``vertices`` points, each with an equation that keeps it from being eliminated."""
+    """The points that are not vertices. Each has an equation that prevents its elimination."""
 
     def __init__(self) -> None:
         self.keeper: NDArray[np.int64] = np.empty(0, np.int64)
@@ -28,9 +28,9 @@ class Remaining:
         self.tried = 0
 
     def swapped(self, index: int) -> None:
-        """Record that the first point became a vertex and the point now at ``index`` took its place.
+        """Record that the first point became a vertex and that the point now at ``index`` took its position.
 
-        A negative index means that it was a vertex before, which rounded arithmetic can report as outside.
+        If the index is negative, the new vertex was already a vertex: rounded arithmetic can report one as outside.
         """
         if index > 0:
             self.keeper[index] = self.keeper[0]
@@ -72,7 +72,7 @@ TABLE_OF_LINES, BETWEEN, NUMBERING = "P2-023", "P2-024", "P2-025"
 
 
 class Stopped(Exception):
-    """The procedure ended without a hull; carries the message typed and the label of the deciding statement."""
+    """The procedure ended without a hull. Holds the typed message and the label of the deciding statement."""
 
     def __init__(self, status: str, label: str) -> None:
         super().__init__(status, label)
@@ -110,7 +110,7 @@ class Growing(Protocol):
         """Return the index of the next vertex, or None if every equation supports."""
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex. Return the number of equations it lay outside of."""
+        """Make the point at ``index`` a vertex. Return the number of equations that had the point outside."""
 
 
 Hull = TypeVar("Hull", bound=Growing)
@@ -148,7 +148,7 @@ def stage(hull: Growing, first: bool) -> Grown | None:
 
 
 def grow(hull: Hull, grow_stage: Callable[[Hull, bool], Grown | None] = stage) -> None:
-    """Run ``grow_stage`` until no point lies outside. It may run several stages at once if nothing watches."""
+    """Run ``grow_stage`` until no point lies outside. It may run several stages at once if no caller watches them."""
     hull.remaining.begin(len(hull.points) - hull.vertices)
     growth = grow_stage(hull, True)
     while growth:

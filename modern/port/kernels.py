@@ -1,9 +1,9 @@
 """Program 3 from H_1 on for floating-point numbers, one number at a time, in the subset of Python that numba compiles.
 
 The steps, decisions and numbers are those of :mod:`modern.port.growth` and :mod:`modern.port.polyhedron`, and the
-formulas are the same functions. Exceptional stages are left to those modules: a stage that stops, that meets for the
-first time a correction of a pair or of C, or that makes a vertex a vertex again. The kernel then returns UNUSUAL and
-has changed nothing except the equation to check.
+formulas are the same functions. Those modules run the exceptional stages: a stage that stops, that needs the correction
+of a pair or of C for the first time, or whose new vertex is already a vertex. For such a stage the kernel returns
+UNUSUAL and changes only the equation to check.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ BLOCK = 256
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
-    """Return the first slot in the range whose plane the point is not inside of, or -1."""
+    """Return the first slot in the range whose plane does not have the point inside, or -1."""
     for slot in range(first, last):
         if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
             return slot
@@ -93,7 +93,7 @@ def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation:
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
-    """Return the index of the point with the largest value, the last of equals, or -1 if none is outside."""
+    """Return the index of the last point with the largest value, or -1 if no point is outside."""
     # A value within the slack counts as zero. The difference is a zero of the right type.
     largest = e if e > 0 else e - e
     index = -1
@@ -132,10 +132,10 @@ def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
 
 
 def planes_to_replace(point: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> int:
-    """List the planes the point is outside of in the order of replacement, and return their number.
+    """List the planes that have the point outside, in the order of replacement, and return their number.
 
-    The first is the plane to check. No plane before it qualifies, because those have been tested on all remaining
-    points.
+    The first is the plane to check. The planes before it were tested on all remaining points, so none of them has the
+    point outside.
     """
     order, values = scratch.order, scratch.values
     # Statements 135 to 140: the plane being checked first, then by decreasing value at the new vertex.
@@ -206,8 +206,9 @@ def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, s
 def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) -> None:
     """Find the pairs of equal planes among the fresh planes, which begin at slot ``first``.
 
-    ``scratch.partner`` receives for each fresh plane the other one with the same three points, or -1, both counted from
-    zero. Among three equal planes the first two are a pair. Others wait in chains of a hash table.
+    ``scratch.partner`` receives for each fresh plane the index of the other fresh plane with the same three points, or
+    -1. Both are counted from zero. Among three equal planes the first two are a pair. Unpaired planes are stored in the
+    chains of a hash table.
     """
     partner, following, chains, keys = scratch.partner, scratch.following, scratch.chains, scratch.keys
     size = 4
@@ -298,7 +299,10 @@ def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.i
 
 
 def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
-    """Run the given number of stages, or all if negative; ``first`` marks H_1, which adds no vertex."""
+    """Run the given number of stages, or all stages if the number is negative.
+
+    ``first`` marks the stage of H_1, which adds no vertex.
+    """
     while True:
         if not first:
             # No points remain, and the last test eliminated none (103).

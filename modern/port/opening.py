@@ -59,7 +59,7 @@ def line_equations(p: Point, q: Point, perpendicular: int, zero: Scalar) -> tupl
 
 
 def extremes(arithmetic: Arithmetic, points: PointTable) -> tuple[int, int, int]:
-    """Return the indices of the largest and the smallest point, the last of equals, and KPERP (134 to 152)."""
+    """Return the indices of the last largest and the last smallest point, and KPERP (134 to 152)."""
     axis = 0
     while True:
         # The first axis on which the points differ gives the two extremes and KPERP.

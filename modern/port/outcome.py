@@ -177,10 +177,10 @@ IntPoint = tuple[int, int, int]
 
 
 def cyclic(points: Sequence[IntPoint], normal: Sequence[Exact]) -> list[int]:
-    """Return the counterclockwise order of the corners of a polygon, seen from the tip of ``normal``, from the first
-    on.
+    """Return the corners of a polygon in counterclockwise order as seen from the tip of ``normal``.
 
-    They are sorted by direction from the lowest corner, in the projection along the largest component of the normal.
+    The first corner remains first. The corners are sorted by their direction from a start corner, in the projection
+    along the largest component of the normal.
     """
     sizes: list[Exact] = [component if component > 0 else -component for component in normal]
     # Project along the largest component of the normal: the image is then farthest from degenerate.

@@ -15,7 +15,7 @@ from modern.port.binary import MAX_BITS, MIN_BITS, FloatArithmetic, Multiprecisi
 from modern.port.decimal import Arithmetic1620
 from modern.port.exact import exact_arithmetic
 
-# A number, and whether it is a zero with a minus sign.
+# A number, and True if it is a zero with a minus sign.
 Read = tuple[Exact, bool]
 
 
@@ -73,8 +73,9 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:
-    """Return the named arithmetic, and the points in it as three rows; ``wide`` forbids machine words for exact
-    numbers.
+    """Return the named arithmetic, and the points as three rows of its numbers.
+
+    If ``wide`` is true, exact numbers do not use machine words.
     """
     arithmetic = fixed_arithmetic(name)
     if isinstance(arithmetic, FloatArithmetic) and isinstance(points, np.ndarray) and points.dtype == arithmetic.dtype:

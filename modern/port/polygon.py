@@ -30,7 +30,7 @@ def projection(arithmetic: Arithmetic, plane: tuple[Scalar, ...]) -> int:
 
 
 def lines(points: PointTable, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
-    """Return the equations (3.5) of lines through two points each, as vectors. C is computed with the point ``by``."""
+    """Return the equations (3.5) of lines through two points each, as vectors. C is computed from the point ``by``."""
     (u1, v1, _), (u2, v2, _), (cu, cv, _) = (points.several(p) for p in (first, second, by))
     return np.stack(line(u1, v1, u2, v2, cu, cv))
 
@@ -79,7 +79,7 @@ class Polygon:
         return None
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex: two lines replace the one it lies outside of (133 to 135)."""
+        """Make the point at ``index`` a vertex. Two lines replace the line that has the point outside (133 to 135)."""
         new = self.vertices
         self.vertices += 1
         self.points.swap(index, new)
@@ -98,10 +98,10 @@ class Polygon:
 def strike_between(
     arithmetic: Arithmetic, table: Equations, points: PointTable, progress: Progress
 ) -> tuple[NDArray[np.int64], list[int]]:
-    """Delete points that lie between two others of their line, and all but one equation of a line (144 to 169).
+    """Delete points that lie between two others of their line, and repeated equations of a line (144 to 169).
 
-    Return for each remaining equation the indices of its two end points, and the indices of the points that are no
-    vertices, in the order in which they are identified. Raise Stopped if the procedure cannot continue.
+    Return the indices of the two end points of each remaining equation. Also return the indices of the points that are
+    not vertices, in the order in which they are identified. Raise Stopped if the procedure cannot continue.
     """
     ends = table.defining.copy()
     not_vertices: list[int] = []
@@ -109,7 +109,7 @@ def strike_between(
     k = 0
     while k < len(table):
         on = np.flatnonzero(arithmetic.sign(table.one_at(k, (u, v))) == 0).tolist()
-        # A third point on the line: one of the three lies between the others and is no vertex (147 to 155).
+        # There is a third point on the line: one of the three lies between the others and is not a vertex (147 to 155).
         third = next((i for i in on if i not in ends[:, k]), None)
         if third is not None:
             mm, nn = ends[:, k].tolist()
@@ -132,7 +132,7 @@ def strike_between(
 def other_lines(
     arithmetic: Arithmetic, table: Equations, points: PointTable, ends: NDArray[np.int64], keep: int
 ) -> NDArray[np.bool_]:
-    """Return a mask of the equations that remain if those through both ends are deleted, except ``keep`` (161 to 167).
+    """Delete the equations through both ends, except ``keep`` (161 to 167). Return a mask of the remaining equations.
 
     As in the listing, KK stays a position in the table while equations before it are deleted. Raise Stopped if the
     listing would read beyond the end of its table.
@@ -171,7 +171,7 @@ def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, in
 
 
 def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the vertices after the points before them that are no vertices are removed."""
+    """Return the numbers of the vertices, counted without the points that are not vertices."""
     return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 

@@ -35,7 +35,10 @@ LISTED_PLANES, PLANES = 98, 193
 
 @dataclass(frozen=True)
 class Fresh:
-    """The planes of a stage; ``through`` marks one through C, and ``degenerate`` zeros as its coefficients."""
+    """The new planes of a stage.
+
+    ``through`` is True if one of them passes through C. ``degenerate`` is True if the coefficients of one are zeros.
+    """
 
     coefficients: Vector
     defining: NDArray[np.int64]
@@ -77,11 +80,11 @@ class Polyhedron:
         return None
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex: three planes replace each plane it lies outside of (125 to 160).
+        """Make the point at ``index`` a vertex: three planes replace each plane that has it outside (125 to 160).
 
-        The plane being checked is replaced first, then the plane that the point is farthest outside of, the last of
-        equals. If ``text`` is true, the other planes follow in order instead. Return the number of planes replaced.
-        Raise Stopped if the procedure cannot continue.
+        The plane being checked is replaced first. The others follow by decreasing value at the point, and of equal
+        values the last comes first. If ``text`` is true, they follow in the order of their numbers instead. Return the
+        number of planes replaced. Raise Stopped if the procedure cannot continue.
         """
         new = self.vertices
         if new == len(self.points):
@@ -158,11 +161,11 @@ class Polyhedron:
         return retained
 
     def stop(self, first_equation: int, above: dict[int, Scalar], new: int) -> None:
-        """Replace plane by plane until the arithmetic fails, which it always does, and raise Stopped there.
+        """Replace one plane at a time until the arithmetic fails, and raise Stopped. It always fails.
 
         A plane of zeros is an error. A plane through the new point that has this point outside is replaced by a copy
-        of itself and two other planes without end, until the table is full. Therefore no plane has to be replaced
-        twice.
+        of itself and two other planes. The listing would repeat this until the table is full, so a plane that is to be
+        replaced a second time counts as a full table.
         """
         point = self.points.at(new)
         defining = {k: self.table.defining[:, k] for k in above}
@@ -191,14 +194,14 @@ On = list[NDArray[np.int64]]
 
 
 def strike_repeats(table: Equations, on: On, count: int, progress: Progress) -> On:
-    """Keep one equation of each plane, the first (164 to 174). Return the satisfying points of the remaining equations.
+    """Keep the first equation of each plane (164 to 174). Return the points on each remaining equation.
 
     An equation is deleted if the three defining points of an earlier one satisfy it.
     """
     mm, nn, kk = table.defining
     struck_by = np.full(len(table), -1)
     member = np.zeros(count, np.bool_)
-    # A plane whose only satisfying points are its three defining points repeats no other plane.
+    # A plane that contains no points except its three defining points repeats no other plane.
     for k in _not_triangular(on, table.defining):
         # The first earlier equation whose three defining points satisfy equation k deletes it (166 to 169).
         member[on[k]] = True

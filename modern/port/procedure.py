@@ -69,7 +69,7 @@ def convex_hull(
 
 @dataclass
 class _Run:
-    """The state of one call: the parts of the procedure joined together."""
+    """The state of one call, which runs the parts of the procedure in turn."""
 
     arithmetic: Arithmetic
     coordinates: Vector
@@ -216,7 +216,7 @@ class _Run:
         return None
 
     def move_back(self, points: PointTable, table: Equations, centre: tuple[Scalar, ...]) -> None:
-        """Restore the original origin for points and constant terms, without the digits lost in the translation."""
+        """Restore the original origin for points and constant terms. Digits lost in the translation stay lost."""
         if not self.translate:
             return
         constant = table.coefficients[-1]

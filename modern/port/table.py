@@ -61,7 +61,7 @@ class Slack:
     """The interval from -e to +e of chapter 7, in which a value counts as zero (thesis p. 117).
 
     ``size`` is e itself. If ``relative`` is true, it is the e of an equation whose largest coefficient A, B or C is
-    1. Then a point that counts as lying on a plane is within e, times at most the square root of 3, of it.
+    1. A point whose value then counts as zero is at most ``size`` from the plane.
     """
 
     arithmetic: Arithmetic
@@ -69,7 +69,7 @@ class Slack:
     relative: bool
 
     def of(self, coefficients: tuple[Vector, ...]) -> Vector:
-        """Return the e of each equation from its coefficients, the constant terms included."""
+        """Return the e of each equation. ``coefficients`` includes the constant terms."""
         arithmetic = self.arithmetic
         degree = 1 if self.relative else len(coefficients) - 1
         e = arithmetic.filled([arithmetic.tolerance(self.size, degree)] * len(coefficients[0]))
@@ -85,7 +85,7 @@ class Slack:
 
 
 def snapped(arithmetic: Arithmetic, values: Vector, slack: Vector | None) -> Vector:
-    """Return the values, with those within the slack replaced by zero."""
+    """Return the values. Values within the slack are replaced by zero."""
     if slack is None:
         return values
     return np.where(arithmetic.within(values, slack), arithmetic.filled([arithmetic.number(0)])[0], values)
@@ -190,7 +190,7 @@ class Equations:
 def turned(
     arithmetic: Arithmetic, coefficients: Vector, centre: tuple[Scalar, ...] | None
 ) -> tuple[Vector, NDArray[np.bool_]]:
-    """Reverse the equations (columns) that are positive at C. Return them and a mask of those that are zero at C.
+    """Reverse the equations (columns) that are positive at C. Return all equations and a mask of those that are 0 at C.
 
     ``centre`` is None if the origin was moved to C; the constant term is then the value (thesis p. 118). No epsilon
     applies, because C is not an input point.

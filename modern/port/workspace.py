@@ -1,4 +1,4 @@
-"""The data of the kernels, points, planes in slots and a vector of counters, and the smallest steps over them.
+"""The data of the kernels (points, planes in slots and a vector of counters), and elementary operations on them.
 
 Planes occupy *slots* in the order of the table. The slot of a deleted plane stays empty until :func:`pack`.
 """
@@ -29,7 +29,8 @@ THROUGH, TABLE, PAIR = 1, 2, 4
 class Cloud(NamedTuple):
     """The points in their current order, as coordinates (3, n) with their indices in the input.
 
-    ``keeper`` is the slot of a plane that the point is not inside of, or -1; ``eliminated`` receives points in order.
+    ``keeper`` holds for each point the slot of a plane that does not have the point inside, or -1. ``eliminated``
+    receives the eliminated points in order.
     """
 
     coordinates: NDArray[Any]
@@ -39,8 +40,9 @@ class Cloud(NamedTuple):
 
 
 class Slots(NamedTuple):
-    """The planes by slot: ``coefficients`` (4, slots), ``defining`` (3, slots), and the e of each or -1
-    (``tolerances``).
+    """The planes by slot: ``coefficients`` (4, slots) and ``defining`` (3, slots).
+
+    ``tolerances`` holds the e of each plane, or -1.
     """
 
     coefficients: NDArray[Any]
@@ -50,7 +52,7 @@ class Slots(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Scratch arrays for a stage, which numba compiles much faster if the kernels allocate none.
+    """Scratch arrays for a stage. numba compiles the kernels much faster if they allocate no arrays.
 
     ``order`` and ``values`` hold slots of planes and their values at a point. The others are used in
     :func:`modern.port.kernels.doubles`.
@@ -82,7 +84,7 @@ def scratch_for(slots: int, number: Any) -> Scratch:
 
 
 class Rules(NamedTuple):
-    """The constants of a run: C unless the origin was ``moved`` to it, e or -1, and two sizes of the plane table."""
+    """The constants of a run: C (unless the origin was ``moved`` to C), e or -1, and two sizes of the plane table."""
 
     centre: NDArray[Any]
     moved: bool
@@ -93,17 +95,17 @@ class Rules(NamedTuple):
 
 
 def is_outside(value: Any, e: Any) -> bool:
-    """Return True if the value is positive, where values from -e to +e count as zero."""
+    """Return True if the value is positive. Values from -e to +e count as zero."""
     return value > 0 and value > e  # type: ignore[no-any-return]
 
 
 def is_not_inside(value: Any, e: Any) -> bool:
-    """Return True if the value is zero or positive, where values from -e to +e count as zero."""
+    """Return True if the value is zero or positive. Values from -e to +e count as zero."""
     return value >= 0 or value >= -e  # type: ignore[no-any-return]
 
 
 def is_on(value: Any, e: Any) -> bool:
-    """Return True if the value is zero, where values from -e to +e count as zero."""
+    """Return True if the value is zero. Values from -e to +e count as zero."""
     return value == 0 or abs(value) <= e  # type: ignore[no-any-return]
 
 

@@ -33,7 +33,7 @@ def data_positions(program: Program, points: int) -> int:
 
 
 def largest(program: Program, core: int) -> int:
-    """Return the largest number of points whose arrays fit into core with the program, or 0 if that is less than 4."""
+    """Return the largest number of points whose arrays fit into core with the program, or 0 if it is less than 4."""
     available = core - OBJECT_PROGRAM - FUNCTION_NAMES - code_positions(program)
     points = 0
     for candidate in range(4, 1000):

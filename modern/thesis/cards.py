@@ -29,7 +29,7 @@ SECTIONS = ("inside", "boundary", "vertices", "equations", "plane")
 
 @dataclass(frozen=True, slots=True)
 class CardHull:
-    """A hull on cards: points and equations in order; ``satisfied`` are pairs of vertex numbers and an equation."""
+    """A hull on cards: its points and equations in order. ``satisfied`` has pairs of vertex numbers and an equation."""
 
     inside: tuple[Point, ...]
     boundary: tuple[Point, ...]
@@ -116,7 +116,7 @@ def _canonical(hull: CardHull, oriented: bool) -> tuple[object, ...]:
 
 
 def scaled(equation: Point, oriented: bool) -> Point:
-    """Divide an equation by its first nonzero coefficient, or by the absolute value of it if ``oriented``."""
+    """Divide an equation by its first nonzero coefficient, or by its absolute value if ``oriented`` is true."""
     lead = next((c for c in equation if c), Fraction(1))
     return tuple(c / (abs(lead) if oriented else lead) for c in equation)
 
@@ -143,7 +143,10 @@ def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
 
 
 def planes_hold(deck: IntermediateDeck) -> bool:
-    """Return True if every plane vanishes exactly at the points that its card names, or else at all points."""
+    """Return True if every plane vanishes exactly at the points that its card names.
+
+    A plane whose card names no points must vanish at all points.
+    """
     unprojected = _unprojected(deck)
     for plane, named in deck.planes:
         points = [unprojected[k - 1] for k in named if 1 <= k <= len(unprojected)] if named else unprojected

@@ -66,7 +66,7 @@ class HullRun:
 
 
 class Refusals:
-    """Detects from the events of a run, as they occur, whether it stopped at a refusal."""
+    """A detector of refusals.  It processes the events of a run as they occur and reports whether the run stopped."""
 
     def __init__(self) -> None:
         self._last = self._stopped = ""
@@ -118,8 +118,8 @@ def run_hull(
 ) -> HullRun:
     """Run one data set through program 1 and the program that its typewriter names.
 
-    With ``options.uncut`` numbers pass from program 1 to the next program with all their digits, not only those on the
-    card.  ``first`` is the built-in that is used as program 1.  ``watch`` is called with each machine before it runs,
+    With ``options.uncut`` the next program reads the numbers of program 1 with all digits, not only those on the card.
+    ``first`` is the built-in that is used as program 1.  ``watch`` is called with each machine before it runs,
     ``operator`` operates all machines, and ``output`` receives all events.  Raise the errors of
     :meth:`emulator.machine.machine.Machine.run`.
     """

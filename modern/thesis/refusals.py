@@ -1,4 +1,4 @@
-"""The cause of a run of the 1963 programs without a hull, as data: the statement that decided, and its numbers.
+"""Explain why a run of the 1963 programs found no hull: the statement that stopped it, and the numbers it tested.
 
 A program types DATA NOT ACCEPTABLE if a point that defines a plane or line does not satisfy it exactly (thesis p. 117;
 statement 126 of program 2, 119 of program 3), and ERROR IN PROGRAM if it reaches a state that should be impossible
@@ -22,7 +22,8 @@ from modern.thesis.job import REFUSALS, HullRun, Step, Watch, refusal
 #
 # - miss: a point that defines an equation does not satisfy it in the digits of the machine.
 # - centre: a plane or line passes through the point C in these digits.  zeros: its coefficients are all zero.
-# - pair: the search for pairs of planes inside the hull ran beyond the table.  repeat: so did that for repeated planes.
+# - pair: the search for pairs of planes inside the hull ran beyond the table.
+# - repeat: the search for repeated planes ran beyond the table.
 # - unmet: no point satisfies three equations, so that no point becomes a vertex.
 # - room: a table is full.  endless: the statement limit was reached.
 # - stopped: the run met a value or an address with which it could not continue.  other: none of these.
@@ -36,8 +37,9 @@ CORRECTED = {1: "P3-025", 2: "P3-026", 3: "P3-027", 5: "P3-028", 16: "P2-023"}
 class Cause:
     """The cause of one step without a hull.
 
-    ``message`` is the refusal that the program typed, if any, and ``decision`` the last IF before it. ``fault`` is the
-    number of the known fault, and ``equation`` that of the equation, or 0. ``point`` misses the equation, by ``value``.
+    ``message`` is the refusal that the program typed, if any, and ``decision`` is the last IF before it. ``fault`` is
+    the number of the known fault. ``equation`` is the number of the equation, or 0. ``point`` does not satisfy the
+    equation, whose value there is ``value``.
     """
 
     program: int
@@ -51,7 +53,10 @@ class Cause:
 
 
 def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tuple[HullRun, Cause | None]:
-    """Return a hull run and, if it found no hull, the cause; ``run`` is ``run_hull`` with all other arguments."""
+    """Return a hull run and, if it found no hull, the cause.
+
+    ``run`` is ``run_hull`` with all its arguments except ``watch``.
+    """
     machines: list[Machine] = []
 
     def record(program: Program, machine: Machine) -> None:
@@ -90,7 +95,7 @@ _MISSES = {
     2: ("I", "D", ((124, 192, "MR"), (125, 193, "NR")), "RST"),
     3: ("J", "E", ((116, 217, "MR"), (117, 218, "NR"), (118, 219, "KR")), "XYZ"),
 }
-# For programs 1 and 3: the label of the test whether an equation passes through C.
+# For programs 1 and 3: the label of the statement that tests if an equation passes through C.
 _CENTRES = {1: 204, 3: 132}
 
 
