@@ -39,7 +39,7 @@ def run_batch(
     Raises
     ------
     CardError, DeckError
-        As :meth:`emulator.machine.machine.Machine.run` does, for the first deck with an error.
+        For the first deck with an error, as in :meth:`emulator.machine.machine.Machine.run`.
     """
     expect(program, Program, "program")
     try:

@@ -66,7 +66,7 @@ def why_plain(options: Options) -> str:
 
 @cache
 def run_decks() -> Compiled:
-    """Return :func:`emulator.compiled.deck.run_decks` for numba.  Raise emulator.jit.functions.NotInstalled."""
+    """Return run_decks of deck.py, prepared for numba.  Raise NotInstalled if numba cannot be used."""
     # The code never divides by zero, so numba need not check divisors (error_model).  It creates no arrays, so numba
     # need not count references to them (_nrt).  The second option is documented only in
     # numba.extending.register_jitable; without it a run takes a sixth longer, because every call counts each of its

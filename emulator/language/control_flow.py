@@ -1,6 +1,6 @@
 """The flow of control in object code: successors of instructions, and warnings about doubtful branches.
 
-The warnings concern programs that compile.  They do not change the object code, and the machine gave none of them.
+The warnings concern programs that compile.  They do not change the object code.  The 1620 gave no such warnings.
 """
 
 from __future__ import annotations

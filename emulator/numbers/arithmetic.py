@@ -79,8 +79,8 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     total = ma + mb
     if total == 0:
         return 0, ZERO
-    # Normalize: one digit too many after a carry, or leading zeros after a cancellation.  The zeros that fill up the
-    # right end are the digits that a guard digit would have kept.
+    # Normalize: remove the extra digit of a carry or the leading zeros of a cancellation.  Zeros fill the right end in
+    # place of the digits that guard digits would have kept.
     size = total if total > 0 else -total
     if size >= rules.limit:
         size = size // 10

@@ -124,7 +124,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def cut(self, value: Number, digits: int) -> tuple[int, int]:
-        """Truncate to ``digits`` decimal digits: mantissa and exponent as in emulator/numbers/arithmetic.py.
+        """Truncate to ``digits`` decimal digits.  Return mantissa and exponent as in emulator/numbers/arithmetic.py.
 
         Raise Undecided if the number is not finite.
         """
@@ -187,7 +187,10 @@ class Numbers(ABC):
 
 
 def cut_decimal(whole: int, power: int, digits: int) -> tuple[int, int]:
-    """Truncate ``whole * 10**power`` to the given digits.  Return mantissa and exponent, (0, ZERO) for zero."""
+    """Truncate ``whole * 10**power`` to the given number of digits.
+
+    Return mantissa and exponent; zero is (0, ZERO).
+    """
     if whole == 0:
         return 0, ZERO
     size = decimal_length(whole)

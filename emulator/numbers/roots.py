@@ -64,8 +64,7 @@ class RootSum:
         """Return an integer L such that ``L <= value * 2**bits <= L + number of terms``."""
         total = 0
         for radicand, coefficient in self.terms:
-            # Each term is rounded down.  A positive term gives its integer square root.  A negative one gives its
-            # negative minus 1.
+            # Each term is rounded down.  A positive term becomes its integer square root r, a negative term -r - 1.
             over, under = coefficient.numerator, coefficient.denominator
             size = isqrt((over * over * radicand << 2 * bits) // (under * under))
             total += size if over > 0 else -size - 1

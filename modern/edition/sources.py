@@ -20,8 +20,10 @@ from modern.edition.apparatus import PAGE_MARK, ApparatusError
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A document; ``lines`` counts the last line, which has no line end, and ``pages`` are (page, first line, last
-    line).
+    """A document.
+
+    ``lines`` is its number of lines, including the last one, which has no line end.  ``pages`` holds (page, first line,
+    last line) for each page.
     """
 
     id: str
