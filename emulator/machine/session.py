@@ -1,8 +1,7 @@
 """A run in slices, which can be halted and continued by any program.
 
-A :class:`Session` holds everything a run needs and drives the interpreter and the devices.  It never waits and uses no
-terminal, file or thread.  The caller repeats three steps: call :meth:`Session.advance`, take the events with
-:meth:`Session.take`, and answer a :class:`Halt` with an :class:`Action`.
+A :class:`Session` drives the interpreter and the devices.  It never waits and uses no terminal, file or thread.  The
+caller repeats: call :meth:`Session.advance`, take events with :meth:`Session.take`, answer a Halt with an Action.
 """
 
 from __future__ import annotations
@@ -32,8 +31,7 @@ class Halt:
     """A machine that has stopped and waits for its operator.
 
     - accept: the ACCEPT statement ``line`` needs a typed line.  ``trouble`` says why the previous one was rejected.
-    - pause: ``line`` is a PAUSE with the given ``number``.
-    - stop: the machine has stopped before ``line``, for the reason ``why``.
+    - pause: ``line`` is a PAUSE with ``number``.  stop: the machine has stopped before ``line`` for the reason ``why``.
     """
 
     what: Literal["accept", "pause", "stop"]
@@ -53,8 +51,7 @@ class Action:
     - STOP: end the run and keep its results.
     - ATTN: stop a running machine before its next statement; a second time, stop it at once, in the middle of a list.
     - SWITCH: set sense switch ``number`` to ``on``.
-    - BREAK, CLEAR: set or remove a breakpoint at statement ``number``, or with ``card`` at the statements on that card.
-      CLEAR without a number removes all breakpoints.
+    - BREAK, CLEAR: set or remove a breakpoint at statement ``number``, or at the statements on a ``card``.
     """
 
     word: Literal["ENTER", "START", "STEP", "STOP", "ATTN", "SWITCH", "BREAK", "CLEAR"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from modern.cli.shared.console import DIFFERS, OK, UsageError, print_notes
-from modern.cli.shared.exact_hulls import exact_hull_of
+from modern.cli.shared.inputs import exact_hull_of
 from modern.formats.export import format_of, write_hull
 
 

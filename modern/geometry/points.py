@@ -1,4 +1,7 @@
-"""Check the container and the shape of points that are passed to functions."""
+"""Check the container and the shape of points that are passed to functions.
+
+Every public function that accepts points uses these checks, so that all raise the same errors.
+"""
 
 from __future__ import annotations
 

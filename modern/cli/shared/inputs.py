@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import re
+from typing import TYPE_CHECKING
 
 from emulator.files import read_bytes, source_name
 from emulator.language.cards import Deck, deck_from_bytes
@@ -16,6 +17,9 @@ from modern.cli.shared.console import UsageError
 from modern.formats import POINTS
 from modern.formats.deck import data_deck
 from modern.formats.points import Input, deck_or_points, parse_bytes
+
+if TYPE_CHECKING:
+    from modern.geometry.hull import Hull
 
 _EXAMPLE = re.compile(r"example([1-6])")
 _FIGURE = re.compile(r"appel-will/(fig[0-9]{1,2})")
@@ -95,3 +99,38 @@ def _sample(study_name: str, cell: int, index: int) -> str | None:
         choices += f", samples 0 to {plan.cells[cell].samples - 1}" if cell < len(plan.cells) else ""
         raise UsageError(f"{study_name}/{cell}/{index}: study {study_name} has {choices}")
     return data_deck(draw_sample(plan.cells[cell], plan.seed, index).points, study_name).text()
+
+
+def exact_hull_of(
+    path: str, *, procedure: bool, history: bool = False, within: str | None = None
+) -> tuple[Hull, list[str]]:
+    """Return the hull of a file's points in exact arithmetic, and notes for the user.
+
+    procedure: use Butler's procedure, which gives its equations, their order and C, and with ``history`` its stages.
+    Otherwise use the exact hull, which is much faster for many points.
+    within: merge faces whose vertices lie within this distance of one plane.
+    """
+    from modern.geometry.coplanar import FLAT, CoplanarError, coplanar, join_summary, parse_distance
+
+    limit = None if within is None else parse_distance(within)
+    points = points_of(path)
+    # These imports take time, and an unreadable file must be reported at once.
+    if procedure:
+        from modern.port import convex_hull
+
+        hull = convex_hull(points.points, "exact", history=history, on_refusal="return")
+    else:
+        from modern.comparison.outcome import as_hull
+        from modern.exact_hull import exact_hull
+
+        hull = as_hull(exact_hull(points.points))
+    notes = [*points.notes]
+    for point, first in hull.duplicates:
+        notes.append(f"{points.source}: {points.places[point]} repeats the point of {points.places[first]}")
+    if limit is not None and hull.determined:
+        try:
+            hull, joined = coplanar(hull, limit)
+        except CoplanarError as error:
+            raise CoplanarError(f"{points.source}: --coplanar-within: {error}") from None
+        notes.append(f"{points.source}: {join_summary(joined) if joined else FLAT}")
+    return hull, notes

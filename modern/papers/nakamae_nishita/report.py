@@ -1,4 +1,7 @@
-"""The intermediate results of a drawing as text: faces and edges, PL and LP tables with d, indices, and Table 1."""
+"""The intermediate results of a drawing as text, and its counts as a row of the paper's Table 1.
+
+The intermediate results are faces and edges, the PL and LP tables with d, and the indices of the intersections.
+"""
 
 from __future__ import annotations
 

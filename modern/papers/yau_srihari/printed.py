@@ -1,4 +1,7 @@
-"""The statements of the paper that are wrong as printed, by name, with their corrections."""
+"""The statements of the paper that are wrong as printed, by name, with their corrections.
+
+``octree-hull --printed NAME`` applies a statement as printed and shows the effect.
+"""
 
 from __future__ import annotations
 
