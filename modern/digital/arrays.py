@@ -81,7 +81,10 @@ def _member(names: Sequence[str], source: str, name: str | None) -> str:
 
 
 def parse_raw(data: bytes, source: str, shape: Sequence[int] | None, dtype: str) -> NDArray[Any]:
-    """Return an array of raw data, x fastest. Raise VolumeError for an invalid shape or type, or another size."""
+    """Return an array of raw data in which x varies fastest.
+
+    Raise VolumeError if the shape or the type is invalid, or if the data have a different size.
+    """
     try:
         kind = np.dtype(dtype)
     except (TypeError, ValueError, SyntaxError, OverflowError):  # numpy reads a small language here
@@ -112,7 +115,7 @@ def check_size(shape: Sequence[int], source: str) -> None:
 
 
 def _as_truth(array: NDArray[Any]) -> NDArray[Any]:
-    """Return truth values from the bytes 0 and 1, which numpy assumes them to be."""
+    """Normalise the bytes of truth values to 0 and 1, because numpy assumes that they have no other values."""
     return array.view(np.uint8) != 0 if array.dtype == np.bool_ else array
 
 

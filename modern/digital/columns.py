@@ -39,7 +39,7 @@ def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
 
 
 def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove points on or above a chord of their row or column of (x, y), which are never vertices of the lower side.
+    """Remove points on or above a chord of their row or column of (x, y). They are never vertices of the lower side.
 
     The arrays x, y, z hold one point for each (x, y), in raster order, and so does the result.
     """
@@ -51,7 +51,10 @@ def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove all points on or above the chord between their neighbours on the same line, repeatedly while it pays."""
+    """Remove all points on or above the chord between their neighbours on the same line.
+
+    The removal is repeated as long as it removes enough points.
+    """
     removed = np.ones(len(line), dtype=np.bool_)
     while len(line) > 2 and STILL_PAYS * np.count_nonzero(removed) >= len(line):
         before, after = t[1:-1] - t[:-2], t[2:] - t[1:-1]

@@ -1,6 +1,6 @@
 """The digital hull of a volume: every grid point in the convex hull of its voxels' centres, exactly.
 
-Only the two ends of every column can be vertices, and of these only the vertices of the hulls of rows and columns are
+Only the two ends of every column can be vertices. Of these, only the vertices of the hulls of rows and columns are
 used. Planes have integer coefficients, and integers decide whether a voxel on a plane belongs to the hull. For a
 6-connected solid this is the digital convex hull of Yau and Srihari (section 3.3), and the set of grid points in
 Kovalevsky and Schulz's polyhedron of voxel centres.
@@ -41,7 +41,7 @@ class DigitalHull:
     filled
         Truth values in the volume's shape and memory order.
     dimension
-        The dimension of the voxels' centres: 3, or 2 in one plane, 1 on one line, 0 for a single voxel.
+        The dimension of the set of voxel centres: 3, or 2 in one plane, 1 on one line, 0 for a single voxel.
     given
         The number of voxels of the volume.
     source
@@ -131,7 +131,7 @@ def placed(
     origin: Sequence[Any] | None = None,
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> Volume:
-    """Return a volume unchanged, or an array with its position as a volume of the values other than 0."""
+    """Return a volume unchanged. Convert an array to a volume of its nonzero values with the given position."""
     if hasattr(volume, "GetDirection"):
         return placed(*_of_image(volume))
     if not isinstance(volume, Volume):
@@ -243,7 +243,7 @@ def _fill_polygon(filled: Truth, points: Grid, simplex: list[int]) -> None:
         return
     u, v = np.nonzero(inside)
     over = -(normal[first] * (u - origin[first]) + normal[second] * (v - origin[second]))
-    # Only positions at which the plane passes through a grid point have one in the hull.
+    # The hull has a grid point only at positions where the plane passes through a grid point.
     exact = over % normal[axis] == 0
     indices = {axis: origin[axis] + over[exact] // normal[axis], first: u[exact], second: v[exact]}
     filled[indices[0], indices[1], indices[2]] = True

@@ -1,6 +1,6 @@
 """The grid points between the lower and the upper side of a hull: an interval for every column, exactly.
 
-Where a plane or a line passes between two grid points, an integer division rounds up on the lower side and down on the
+If a plane or a line passes between two grid points, an integer division rounds up on the lower side and down on the
 upper side. A grid point on the plane or line belongs to the hull.
 """
 
@@ -14,7 +14,10 @@ from modern.digital.columns import Grid, Truth
 
 
 def lower_chain(points: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Return the vertices of the lower side of points (t, z) sorted by t, each t once, by Andrew's scan."""
+    """Return the vertices of the lower side of the hull of points (t, z), by Andrew's scan.
+
+    The points must be sorted by t, with each t once.
+    """
     chain: list[tuple[int, int]] = []
     for t, z in points:
         while len(chain) > 1:
@@ -34,8 +37,8 @@ def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]
     """Return the lowest and the highest grid point of a polyhedron over every position (x, y) of a grid of this shape.
 
     ``points`` has the shape (n, 3). ``corner`` has three point indices for each facet, counterclockwise as seen from
-    outside, and ``plane`` its four coefficients, positive outside. Where the polyhedron has no grid point, the lowest
-    is above the highest.
+    outside, and ``plane`` its four coefficients, positive outside. At a position without a grid point of the
+    polyhedron, the lowest is above the highest.
     """
     low = np.ones(shape, dtype=np.int64)
     high = np.zeros(shape, dtype=np.int64)
@@ -47,7 +50,7 @@ def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]
 
 
 def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) -> None:
-    """Write the height of every triangle at the positions below it and its boundary; later triangles overwrite.
+    """Write the height of every triangle at the positions below it and its boundary. Later triangles overwrite earlier.
 
     ``triangles`` has the shape (n, 3, 3), counterclockwise as seen from above. ``plane`` has four coefficients for
     each, the third positive. Heights that are not integers are rounded up or down.
@@ -115,6 +118,6 @@ def _chain(u: Grid, v: Grid, places: Grid) -> Grid:
 
 
 def in_plane(low: Grid, high: Grid, depth: int) -> Truth:
-    """Return the positions (u, v) whose column u spans low[u] to high[u], none if low[u] > high[u]."""
+    """Return truth values at (u, v) that are true for v from low[u] to high[u]. No v is true if low[u] > high[u]."""
     v = np.arange(depth)
     return (low[:, None] <= v) & (v <= high[:, None])

@@ -2,9 +2,9 @@
 
 The modules of :mod:`modern.digital.integrity` check the file first, because the library accepts damaged files. The
 library runs in a separate process, ``itk_child.py``. Its output is hidden from the user, and any failure (an
-error, a crash, a hang) becomes one line here. The process returns the array as an NPY file in a temporary folder. It
-returns spacing, origin and directions as the shortest decimal text that identifies each double; they are exact from
-then on.
+error, a crash, a hang) becomes a one-line error message. The process returns the array as an NPY file in a temporary
+folder. It returns spacing, origin and directions as the shortest decimal text that identifies each double. This project
+treats these decimals as exact.
 """
 
 from __future__ import annotations
@@ -172,8 +172,9 @@ def _check_folder(path: str) -> None:
 
 
 def _bytes(path: str) -> int:
-    """Return the number of bytes to read: the file, its folder if a header may refer to data there, or the series
-    folder.
+    """Return an upper bound for the number of bytes to read: the size of the file or of its folder.
+
+    The folder counts if a header may refer to data in it, or if it holds a DICOM series.
     """
     try:
         if path.lower().endswith(".mhd"):

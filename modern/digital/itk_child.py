@@ -1,8 +1,8 @@
 """The process in which SimpleITK reads a file. It is run by path, imports nothing of the project and prints nothing.
 
 The arguments are the format, the path, a folder for the result, the largest number of voxels and a series identifier.
-The result is ``array.npy``, x fastest, and ``facts.json`` with spacing, origin and direction as text and the names of
-the files of a series, or an ``error``.
+The result is ``array.npy``, in which x varies fastest, and ``facts.json``. The latter has spacing, origin and direction
+as text and the names of the files of a series, or an ``error``.
 """
 
 from __future__ import annotations

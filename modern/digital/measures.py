@@ -1,8 +1,7 @@
 """Exact measures of a voxel solid and of its hull: volumes, areas, solidity, convex deficiency.
 
 The hull's vertices have integer coordinates (of voxel centres or corners). Volumes are fractions. The area of a
-surface is a sum of square roots with ``AREA_DIGITS`` significant digits. It is exact if every root is a decimal of at
-most that length.
+surface is a sum of square roots, computed to ``AREA_DIGITS`` significant digits. It is exact if no root needs more.
 """
 
 from __future__ import annotations

@@ -234,7 +234,7 @@ def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -
 def _steps(
     fields: Mapping[str, tuple[int, str]], dimension: int, source: str
 ) -> tuple[int, tuple[Position, ...] | None]:
-    """Return the line that states the steps (0 if no field does), and the steps (None if one is unknown)."""
+    """Return the number of the line that states the steps (0 if there is none), and the steps (None if unknown)."""
     if "space directions" not in fields:
         if "spacings" not in fields:
             return 0, None
@@ -270,7 +270,7 @@ def _origin(fields: Mapping[str, tuple[int, str]], width: int, source: str) -> P
 
 
 def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | None]:
-    """Read the given number of vectors of one length: ``(1,0,0)``, or ``none``."""
+    """Read ``count`` vectors with equal numbers of components, such as ``(1,0,0)``. ``none`` stands for no vector."""
     matches = list(_VECTOR.finditer(text))
     if len(matches) != count or _VECTOR.sub("", text).strip():
         raise VolumeError(f"{what}: expected {count} vectors such as (1,0,0), found {text[:60]!r}")
@@ -280,7 +280,7 @@ def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | N
 
 
 def _lengths(texts: Sequence[str], count: int, what: str) -> list[Fraction | None]:
-    """Read the given number of numbers, None for nan."""
+    """Read ``count`` numbers. Return None for nan."""
     if len(texts) != count:
         raise VolumeError(f"{what}: expected {count} numbers, found {len(texts)}")
     try:

@@ -74,7 +74,7 @@ def set_facet(at: Points, surface: Surface, f: int, p: int, q: int, r: int) -> N
 
 
 def distribute(at: Points, surface: Surface, first: int, chosen: Integers, count: int) -> None:
-    """Assign each point of the list that starts at ``first`` to a chosen facet it is outside of, or drop it."""
+    """Assign each point of the list that starts at ``first`` to a chosen facet that it sees, or drop it."""
     head, after, depth = surface.head, surface.after, surface.depth
     p = first
     while p >= 0:
@@ -93,7 +93,7 @@ def distribute(at: Points, surface: Surface, first: int, chosen: Integers, count
 
 
 def find_visible(at: Points, surface: Surface, p: int, first: int) -> tuple[int, int]:
-    """List the facets that ``p`` sees, from one of them on, and the horizon. Return the numbers of facets and edges."""
+    """Find the facets that ``p`` sees, starting at ``first``, and the horizon. Return how many facets and edges."""
     visible, mark, across, horizon = surface.visible, surface.mark, surface.across, surface.horizon
     mark[first], visible[0] = p + 1, first
     count, edges, at_facet = 1, 0, 0
@@ -138,7 +138,7 @@ def cone(at: Points, surface: Surface, p: int, slots: Integers, edges: int) -> N
 
 
 def grow(at: Points, surface: Surface, used: int) -> int:
-    """Add the farthest point of every facet that has points outside, until none has. Return the slots used."""
+    """Add the farthest outside point of a facet until no facet has outside points. Return the number of slots used."""
     head, after, visible, spare = surface.head, surface.after, surface.visible, surface.spare
     empty, f, idle = 0, 0, 0
     while idle < used:
@@ -176,7 +176,7 @@ def grow(at: Points, surface: Surface, used: int) -> int:
 
 
 def hull(at: Points, surface: Surface, a: int, b: int, c: int, d: int) -> int:
-    """Compute the polyhedron from a tetrahedron with d below the plane of a, b, c. Return the slots used."""
+    """Grow the polyhedron from a tetrahedron with d below the plane of a, b, c. Return the number of slots used."""
     set_facet(at, surface, 0, a, b, c)
     set_facet(at, surface, 1, b, a, d)
     set_facet(at, surface, 2, c, b, d)

@@ -1,6 +1,6 @@
 """Scans: arrays of values, and the selection of voxels that are not 0, at or above a threshold, or have a label.
 
-Nothing is rounded. A threshold is a decimal, and a binary floating-point value is compared as the number it is.
+Nothing is rounded. A threshold is a decimal, and the exact value of a binary floating-point number is compared with it.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class Scan:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The selected values: at least ``threshold``, or equal to one of ``labels``, or without both all except 0."""
+    """The selected values: at least ``threshold``, or equal to one of ``labels``. If neither is given, all except 0."""
 
     threshold: Fraction | None = None
     labels: tuple[int, ...] = ()

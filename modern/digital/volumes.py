@@ -1,4 +1,4 @@
-"""Volumes from files and from names of digital balls: the choice of the reader, and the files that are written.
+"""Read volumes from files and from names of digital balls, and write arrays.
 
 NPY, NPZ, NRRD, raw data and lists of coordinates are read here. SimpleITK (the extra ``volumes``) reads NIfTI,
 MetaImage, TIFF and DICOM, see :mod:`modern.digital.itk`. The coordinates of an array's voxels are its indices from 0,
@@ -122,7 +122,7 @@ def read_scan(path: str, stated: Stated | None = None) -> Scan:
 
 
 def parse_volume(data: bytes, source: str, shape: Sequence[int] | None = None, dtype: str | None = None) -> Volume:
-    """Return the voxels of a file's bytes, those with values other than 0; see ``read_volume``."""
+    """Return the voxels in the bytes of a file. Every value other than 0 is a voxel; see ``read_volume``."""
     return chosen(_parsed(data, source, Stated(shape, dtype))).volume
 
 

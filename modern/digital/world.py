@@ -1,8 +1,9 @@
 """The position of voxels: the affine map from a voxel's integer coordinates to physical coordinates, in exact numbers.
 
 A position is that of a voxel's centre. The centre of voxel (0, 0, 0) is the origin, and a step along an axis of the
-array adds that axis's step. As a body, a voxel extends half a step in each direction. Spacing, origin and directions
-are read as decimal text and stay exact, so a hull in physical coordinates is the exact image of the hull of indices.
+array adds the step of that axis. As a solid, a voxel extends half a step from its centre in each direction. Spacing,
+origin and directions are read as decimal text and stay exact. Therefore a hull in physical coordinates is the exact
+image of the hull of indices.
 """
 
 from __future__ import annotations
@@ -84,11 +85,11 @@ class World:
         return replace(self, steps=steps, origin=tuple(map(_product, signs, self.origin)), space=space)
 
     def spacings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the length of every step as decimal text, and whether it is exact. Others have six digits."""
+        """Return the length of every step as decimal text, and True if it is exact. Inexact lengths have six digits."""
         return tuple(_length(step) for step in self.steps)
 
     def bearings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the anatomical direction of each axis, and whether it is exact. Empty for other spaces."""
+        """Return the anatomical direction of each axis, and True if it is exact. Empty for other spaces."""
         if self.space not in ANATOMICAL or len(self.steps) != 3:
             return ()
         names = self.space.split("-")
@@ -111,8 +112,8 @@ def world_of(
 
     ``spacing`` is a length for each axis (default 1), ``origin`` the position of the first voxel's centre (default 0),
     and ``directions`` a vector for each axis, which is multiplied by its spacing (default along x, y, z). Numbers may
-    have any real type. A float is the number it holds, and decimal text and fractions are exact. Raise VolumeError for
-    another count or kind of numbers, and as ``World`` does.
+    have any real type and are read exactly. Raise VolumeError for a wrong count or kind of numbers, and as ``World``
+    does.
     """
     if spacing is None and origin is None and directions is None:
         return None
@@ -156,7 +157,7 @@ def length_text(text: str) -> Fraction:
 
 
 def decimal_or_fraction(value: Fraction) -> str:
-    """Return the exact text of a number: a decimal if it has a finite one, otherwise p/q."""
+    """Return the exact text of a number: a decimal if its expansion is finite, otherwise p/q."""
     return finite_decimal(value) or str(value)
 
 

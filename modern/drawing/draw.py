@@ -29,7 +29,7 @@ _MANY, _CROWD = 60, 120
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _DARKEST, _RANGE = 196, 56
 
-# The numbers of vertices: none, their place in ``Hull.vertices`` as the programs number them, or their place in the
+# The labels of vertices: none, their number in ``Hull.vertices`` as the programs number them, or their number in the
 # input.
 Labels = Literal["none", "programs", "input"]
 

@@ -30,12 +30,12 @@ _ON_LABEL, _ON_MARK, _OUTSIDE, _ON_LINE, _NEARER, _FARTHER, _INWARD = 60.0, 25.0
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A text and the point that it names, in pixels, y downward."""
+    """A text and the position of the point that it labels, in pixels, with y downward."""
 
     x: float
     y: float
     text: str
-    # The height of its type.
+    # The font size.
     size: float = HEIGHT
 
     @property

@@ -57,7 +57,7 @@ def lay_out(picture: Scene, width: int) -> Layout:
 
 
 def fit(images: Sequence[Flat], width: int, highest: int, margin: int = MARGIN) -> tuple[Callable[[Flat], Pixel], int]:
-    """Return the map of images to pixels that fits them into the width, and the height with its margins."""
+    """Return a function that maps images to pixels so that they fit the width, and the height including the margins."""
     x_min, x_max = _ends(image[0] for image in images)
     y_min, y_max = _ends(image[1] for image in images)
     available = width - 2 * margin
@@ -83,7 +83,7 @@ def _ends(numbers: Iterable[Fraction]) -> tuple[Fraction, Fraction]:
 def _groups(vertices: Sequence[Pixel]) -> tuple[tuple[int, ...], ...]:
     groups: list[list[int]] = []
     for place, vertex in enumerate(vertices):
-        # A vertex joins the first group whose first vertex is near enough.
+        # A vertex belongs to the first group whose first vertex is near enough.
         for group in groups:
             first = vertices[group[0]]
             if (first.x - vertex.x) ** 2 + (first.y - vertex.y) ** 2 <= _TOGETHER**2:

@@ -28,7 +28,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A boundary or inside point: its index in the input, its image, and whether it lies behind the visible faces."""
+    """A boundary or inside point: its index in the input, its image, and True if it lies behind the visible faces."""
 
     index: int
     image: Flat
@@ -161,7 +161,10 @@ def _behind(
 
 
 def _light(normal: Vector, sight: View) -> Fraction:
-    """Return the light on a face, (1 + cosine) / 2 of its angle to a lamp at the left shoulder of the eye."""
+    """Return the light on a face from a lamp at the left shoulder of the viewer.
+
+    It is (1 + cosine) / 2 of the angle between the normal of the face and the direction to the lamp.
+    """
     length = sight.stretch
     level = root(Fraction(dot(sight.right, sight.right)))
     tall = level * length

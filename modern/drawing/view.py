@@ -83,8 +83,8 @@ def along(direction: Eye, point: Vector) -> Fraction:
 def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
     """Choose a direction in which no face is edge-on and no two vertices coincide, decided exactly.
 
-    Among ``EYES``, choose the direction that shows the most faces, with a reduced score if a face is nearly edge-on or
-    vertices are close to each other, and the first of equals. If none is suitable, choose the first suitable direction
+    Among ``EYES``, choose the direction that shows the most faces. The score is reduced if a face is nearly edge-on or
+    vertices are close to each other; the first of equals wins. If none is suitable, choose the first suitable direction
     on the curve (t, -t t - 1, t t t) for t = 2, 3, 4 and so on. A face or a pair of vertices excludes at most three
     directions of the curve, so a suitable one exists.
     """

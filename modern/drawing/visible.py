@@ -67,7 +67,10 @@ def facing(corners: Sequence[tuple[N, N, N]]) -> int:
 def classify(
     faces: Sequence[tuple[int, ...]], signs: Sequence[int], flat: Callable[[int, int], bool]
 ) -> tuple[Edge, ...]:
-    """Return every edge once, sorted, from the ``signs`` of the faces; ``flat`` recognizes coplanar faces."""
+    """Return every edge once, sorted, with its kind.
+
+    ``signs`` has the result of ``facing`` for each face. ``flat`` returns True for two coplanar faces.
+    """
     edge_faces: dict[tuple[int, int], list[int]] = defaultdict(list)
     for face_index, face in enumerate(faces):
         for a, b in sides(face):
@@ -81,8 +84,8 @@ def classify(
 def contour(faces: Sequence[tuple[int, ...]], signs: Sequence[int]) -> tuple[int, ...]:
     """Return the contour line as a chain of vertices, clockwise in the image, that begins with its smallest index.
 
-    A front face runs clockwise in the image, and so does a side of it that has no front face beyond. The chain is
-    empty if no face is visible, as for a plate seen edge-on.
+    The sides of a visible face run clockwise in the image. Those without a visible face on the other side form the
+    contour. The chain is empty if no face is visible, as for a plate seen edge-on.
     """
     directed = {(a, b) for face, sign in zip(faces, signs, strict=True) if sign > 0 for a, b in sides(face)}
     successor = {a: b for a, b in directed if (b, a) not in directed}

@@ -1,7 +1,7 @@
 """``charts.json``: the charts of a report as data, from which ``study --redraw`` draws them without the rows.
 
 The file is a list.  Each chart has a kind (``bars`` or ``lines``), the fields of :class:`modern.study.report.Bars` or
-``Lines``, marks, and series with points ``[position, value, low, high]``.  A limit that is null is infinite.
+``Lines``, marks, and series with points ``[position, value, low, high]``.  A null stands for an infinite limit.
 """
 
 from __future__ import annotations

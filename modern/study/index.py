@@ -78,7 +78,7 @@ def _opened(path: Path) -> sqlite3.Connection:
     connection = sqlite3.connect(path, timeout=0.5, isolation_level=None)
     try:
         connection.execute("PRAGMA locking_mode = EXCLUSIVE")
-        # An interruption may leave a damaged index, because the next run makes it again.
+        # An interruption may leave a damaged index.  This does no harm, because the next run makes the index again.
         connection.execute("PRAGMA synchronous = OFF")
         connection.execute("PRAGMA journal_mode = MEMORY")
         connection.execute("BEGIN EXCLUSIVE")
@@ -104,7 +104,7 @@ def clear(index: sqlite3.Connection) -> None:
 
 
 def enter(index: sqlite3.Connection, rows: Iterable[Row]) -> None:
-    """Enter the rows of a chunk, all or none.  Raise StudyFileError if that fails."""
+    """Insert the rows of a chunk in one transaction.  Raise StudyFileError if that fails."""
     samples, runs = [], []
     for row in rows:
         key = (row["cell"], row["index"])

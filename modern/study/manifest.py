@@ -1,4 +1,4 @@
-"""The manifest of a study: its plan, the versions and code it ran with, and hashes to compare a repetition with."""
+"""The manifest of a study: its plan, the versions and the code of its run, and hashes for comparing a repetition."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
 
 
 def first_difference(earlier: Mapping[str, Any], current: Mapping[str, Any]) -> str:
-    """Describe the first difference between the manifest in the folder and the current one; empty if they agree."""
+    """Describe the first difference between the manifest in the folder and the current one, or return an empty text."""
     plan, current_plan = earlier["plan"], current["plan"]
     if plan.get("name") != current_plan["name"]:
         return f"the folder holds the study {plan.get('name')}, not {current_plan['name']}"

@@ -1,4 +1,4 @@
-"""The outcome of a sample on a route: exactly one of eleven, with a detail that says where or what.
+"""The outcome of a sample on a route: exactly one of eleven, with a detail (a location or the kind of fault).
 
 =====================  ============================================================================================
 outcome                meaning (detail)
@@ -138,7 +138,7 @@ def position(program: Program, line: Line) -> str:
 
 
 def _refused_at(step: Step, message: str) -> str:
-    """Return where a program was when it typed DATA NOT ACCEPTABLE or ERROR IN PROGRAM: ``program3 119``.
+    """Return the statement at which a program typed DATA NOT ACCEPTABLE or ERROR IN PROGRAM: ``program3 119``.
 
     A program types all its errors with one statement, so for an error the last decision before it is returned.
     """

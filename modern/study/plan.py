@@ -9,7 +9,7 @@ cell (:class:`Cell`)
     Samples of one kind: one family of point sets with fixed parameters.  Every sample of a cell goes through all its
     routes, so routes are compared on the same point sets.
 chunk (:class:`Chunk`)
-    Consecutive samples of a cell that are worked on and stored together, about a second's work.
+    Consecutive samples of a cell that are computed and stored together, in about a second.
 
 Nothing in this module runs anything.  A plan becomes JSON (:meth:`Plan.document`) for the manifest.  The seed of a
 sample depends only on the seed of the study, the key of the cell and the index of the sample, and not on the number of
@@ -102,7 +102,7 @@ Route = Programs | Port
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """Samples of one kind: one family with fixed parameters, with every sample sent through every route.
+    """Samples of one kind, from one family with fixed parameters.  Every sample goes through every route.
 
     key: the parameters that tables show, in order; it is unique in a plan.  family: a name in
     :data:`modern.study.families.FAMILIES`, or ``module:function``.  parameters: the keyword arguments of the family.

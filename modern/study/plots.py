@@ -124,7 +124,7 @@ def _together(axes: Any, chart: Chart) -> None:
 
 
 def _panels(figure: Any, chart: Chart) -> None:
-    """Draw each series on separate axes with the same scales; of a line chart, the other series in grey behind."""
+    """Draw each series on separate axes with the same scales.  In a line chart the others appear in grey behind it."""
     across = 3 if len(chart.series) > 4 else 2
     down = ceil(len(chart.series) / across)
     high = max(1.7, _ROW * len(names(chart))) if isinstance(chart, Bars) else 1.7
@@ -221,7 +221,7 @@ def _range(numbers: list[float], logarithmic: bool, margin: float = 0.0) -> tupl
 def _numbers(
     axis: Any, limits: tuple[float, float], logarithmic: bool, powers: bool, percent: bool, only_integers: bool
 ) -> None:
-    """Set the numbers at an axis: on a logarithmic one 1, 2, 5, 10, 20 and so on, or powers of ten if it is long."""
+    """Set the tick labels of an axis.  A logarithmic axis has 1, 2, 5, 10, 20 and so on, or powers of ten if long."""
     from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
     if logarithmic:

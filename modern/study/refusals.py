@@ -1,8 +1,7 @@
-"""Data sheets with decimals: how often the programs reject them, and what share of them explains two rejections in 70.
+"""Data sheets with decimals: how often the programs reject them, and which share explains two rejections in 70.
 
-The thesis explains its two failures by the limits of the machine, its eight digits.  The programs reject sets like the
-data sheet of chapter 5 (:func:`modern.study.families.thesis.data_sheet`) more often the more of the coordinates are
-decimals.
+The thesis attributes its two failures to the eight digits of the machine.  The programs reject sets like the data sheet
+of chapter 5 (:func:`modern.study.families.thesis.data_sheet`) more often if more of their coordinates are decimals.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A sample, its deck with the numbers as the cards hold them, and its exact hull."""
+"""A sample: its points, the deck that holds them, and the exact hull of the points on the cards."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Sample:
         }
 
     def points_read(self, rules: Rules) -> Sequence[Vector]:
-        """Return the points as an arithmetic reads them from the cards; fewer than eight digits truncate them."""
+        """Return the points as an arithmetic reads them from the cards; one with fewer than eight digits truncates."""
         if rules.digits >= CARD_DIGITS:
             return self.points
         points = []

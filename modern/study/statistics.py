@@ -1,4 +1,4 @@
-"""Confidence intervals for the results of samples: exact ones for proportions and counts, Student's for other means.
+"""Confidence intervals: Clopper and Pearson's exact ones for proportions and counts, Student's for other means.
 
 Proportions, and counts out of a known total, get Clopper and Pearson's interval.  Its coverage is at least the level
 for every true proportion, and it never extends below 0 or above the total.  It keeps the level if samples of several
@@ -76,7 +76,7 @@ def mean_of(
 
 
 def student(degrees: int, level: float = LEVEL) -> float:
-    """Return the t for which a variable of Student's distribution lies in -t to t with probability ``level``."""
+    """Return the t such that a variable with Student's distribution lies from -t to t with probability ``level``."""
     # P(|T| > t) is the incomplete beta function of n/2, 1/2 at n/(n + t*t).
     x = _root(lambda p: incomplete_beta(degrees / 2, 0.5, p) - (1 - level))
     return sqrt(degrees * (1 - x) / x)

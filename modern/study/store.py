@@ -28,7 +28,7 @@ _CHECKSUM_FIELD = b',"checksum":"'
 
 @contextmanager
 def placing(path: Path) -> Iterator[BinaryIO]:
-    """Open a file for writing and rename it into place when it is on disk.  Raise StudyFileError if that fails."""
+    """Open a temporary file, and rename it to ``path`` when it is on disk.  Raise StudyFileError if that fails."""
     try:
         with writing_bytes(str(path), durable=True) as file:
             yield file
@@ -37,7 +37,7 @@ def placing(path: Path) -> Iterator[BinaryIO]:
 
 
 def put(path: Path, data: bytes | str) -> None:
-    """Write a complete file, or none if that fails.  Raise StudyFileError."""
+    """Write a complete file.  On failure write no file and raise StudyFileError."""
     with placing(path) as file:
         file.write(data.encode("utf-8") if isinstance(data, str) else data)
 
@@ -90,7 +90,7 @@ class Store:
         self.database.close()
 
     def missing(self) -> list[Chunk]:
-        """Return the chunks that have no file of rows, after making the index from the files of the others.
+        """Make the index from all files of rows, and return the chunks that have no file.
 
         Raise StudyFileError if a row is damaged.  The index is never reused, because a change in it would go unnoticed.
         """
@@ -114,7 +114,7 @@ class Store:
         return intact, messages
 
     def _files(self) -> Iterator[tuple[Chunk, bool]]:
-        """Yield all chunks, and whether each has a file.  Raise StudyFileError if there is another file of rows."""
+        """Yield each chunk, with True if it has a file.  Raise StudyFileError if there is any other file of rows."""
         present = {path.name for path in (self.folder / ROWS).glob("*.jsonl")}
         foreign = present - {chunk.name for chunk in self.plan.chunks()}
         if foreign:
@@ -139,7 +139,7 @@ class Store:
         return digest.hexdigest()
 
     def runs(self, cell: int | None = None, route: str | None = None) -> Iterator[Run]:
-        """Yield the answers of one cell or route, or of all."""
+        """Yield the answers of one cell or route, or of all cells and routes."""
         where, values = _where(cell, route)
         answers = self.database.execute(
             "SELECT runs.cell, runs.place, n, dimension, tags, route, outcome, detail, figures FROM runs "

@@ -1,4 +1,4 @@
-"""Counts of outcomes by cell and route, from which most reports are computed, and cells selected by their keys."""
+"""Count outcomes by cell and route, for most of the reports, and select cells by their keys."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Summary:
         return self.of(cell, route) - self.hits(cell, route)
 
     def sound_from(self, cell: int, route: Callable[[int], str], tried: Sequence[int]) -> int | None:
-        """Return the least of the ascending numbers from which on no sample failed, or None."""
+        """Return the least of the ascending numbers such that no sample failed at it or after it, or None."""
         least = None
         for number in reversed(tried):
             if self.failed(cell, route(number)):

@@ -32,7 +32,7 @@ from modern.study.routes import carry_out
 from modern.study.sample import Sample, judge
 from modern.thesis.batch import Runs
 
-# Chunks submitted for each worker: enough that none waits, few enough that memory use does not grow.
+# Chunks submitted for each worker: enough that no worker is idle, few enough that memory use does not grow.
 AHEAD = 2
 # Seconds to wait for a scheduler.
 TIMEOUT = 10
@@ -110,7 +110,7 @@ def in_processes(plan: Plan, chunks: Sequence[Chunk], workers: int) -> Generator
     try:
         yield from _submit_and_wait(plan, chunks, pool, AHEAD * workers, work_on)
     except BaseException as reason:
-        # Nobody waits for the chunks that are under way.  A stored file of rows is always complete.
+        # Unfinished chunks are abandoned.  A stored file of rows is always complete.
         for child in set(multiprocessing.active_children()) - earlier_children:
             child.terminate()
         if isinstance(reason, BrokenProcessPool):

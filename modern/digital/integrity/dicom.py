@@ -15,13 +15,13 @@ from modern.digital.integrity.streams import check_length, check_sizes
 from modern.digital.solids import VolumeError
 
 SIGNATURE = (128, b"DICM")
-"""The position and the text of the mark of a DICOM file."""
+"""The position and the bytes of the signature of a DICOM file."""
 _LONG = frozenset({b"OB", b"OD", b"OF", b"OL", b"OV", b"OW", b"SQ", b"SV", b"UC", b"UN", b"UR", b"UT", b"UV"})
 _SHORT = frozenset(
     {b"AE", b"AS", b"AT", b"CS", b"DA", b"DS", b"DT", b"FD", b"FL", b"IS", b"LO", b"LT", b"PN", b"SH", b"SL", b"SS"}
     | {b"ST", b"TM", b"UI", b"UL", b"US"}
 )
-"""Types of values, with a length of four bytes after two reserved ones, and with a length of two bytes."""
+"""Types of values: those with two reserved bytes and a four-byte length, and those with a two-byte length."""
 _IMPLICIT, _EXPLICIT, _BIG_ENDIAN = "1.2.840.10008.1.2", "1.2.840.10008.1.2.1", "1.2.840.10008.1.2.2"
 _SYNTAX = (0x0002, 0x0010)
 _SAMPLES, _FRAMES, _ROWS, _COLUMNS, _BITS = ((0x0028, number) for number in (0x02, 0x08, 0x10, 0x11, 0x100))
@@ -79,7 +79,7 @@ class _Elements:
         return kind, struct.unpack(f"{self.order}2xI", self.read(6))[0]
 
     def read_set(self, end: int | None, depth: int = 0) -> None:
-        """Read the elements up to a position, or up to the end of an item if it is None."""
+        """Read the elements up to position ``end``, or up to the end of an item if ``end`` is None."""
         if depth > _DEEPEST:
             raise VolumeError(f"{self.path}: damaged: sequences are nested more than {_DEEPEST} times")
         while end is None or self.file.tell() < end:
@@ -126,7 +126,7 @@ class _Elements:
 
 
 def has_signature(path: str) -> bool:
-    """Return True if a file has the mark of DICOM. Raise OSError if it cannot be read."""
+    """Return True if a file has the DICOM signature. Raise OSError if it cannot be read."""
     position, mark = SIGNATURE
     with open(path, "rb") as file:
         return file.read(position + len(mark))[position:] == mark
@@ -135,8 +135,8 @@ def has_signature(path: str) -> bool:
 def check_dicom(path: str) -> tuple[int, ...] | None:
     """Return columns, rows and frames of an image, or None for a file without pixel data.
 
-    Raise VolumeError if an element is damaged or truncated, or if the pixel data have another length than the sizes
-    require. Raise Unverifiable if they are compressed.
+    Raise VolumeError if an element is damaged or truncated, or if the length of the pixel data does not match the image
+    size. Raise Unverifiable if the pixel data are compressed.
     """
     with open(path, "rb") as file:
         elements = _Elements(file, path, os.fstat(file.fileno()).st_size)

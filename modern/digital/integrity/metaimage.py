@@ -30,7 +30,7 @@ _BYTES = {
     "MET_FLOAT": 4,
     "MET_DOUBLE": 8,
 }
-"""The bytes of a number, by the name of its type."""
+"""The number of bytes of a value, by the name of its type."""
 _FIELD = re.compile(rb"\s*(\w+)\s*[=:]\s*(.*?)\s*", re.DOTALL)
 _INTEGER = re.compile(r"-?[0-9]{1,18}", re.ASCII)
 _PATTERN = re.compile(r"([^%]*%(?:0?[0-9])?d[^%]*?)((?:\s+[0-9]{1,9})*)", re.ASCII)
@@ -75,7 +75,7 @@ def check_metaimage(path: str) -> tuple[int, ...]:
 
 
 def _check_data(source: str, path: str, start: int, expected: int, fields: Mapping[str, str]) -> None:
-    """Check the data in one file, which begin at ``start`` unless the header states their place."""
+    """Check the data in one file. They begin at ``start`` unless the header states their position."""
     skipped = _integer(fields, "HeaderSize", source, 0)
     is_packed = _flag(fields, "CompressedData", source)
     try:
@@ -123,7 +123,7 @@ def _fields(head: bytes, path: str) -> tuple[dict[str, str], int]:
 
 
 def _listed(lines: bytes, name: str, sizes: tuple[int, ...], path: str) -> tuple[list[str], int]:
-    """Return the names of a list, and the number of axes of each file."""
+    """Return the file names in a list, and the number of axes of each file."""
     words = name.split()
     axes = int(words[1]) if len(words) == 2 and re.fullmatch("[1-9]", words[1], re.ASCII) else len(sizes) - 1
     if words[0] != "LIST" or len(words) > 2 or not 1 <= axes < len(sizes):
@@ -141,7 +141,7 @@ def _listed(lines: bytes, name: str, sizes: tuple[int, ...], path: str) -> tuple
 
 
 def _numbered(name: str, sizes: tuple[int, ...], path: str) -> list[str]:
-    """Return the names of a pattern."""
+    """Return the file names that a pattern generates."""
     count = sizes[-1]
     match = _PATTERN.fullmatch(name)
     numbers = [int(word) for word in match[2].split()] if match else []

@@ -1,8 +1,8 @@
-"""Check a NIfTI-1 file (nifti1.h): its header, the length of its data, and whether it states one position.
+"""Check a NIfTI-1 file (nifti1.h): its header, the length of its data, and the consistency of its positions.
 
-SimpleITK replaces sizes, offsets and spacings that are invalid by others, and applies ``scl_inter`` even if
-``scl_slope`` is 0, where the standard says that values are not scaled. Such headers are rejected. If ``qform`` and
-``sform`` differ, or the ``sform`` has another spacing than ``pixdim``, notes say which is used.
+SimpleITK replaces invalid sizes, offsets and spacings. It also applies ``scl_inter`` if ``scl_slope`` is 0, although
+the standard says that values are then not scaled. Such headers are rejected. If ``qform`` and ``sform`` differ, or the
+spacing of ``sform`` differs from ``pixdim``, notes say which one is used.
 """
 
 from __future__ import annotations
@@ -40,9 +40,9 @@ _BITS = {
     2048: 256,
     2304: 32,
 }
-"""The bits of a value, by the code of its type."""
+"""The number of bits of a value, by the code of its type."""
 _MILLIMETRES = {1: 1000.0, 3: 0.001}
-"""Units of length other than millimetres, by their code."""
+"""The length in millimetres of other units of length, by their code."""
 _WIDEST = 16 * MAX_CELLS
 _TO_LPS = np.diag([-1.0, -1.0, 1.0])
 _SAME = 0.01
@@ -67,7 +67,7 @@ class NiftiHeader:
 
 
 def check_nifti(path: str) -> NiftiHeader:
-    """Return what the header states. Raise VolumeError for an invalid header, and for data of another length."""
+    """Return the header. Raise VolumeError if it is invalid or if the data do not have the length that it requires."""
     with open(path, "rb") as file:
         head = file.read(_FIRST_DATA)
         available = os.fstat(file.fileno()).st_size
@@ -112,7 +112,7 @@ def _parsed(head: bytes, path: str) -> tuple[NiftiHeader, int, int]:
 
 
 def _scaling(slope: float, intercept: float, path: str) -> str:
-    # 0 means that values are not scaled, and so does nan, which nibabel writes.
+    # 0 means that values are not scaled. nan, which nibabel writes, means the same.
     if slope == 0 or math.isnan(slope):
         if intercept != 0 and not math.isnan(intercept):
             raise VolumeError(f"{path}: scl_inter is {intercept:g}, but scl_slope is {slope:g} (values not scaled)")
@@ -154,7 +154,7 @@ def _forms(
 
 
 def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
-    """Return notes about positions in the header that differ from each other, and which one ``world`` has."""
+    """Return notes about contradictory positions in the header. They say which position ``world`` has."""
     if world is None or len(world.steps) != 3:
         return []
     used = np.array([[float(number) for number in vector] for vector in (*world.steps, world.origin)]).T
@@ -175,7 +175,7 @@ def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
 def _distance(first: Affine, second: Affine, header: NiftiHeader, spacing: bool = True) -> float:
     """Return the largest distance between the positions of a corner of the volume, or 0 if it is negligible.
 
-    Without ``spacing`` both have the steps of ``pixdim`` along the directions of their axes.
+    If ``spacing`` is false, only directions and origins are compared: both positions are given the steps of ``pixdim``.
     """
     sides = np.array([*header.sizes, 1, 1][:3], dtype=np.float64)
     corners = np.array([[x, y, z, 1] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * [*sides, 1]

@@ -20,7 +20,7 @@ _WIDTH, _HEIGHT, _BITS, _COMPRESSION, _DESCRIPTION, _SAMPLES, _ROWS, _PLANAR = 2
 _STRIPS, _TILES = (273, 279), (324, 325)
 _TILE_WIDTH, _TILE_HEIGHT = 322, 323
 _ALIKE = (_WIDTH, _HEIGHT, _BITS, _SAMPLES, 339)
-"""The tags that must be equal in all pages: sizes, bits, samples and their format."""
+"""The tags that must be equal in all pages: width, height, bits, samples and sample format."""
 _NONE, _DEFLATE = 1, (8, 32946)
 _WITHOUT_CHECKSUM = {2: "CCITT", 3: "CCITT", 4: "CCITT", 5: "LZW", 6: "JPEG", 7: "JPEG", 32773: "PackBits"}
 _MOST_VALUES = 1 << 22

@@ -1,8 +1,8 @@
-"""Study whether program 3 can really handle N = 51: how many entries of its plane table N points need.
+"""Study whether program 3 can really handle N = 51 points: how many entries of its plane table do N points need?
 
 The construction in exact arithmetic gives the largest number of entries in use at once.  The programs as listed show
-what the 98-entry table is large enough for.  Coordinates have two digits.  ``samples`` counts the sets of each family
-and N.
+for which sets the 98-entry table is large enough.  Coordinates have two digits.  ``samples`` is the number of sets of
+each family and N.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Peak:
-    """Entries in use at once: the mean with its interval, and the greatest number."""
+    """The largest number of entries in use at once: its mean over the sets with an interval, and its maximum."""
 
     mean: Interval
     most: int

@@ -1,7 +1,8 @@
-"""Study which coordinates eight-digit arithmetic is sufficient for, and how many digits d-digit coordinates need.
+"""Study for which coordinates eight-digit arithmetic is sufficient, and how many digits d-digit coordinates need.
 
 Sets of ten points with integer coordinates of d digits go through the programs, as listed and with the layer
-``corrected``, and through the port with P truncated digits, for P from 4 to 28.  ``samples`` counts the sets of each d.
+``corrected``, and through the port with arithmetic truncated to P digits, for P from 4 to 28.  ``samples`` is the
+number of sets of each d.
 docs/explanation/eight-digits.md derives the number of digits with which every test for zero is exact, and the number
 that is always enough.
 """
@@ -67,7 +68,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 
 def least(counts: Summary, cell: int) -> int | None:
-    """Return the least P from which on no set of the cell failed; None if one failed at the greatest P."""
+    """Return the least P such that no set of the cell failed at this or a greater P.  Return None if there is none."""
     return counts.sound_from(cell, working, WORKING)
 
 

@@ -53,7 +53,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Divergences:
-    """Counts of sets by cell and first statement that decided differently, and of those with the right hull."""
+    """Counts of sets, and of sets with the right hull, by cell and by the first statement that decided differently."""
 
     counts: Counter[tuple[int, str]]
     right: Counter[tuple[int, str]]

@@ -1,8 +1,9 @@
-"""Study chapter 7's e: which e makes sets acceptable, which makes hulls wrong, and whether one e works for all sets.
+"""Study e of chapter 7: which e makes sets acceptable, which e makes hulls wrong, and if one e works for all sets.
 
-The thesis (p. 117-118) proposes to count a value from -e to +e as zero, and warns that a point off a plane may then
-count as on it, so that a vertex is not recognized.  The programs with the layers ``epsilon`` and ``corrected`` use an
-absolute e.  The port uses an absolute e too, and an e scaled to each equation.  ``samples`` counts the sets of a cell.
+The thesis (p. 117-118) proposes to count a value from -e to +e as zero.  It warns that a point near a plane may then
+count as a point on the plane, so that a vertex is not recognized.  The programs with the layers ``epsilon`` and
+``corrected`` use an absolute e.  The port uses an absolute e and an e scaled to each equation.  ``samples`` is the
+number of sets of a cell.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ SETS: Mapping[str, tuple[str, Mapping[str, int]]] = {
     "gap of .001": ("near-coplanar", {"digits": 2, "gap": 3}),
 }
 _CHARTED = ("integers of 1 digit", "integers of 2 digits", "integers of 3 digits", "integers of 4 digits", "gap of .01")
-# The details of a swallowed vertex: a hull lacks one of its vertices, or a body counts as flat or as a line.
+# The details of outcomes with a swallowed vertex: the hull lacks a vertex, or a solid counts as flat or as a line.
 SWALLOWED = ("vertex missed", "dimension wrong")
 
 Name = Callable[[int], str]
@@ -106,13 +107,14 @@ class _Rows:
         return exact(self.swallowed.get((cell, route), 0), self.counts.of(cell, route))
 
     def clean(self, cell: int, name: Name, tried: tuple[int, ...]) -> list[int]:
-        """Return the powers at which no set failed."""
+        """Return the exponents k at which no set failed with e = 10**k."""
         return [k for k in tried if not self.counts.failed(cell, name(k))]
 
     def begins(self, cell: int, name: Name, tried: tuple[int, ...]) -> int | None:
-        """Return the least power from which on every power swallows a vertex of some set; None if the last does not.
+        """Return the least exponent k such that 10**k and every greater e swallow a vertex of some set.
 
-        A vertex missed only at a smaller e is missed because of the arithmetic and not because of e.
+        Return None if the greatest e swallows none.  A vertex that is missed only at a smaller e is missed because of
+        the arithmetic and not because of e.
         """
         least = None
         for k in reversed(tried):
@@ -250,7 +252,7 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
 
 
 def _same_as_port(store: Store) -> tuple[int, int]:
-    """Return how many runs of programs and port with the same e agree except in order, and of how many."""
+    """Return how many runs of the programs agree, except in order, with the port at the same e, and the total."""
     same = of = 0
     for k in ABSOLUTE:
         alike, runs = next(
@@ -265,7 +267,7 @@ def _same_as_port(store: Store) -> tuple[int, int]:
 
 
 def _wrong_outside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:
-    """Return the number of sets with a wrong hull at an e below (or above) those without failures, and the total."""
+    """Return how many sets have a wrong hull at an e below (or above) the e without failures, and the total."""
     wrong = of = 0
     for number, cell in enumerate(plan.cells):
         clean = rows.clean(number, taken, ABSOLUTE)

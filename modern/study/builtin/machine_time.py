@@ -1,4 +1,4 @@
-"""Study the time on a 1620, for reader, punch, typewriter and processor, against the number of points.
+"""Study how the time on a 1620 (reader, punch, typewriter and processor) depends on the number of points.
 
 The corrected programs are used, so that no set fails because of faults of the listing.  The times come from
 emulator/machine/timing.py.  ``samples`` counts the sets of each family and N.

@@ -96,14 +96,14 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Pairs:
-    """An arithmetic compared with truncation on the same sets: the number of sets it does better on, and worse."""
+    """An arithmetic compared with truncation on the same sets: the numbers of sets with better and worse results."""
 
     better: int
     worse: int
 
     @property
     def verdict(self) -> str:
-        """Return the conclusion, by the exact interval of the share of sets that are better."""
+        """Return the conclusion, which the exact interval of the share of better sets determines."""
         if self.better + self.worse == 0:
             return "no difference"
         share = exact(self.better, self.better + self.worse)
@@ -129,7 +129,7 @@ def report(plan: Plan, store: Store) -> Report:
 
 
 def _compared(plan: Plan, store: Store, way: str, test: str) -> _Pairs:
-    """Compare set by set whether the hull is found or, with the interval, at how many widths."""
+    """Compare two arithmetics on each set: is the hull found or, with the interval, at how many widths is it found?"""
     better = worse = 0
     names = {way: (way, *(within(way, k) for k in WIDTHS)) for way in (way, TRUNCATING)}
     way_of = {route: way for way, routes in names.items() for route in routes}

@@ -1,9 +1,9 @@
-"""Study what moving the origin to C, as chapter 7 proposes, saves in operations and time and costs in digits.
+"""Study the translation of the origin to C (chapter 7): the operations and time that it saves, and its cost in digits.
 
-The thesis (p. 118-119) leaves open whether the translation pays.  With it, the sign of the constant term orients an
-equation, so that C need not be substituted, but the points must be moved there and back.  Time is measured on runs of
-the programs in exact arithmetic, in which no set is rejected.  Digits are varied in the port.  ``samples`` counts the
-sets of each kind and N whose time is measured; each kind whose digits are varied has four times as many.
+The thesis (p. 118-119) leaves open whether the translation is worthwhile.  With it, the sign of the constant term
+orients an equation, so that C need not be substituted, but the points must be moved and moved back.  Time is measured
+on runs of the programs in exact arithmetic, in which no set is rejected.  Digits are varied in the port.  ``samples``
+is the number of timed sets of each kind and N.  Each kind whose digits are varied has four times as many sets.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ PLANES = "planes like example 4"
 WORKING = tuple(range(4, 17))
 EIGHT = 8
 PARTS = ("additions", "products", "quotients", "seconds_processor")
-# The limits of the classes of planes of the hull per point.
+# The class limits of the ratio of planes of the hull to points.
 RATIOS = (0.0, 0.5, 1.0, 1.5, inf)
 _TIMED: Mapping[str, tuple[str, Mapping[str, object], tuple[int, ...]]] = {
     PLANES: ("thesis", {"kinds": {"plane": 1}}, (8, 16, 32)),
@@ -169,7 +169,7 @@ def _numbers(figures: str) -> dict[str, float]:
 
 
 def _share(estimate: Interval) -> str:
-    """Format a share saved in percent with its interval; a single set has no interval."""
+    """Format a saved share in percent with its interval.  A single set has no interval."""
     if estimate.high == inf:
         return f"{100 * estimate.value:.1f} %"
     return f"{100 * estimate.value:.1f} ({100 * estimate.low:.1f} to {100 * estimate.high:.1f}) %"
@@ -222,7 +222,7 @@ def _by_ratio(pairs: list[_Pair]) -> Table:
 
 
 def _least(counts: Summary, cell: int, name: str) -> int | None:
-    """Return the least P from which on no set failed; None if one failed at the greatest P."""
+    """Return the least P such that no set failed at this or a greater P.  Return None if there is none."""
     return counts.sound_from(cell, lambda p: working(name, p), WORKING)
 
 

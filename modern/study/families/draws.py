@@ -13,7 +13,7 @@ from modern.geometry.numbers import scaled_decimal
 T = TypeVar("T")
 Point = tuple[str, str, str]
 Whole = tuple[int, int, int]
-# A number of points, or the least and the greatest number, between which it is drawn.
+# A number of points, or a pair (least, greatest) from which the number is drawn.
 Count = int | Sequence[int]
 
 DIGITS = 8
@@ -22,7 +22,7 @@ _TRIES = 200
 
 
 class FamilyError(EmulatorError):
-    """Parameters for which no points exist, or points that no card holds; with a one-line message."""
+    """Parameters for which no points exist, or points that do not fit a card.  The message is one line."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,8 +30,10 @@ def published_sets() -> dict[str, tuple[Point, ...]]:
 
 
 def published(draw: Draw, sets: Sequence[str] = (), shuffle: bool = False) -> Drawn:
-    """Sample k is the k-th of the named sets, or of all, starting again after the last; ``shuffle`` changes the order
-    of the points at random."""
+    """The published sets in turn: sample k is the k-th of the named ``sets`` (default: all), cyclically.
+
+    ``shuffle`` changes the order of the points at random.
+    """
     known = published_sets()
     names = list(sets) or list(known)
     name = names[draw.index % len(names)]
