@@ -89,7 +89,10 @@ class World:
         return tuple(_length(step) for step in self.steps)
 
     def bearings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the anatomical direction of each axis, and True if it is exact. Empty for other spaces."""
+        """Return the anatomical direction of each axis, and True if it is exact.
+
+        If the space is not anatomical, the result is empty.
+        """
         if self.space not in ANATOMICAL or len(self.steps) != 3:
             return ()
         names = self.space.split("-")

@@ -13,7 +13,7 @@ from modern.port.table import Equations, PointTable
 
 
 class Remaining:
-    """The points that are not vertices. Each has an equation that prevents its elimination."""
+    """The points that remain and are not vertices. Each has an equation that prevents its elimination."""
 
     def __init__(self) -> None:
         self.keeper: NDArray[np.int64] = np.empty(0, np.int64)

@@ -58,7 +58,7 @@ def panels(chart: Chart) -> bool:
 
 
 def steps(chart: Lines) -> tuple[float, ...]:
-    """Return the shift of each series to the right of its x values, in points; as large as the x values permit."""
+    """Return the shift of each series to the right of its x values, in points.  It is as large as they permit."""
     count = len(chart.series)
     positions = sorted({float(x) for series in chart.series for x, _ in series.points})
     gap = min((b - a for a, b in pairwise(_scaled(positions, WIDTH, chart.log_x))), default=WIDTH)

@@ -89,7 +89,7 @@ def table(sheets: tuple[Sheets, ...]) -> Table:
 
 
 def needed(sheets: Sheets) -> str:
-    """Return the range of the number of such sheets that makes two rejections most probable; ``-`` if it exceeds 70."""
+    """Return the range of the number of sheets for which two rejections are most probable, or ``-`` if above 70."""
     if not sheets.refused:
         return "-"
     low, high = (SEVENTY * bound / sheets.rate.value for bound in TWO_LIKELIEST)

@@ -127,7 +127,7 @@ class Store:
         enter(self.database, map(json.loads, text.splitlines()))
 
     def rows(self) -> Iterator[Row]:
-        """Yield every row from the files.  Raise StudyFileError if a file does not hold the rows of its chunk."""
+        """Yield every row of every file.  Raise StudyFileError if a file does not hold the rows of its chunk."""
         for chunk in self.plan.chunks():
             yield from self._chunk_rows(chunk)
 
