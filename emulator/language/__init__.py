@@ -30,9 +30,15 @@ To add a FORMAT code that transfers a number:
    column arithmetic in ``emulator/numbers/columns.py``.
 2. ``formats.py``: the letter in ``_KINDS`` and its widths in ``_Reader.one``.  Remove it from ``FOREIGN_FIELDS`` in
    ``foreign.py``.
-3. ``emulator/machine/devices.py`` and ``emulator/compiled/devices.py``: which of these functions an ITEM uses.
-4. Tests: ``tests/emulator/language/test_formats.py`` and ``tests/emulator/numbers/test_fields.py``.
+   In ``_Reader.one``, the message that lists the codes and the test for decimals name the letters too.
+3. ``emulator/machine/devices.py`` and ``emulator/compiled/devices.py``: which of these functions an ITEM uses.  The
+   constants at the top of ``compiled/devices.py``, and ``_KINDS`` and ``WAYS`` in ``compiled/runner.py``, number the
+   kinds.
+4. ``emulator/machine/timing.py``: the times of reading and writing the field.
+5. Tests: ``tests/emulator/language/test_formats.py`` and ``tests/emulator/numbers/test_fields.py``.
 
-A code that transfers no number, like X and H, is a class next to ``Literal`` in ``formats.py``, a member of ``Spec``,
-and a case in step 3.
+A code that transfers no number, like X and H, is a class next to ``Literal`` in ``formats.py`` and a member of
+``Spec``.  It needs a case in ``_advance`` of ``emulator/machine/forms.py``, ``_forms`` of
+``emulator/compiled/runner.py``, both ``devices.py`` and ``format`` of ``modern/bench/translate.py``, and in
+``FormatSpec.widths`` and ``positions``.
 """

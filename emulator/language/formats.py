@@ -242,7 +242,8 @@ class _Reader:
         decimals = ""
         if letter in ("E", "F"):
             if self.peek() != ".":
-                raise _refused(self.place(), f"{letter}{width} has no decimal point and decimals")
+                message = f"{letter}{width} lacks a decimal point and a number of decimals, as in {letter}{width}.4"
+                raise _refused(self.place(), message)
             self.at += 1
             # A blank between the point and the decimals is error type 11 (p. 56).
             if self.text[self.at : self.at + 1] == " ":

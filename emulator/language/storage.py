@@ -75,7 +75,7 @@ def core_address(index: int, core: int) -> int:
 
 @dataclass
 class Allocator:
-    """An assignment of fields in order of first appearance, built up while a program compiles."""
+    """Reserves a storage field for each name in order of first appearance, while a program compiles."""
 
     entries: dict[tuple[str, str], Entry] = field(default_factory=dict)
     used: int = 0

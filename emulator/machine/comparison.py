@@ -199,7 +199,7 @@ class Comparison:
     def _texts(self, studied: Number, reference: Number, tested: bool = False) -> tuple[str, str]:
         """Return both values as text, with all digits if they would otherwise look the same.
 
-        A test ignores the sign of zero.
+        With ``tested`` the sign of a zero is not shown, because an IF ignores it.
         """
         texts = []
         for wide in (False, True):

@@ -46,7 +46,7 @@ def read_action(line: str) -> tuple[int | None, Action]:
 
 
 def action(word: str, operands: list[str]) -> Action:
-    """Return the action of a word other than ENTER and its operands.  Raise ValueError with a message."""
+    """Return the action for a word with its operands.  The word is not ENTER.  Raise ValueError if they are invalid."""
     # Operands are an optional CARD, an optional number and, for SWITCH, ON or OFF.
     card = word in ("BREAK", "CLEAR") and operands[:1] == ["CARD"]
     numbers = [_number(text) for text in operands[card : card + 1]]

@@ -19,7 +19,11 @@ To add a verdict on a statement:
    must then change.
 6. Run ``hull1620 reproduce DOCUMENT.NUMBER``.
 
-To add a document:
+To correct a verdict, change ``verdict`` and ``why`` in the row and the function that its ``claim`` names.  The row
+records the verdict and the function computes it; ``hull1620 reproduce`` and the tests fail if they differ.  A row with
+a ``test`` or without evidence has no function.
+
+To add a document (a paper needs more steps, see :mod:`modern.papers`):
 
 1. Append its name to ``DOCUMENTS`` in :mod:`modern.claims.register`, and write its register
    ``transcripts/statements/NAME.toml`` and its package of checks ``modern/claims/NAME/``.

@@ -15,7 +15,7 @@ from modern.edition.apparatus import Change, Row, RowMisfit, Text, on_form
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A piece of a line with two readings: ``old`` without the row, ``new`` with it."""
+    """A piece of a line with two readings: ``old`` before the row is applied, ``new`` after it."""
 
     row: Row
     old: tuple[Piece, ...]

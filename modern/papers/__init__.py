@@ -1,6 +1,6 @@
 """Four later papers on hulls and hidden lines, one package each, implemented in exact arithmetic.
 
-How to add a fifth paper, ``NAME`` (with ``-`` for ``_`` on the command line):
+How to add a fifth paper, ``NAME``.  Commands and the registers of statements write ``-`` for ``_`` in the name:
 
 1. ``modern/papers/NAME/``: the algorithm, over integers or fractions. ``__init__.py`` cites the paper and exports the
    entry point. If the print is wrong, implement the corrected step and keep the printed one as an option, as
@@ -16,7 +16,8 @@ How to add a fifth paper, ``NAME`` (with ``-`` for ``_`` on the command line):
    ``modern/claims/NAME/``; a slow one names a test.
 5. ``modern/cli/NAME.py``: the command, with an entry in ``modern/cli/arguments.py``.
 6. ``docs/papers/NAME.md`` with its line in ``docs/papers/index.md``; ``docs/statements/NAME.md`` with its line in
-   ``docs/statements.md``; the pictures of the paper's page in ``modern/publication/site/pages/papers.py``.
+   ``docs/statements.md``; the pictures of the paper's page in ``modern/publication/site/pages/papers.py``; the chapter
+   of the book in ``CHAPTERS`` of ``modern/publication/book/build.py``.
 
 Tests go into ``tests/modern/papers/``: ``test_NAME.py`` compares the algorithm with the exact hull or another
 independent method on random input, ``test_NAME_cli.py`` runs the command, and ``test_NAME_published.py`` covers what

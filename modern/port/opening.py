@@ -78,7 +78,7 @@ def bring_to_front(points: PointTable, first: int, second: int) -> None:
 
 
 def on_the_line(arithmetic: Arithmetic, points: PointTable, perpendicular: int, slack: Slack | None) -> bool:
-    """Return True if all points satisfy both equations of the line through the first two (181 to 192)."""
+    """Return True if all points satisfy both equations of the line through the first two (statements 181-192)."""
     p, q = points.at(0), points.at(1)
     for i, j in _PAIRS[perpendicular]:
         equation = line(p[i], p[j], q[i], q[j], p[i], p[j])

@@ -172,7 +172,7 @@ def quadrangles() -> CheckResult:
 
 
 def formula_5() -> CheckResult:
-    """Check that three integers for each vertex and each of 2 V - 4 triangles are 6 more than formula (5)."""
+    """Check that the integers of all vertices and triangles, three for each, exceed formula (5) by 6."""
     checks = []
     for points, _ in sampled_hulls():
         cells = convex_polyhedron(points, "visible")

@@ -21,7 +21,7 @@ STEPS: tuple[Point, ...] = tuple((x, y, z) for x in (0, 1) for y in (0, 1) for z
 
 
 def _placed(volume: Volume, of: str) -> set[Point]:
-    """Return the positions of a volume in the program's own array."""
+    """Return the coordinates of the voxels of a volume as indices of the array that the program uses."""
     array = places(volume, CENTRES if of == CENTRES else VERTICES)
     return {(x, y, z) for x, y, z in np.argwhere(array).tolist()}
 

@@ -26,7 +26,6 @@ from modern.publication.numbered import numbered
 DOCS = ROOT / "docs"
 STANDARD: Final = "a-2a"
 MISSING_TYPST = "Typst typesets the book: pip install 'hull1620[edition]'"
-_PAPERS = ("appel_will", "nakamae_nishita", "kovalevsky_schulz", "yau_srihari")
 CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("Introduction", ("article.md",)),
     ("The algorithm", ("explanation/method.md", "explanation/eight-digits.md", "reference/concordance.md")),
