@@ -231,7 +231,7 @@ def test_reproduce_accepts_documents_theorems_and_statements(capsys: pytest.Capt
         out.split()
     )
     assert main(["reproduce", "yau"]) == 2
-    assert "the documents are thesis, appel-will" in capsys.readouterr().err
+    assert "a document (thesis, appel-will" in capsys.readouterr().err
 
 
 def test_every_claim_function_is_named_in_a_test() -> None:

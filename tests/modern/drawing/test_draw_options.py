@@ -196,7 +196,7 @@ def test_draw_command_accepts_every_option(
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["s.csv", "--stages", "--width", "400"], "--stages and --animate have one form"),
+        (["s.csv", "--stages", "--width", "400"], "--stages and --animate cannot be combined with --width"),
         (["-", "--against", "-"], "points and cards cannot both come from standard input"),
         (["s.csv", "--against", "s.csv"], "these cards have no vertices"),
         (["s.csv", "--width", "10"], "a picture cannot be 10 pixels wide"),

@@ -301,7 +301,7 @@ def test_more_than_50_points_are_summarised(folder: Path, capsys: pytest.Capture
     text = "\n".join(["OFF", f"{int(vertices) + 30} {faces} 0", *more[2:-1], inner + more[-1]])
     Path("more.off").write_text(text, encoding="utf-8")
     out = call(capsys, "appel-will", "more.off", "--inside-corners", "two")[1]
-    assert f"of the {faces} surfaces given {faces} kept, 0 respecified, 0 deleted; 0 added\n" in out
+    assert f"of {faces} input surfaces {faces} kept, 0 respecified, 0 deleted; 0 added\n" in out
     assert "0 points deleted by rule two before any projection\n" in out
     assert "28 points deleted as lying between two others\n" in out
 

@@ -190,4 +190,4 @@ def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
     assert "card 12   -          102" in out.splitlines()
     code, out, err = call(capsys, "flowchart", "program2", "--page", "99")
     assert (code, out) == (2, "")
-    assert err.startswith("hull1620: --page 99: the chart has pages 1 to ")
+    assert err.startswith("hull1620: --page: expected 1 to 11, found 99")
