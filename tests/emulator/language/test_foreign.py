@@ -236,7 +236,7 @@ def test_wrong_hollerith_count_gets_a_suggestion(text: str, column: int, words: 
         ("(3HABC,A4)", FOREIGN_FIELDS["A"]),
         ("(3HABC,I4", "the FORMAT does not end with a parenthesis"),
         ("(3HABC,I)", "I needs a width"),
-        ("(3HABC,F4,4HDEFG)", "F4 lacks a decimal point and a number of decimals"),
+        ("(3HABC,F4,4HDEFG)", "F4 lacks a decimal point and a number of decimals, as in F4.4"),
     ],
 )
 def test_correct_hollerith_count_is_not_blamed_for_another_error(text: str, words: str) -> None:
