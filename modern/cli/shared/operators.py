@@ -74,4 +74,4 @@ def _has_questions(args: argparse.Namespace, program: Program) -> bool:
         return False
     if not all(map(is_terminal, (sys.stdin, sys.stdout, sys.stderr))):
         return False
-    return "ACCEPT" in program.verbs or any(i.operation == op.PAUSE for i in program.code)
+    return program.uses("ACCEPT") or any(i.operation == op.PAUSE for i in program.code)

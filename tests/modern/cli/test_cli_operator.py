@@ -7,10 +7,14 @@ import signal
 import subprocess
 import sys
 import time
+from argparse import Namespace
 from pathlib import Path
 
 import pytest
 
+from emulator.language.cards import deck_from_text
+from emulator.language.compiler import compile_deck
+from modern.cli.shared import operators
 from tests.support.commands import call
 from tests.support.paths import ROOT
 from tests.support.terminals import Person
@@ -385,3 +389,12 @@ def test_cards_come_as_they_are_punched_and_a_named_file_only_whole(folder: Path
             pipe.stderr.close()
         assert pipe.returncode != 1
     assert sorted(path.name for path in folder.iterdir() if path.suffix not in (".f", ".deck")) == []
+
+
+@pytest.mark.parametrize(("source", "asks"), [(ASK, True), (LOOP, False), ("      PAUSE\n      END\n", True)])
+def test_only_a_program_with_accept_or_pause_has_questions(
+    source: str, asks: bool, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(operators, "is_terminal", lambda stream: True)
+    arguments = Namespace(deck=str(folder / "ask.f"))
+    assert operators._has_questions(arguments, compile_deck(deck_from_text("p.f", source))) is asks

@@ -21,12 +21,12 @@ def judged(points: list[tuple[int, int, int]]) -> list[tuple[int, ...]]:
 @pytest.mark.parametrize("treatment", TREATMENTS)
 def test_subsets_of_a_small_grid_have_the_faces_of_the_exact_hull(treatment: Treatment) -> None:
     source, solid = random.Random(8), 0
-    for _ in range(100):
+    for _ in range(300):
         points = source.sample(GRID, source.randint(4, 14))
         if exact_hull(points).dimension == 3:
             solid += 1
             assert list(coplanar_hull(points, treatment).faces) == judged(points), points
-    assert solid > 70
+    assert solid > 200
 
 
 @pytest.mark.parametrize("treatment", TREATMENTS)

@@ -80,7 +80,7 @@ def test_the_result_for_any_volume_is_the_digital_points_of_the_hull(array: np.n
         assert np.array_equal(octree_hull(array).filled, judged(array)[1])
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(60))
 def test_both_papers_and_the_fast_digital_hull_agree(seed: int) -> None:
     array = solid(seed, 9)
     filled = octree_hull(array).filled
@@ -146,10 +146,10 @@ def test_printed_triangles_overlap_if_four_points_lie_in_one_plane() -> None:
 
 
 def test_the_literal_algorithm_is_mostly_wrong() -> None:
-    solids = [solid(seed) for seed in range(20)]
+    solids = [solid(seed) for seed in range(40)]
     thick = [array for array in solids if exact_hull(np.argwhere(array)).dimension == 3]
     right = sum(np.array_equal(octree_hull(array, LITERAL).filled, judged(array)[1]) for array in thick)
-    assert len(thick) > 10
+    assert len(thick) > 20
     assert right < len(thick) / 2
 
 
