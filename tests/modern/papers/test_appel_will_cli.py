@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from modern.cli.main import build_parser, main
+from modern.cli.main import main
 from modern.formats.off import parse_off
-from modern.papers.appel_will import PRINTED, RULES
 
 FIG_4 = """OFF
 10 7 15
@@ -192,15 +191,3 @@ def test_an_error_is_one_line(
     out, err = capsys.readouterr()
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert message in err
-
-
-def test_the_command_accepts_every_rule_for_inside_corners() -> None:
-    for rule in RULES:
-        arguments = ["appel-will", "x", "--inside-corners", rule]
-        assert build_parser(arguments).parse_args(arguments).inside_corners == rule
-
-
-def test_help_names_every_printed_rule(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        call(capsys, "--help")
-    assert f"as printed: {', '.join(PRINTED)}" in " ".join(capsys.readouterr().out.split())

@@ -25,7 +25,6 @@ from tests.support.commands import call
 from tests.support.paths import ROOT
 from tests.support.solids import dodecahedron
 
-SVG = "{http://www.w3.org/2000/svg}"
 CUBE = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)]
 Points = list[tuple[int, int, int]]
 
@@ -144,13 +143,6 @@ def test_many_lines_are_not_numbered_and_a_fault_is_not_drawn() -> None:
     ):
         with pytest.raises(ExportError, match="9 pixels wide"):
             make()
-
-
-@pytest.mark.parametrize(
-    "points", [[(0, 0, 0)], [(0, 0, 0), (3, 0, 0)], [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 0)]]
-)
-def test_flat_hulls_are_drawn_too(points: Points) -> None:
-    ElementTree.fromstring(solid_svg(appel_will(points), texts(points)))
 
 
 # --- the map

@@ -33,36 +33,13 @@ from modern.papers.kovalevsky_schulz import (
 )
 from modern.papers.kovalevsky_schulz.corners import Of, corners_by_neighbours, places
 from modern.papers.kovalevsky_schulz.polyhedron import CurrentPolyhedron, Waiting, independent
+from tests.support.digital_judge import random_solid
 
 FEW = settings(max_examples=40)
 PLACES = (CENTRES, VERTICES)
 WAYS = [(6, VISIBLE), (6, INVISIBLE), (26, VISIBLE), (26, INVISIBLE), (26, None)]
 SIZES = st.tuples(*[st.integers(1, 6)] * 3)
 VOLUMES = SIZES.flatmap(lambda shape: arrays.arrays(np.bool_, shape)).filter(lambda array: bool(array.any()))
-
-
-def random_solid(source: random.Random, side: int = 8) -> Volume:
-    """Grow a 6-connected solid in a box of ``side`` cubed voxels, which is occasionally flat or a rod."""
-    box = [source.choice((1, *[side] * 15)) for _ in range(3)]
-    size = source.randint(1, max(1, box[0] * box[1] * box[2] // source.choice((2, 4, 8))))
-    start = tuple(source.randrange(length) for length in box)
-    voxels, border = {start}, [start]
-    while len(voxels) < size and border:
-        at = source.choice(border)
-        neighbours = [
-            voxel
-            for axis, step in product(range(3), (-1, 1))
-            if (voxel := tuple(c + step * (k == axis) for k, c in enumerate(at))) not in voxels
-            and 0 <= voxel[axis] < box[axis]
-        ]
-        if not neighbours:
-            border.remove(at)
-            continue
-        voxels.add(source.choice(neighbours))
-        border = [*border, *(voxel for voxel in neighbours if voxel in voxels)]
-    array = np.zeros(box, dtype=np.bool_)
-    array[tuple(np.array(sorted(voxels)).T)] = True
-    return Volume(array, tuple(source.randint(-9, 9) for _ in range(3)))
 
 
 def judged(volume: Volume, of: str) -> ExactHull:
@@ -96,7 +73,7 @@ def _from_lowest(polygon: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
 
 @pytest.mark.parametrize("seed", range(8))
 def test_random_solids_have_the_exact_hull(seed: int) -> None:
-    volume = random_solid(random.Random(seed), side=6)
+    volume = Volume(random_solid(random.Random(seed), side=6), (-3, 0, 5))
     for of, (neighbours, coplanar) in product(PLACES, WAYS):
         assert agrees(volume, of, neighbours, coplanar), (of, neighbours, coplanar)
 
@@ -148,10 +125,6 @@ def test_local_corners_do_not_depend_on_slabs_and_memory_order(
         by_neighbours = corners_by_neighbours(Volume(transposed, (0, 0, 0)), of)
     for neighbours, points in by_neighbours.items():
         assert np.array_equal(points, local_corners(whole, CENTRES, neighbours))
-
-
-def test_an_empty_box_has_no_local_corners() -> None:
-    assert local_corners(Volume(np.zeros((0, 3, 3), dtype=np.bool_), (0, 0, 0)), CENTRES).shape == (0, 3)
 
 
 def single_voxel_corners(volume: Volume) -> NDArray[np.bool_]:
@@ -257,23 +230,6 @@ def test_values_fit_64_bits_at_the_bound() -> None:
             values = {f: a * x + b * y + c * z + d for f, (_, _, _, a, b, c, d) in current.faces.items()}
             assert (number in waiting.face) == (max(values.values()) > 0)
             assert number not in waiting.face or values[waiting.face[number]] > 0
-
-
-@pytest.mark.parametrize(
-    ("points", "kind", "vertices"),
-    [
-        ([(5, 6, 7)], "point", {(5, 6, 7)}),
-        ([(0, 0, 0), (1, 1, 1), (3, 3, 3)], "segment", {(0, 0, 0), (3, 3, 3)}),
-        ([(0, 0, 0), (4, 0, 0), (0, 4, 0), (1, 1, 0)], "polygon", {(0, 0, 0), (4, 0, 0), (0, 4, 0)}),
-    ],
-)
-def test_points_in_one_plane_have_a_flat_hull(
-    points: list[tuple[int, int, int]], kind: str, vertices: set[tuple[int, int, int]]
-) -> None:
-    flat = convex_polyhedron(points)
-    assert isinstance(flat, Flat)
-    assert flat.kind == kind
-    assert set(flat.vertices) == vertices
 
 
 def test_the_vertices_of_a_flat_polygon_are_in_cyclic_order() -> None:

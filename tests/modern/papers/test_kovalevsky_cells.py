@@ -150,14 +150,6 @@ def test_planes_of_polygons_with_vertices_in_line() -> None:
         planes_of([*polygon, (1, 1, 1), (2, 2, 2), (3, 3, 3)], [range(1, 6), (6, 7, 8)])
 
 
-def test_planes_of_large_coordinates_are_exact() -> None:
-    far = 10**15
-    (plane,) = planes_of([(far, 0, 0), (0, far, 0), (0, 0, far + 1)], [(1, 2, 3)])
-    a, b, c, d = plane
-    assert (a, b, c) == (far + 1, far + 1, far)
-    assert d == -far * (far + 1)
-
-
 def test_a_vertex_one_unit_outside_of_a_large_hull_is_detected() -> None:
     """The values are floats, 64-bit integers or Python's integers, and the planes are tested block by block."""
     for far in (2, 10**4, 10**6, 10**12):

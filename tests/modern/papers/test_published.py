@@ -6,6 +6,7 @@ import json
 from collections import Counter
 from dataclasses import replace
 from importlib import import_module
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,7 @@ from modern.claims.published import (
     judge,
     produced_by,
     results_of,
+    text_of,
 )
 from modern.cli.main import main
 from modern.edition.apparatus import ApparatusError
@@ -72,6 +74,33 @@ def test_every_line_of_the_print_belongs_to_one_result(tmp_path: Path, lines: tu
     with pytest.raises(ApparatusError) as caught:
         results_of(PAPER, tmp_path)
     assert str(caught.value) == message
+
+
+EMENDATIONS = [(paper, row.id) for paper in PAPERS for row in text_of(paper).rows]
+
+
+@pytest.mark.parametrize(("paper", "row"), EMENDATIONS, ids=[row for _, row in EMENDATIONS])
+def test_every_emendation_is_needed(paper: Paper, row: str, tmp_path: Path) -> None:
+    """Without the row a result differs, or a line belongs to no result."""
+    folder = files("transcripts").joinpath(paper.folder)
+    head, *rows = folder.joinpath("apparatus.toml").read_text(encoding="utf-8").split("[[row]]")
+    remaining = [part for part in rows if f'id = "{row}"' not in part]
+    assert len(remaining) == len(rows) - 1
+    (tmp_path / "apparatus.toml").write_text("[[row]]".join([head, *remaining]), encoding="utf-8")
+    for name in ("witness.txt", "results.toml"):
+        (tmp_path / name).write_bytes(folder.joinpath(name).read_bytes())
+    try:
+        assert DIFFERENT in [finding.kind for finding in findings(paper, tmp_path)]
+    except ApparatusError:
+        assert row == "AW-09", "only this row deletes lines, which belong to no result"
+
+
+@pytest.mark.parametrize("paper", PAPERS, ids=lambda paper: paper.name)
+def test_a_changed_number_is_detected(paper: Paper) -> None:
+    for finding in findings(paper):
+        if finding.kind in (EXACT, CORRECTED):
+            *lines, last = finding.produced
+            assert judge(paper, finding.result, [*lines, f"{last}1"]).kind == DIFFERENT
 
 
 @pytest.mark.parametrize("paper", PAPERS, ids=lambda paper: paper.name)

@@ -145,14 +145,6 @@ def test_printed_triangles_overlap_if_four_points_lie_in_one_plane() -> None:
     assert faces > whole
 
 
-def test_the_literal_algorithm_is_mostly_wrong() -> None:
-    solids = [solid(seed) for seed in range(40)]
-    thick = [array for array in solids if exact_hull(np.argwhere(array)).dimension == 3]
-    right = sum(np.array_equal(octree_hull(array, LITERAL).filled, judged(array)[1]) for array in thick)
-    assert len(thick) > 20
-    assert right < len(thick) / 2
-
-
 @FEW
 @given(SEEDS)
 def test_the_reduced_set_contains_every_vertex(seed: int) -> None:

@@ -1,4 +1,4 @@
-"""Yau and Srihari's trees and faces in arrays, compared with trees of tuples and with the search step by step."""
+"""Yau and Srihari's trees in arrays, and faces compared with the search step by step."""
 
 from __future__ import annotations
 
@@ -9,27 +9,19 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from hypothesis.extra import numpy as arrays
 
 from modern.digital.hull import digital_hull
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull, search
 from modern.papers.yau_srihari import octree as trees
 from modern.papers.yau_srihari.envelope import Envelope, _leaves, reduced_tree
-from modern.papers.yau_srihari.octree import Octree, octree, voxels_of
+from modern.papers.yau_srihari.octree import Octree, octree
 from modern.papers.yau_srihari.quadtree import (
     Quadtree,
-    ceiling,
-    floor,
-    graph_side,
     mirrored,
-    no_columns,
-    with_columns,
     written,
 )
 from modern.papers.yau_srihari.search import Candidates, Search
-from tests.support import nested_trees
 from tests.support.digital_judge import random_solid
-from tests.support.nested_trees import nested, nested_heights
 
 FEW = settings(max_examples=40)
 SIDES = st.sampled_from([1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17])
@@ -50,23 +42,6 @@ def solids(draw: st.DrawFn) -> Any:
     return array ^ (source.random(array.shape) < share)
 
 
-def side_of(array: Any) -> int:
-    return trees.side_for(max(array.shape))
-
-
-@FEW
-@given(solids())
-def test_an_octree_agrees_with_the_tree_of_tuples(array: Any) -> None:
-    tree, expected = octree(array), nested_trees.octree(array, side_of(array))
-    assert nested(tree) == expected
-    assert trees.nodes(tree) == nested_trees.nodes(expected)
-    assert trees.count(tree) == np.count_nonzero(array)
-    assert np.array_equal(voxels_of(tree, array.shape), array)
-    assert np.array_equal(
-        tree.corners() + (tree.side >> tree.levels)[:, None] <= tree.side, np.ones((len(tree.codes), 3))
-    )
-
-
 def test_trees_are_equal_if_side_and_leaves_are() -> None:
     single = octree(np.ones((1, 1, 1), dtype=np.bool_))
     full = octree(np.ones((4, 4, 4), dtype=np.bool_))
@@ -82,31 +57,6 @@ def test_slabs_of_any_size_give_the_same_tree(monkeypatch: pytest.MonkeyPatch) -
     whole = octree(array)
     monkeypatch.setattr(trees, "SLAB", 1)
     assert octree(array) == whole
-
-
-@FEW
-@given(solids())
-def test_floor_and_ceiling_agree_with_those_of_the_tree_of_tuples(array: Any) -> None:
-    tree, nested_tree = octree(array), nested_trees.octree(array, side_of(array))
-    assert nested_heights(floor(tree)) == nested_trees.ends(nested_tree, tree.side, top=False)
-    assert nested_heights(ceiling(tree)) == nested_trees.ends(nested_tree, tree.side, top=True)
-
-
-@st.composite
-def height_trees(draw: st.DrawFn) -> Quadtree:
-    """Draw heights over some columns, including heights above and below the cube."""
-    side = draw(st.sampled_from([1, 2, 4, 8]))
-    x, y = np.nonzero(draw(arrays.arrays(np.bool_, (side, side), fill=st.just(True))))
-    z = draw(arrays.arrays(np.int64, len(x), elements=st.integers(-3, side + 3)))
-    return with_columns(no_columns(side), x, y, z)
-
-
-@FEW
-@given(height_trees())
-def test_epigraph_and_hypograph_agree_with_those_of_the_tree_of_tuples(tree: Quadtree) -> None:
-    for above in (True, False):
-        expected = nested_trees.graph_side(nested_heights(tree), tree.side, above)
-        assert nested(graph_side(tree, above)) == expected
 
 
 @FEW

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections import Counter
 from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
@@ -16,7 +17,7 @@ from hypothesis.extra import numpy as arrays
 from modern.digital.intervals import lower_chain
 from modern.papers.yau_srihari import Printed, octree_hull
 from modern.papers.yau_srihari.envelope import outline, reduced_tree
-from modern.papers.yau_srihari.octree import QUADRANTS, count, nodes, octree, side_for, voxels_of
+from modern.papers.yau_srihari.octree import QUADRANTS, Octree, count, nodes, octree, side_for, voxels_of
 from modern.papers.yau_srihari.quadtree import (
     NO_COLUMN,
     Leaf,
@@ -30,11 +31,11 @@ from modern.papers.yau_srihari.quadtree import (
     mirrored,
     no_columns,
     sons_of,
+    with_columns,
     written,
 )
 from modern.papers.yau_srihari.search import Search, normal_of
 from tests.support.digital_judge import random_solid, solid_of
-from tests.support.nested_trees import nested
 
 FEW = settings(max_examples=40)
 ARRAYS = arrays.arrays(np.bool_, st.tuples(*[st.integers(1, 9)] * 3))
@@ -49,6 +50,10 @@ def test_an_octree_stores_its_array(array: np.ndarray) -> None:
     cube[tuple(slice(length) for length in array.shape)] = array
     tree = octree(array)
     assert tree == octree(cube)
+    # No eight leaves fill a node together.
+    parents = zip(tree.levels.tolist(), (tree.codes >> 3 * (tree.depth - tree.levels + 1)).tolist(), strict=True)
+    assert max(Counter(parents).values(), default=0) < 8
+    assert (np.diff(tree.codes) > 0).all()
     assert np.array_equal(voxels_of(tree, array.shape), array)
     assert np.array_equal(voxels_of(tree, cube.shape), cube)
     assert tree.side == side
@@ -65,13 +70,13 @@ def test_two_sons_lie_over_each_quadrant() -> None:
         i, j = QUADRANTS[number // 2]
         cube = np.zeros((2, 2, 2), dtype=np.bool_)
         cube[i, j, number % 2] = True
-        assert nested(octree(cube)) == tuple(k == number for k in range(8))
+        assert octree(cube) == Octree(2, np.array([number]), np.array([1]))
 
 
 def test_uniform_octants_are_leaves() -> None:
     cube = np.zeros((4, 4, 4), dtype=np.bool_)
     cube[:2, :2, :2] = True
-    assert nested(octree(cube)) == (True, *[False] * 7)
+    assert octree(cube) == Octree(4, np.array([0]), np.array([1]))
     assert nodes(octree(cube)) == 9
 
 
@@ -134,13 +139,16 @@ def test_a_node_without_unmarked_leaves_has_no_value() -> None:
 
 
 @FEW
-@given(CUBES)
-def test_epigraph_and_hypograph_are_the_voxels_above_and_below(cube: np.ndarray) -> None:
-    tree = octree(cube)
-    over = voxels_of(graph_side(floor(tree), above=True), cube.shape)
-    under = voxels_of(graph_side(ceiling(tree), above=False), cube.shape)
-    assert np.array_equal(over, np.maximum.accumulate(cube, axis=2))
-    assert np.array_equal(under, np.maximum.accumulate(cube[:, :, ::-1], axis=2)[:, :, ::-1])
+@given(CUBES, st.data())
+def test_epigraph_and_hypograph_are_the_voxels_above_and_below(columns: np.ndarray, data: st.DataObject) -> None:
+    """The heights may lie above and below the cube."""
+    side = len(columns)
+    x, y = np.nonzero(columns[0])
+    z = data.draw(arrays.arrays(np.int64, len(x), elements=st.integers(-3, side + 3)))
+    for above in (True, False):
+        voxels = np.zeros((side, side, side), dtype=np.bool_)
+        voxels[x, y] = (np.arange(side) >= z[:, None]) if above else (np.arange(side) <= z[:, None])
+        assert graph_side(with_columns(no_columns(side), x, y, z), above) == octree(voxels)
 
 
 @given(st.dictionaries(st.integers(-9, 9), st.integers(-9, 9), min_size=1))

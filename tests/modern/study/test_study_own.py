@@ -107,12 +107,6 @@ def test_study_is_not_resumed_after_its_module_has_changed(module: str) -> None:
         run_study(plan, "own", workers=1, quiet=True, resume=True)
 
 
-def test_study_is_not_resumed_in_a_missing_folder(module: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["study", "plans/own.toml", "--resume", "--out", "other"]) == 2
-    assert "--resume: the folder other does not exist" in capsys.readouterr().err
-    assert not Path("other").exists()
-
-
 DIGITS = """
 name = "twelve"
 samples = 6

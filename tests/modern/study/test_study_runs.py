@@ -15,9 +15,11 @@ import time
 from concurrent.futures import process as process_pool
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from emulator.errors import EmulatorError
 from emulator.files import UNFINISHED
 from modern.study import Plan, PlanError, Port, Programs, run_study
 from modern.study.index import NAME as INDEX
@@ -81,13 +83,6 @@ def test_rows_and_manifest_describe_the_study(finished: Path) -> None:
     assert {"python", "numpy", "numba", "hull1620"} == set(manifest["versions"])
 
 
-@pytest.mark.usefixtures("_without_plots")
-def test_different_seeds_give_different_decks(finished: Path, tmp_path: Path) -> None:
-    run_study(replace(PLAN, seed=6), tmp_path / "six", workers=1, quiet=True)
-    name = "rows/0000-000000000.jsonl"
-    assert contents(tmp_path / "six")[name] != contents(finished)[name]
-
-
 def test_workers_end_when_their_parent_process_is_killed() -> None:
     """The pipe that they share closes when the last of them has ended."""
     command = [sys.executable, "-c", WORKER]
@@ -105,7 +100,7 @@ def test_study_killed_at_random_moments_resumes_to_the_same_files(finished: Path
     run_study(PLAN, tmp_path / "timed", workers=1, quiet=True)
     seconds = time.monotonic() - begun
     folder, rng = tmp_path / "killed", random.Random()
-    for _ in range(10):
+    for _ in range(5):
         child = forked(folder)
         time.sleep(rng.uniform(0, seconds / 3))
         os.kill(child, signal.SIGKILL)
@@ -165,7 +160,7 @@ def test_ctrl_c_during_the_start_of_a_worker_pool_raises_keyboard_interrupt(monk
         list(in_processes(PLAN, list(PLAN.chunks()), 2))
 
 
-@pytest.mark.parametrize("writes", [1, 2, 9, 12])
+@pytest.mark.parametrize("writes", [1, 9])
 @pytest.mark.usefixtures("_without_plots")
 def test_full_disk_gives_a_one_line_error_and_the_study_can_be_resumed(
     finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, writes: int
@@ -258,28 +253,21 @@ def test_second_run_in_the_same_folder_fails(finished: Path) -> None:
         held.close()
 
 
+def with_cell(**changes: Any) -> Plan:
+    return replace(PLAN, cells=(replace(PLAN.cells[0], **changes),))
+
+
 @pytest.mark.parametrize(
     ("plan", "message"),
     [
         (replace(PLAN, name="a/b"), "letters, digits"),
         (replace(PLAN, cells=()), "no cells"),
         (replace(PLAN, cells=(PLAN.cells[0], PLAN.cells[0])), "two cells have the key 'n=5'"),
-        (replace(PLAN, cells=(replace(PLAN.cells[0], samples=0),)), "samples and chunk"),
-        (replace(PLAN, cells=(replace(PLAN.cells[0], routes=()),)), "no routes"),
-        (replace(PLAN, cells=(replace(PLAN.cells[0], routes=(ROUTES[0], ROUTES[0])),)), "two routes have the name"),
-        (replace(PLAN, cells=(replace(PLAN.cells[0], reference="x"),)), "the reference 'x' is not one of its routes"),
-        (replace(PLAN, cells=(replace(PLAN.cells[0], family="x"),)), "no family is called 'x'"),
-    ],
-)
-def test_invalid_plan_is_rejected_before_anything_is_written(plan: Plan, message: str, tmp_path: Path) -> None:
-    with pytest.raises(PlanError, match=message):
-        run_study(plan, tmp_path / "no", quiet=True)
-    assert not (tmp_path / "no").exists()
-
-
-@pytest.mark.parametrize(
-    ("route", "message"),
-    [
+        (with_cell(samples=0), "samples and chunk"),
+        (with_cell(routes=()), "no routes"),
+        (with_cell(routes=(ROUTES[0], ROUTES[0])), "two routes have the name"),
+        (with_cell(reference="x"), "the reference 'x' is not one of its routes"),
+        (with_cell(family="x"), "no family is called 'x'"),
         (Programs("r", arithmetic="roman"), "no arithmetic is called 'roman'"),
         (Programs("r", layers=("gold",)), "layer 'gold'"),
         (Programs("r", rows=("P9-001",)), "no row 'P9-001'"),
@@ -297,12 +285,11 @@ def test_invalid_plan_is_rejected_before_anything_is_written(plan: Plan, message
         (Port("r", epsilon="-1"), "epsilon"),
     ],
 )
-def test_invalid_route_is_rejected_before_anything_is_written(
-    route: Programs | Port, message: str, tmp_path: Path
+def test_invalid_plan_is_rejected_before_anything_is_written(
+    plan: Plan | Programs | Port, message: str, tmp_path: Path
 ) -> None:
-    plan = replace(PLAN, cells=(replace(PLAN.cells[0], routes=(route,)),))
-    with pytest.raises(Exception, match=message) as rejection:
-        run_study(plan, tmp_path / "no", quiet=True)
+    with pytest.raises(EmulatorError, match=message) as rejection:
+        run_study(plan if isinstance(plan, Plan) else with_cell(routes=(plan,)), tmp_path / "no", quiet=True)
     assert "\n" not in str(rejection.value)
     assert not (tmp_path / "no").exists()
 
