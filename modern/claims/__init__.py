@@ -1,27 +1,30 @@
 """The register of statements of the five documents, and the functions that compute the verdict of each statement.
 
-Every statement is a row of ``transcripts/statements/DOCUMENT.toml``.  A row names its evidence: a *claim* (a function
-of this package), a published *result* (:mod:`modern.claims.published`), or a *test* of the project.  The fields are
-documented by :class:`modern.claims.register.Statement` and in ``transcripts/README.md``.
+Every statement is a row of ``transcripts/statements/DOCUMENT.toml``.  Its evidence is a *check*, a function of this
+package that names the row, or a published *result* (:mod:`modern.claims.published`).  The fields are documented by
+:class:`modern.claims.register.Statement` and in ``transcripts/README.md``.
 
 To add a verdict on a statement:
 
-1. Add a ``[[statement]]`` row to ``transcripts/statements/DOCUMENT.toml`` at its place in the order of the document,
-   with the next unused id.  ``words`` quotes at most eight words of our text of the document.
-2. Write a function that returns a :class:`~modern.claims.register.CheckResult` in the module of
-   ``modern/claims/DOCUMENT/`` that deals with the subject.  Use ``holds_if`` or ``fails_if``.  Its arguments are
-   strings, so that a row can pass them.  Sampled sets and counterexamples come from
-   :mod:`modern.claims.sampled_sets`.
-3. Name it in the row: ``claim = "package.module.function arguments"``.
+1. Add a row to ``transcripts/statements/DOCUMENT.toml`` at its place in the order of the document, with the next unused
+   number.  ``words`` quotes at most eight words of our text of the document.
+2. Write a check in the module of ``modern/claims/DOCUMENT/`` that deals with the subject: a function with the decorator
+   ``claim`` that returns a :class:`~modern.claims.evidence.Check`.  Choose the constructor by what is computed:
+   ``proved``, ``exhausted``, ``searched`` or ``search``, ``exhibited``, ``refuted``, ``slip``.  Sampled sets and
+   counterexamples come from :mod:`modern.claims.sampled_sets`.
+3. If the statement needs a condition, compute a case that violates it and refutes the statement, and add
+   ``.unless(refutes, "the case")``.
 4. If the verdict is "does not hold", put the smallest counterexample into ``transcripts/counterexamples/`` and name it
    in ``file``, and in ``run`` the command that shows it.
-5. Add a row to the table of the document in ``tests/modern/claims/`` that breaks what the claim relies on; the verdict
+5. Add a line to the table of the document in ``tests/modern/claims/`` that breaks what the check relies on; the verdict
    must then change.
 6. Run ``hull1620 reproduce DOCUMENT.NUMBER``.
 
-To correct a verdict, change ``verdict`` and ``why`` in the row and the function that its ``claim`` names.  The row
-records the verdict and the function computes it; ``hull1620 reproduce`` and the tests fail if they differ.  A row with
-a ``test`` or without evidence has no function.
+A row without a check has the verdict "used", with the name of the code that follows it in ``code``, or "not testable",
+with a reasoned sentence in ``why``.  A row that repeats another one names its number in ``same`` and has no verdict.
+
+To correct a verdict, change ``verdict`` and ``why`` in the row and the check.  The row records the verdict and the check
+computes it; ``hull1620 reproduce`` and the tests fail if they differ.
 
 To add a document (a paper needs more steps, see :mod:`modern.papers`):
 

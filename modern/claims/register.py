@@ -1,22 +1,25 @@
-"""The register of statements of the five documents, and the computation of their verdicts.
+"""The register of statements of the five documents, and the computation of their verdicts and grades.
 
-``transcripts/statements`` holds one file for each document and one row for each statement.  A row records a verdict and
-names the evidence from which :func:`judge` computes it again: a *claim* is a function of this package, and a *result*
-is a published result that ``reproduce`` judges too.  If the check takes too long, the row names a *test* instead.  If a
-statement cannot be tested, the row gives the reason.
+``transcripts/statements`` holds one file for each document and one row for each statement.  A row records a verdict.
+:func:`judge` computes it again, with a grade, from the checks of this package that name the row and from the published
+results that the row names.  A definition that our code follows is *used*; a statement that cannot be tested is *quoted*
+with the reason.
 """
 
 from __future__ import annotations
 
 import tomllib
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib import import_module
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from pkgutil import iter_modules
 from typing import Any, Final, Literal, get_args
 
+from modern.claims.evidence import GRADES, Check, Decision, Grade, decisions_in
 from modern.claims.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Finding, findings
 from modern.edition.chapter6 import EXAMPLES
 from modern.edition.reproduce import DIFFERENT, EXACT, Report, reproduce, summary
@@ -24,38 +27,38 @@ from modern.edition.reproduce import DIFFERENT, EXACT, Report, reproduce, summar
 HOLDS: Final = "holds"
 CONDITION: Final = "holds with a condition"
 FAILS: Final = "does not hold"
+USED: Final = "used"
 UNTESTABLE: Final = "not testable"
-Verdict = Literal["holds", "holds with a condition", "does not hold", "not testable"]
-VERDICTS: tuple[Verdict, ...] = (HOLDS, CONDITION, FAILS, UNTESTABLE)
-_FROM_BEST: tuple[Verdict, ...] = (HOLDS, CONDITION, UNTESTABLE, FAILS)
+Verdict = Literal[
+    "holds",
+    "holds with a condition",
+    "does not hold",
+    "slip, probably the OCR's",
+    "slip of the print",
+    "slip, either",
+    "used",
+    "not testable",
+]
+VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
+SLIPS: tuple[Verdict, ...] = VERDICTS[3:6]
+# The verdict of several pieces of evidence is the last of these.
+_FROM_BEST: tuple[Verdict, ...] = (USED, HOLDS, CONDITION, UNTESTABLE, *SLIPS, FAILS)
+# The columns in which statements are counted: slips of the print and repetitions are separate from wrong claims.
+SLIP: Final = "slip"
+REPETITION: Final = "repetition"
+COLUMNS = (HOLDS, CONDITION, FAILS, SLIP, USED, UNTESTABLE, REPETITION)
 
 THESIS: Final = "thesis"
 # The five documents by their names on the command line.
 DOCUMENTS = (THESIS, "appel-will", "kovalevsky-schulz", "nakamae-nishita", "yau-srihari")
 MOST_WORDS = 8
-_FIELDS = {"id", "page", "kind", "words", "says", "verdict", "why", "claim", "result", "test", "file", "run", "part"}
+_REQUIRED = {"page", "kind", "words", "says"}
+_OF_VERDICT = {"verdict", "why", "result", "test", "code", "file", "run"}
+_FIELDS = _REQUIRED | _OF_VERDICT | {"part", "same"}
 
 
 class StatementError(ValueError):
     """An invalid row of a register; the message is one line that names the document and the row."""
-
-
-@dataclass(frozen=True, slots=True)
-class CheckResult:
-    """The verdict that a claim function computed, and a message with the evidence."""
-
-    verdict: Verdict
-    message: str
-
-
-def holds_if(passed: object, message: str, conditional: object = False) -> CheckResult:
-    """Return HOLDS, or CONDITION if ``conditional``, for a check that passed, and FAILS otherwise."""
-    return CheckResult((CONDITION if conditional else HOLDS) if passed else FAILS, message)
-
-
-def fails_if(refuted: object, message: str) -> CheckResult:
-    """Return FAILS if a counterexample refutes the statement, and HOLDS otherwise."""
-    return CheckResult(FAILS if refuted else HOLDS, message)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +67,9 @@ class Statement:
 
     ``page`` may be a section.  ``words`` quotes at most eight words of our text of the document; ``says`` paraphrases
     the statement.  ``why`` is the condition, the reason why the statement fails, or the reason why it is not tested.
-    ``claim`` is ``module.function arguments`` below :mod:`modern.claims`, ``results`` are ids of published results, and
-    ``tests`` are test functions, ``file::name``.  ``file`` is the smallest known counterexample, and ``run`` the
-    command that shows it.  ``part`` is the theorem to which a worked example of chapter 4 belongs.
+    ``results`` are ids of published results.  ``code`` names what follows a definition that is used.  ``file`` is the
+    smallest known counterexample, and ``run`` the command that shows it.  ``part`` is the theorem to which a worked
+    example of chapter 4 belongs.  ``same`` is the id of the row that a repetition repeats and that decides its verdict.
     """
 
     document: str
@@ -75,23 +78,26 @@ class Statement:
     kind: str
     words: str
     says: str
-    verdict: Verdict
+    verdict: Verdict = HOLDS
     why: str = ""
-    claim: str = ""
     results: tuple[str, ...] = ()
     tests: tuple[str, ...] = ()
+    code: str = ""
     file: str = ""
     run: str = ""
     part: str = ""
+    same: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """A statement with its computed verdict, which is None if the evidence is a test or a reason only."""
+    """A statement with its computed verdict and grade and the evidence; without evidence the verdict is None."""
 
     statement: Statement
     computed: Verdict | None
     message: str
+    grade: Grade = "quoted"
+    checks: tuple[Check, ...] = ()
 
     @property
     def agrees(self) -> bool:
@@ -108,10 +114,6 @@ def statements_folder() -> Traversable:
     return files("transcripts").joinpath("statements")
 
 
-def counterexample(name: str) -> str:
-    return files("transcripts").joinpath("counterexamples", name).read_text(encoding="utf-8")
-
-
 @cache
 def statements_of(document: str) -> tuple[Statement, ...]:
     """Return the rows of a document in the order of its file.  Raise StatementError for an invalid row."""
@@ -120,83 +122,156 @@ def statements_of(document: str) -> tuple[Statement, ...]:
 
 
 def read_rows(document: str, text: str) -> Iterator[Statement]:
-    """Yield the rows of a register.
+    """Yield the rows of a register.  A repetition has the verdict of the row that it repeats.
 
-    Raise StatementError for an unknown or missing field, an unknown verdict, or evidence that does not fit its verdict.
+    Raise StatementError for an unknown or missing field, an unknown verdict, or fields that do not fit the verdict.
     """
-    for raw in tomllib.loads(text).get("statement", ()):
-        yield _row(document, raw)
+    rows = {number: _row(document, number, raw) for number, raw in tomllib.loads(text).items()}
+    for row in rows.values():
+        if not row.same:
+            yield row
+            continue
+        origin = rows.get(row.same.partition(".")[2])
+        if origin is None or origin.same:
+            raise StatementError(f"{row.id}: expected in 'same' the number of a row with a verdict; found {row.same}")
+        yield replace(row, verdict=origin.verdict, why=origin.why, file=origin.file, run=origin.run)
 
 
-def _row(document: str, raw: Mapping[str, Any]) -> Statement:
-    place = f"{document}: {raw.get('id', 'a row without id')}"
+def _row(document: str, number: str, raw: Mapping[str, Any]) -> Statement:
+    place = f"{document}.{number}"
+    if not number.isdecimal() or not isinstance(raw, Mapping):
+        raise StatementError(f"{document}: expected tables with a number as name; found {number!r}")
     unknown = raw.keys() - _FIELDS
-    missing = {"id", "page", "kind", "words", "says", "verdict"} - raw.keys()
+    missing = (_REQUIRED if "same" in raw else _REQUIRED | {"verdict"}) - raw.keys()
     if unknown or missing:
         raise StatementError(
             f"{place}: {'unknown' if unknown else 'missing'} field: {', '.join(sorted(unknown or missing))}"
         )
-    if not raw["id"].startswith(f"{document}."):
-        raise StatementError(f"{place}: expected an id of the form {document}.NUMBER")
-    verdict = raw["verdict"]
-    if verdict not in get_args(Verdict):
-        raise StatementError(f"{place}: expected one of the verdicts {', '.join(VERDICTS)}; found {verdict!r}")
     if len(raw["words"].split()) > MOST_WORDS:
         raise StatementError(f"{place}: expected a quotation of at most {MOST_WORDS} words")
+    if "same" in raw:
+        if extra := raw.keys() & _OF_VERDICT:
+            raise StatementError(f"{place}: a repetition has no field {', '.join(sorted(extra))}")
+    else:
+        _check_verdict(place, raw)
+    simple = {name: raw[name] for name in _FIELDS - {"result", "test", "same"} if name in raw}
     results, tests = _as_tuple(raw.get("result", ())), _as_tuple(raw.get("test", ()))
-    has_evidence = bool(raw.get("claim") or results or tests)
-    if verdict == UNTESTABLE and has_evidence and not results:
-        raise StatementError(f"{place}: a row with the verdict {UNTESTABLE!r} must not name a claim or test")
-    if verdict != UNTESTABLE and not has_evidence:
-        raise StatementError(f"{place}: a row with the verdict {verdict!r} must name a claim, result or test")
-    if verdict != HOLDS and not raw.get("why"):
+    same = f"{document}.{raw['same']}" if "same" in raw else ""
+    return Statement(document, place, **simple, results=results, tests=tests, same=same)
+
+
+def _check_verdict(place: str, raw: Mapping[str, Any]) -> None:
+    verdict = raw["verdict"]
+    if verdict not in VERDICTS:
+        raise StatementError(f"{place}: expected one of the verdicts {'; '.join(VERDICTS)}; found {verdict!r}")
+    if verdict not in (HOLDS, USED) and not raw.get("why"):
         raise StatementError(f"{place}: a row with the verdict {verdict!r} needs a reason in the field 'why'")
     if verdict == FAILS and not (raw.get("file") and raw.get("run")):
         raise StatementError(f"{place}: a row with the verdict {FAILS!r} needs a counterexample in 'file' and 'run'")
-    simple = {name: raw[name] for name in _FIELDS - {"result", "test"} if name in raw}
-    return Statement(document, **simple, results=results, tests=tests)
+    if (verdict == USED) != bool(raw.get("code")):
+        raise StatementError(f"{place}: the field 'code' and the verdict {USED!r} belong together")
 
 
 def _as_tuple(value: str | Iterable[str]) -> tuple[str, ...]:
     return (value,) if isinstance(value, str) else tuple(value)
 
 
-def judge(statement: Statement, results: Results) -> Judged:
-    """Compute the verdict of a row from its evidence.  If there are several verdicts, the worst is used.
+@cache
+def decisions() -> Mapping[str, tuple[Decision, ...]]:
+    """Return the checks of all documents by the ids of the statements that they decide.
 
-    Raise StatementError if the row names a claim or result that does not exist.
+    Every module below ``modern/claims/DOCUMENT/`` is searched for functions with the decorator ``claim``.
     """
-    verdicts: list[Verdict] = []
-    messages: list[str] = []
-    if statement.claim:
-        check = run_claim(statement.claim)
-        verdicts.append(check.verdict)
-        messages.append(check.message)
-    for name in statement.results:
-        verdict = results(statement.document, name)
-        if verdict is None:
-            raise StatementError(f"{statement.document}: {statement.id}: there is no result {name}")
-        verdicts.append(verdict)
-    if statement.results:
-        messages.append(f"published results: {', '.join(statement.results)}")
-    if verdicts:
-        return Judged(statement, max(verdicts, key=_FROM_BEST.index), "; ".join(messages))
-    if statement.tests:
-        return Judged(statement, None, f"checked by {', '.join(statement.tests)}")
-    return Judged(statement, None, "")
+    by_statement: dict[str, list[Decision]] = {}
+    for document in DOCUMENTS:
+        package = import_module(f"modern.claims.{document.replace('-', '_')}")
+        for module in iter_modules(package.__path__, f"{package.__name__}."):
+            for decision in decisions_in(import_module(module.name)):
+                by_statement.setdefault(decision.statement, []).append(decision)
+    return {name: tuple(found) for name, found in by_statement.items()}
 
 
 @cache
-def run_claim(claim: str) -> CheckResult:
-    """Run a claim, ``module.function arguments``.  Raise StatementError if the function does not exist."""
-    name, *arguments = claim.split()
-    module, _, function_name = name.rpartition(".")
-    try:
-        function = getattr(import_module(f"modern.claims.{module}"), function_name)
-    except (ImportError, AttributeError):
-        raise StatementError(f"there is no claim {name}") from None
-    result: CheckResult = function(*arguments)
-    return result
+def _run(function: Callable[..., Check], subject: tuple[tuple[str, Any], ...]) -> Check:
+    return function(**dict(subject))
+
+
+def judge(statement: Statement, results: Results) -> Judged:
+    """Compute the verdict and the grade of a row from its evidence.
+
+    The verdict is the worst of several, and the grade the strongest of the evidence for it.  A repetition is judged by
+    the row that it repeats.  Raise StatementError if the row has no evidence, if its evidence does not fit its verdict,
+    or if it names a result or code that does not exist.
+    """
+    own_id = statement.same or statement.id
+    checks = tuple(_run(decision.function, decision.subject) for decision in decisions().get(own_id, ()))
+    graded = [(_verdict(check, statement), check.evidence.grade) for check in checks]
+    messages = [check.message for check in checks]
+    row = statement
+    if statement.same:
+        row = next(other for other in statements_of(statement.document) if other.id == statement.same)
+    for name in row.results:
+        verdict = results(row.document, name)
+        if verdict is None:
+            raise StatementError(f"{row.id}: there is no result {name}")
+        graded.append((verdict, "quoted" if verdict == UNTESTABLE else "exhibited"))
+    if row.results:
+        messages.append(f"published results: {', '.join(row.results)}")
+    if row.code:
+        resolve(row)
+        graded.append((USED, "used"))
+        messages.append(f"used by {row.code}")
+    if bool(graded) == (row.verdict == UNTESTABLE) and not row.results and not row.tests:
+        raise StatementError(f"{row.id}: the verdict is {row.verdict!r}, and there is {'a' if graded else 'no'} check")
+    if not graded:
+        return Judged(statement, None, "")
+    worst = max((verdict for verdict, _ in graded), key=_FROM_BEST.index)
+    grade = min((grade for verdict, grade in graded if verdict == worst), key=GRADES.index)
+    return Judged(statement, worst, "; ".join(messages), grade, checks)
+
+
+def _verdict(check: Check, statement: Statement) -> Verdict:
+    """Return the verdict of a check; which kind of slip a slip is, is a judgement about the page and in the row."""
+    if check.holds:
+        return CONDITION if check.evidence.violation else HOLDS
+    return (statement.verdict if statement.verdict in SLIPS else SLIPS[2]) if check.evidence.correction else FAILS
+
+
+def resolve(row: Statement) -> object:
+    """Return the object that the field ``code`` of a row names.  Raise StatementError if it does not exist."""
+    parts = row.code.split(".")
+    for count in range(len(parts) - 1, 0, -1):
+        module, names = ".".join(parts[:count]), parts[count:]
+        try:
+            value: Any = import_module(module)
+            for name in names:
+                value = getattr(value, name)
+        except (ImportError, AttributeError):
+            continue
+        return value
+    raise StatementError(f"{row.id}: there is no code {row.code}")
+
+
+@cache
+def judged(document: str) -> tuple[Judged, ...]:
+    """Return all rows of a document with their computed verdicts and grades.  This takes a few seconds."""
+    results = Judgements()
+    return tuple(judge(row, results) for row in statements_of(document))
+
+
+def column(row: Statement) -> str:
+    """Return the column of :data:`COLUMNS` in which a row is counted."""
+    return REPETITION if row.same else SLIP if row.verdict in SLIPS else row.verdict
+
+
+def counts(document: str) -> Counter[str]:
+    """Count the rows of a document by column; repetitions and slips are not counted with their verdicts."""
+    return Counter(map(column, statements_of(document)))
+
+
+def grades(judgements: Iterable[Judged]) -> Counter[Grade]:
+    """Count the statements that hold, with or without a condition, by grade."""
+    return Counter(row.grade for row in judgements if column(row.statement) in (HOLDS, CONDITION))
 
 
 # The prefix of the id of a result of chapter 6; the number of the example follows.

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
+from importlib.resources import files
 from random import Random
 
-from modern.claims.register import counterexample
 from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.csv import points as csv_points
 from modern.geometry.hull import Hull
@@ -18,11 +18,15 @@ from modern.port import convex_hull
 Point = tuple[int, int, int]
 Plane = tuple[int, int, int, int]
 # The number of sets of each dimension that ``reproduce`` samples; the tests sample more.
-COUNT = "2"
+CASES = 2
 _COORDINATE_LIMIT, _FEWEST_POINTS, _MOST_POINTS = 5, 7, 11
 # The first two sets of each dimension contain the special cases that the claims need: points inside the hull, a point
 # on its boundary and, in space, a face with four corners.
 _SEEDS = {2: 1965, 3: 313}
+
+
+def counterexample(name: str) -> str:
+    return files("transcripts").joinpath("counterexamples", name).read_text(encoding="utf-8")
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,9 +120,9 @@ def sampled_sets(dimension: int, count: int) -> tuple[SampledSet, ...]:
     return tuple(sets)
 
 
-def flat_and_spatial_sets(count: str) -> tuple[SampledSet, ...]:
+def flat_and_spatial_sets(count: int) -> tuple[SampledSet, ...]:
     """Return ``count`` sets in a plane followed by ``count`` sets in space."""
-    return (*sampled_sets(2, int(count)), *sampled_sets(3, int(count)))
+    return (*sampled_sets(2, count), *sampled_sets(3, count))
 
 
 def counterexample_points(name: str) -> list[Point]:

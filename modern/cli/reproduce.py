@@ -254,7 +254,14 @@ def _document(
             for judged in theorems
         ],
         "statements": [
-            {**asdict(judged.statement), "found": judged.computed, "seen": judged.message, "agrees": judged.agrees}
+            {
+                **asdict(judged.statement),
+                "found": judged.computed,
+                "grade": judged.grade,
+                "seen": judged.message,
+                "evidence": [asdict(check.evidence) for check in judged.checks],
+                "agrees": judged.agrees,
+            }
             for judged in stated
         ],
         "results": [

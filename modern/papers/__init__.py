@@ -12,8 +12,8 @@ How to add a fifth paper, ``NAME``.  Commands and the registers of statements wr
 3. ``modern/papers/NAME/results.py``: the function ``produced`` described at :data:`Lines`. Add a ``Paper`` to
    ``PAPERS`` in ``modern/claims/published.py``. ``hull1620 reproduce NAME`` then compares the results with the print.
 4. ``transcripts/statements/NAME.toml``: a row for each statement of the paper with its verdict, and the name in
-   ``DOCUMENTS`` in ``modern/claims/register.py``. A verdict that is quick to compute is a function in
-   ``modern/claims/NAME/``; a slow one names a test.
+   ``DOCUMENTS`` in ``modern/claims/register.py``. The functions that compute its verdicts are in
+   ``modern/claims/NAME/``.
 5. ``modern/cli/NAME.py``: the command, with an entry in ``modern/cli/arguments.py``.
 6. ``docs/papers/NAME.md`` with its line in ``docs/papers/index.md``; ``docs/statements/NAME.md`` with its line in
    ``docs/statements.md``; the pictures of the paper's page in ``modern/publication/site/pages/papers.py``; the chapter

@@ -10,13 +10,15 @@ from __future__ import annotations
 import csv
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from emulator.files import read_text
+from modern.claims.evidence import GRADES
 from modern.claims.published import PAPERS, findings
-from modern.claims.register import DOCUMENTS, VERDICTS, statements_of
+from modern.claims.register import COLUMNS, DOCUMENTS, counts, grades, judged
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES
 from modern.edition.reproduce import reproduce
@@ -163,15 +165,24 @@ def _papers() -> Iterator[tuple[str, str]]:
 
 
 def _statements() -> Iterator[tuple[str, str]]:
-    counted = {document: Counter(statement.verdict for statement in statements_of(document)) for document in DOCUMENTS}
-    counted = {**counted, "all": sum(counted.values(), Counter())}
-    lines = [("document", "statements", *VERDICTS), ("---", *("--:",) * (1 + len(VERDICTS)))]
-    for document, counts in counted.items():
-        cells = [counts.total(), *(counts[verdict] for verdict in VERDICTS)]
-        for name, cell in zip(("count", *VERDICTS), cells, strict=True):
-            yield f"statements.{document}.{name.replace(' ', '-')}", str(cell)
+    numbers = {document: counts(document) for document in DOCUMENTS}
+    yield from _counted("statements", "table", COLUMNS, {**numbers, "all": sum(numbers.values(), Counter())})
+    graded = {document: grades(judged(document)) for document in DOCUMENTS}
+    yield from _counted("statements", "grades", GRADES[:4], {**graded, "all": sum(graded.values(), Counter())})
+
+
+def _counted(
+    prefix: str, table: str, columns: Sequence[str], numbers: Mapping[str, Counter[Any]]
+) -> Iterator[tuple[str, str]]:
+    """Yield every number by document and column, and a table of all of them."""
+    total = "count" if table == "table" else "graded"
+    lines = [("document", "statements", *columns), ("---", *("--:",) * (1 + len(columns)))]
+    for document, counted in numbers.items():
+        cells = [counted.total(), *(counted[name] for name in columns)]
+        for name, cell in zip((total, *columns), cells, strict=True):
+            yield f"{prefix}.{document}.{name.replace(' ', '-')}", str(cell)
         lines.append((document, *map(str, cells)))
-    yield "statements.table", "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    yield f"{prefix}.{table}", "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 def _listings() -> Iterator[tuple[str, str]]:

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from itertools import combinations, pairwise, product
 from random import Random
 
-from modern.claims.register import CheckResult, fails_if, holds_if
-from modern.claims.sampled_sets import COUNT, Point, counterexample_points, plane_value, sampled_sets
+from modern.claims.evidence import Check, claim, holds_if, refuted
+from modern.claims.sampled_sets import CASES, Point, counterexample_points, plane_value, sampled_sets
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will import Method, appel_will, printed
@@ -24,10 +24,12 @@ def _area(p: Flat, q: Flat, r: Flat) -> int:
     return vorticity((q[0] - p[0], q[1] - p[1]), (r[0] - p[0], r[1] - p[1]))
 
 
-def method_against_judge(kind: str = "", count: str = COUNT) -> CheckResult:
+@claim("appel-will.1", "appel-will.64")
+@claim("appel-will.19", "appel-will.67", kind="plain")
+def method_against_judge(kind: str = "", cases: int = CASES) -> Check:
     """Compare the edges and faces found by the corrected method with those of the exact hull."""
     checks = []
-    for sampled in sampled_sets(3, int(count)):
+    for sampled in sampled_sets(3, cases):
         hull = appel_will(sampled.points)
         faces = {frozenset(facet.polygon) for facet in sampled.judge.facets}
         checks.append(hull.edges == sampled.judge.edges() and {frozenset(s) for s in hull.surfaces} == faces)
@@ -35,14 +37,15 @@ def method_against_judge(kind: str = "", count: str = COUNT) -> CheckResult:
     return holds_if(all(checks), message, conditional=not kind)
 
 
-def _hulls(count: str = COUNT) -> list[tuple[tuple[Point, ...], ExactHull]]:
-    return [(sampled.points, sampled.judge) for sampled in sampled_sets(3, int(count))]
+def _hulls(cases: int = CASES) -> list[tuple[tuple[Point, ...], ExactHull]]:
+    return [(sampled.points, sampled.judge) for sampled in sampled_sets(3, cases)]
 
 
-def convex_body() -> CheckResult:
+@claim("appel-will.5")
+def convex_body() -> Check:
     """Check that the midpoints of two vertices of a hull have no positive value."""
     checks = []
-    for points, judge in _hulls("1"):
+    for points, judge in _hulls(1):
         for i, j in combinations(judge.vertices, 2):
             checks.append(
                 max(plane_value(f.plane, points[i]) + plane_value(f.plane, points[j]) for f in judge.facets) <= 0
@@ -50,7 +53,8 @@ def convex_body() -> CheckResult:
     return holds_if(all(checks), f"the midpoints of {len(checks)} segments are in the hull")
 
 
-def corners_of_convex_polygon() -> CheckResult:
+@claim("appel-will.6", "appel-will.9")
+def corners_of_convex_polygon() -> Check:
     """Check that all corners of the exact polygons turn the same way."""
     checks = []
     for sampled in sampled_sets(2, 2):
@@ -60,7 +64,8 @@ def corners_of_convex_polygon() -> CheckResult:
     return holds_if(all(checks), f"all corners of {len(checks)} polygons are convex")
 
 
-def deletion_passes() -> CheckResult:
+@claim("appel-will.10")
+def deletion_passes() -> Check:
     """Check that passes that delete all nonconvex points of a simple polygon end with its hull."""
     random = Random(4)
     checks: list[bool] = []
@@ -72,7 +77,8 @@ def deletion_passes() -> CheckResult:
     return holds_if(all(checks), f"{sum(checks)} of {len(checks)} polygons end as their hull", conditional=True)
 
 
-def deletion_makes_nonconvex() -> CheckResult:
+@claim("appel-will.11")
+def deletion_makes_nonconvex() -> Check:
     """Check a polygon in which a convex point becomes nonconvex once a nonconvex neighbour is deleted."""
     ring = [(0, 0), (10, 0), (10, 10), (6, 1), (5, 5), (4, 1), (0, 10)]
     before = {p for k, p in enumerate(ring) if _area(ring[k - 1], p, ring[(k + 1) % len(ring)]) > 0}
@@ -100,16 +106,19 @@ def _simple(ring: Sequence[Flat]) -> bool:
     return len({*ring}) == n and not cut and not turned and sum(p[0] * q[1] - p[1] * q[0] for p, q in sides) > 0
 
 
-def jarvis_start_as_printed() -> CheckResult:
+@claim("appel-will.15")
+def jarvis_start_as_printed() -> Check:
     """Check the first point by the smallest polar angle, from 0 to 360 degrees, about an origin outside the set."""
     origin, *points = counterexample_points("jarvis.csv")
     angles = [math.atan2(y - origin[1], x - origin[0]) % (2 * math.pi) for x, y, _ in points]
     first = angles.index(min(angles))
     inside = first not in exact_hull(points).vertices and 0 in exact_hull([origin, *points]).vertices
-    return fails_if(inside, f"{points[first][:2]} is taken first and lies inside the hull")
+    return refuted(inside, f"{points[first][:2]} is taken first and lies inside the hull")
 
 
-def jarvis_deletions(kind: str = "") -> CheckResult:
+@claim("appel-will.16")
+@claim("appel-will.17", kind="condition")
+def jarvis_deletions(kind: str = "") -> Check:
     """Check that a point inside a polygon of hull points is not a vertex of the hull."""
     checks = []
     for sampled in sampled_sets(2, 2):
@@ -122,9 +131,14 @@ def jarvis_deletions(kind: str = "") -> CheckResult:
     return holds_if(all(checks), message, conditional=kind)
 
 
-def polyhedron_property(number: str) -> CheckResult:
+@claim("appel-will.27", number="1")
+@claim("appel-will.28", number="2")
+@claim("appel-will.29", "appel-will.66", number="3")
+@claim("appel-will.30", number="4")
+@claim("appel-will.31", number="5")
+def polyhedron_property(number: str) -> Check:
     """Check a property of convex polyhedra on exact hulls, some of which have points inside."""
-    checks = [right for points, judge in _hulls("4") for right in _PROPERTIES[number](points, judge)]
+    checks = [right for points, judge in _hulls(4) for right in _PROPERTIES[number](points, judge)]
     return holds_if(bool(checks) and all(checks), f"the property holds in {len(checks)} cases")
 
 
@@ -183,7 +197,8 @@ _PROPERTIES = {"1": _inside_of_all, "2": _cones, "3": _dihedral, "4": _faces, "5
 ARM = 9
 
 
-def surface_area() -> CheckResult:
+@claim("appel-will.33")
+def surface_area() -> Check:
     """Check that a hull has less surface than a box around it, and three arms of cubes less than their hull."""
     octahedron: list[Point] = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
     box = [(2 * x - 1, 2 * y - 1, 2 * z - 1) for x, y, z in CUBE]
@@ -212,7 +227,9 @@ def _surface(points: list[Point]) -> float:
     return total
 
 
-def numbers_of_combinations(kind: str) -> CheckResult:
+@claim("appel-will.38", kind="fewer")
+@claim("appel-will.37", kind="formula")
+def numbers_of_combinations(kind: str) -> Check:
     """Compare the numbers of pairs and triples of 4 to 12 objects."""
     pairs = {n: (math.comb(n, 2), math.comb(n, 3)) for n in range(4, 13)}
     if kind == "formula":
@@ -225,10 +242,11 @@ def numbers_of_combinations(kind: str) -> CheckResult:
     return holds_if(fewer == list(range(6, 13)), message, conditional=True)
 
 
-def edge_by_star_test() -> CheckResult:
+@claim("appel-will.48", "appel-will.130", "appel-will.142", "yau-srihari.12")
+def edge_by_star_test() -> Check:
     """Compare the definition of an edge, with the images of all other points, with the exact edges."""
     checks = []
-    for points, judge in _hulls("1"):
+    for points, judge in _hulls(1):
         edges = {*judge.edges()}
         for pair in combinations(range(len(points)), 2):
             projection = project(points, pair, range(len(points)))
@@ -237,7 +255,8 @@ def edge_by_star_test() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} pairs agree with the exact hull")
 
 
-def triangle_area() -> CheckResult:
+@claim("appel-will.49", "appel-will.51", "appel-will.50")
+def triangle_area() -> Check:
     """Check that the determinant is positive counterclockwise, negative clockwise, and 0 for collinear points."""
     p, q, r = (0, 0), (4, 0), (0, 2)
     determinants = (determinant(p, q, r), determinant(p, r, q), determinant(p, q, (2, 0)), determinant(p, p, q))
@@ -249,7 +268,8 @@ def determinant(p: Flat, q: Flat, r: Flat) -> int:
     return p[0] * (q[1] - r[1]) - p[1] * (q[0] - r[0]) + (q[0] * r[1] - q[1] * r[0])
 
 
-def inside_triangle() -> CheckResult:
+@claim("appel-will.52")
+def inside_triangle() -> Check:
     """Check that a grid point is inside a triangle if and only if its three senses are those of the corners."""
     p, q, r = (0, 0), (5, 1), (1, 4)
     checks = []
@@ -261,15 +281,20 @@ def inside_triangle() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} grid points agree with the exact hull")
 
 
-def star_as_captioned() -> CheckResult:
+@claim("appel-will.59")
+def star_as_captioned() -> Check:
     """Check the star test on a cube as the caption of Fig. 12 describes it."""
     cube = counterexample_points("cube.csv")
     edges = appel_will(cube, method=Method(star=as_printed)).edges
     message = f"the test finds {len(edges)} edges of a cube, which has {len(exact_hull(cube).edges())}"
-    return fails_if(len(edges) > 12, message)
+    return refuted(len(edges) > 12, message)
 
 
-def step_as_printed(step: str) -> CheckResult:
+@claim("appel-will.103", step="step5")
+@claim("appel-will.105", step="step7")
+@claim("appel-will.107", step="step9")
+@claim("appel-will.108", step="step10")
+def step_as_printed(step: str) -> Check:
     """Check a step of the appendix as printed on its counterexample."""
     name = {"step5": "fig14.csv", "step7": "octahedron.csv", "step9": "pentagon.csv", "step10": "fig14.csv"}[step]
     points = counterexample_points(name)
@@ -282,10 +307,11 @@ def step_as_printed(step: str) -> CheckResult:
     message = as_printed_hull.fault or (
         "the same loops" if same else "the loops come in an order that differs from the printed one"
     )
-    return fails_if(as_printed_hull.fault or not same, message)
+    return refuted(as_printed_hull.fault or not same, message)
 
 
-def planar_graph() -> CheckResult:
+@claim("appel-will.96", "appel-will.124")
+def planar_graph() -> Check:
     """Check that the faces embed the graph in a sphere without crossings: edges and vertices are manifold, V - E + F =
     2.
     """

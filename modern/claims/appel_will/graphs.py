@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 from modern.claims.appel_will.convexity import CUBE
-from modern.claims.register import CheckResult, holds_if
-from modern.claims.sampled_sets import COUNT, Point, plane_through, plane_value, sampled_sets
+from modern.claims.evidence import Check, claim, holds_if
+from modern.claims.sampled_sets import CASES, Point, plane_through, plane_value, sampled_sets
 from modern.exact_hull import ExactHull, exact_hull
 from modern.papers.appel_will import appel_will
 from modern.papers.appel_will.loops import TIMES
@@ -16,19 +16,20 @@ from modern.papers.appel_will.results import found_solid
 Graph = Mapping[int, frozenset[int]]
 
 
-def _sets(count: str) -> list[tuple[Point, ...]]:
+def _sets(cases: int) -> list[tuple[Point, ...]]:
     figures = [found_solid(name).points for name in ("fig14", "fig23")]
-    return [CUBE, *figures, *(sampled.points for sampled in sampled_sets(3, int(count)))]  # type: ignore[list-item]
+    return [CUBE, *figures, *(sampled.points for sampled in sampled_sets(3, cases))]  # type: ignore[list-item]
 
 
-def faces_from_graph(count: str = COUNT) -> CheckResult:
+@claim("appel-will.97")
+def faces_from_graph(cases: int = CASES) -> Check:
     """Compare the faces found in the graph of a hull's edges, without coordinates, with those of the exact hull.
 
     The graph of a convex polyhedron stays connected if any two vertices are removed. The faces of such a graph are the
     cycles that have no chord and leave the rest connected (Tutte 1963).
     """
     checks, faces = [], 0
-    for points in _sets(count):
+    for points in _sets(cases):
         judge = exact_hull(points)
         found_faces = {cycle for cycle in _cycles(_graph(judge)) if _connected(_graph(judge), cycle)}
         checks.append(found_faces == {frozenset(facet.polygon) for facet in judge.facets})
@@ -65,10 +66,11 @@ def _connected(graph: Graph, without: frozenset[int]) -> bool:
     return not remaining
 
 
-def coplanar_loops(count: str = COUNT) -> CheckResult:
+@claim("appel-will.158")
+def coplanar_loops(cases: int = CASES) -> Check:
     """Check that two edges with a common end are on at most one common loop, and that no two loops are coplanar."""
     checks = []
-    for points in _sets(count):
+    for points in _sets(cases):
         judge = exact_hull(points)
         for first_edge, second_edge in combinations(judge.edges(), 2):
             three = {*first_edge, *second_edge}
@@ -78,14 +80,15 @@ def coplanar_loops(count: str = COUNT) -> CheckResult:
     return holds_if(all(checks), f"true for {len(checks)} pairs of edges and hulls")
 
 
-def list_of_points(count: str = COUNT) -> CheckResult:
+@claim("appel-will.150")
+def list_of_points(cases: int = CASES) -> Check:
     """Check that the plane tests of step 10 repeat those of step 7, which has already tested every point.
 
     The points in the plane are those of the loop, so a list of them would be enough for the remaining steps.
     """
     checks: list[bool] = []
     asked = 0
-    for points in _sets(count):
+    for points in _sets(cases):
         hull = appel_will(points)
         before = (0,) * len(hull.edges)
         for loop, ring in zip(hull.table.loops, hull.surfaces, strict=True):

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from itertools import combinations, pairwise, product
 
 from modern.claims.appel_will.convexity import CUBE, Flat
-from modern.claims.register import CheckResult, fails_if, holds_if
-from modern.claims.sampled_sets import COUNT, Point, counterexample_points, sampled_sets
+from modern.claims.evidence import Check, claim, holds_if, refuted
+from modern.claims.sampled_sets import CASES, Point, counterexample_points, sampled_sets
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import Method, appel_will, printed
 from modern.papers.appel_will.corners import triple_product
@@ -22,7 +22,8 @@ FIG_18: tuple[tuple[Point, Point, Point], ...] = (
 )
 
 
-def new_lines() -> CheckResult:
+@claim("appel-will.128")
+def new_lines() -> Check:
     """Check that the hull of a polygon with a notch has fewer points and a line that the polygon does not have."""
     ring: list[Flat] = [(0, 0), (6, 0), (6, 6), (3, 2), (0, 6)]
     polygon = exact_hull([(x, y, 0) for x, y in ring]).polygon
@@ -32,10 +33,11 @@ def new_lines() -> CheckResult:
     return holds_if(len(polygon) < len(ring) and len(new) == 1, f"the new line is {message}")
 
 
-def collinear_points() -> CheckResult:
+@claim("appel-will.133")
+def collinear_points() -> Check:
     """Check that the middle of three collinear points that are projected to one point is not a vertex of the hull."""
     checks = []
-    for sampled in sampled_sets(3, int(COUNT)):
+    for sampled in sampled_sets(3, CASES):
         doubled = [(2 * x, 2 * y, 2 * z) for x, y, z in sampled.points]
         for p, q in combinations(doubled[:6], 2):
             middle: Point = ((p[0] + q[0]) // 2, (p[1] + q[1]) // 2, (p[2] + q[2]) // 2)
@@ -46,7 +48,9 @@ def collinear_points() -> CheckResult:
     return holds_if(bool(checks) and all(checks), f"{len(checks)} points between two others are not vertices")
 
 
-def star_test(kind: str = "") -> CheckResult:
+@claim("appel-will.131")
+@claim("appel-will.58", kind="change")
+def star_test(kind: str = "") -> Check:
     """Check that the senses around the star polygon decide which grid points are inside the hull of five points.
 
     A point on the border counts as inside (Fig. 12, III). ``change``: a point is outside if two sides turn differently.
@@ -66,10 +70,12 @@ def star_test(kind: str = "") -> CheckResult:
     return holds_if(all(checks) and border > 0, f"{len(checks)} points agree, {border} of them on the border")
 
 
-def closed_loops(kind: str = "") -> CheckResult:
+@claim("appel-will.134", "appel-will.135")
+@claim("appel-will.145", "yau-srihari.112", kind="twice")
+def closed_loops(kind: str = "") -> Check:
     """Check that consecutive lines of a loop share an end, and that each line is in two loops, once each way."""
     checks, signs = [], []
-    for points in (CUBE, *(sampled.points for sampled in sampled_sets(3, int(COUNT)))):
+    for points in (CUBE, *(sampled.points for sampled in sampled_sets(3, CASES))):
         hull = appel_will(points)
         all_entries: list[int] = []
         for loop in hull.table.loops:
@@ -80,7 +86,8 @@ def closed_loops(kind: str = "") -> CheckResult:
     return holds_if(all(checks) and all(signs), f"{message}, and every line is in two" if kind else message)
 
 
-def fourth_loop() -> CheckResult:
+@claim("appel-will.111")
+def fourth_loop() -> Check:
     """Check that the last entry of the fourth loop of Fig. 22 needs its minus."""
     hull = appel_will(counterexample_points("fig14.csv"))
     (loop,) = (loop.entries for loop in hull.table.loops if {4, 6, 9} <= {*loop.entries})
@@ -89,7 +96,8 @@ def fourth_loop() -> CheckResult:
     return holds_if(checks, f"{' '.join(map(str, loop))} runs around a face, and 4 6 9 5 does not", conditional=True)
 
 
-def limit_of_searches() -> CheckResult:
+@claim("appel-will.148")
+def limit_of_searches() -> Check:
     """Check step 9 on a pentagon: as printed it never ends, and with a limit it reports an open loop."""
     points = counterexample_points("pentagon.csv")
     hull = appel_will(points, method=printed("step9", "step3"))
@@ -113,7 +121,8 @@ def _joined(entries: Sequence[int], edges: Sequence[tuple[int, int]]) -> bool:
     return all(a[1] == b[0] for a, b in pairwise([*ends, ends[0]]))
 
 
-def product_with_repeated_vector() -> CheckResult:
+@claim("appel-will.159")
+def product_with_repeated_vector() -> Check:
     """Check the determinants of Fig. 18 with L as displayed, which is I again, and with the normal of l."""
     determinants = []
     for i, k, m in FIG_18:
@@ -123,8 +132,9 @@ def product_with_repeated_vector() -> CheckResult:
     return holds_if(determinants == [(0, 1), (0, -1), (0, 1)], message, conditional=True)
 
 
-def star_as_described() -> CheckResult:
+@claim("appel-will.132")
+def star_as_described() -> Check:
     """Check the star test on a cube as the text on Fig. 12 describes it."""
     cube = counterexample_points("cube.csv")
     edges = appel_will(cube, method=Method(star=as_printed)).edges
-    return fails_if(len(edges) > 12, f"the test finds {len(edges)} edges of a cube, which has 12")
+    return refuted(len(edges) > 12, f"the test finds {len(edges)} edges of a cube, which has 12")

@@ -9,9 +9,16 @@ from functools import cache
 from itertools import combinations
 
 from modern.claims.appel_will.convexity import CUBE, Flat
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.published import PAPERS, printed_lines
-from modern.claims.register import CheckResult, counterexample, fails_if, holds_if
-from modern.claims.sampled_sets import Point, counterexample_points, plane_through, plane_value, random_triples
+from modern.claims.sampled_sets import (
+    Point,
+    counterexample,
+    counterexample_points,
+    plane_through,
+    plane_value,
+    random_triples,
+)
 from modern.exact_hull import exact_hull
 from modern.formats.off import parse_off
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
@@ -60,15 +67,18 @@ def pitted() -> Solid:
     return Solid(tuple(points), tuple(surfaces))
 
 
-def surface_three() -> CheckResult:
+@claim("appel-will.22")
+def surface_three() -> Check:
     """Check Fig. 4 with surface III as numbered: two of its lines are on no other surface."""
     mesh = parse_off(counterexample("fig4_printed.off"), "fig4_printed.off")
     sides = Counter(frozenset(pair) for face in mesh.faces for pair in zip(face, (*face[1:], face[0]), strict=True))
     alone = sorted(tuple(sorted(k + 1 for k in side)) for side, n in sides.items() if n == 1)
-    return fails_if(alone, f"lines on one surface only: {', '.join(f'{a}-{b}' for a, b in alone)}")
+    return refuted(alone, f"lines on one surface only: {', '.join(f'{a}-{b}' for a, b in alone)}")
 
 
-def inside_corner_at_vertex(kind: str = "") -> CheckResult:
+@claim("appel-will.43")
+@claim("appel-will.155", kind="fails")
+def inside_corner_at_vertex(kind: str = "") -> Check:
     """Check that rule ``any`` deletes a vertex of the crown; with ``kind`` the statement says so."""
     solid = crown()
     deleted = preprocess(solid.points, solid.surfaces, "any").deleted
@@ -77,7 +87,8 @@ def inside_corner_at_vertex(kind: str = "") -> CheckResult:
     return holds_if(lost, message, conditional=not kind)
 
 
-def two_inside_corners() -> CheckResult:
+@claim("appel-will.73")
+def two_inside_corners() -> Check:
     """Check points of the crown on two or more inside corners, and those of them with at most one outside corner."""
     solid = crown()
     vertices = {*exact_hull(solid.points).vertices}
@@ -88,7 +99,9 @@ def two_inside_corners() -> CheckResult:
     return holds_if(wrong and not vertices & {*preprocessed.deleted}, message, conditional=True)
 
 
-def preprocessing_cost(kind: str = "") -> CheckResult:
+@claim("appel-will.152")
+@claim("appel-will.69", kind="cheap")
+def preprocessing_cost(kind: str = "") -> Check:
     """Compare the projections and star polygons of Fig. 4 with and without the deletion of inside corners.
 
     ``cheap``: compare one triple product for each line with the images saved.
@@ -114,7 +127,8 @@ def preprocessing_cost(kind: str = "") -> CheckResult:
     return holds_if(passed, f"{message}; the numbers do not change if nothing is deleted", conditional=True)
 
 
-def minimum_data() -> CheckResult:
+@claim("appel-will.80", "appel-will.154")
+def minimum_data() -> Check:
     """Check that the surfaces of Fig. 4, as sets of points, determine its lines, and that its points alone do not."""
     solid = fig_4()
     sets = [frozenset(surface) for surface in solid.surfaces]
@@ -132,7 +146,9 @@ def minimum_data() -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def hulls_of_surfaces(kind: str) -> CheckResult:
+@claim("appel-will.77", kind="redundant")
+@claim("appel-will.78", kind="relation")
+def hulls_of_surfaces(kind: str) -> Check:
     """Check in how many hulls of surfaces the points of four kinds of objects occur.
 
     ``redundant``: each point occurs in three or more surfaces. ``relation``: a vertex of the hull is a vertex of the
@@ -155,7 +171,8 @@ def hulls_of_surfaces(kind: str) -> CheckResult:
     return holds_if(all(checks) and exceptions, message, conditional=True)
 
 
-def vertex_without_supporting_surface() -> CheckResult:
+@claim("appel-will.138", "appel-will.76")
+def vertex_without_supporting_surface() -> Check:
     """Check a tetrahedron with a pit in every face: its corners are vertices although no surface supports."""
     solid = pitted()
     planes = {}
@@ -173,7 +190,8 @@ def vertex_without_supporting_surface() -> CheckResult:
     return holds_if(passed, message)
 
 
-def objects_with_same_hull() -> CheckResult:
+@claim("appel-will.79")
+def objects_with_same_hull() -> Check:
     """Check that a cube with 1, 2 and 3 further points inside has the hull of the cube."""
     hulls = [
         exact_hull([*((4 * x, 4 * y, 4 * z) for x, y, z in CUBE), *((k, k, 1) for k in range(1, 1 + n))])
@@ -193,7 +211,8 @@ def direction(p: Whole, q: Whole) -> tuple[Fraction, Fraction, Fraction, int]:
     return a, b, c, length
 
 
-def unit_directions() -> CheckResult:
+@claim("appel-will.81")
+def unit_directions() -> Check:
     """Check lines of integer length: (a, b, c) is a unit vector, and t = 0 and t = l give the ends."""
     checks = []
     for p, q in (((1, 2, 3), (2, 4, 5)), ((4, 0, -1), (6, 3, 5)), ((0, 0, 7), (4, -8, 6)), ((2, 2, 2), (2, 5, -2))):
@@ -213,7 +232,8 @@ def unit_plane(p: Whole, q: Whole, r: Whole) -> tuple[Fraction, ...]:
     return a, b, c, -(a * p[0] + b * p[1] + c * p[2])
 
 
-def planes_of_surfaces() -> CheckResult:
+@claim("appel-will.82")
+def planes_of_surfaces() -> Check:
     """Check planes whose normals have an integer length: the value is 0 at three points and the distance elsewhere."""
     checks = []
     for n, length in (((1, 2, 2), 3), ((2, 3, 6), 7), ((4, -1, 8), 9)):
@@ -229,7 +249,8 @@ def planes_of_surfaces() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} values of three planes agree")
 
 
-def normal_from_two_lines() -> CheckResult:
+@claim("appel-will.157")
+def normal_from_two_lines() -> Check:
     """Check that the cross product of two lines at each corner of a surface is perpendicular to the surface."""
     checks, turned, shorter = [], 0, 0
     for solid in (fig_4(), crown(), bent()):
@@ -249,14 +270,16 @@ def normal_from_two_lines() -> CheckResult:
     return holds_if(all(checks) and 0 < turned < len(checks) and 0 < shorter < len(checks), message, conditional=True)
 
 
-def product_of_directions() -> CheckResult:
+@claim("appel-will.83")
+def product_of_directions() -> Check:
     """Check two sides of a triangle that meet at an obtuse angle: the product of their directions is negative."""
     p, corner, r = counterexample_points("obtuse.csv")
     product_ = dot(minus(p, corner), minus(r, corner))
-    return fails_if(product_ < 0, f"the product is {product_} for an angle between 90 and 180 degrees")
+    return refuted(product_ < 0, f"the product is {product_} for an angle between 90 and 180 degrees")
 
 
-def normal_line() -> CheckResult:
+@claim("appel-will.139")
+def normal_line() -> Check:
     """Check that the value of a plane, at t along its normal, is t times the square of the normal."""
     checks = []
     for p, q, r in random_triples():
@@ -268,7 +291,9 @@ def normal_line() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} points on normals agree; with unit normals the value is t")
 
 
-def direction_of_line(kind: str = "") -> CheckResult:
+@claim("appel-will.85", kind="condition")
+@claim("appel-will.140")
+def direction_of_line(kind: str = "") -> Check:
     """Check that the determinants of Fig. 18 change sign if the line is reversed or the surfaces are exchanged."""
     rows = {"512": ((-1, 0, 0), (0, 0, -1), (0, -1, 0)), "723": ((-1, 0, 0), (0, -1, 0), (0, 0, -1))}
     signs = {}
@@ -281,7 +306,8 @@ def direction_of_line(kind: str = "") -> CheckResult:
     return holds_if(passed, message, conditional=kind)
 
 
-def corners_of_three_planes() -> CheckResult:
+@claim("appel-will.136")
+def corners_of_three_planes() -> Check:
     """Check that no point of the inside corner of an L of three cubes is a vertex."""
     points, faces = bent().points, bent().surfaces
     deleted = preprocess(points, faces, "any").deleted
@@ -290,7 +316,8 @@ def corners_of_three_planes() -> CheckResult:
     return holds_if(passed, f"the points {', '.join(str(points[k]) for k in sorted(deleted))} are deleted")
 
 
-def simple_hull_of_complex_object() -> CheckResult:
+@claim("appel-will.91")
+def simple_hull_of_complex_object() -> Check:
     """Check that a cube with a pit of 27 points in its top still has a hull with eight vertices and six faces."""
     cube = [(8 * x, 8 * y, 8 * z) for x, y, z in CUBE]
     pit = [(x, y, 7 - (x + y) % 3) for x in range(1, 8, 1) for y in range(1, 8, 2)][:27]

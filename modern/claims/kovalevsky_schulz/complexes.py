@@ -15,8 +15,8 @@ from random import Random
 
 import numpy as np
 
+from modern.claims.evidence import Check, claim, holds_if
 from modern.claims.kovalevsky_schulz.polyhedra import random_solid, sampled_hulls
-from modern.claims.register import CheckResult, holds_if
 from modern.claims.sampled_sets import Point
 from modern.papers.kovalevsky_schulz import VERTICES
 from modern.papers.kovalevsky_schulz.corners import places
@@ -61,7 +61,8 @@ def interior(cells: Cells) -> Cells:
     return frozenset(cell for cell in cells if bounded(cell) <= cells)
 
 
-def euclidean_cells() -> CheckResult:
+@claim("kovalevsky-schulz.178")
+def euclidean_cells() -> Check:
     """Check that two cells of the block, as closed boxes, intersect in the box of their greatest common cell."""
     low = {cell: [x - x % 2 for x in cell] for cell in SPACE}
     high = {cell: [x + x % 2 for x in cell] for cell in SPACE}
@@ -107,7 +108,8 @@ def _components(cells: Collection[Point]) -> list[set[Point]]:
     return components
 
 
-def subcomplex() -> CheckResult:
+@claim("kovalevsky-schulz.102", "kovalevsky-schulz.136")
+def subcomplex() -> Check:
     """Check that the relation restricted to a subset stays irreflexive, antisymmetric and transitive."""
     checks = []
     everywhere = {(a, b) for a in SPACE for b in bounded(a)}
@@ -120,14 +122,16 @@ def subcomplex() -> CheckResult:
     return holds_if(all(checks), f"true for {len(checks) // 3} subsets of the {len(SPACE)} cells of eight voxels")
 
 
-def sides_of_cell() -> CheckResult:
+@claim("kovalevsky-schulz.130")
+def sides_of_cell() -> Check:
     """Count the sides of a voxel and of a corner by dimension."""
     counts = Counter(dimension(c) for c in sides((1, 1, 1)))
     message = "a voxel has 26 sides, and a corner has none"
     return holds_if(counts == {0: 8, 1: 12, 2: 6} and not sides((2, 2, 2)), message)
 
 
-def open_and_closed() -> CheckResult:
+@claim("kovalevsky-schulz.103", "kovalevsky-schulz.105")
+def open_and_closed() -> Check:
     """Check that a subset is open if and only if the rest is closed, and that unions and intersections stay open."""
     checks, neither = [], 0
     for cells in _subsets():
@@ -140,7 +144,8 @@ def open_and_closed() -> CheckResult:
     return holds_if(all(checks) and neither > 0, message)
 
 
-def smallest_neighbourhood() -> CheckResult:
+@claim("kovalevsky-schulz.104")
+def smallest_neighbourhood() -> Check:
     """Check that a cell and all that it bounds form an open subset, which is not open without any of these cells."""
     checks = []
     for cell in SPACE:
@@ -151,7 +156,8 @@ def smallest_neighbourhood() -> CheckResult:
     return holds_if(all(checks) and len(inner) == 27, message)
 
 
-def smallest_closed_subset() -> CheckResult:
+@claim("kovalevsky-schulz.106")
+def smallest_closed_subset() -> Check:
     """Check that the closure of some voxels is closed, and not closed without any cell except the voxels."""
     checks = []
     for voxels in (*combinations(sorted(VOXELS), 2), tuple(VOXELS)):
@@ -163,7 +169,8 @@ def smallest_closed_subset() -> CheckResult:
     return holds_if(all(checks), message)
 
 
-def greatest_open_subset() -> CheckResult:
+@claim("kovalevsky-schulz.107")
+def greatest_open_subset() -> Check:
     """Check that the interior is the greatest open subset, and the complement of the closure of the rest."""
     checks = []
     for cells in (*_subsets(4), closure([(1, 1, 1)]), closure([(1, 1, 1), (3, 1, 1)])):
@@ -175,7 +182,8 @@ def greatest_open_subset() -> CheckResult:
     return holds_if(all(checks) and two == {(1, 1, 1), (3, 1, 1)}, message)
 
 
-def boundary() -> CheckResult:
+@claim("kovalevsky-schulz.108")
+def boundary() -> Check:
     """Check the boundary, the closure of the faces that bound exactly one voxel, for one and for two voxels."""
 
     def border(voxels: Collection[Point]) -> Cells:
@@ -195,7 +203,9 @@ def boundary() -> CheckResult:
     return holds_if(passed, "true for one voxel, two voxels with a common face, and two voxels with a common corner")
 
 
-def manifold(kind: str = "") -> CheckResult:
+@claim("kovalevsky-schulz.158", "kovalevsky-schulz.43", "kovalevsky-schulz.109")
+@claim("kovalevsky-schulz.142", kind="patch")
+def manifold(kind: str = "") -> Check:
     """Check that the edges and faces around a vertex form a ring, and a row at the rim of a ``patch``."""
     checks, rows = [], 0
     for _, judge in sampled_hulls():
@@ -219,7 +229,9 @@ def _beside(ring: tuple[int, ...], vertex: int) -> tuple[int, int]:
     return ring[k - 1], ring[(k + 1) % len(ring)]
 
 
-def connected(kind: str = "") -> CheckResult:
+@claim("kovalevsky-schulz.111", "kovalevsky-schulz.141")
+@claim("kovalevsky-schulz.113", kind="region")
+def connected(kind: str = "") -> Check:
     """Check that the smallest relation with the recursion of the definition is that of steps between incident cells.
 
     ``region``: a star is open and connected, and two distant stars are open and not connected.
@@ -244,7 +256,8 @@ def connected(kind: str = "") -> CheckResult:
     return holds_if(all(good_ones), f"{len(good_ones)} subsets have the same components")
 
 
-def solid() -> CheckResult:
+@claim("kovalevsky-schulz.114")
+def solid() -> Check:
     """Check that interiors of closed sets of voxels are solid, and that a block without its middle corner is not."""
 
     def is_solid(region: Cells) -> bool:
@@ -259,7 +272,8 @@ def solid() -> CheckResult:
     return holds_if(all(checks), "three regions are solid and one is not")
 
 
-def half_space() -> CheckResult:
+@claim("kovalevsky-schulz.115")
+def half_space() -> Check:
     """Check that voxels that satisfy an inequality form an open, connected and solid subset with the cells between
     them.
     """
@@ -273,7 +287,8 @@ def half_space() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} half-spaces of the block are open, connected and solid")
 
 
-def topological_line() -> CheckResult:
+@claim("kovalevsky-schulz.116", "kovalevsky-schulz.117")
+def topological_line() -> Check:
     """Check a line of cells 0 to 2n, in which even cells bound odd ones: all but the ends have two incident cells."""
     line = range(2 * SIDE + 1)
     near = {x: [y for y in line if abs(x - y) == 1] for x in line}
@@ -291,7 +306,10 @@ def _in_line(x: int, y: int) -> bool:
     return x == y or (y % 2 == 1 and abs(x - y) == 1)
 
 
-def raster(kind: str) -> CheckResult:
+@claim("kovalevsky-schulz.152", "kovalevsky-schulz.140", kind="incident")
+@claim("kovalevsky-schulz.139", kind="access")
+@claim("kovalevsky-schulz.119", "kovalevsky-schulz.137", "kovalevsky-schulz.138", kind="shared")
+def raster(kind: str) -> Check:
     """Check one statement about rasters.
 
     ``access``: the topological raster has one element for each cell. ``incident``: neighbours by coordinates are those
@@ -322,7 +340,8 @@ def raster(kind: str) -> CheckResult:
     return holds_if(eight, "eight cells of four dimensions share the coordinates of one voxel")
 
 
-def cells_incident_to_voxels() -> CheckResult:
+@claim("kovalevsky-schulz.24", "kovalevsky-schulz.112")
+def cells_incident_to_voxels() -> Check:
     """Check that each corner, edge and face in the closure of some voxels is incident to one of them."""
     volume = random_solid(2, 3)
     voxels = [tuple(2 * x + 1 for x in v) for v in volume.coordinates().tolist()]

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations, product
 
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.kovalevsky_schulz.polyhedra import random_solid, sampled_hulls
-from modern.claims.register import CheckResult, fails_if, holds_if
 from modern.claims.sampled_sets import Plane, Point, counterexample_points, plane_through, plane_value
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus, plus
@@ -16,7 +16,9 @@ from modern.papers.kovalevsky_schulz import CENTRES, convex_polyhedron, local_co
 from modern.papers.kovalevsky_schulz.cells import CellList
 
 
-def lemma_lz(kind: str = "") -> CheckResult:
+@claim("kovalevsky-schulz.65")
+@claim("kovalevsky-schulz.66", "kovalevsky-schulz.68", kind="proof")
+def lemma_lz(kind: str = "") -> Check:
     """Check that each part of a hull cut off by a plane contains a vertex."""
     checks = []
     for points, judge in sampled_hulls():
@@ -29,7 +31,8 @@ def lemma_lz(kind: str = "") -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} parts cut off by planes contain a vertex", conditional=not kind)
 
 
-def combination_of_three() -> CheckResult:
+@claim("kovalevsky-schulz.67")
+def combination_of_three() -> Check:
     """Check that (1, 1) in the triangle (0, 0), (3, 0), (0, 3) is a combination of three points and not of two."""
     points: list[Point] = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0)]
     two = [1 for p, q in combinations(points[:3], 2) if not any(cross(minus(q, p), minus(points[3], p)))]
@@ -38,7 +41,8 @@ def combination_of_three() -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def lemma_ch() -> CheckResult:
+@claim("kovalevsky-schulz.149", "kovalevsky-schulz.69")
+def lemma_ch() -> Check:
     """Check that a polyhedron with corners among the local corners that contains all of these contains all voxels."""
     volume = random_solid(3)
     corners = [*map(tuple, local_corners(volume, CENTRES).tolist())]
@@ -49,7 +53,8 @@ def lemma_ch() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} voxels are in the hull of the local corners")
 
 
-def hull_without_a_vertex() -> CheckResult:
+@claim("kovalevsky-schulz.150", "kovalevsky-schulz.121")
+def hull_without_a_vertex() -> Check:
     """Check that a vertex is outside the hull of the other vertices."""
     checks = []
     for points, judge in sampled_hulls():
@@ -59,7 +64,9 @@ def hull_without_a_vertex() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} vertices are outside the hull of the others")
 
 
-def smaller_polyhedron(kind: str = "") -> CheckResult:
+@claim("kovalevsky-schulz.120")
+@claim("kovalevsky-schulz.70", kind="moved")
+def smaller_polyhedron(kind: str = "") -> Check:
     """Check the counterexample: a tetrahedron that contains another one, whose apex is moved down an edge.
 
     No vertex of the smaller one is in the interior of the larger, contrary to the proof. ``moved``: one of them is
@@ -78,7 +85,8 @@ def smaller_polyhedron(kind: str = "") -> CheckResult:
     return holds_if(not wrong, f"{message}, like all of four alternate corners of a cube")
 
 
-def third_condition() -> CheckResult:
+@claim("kovalevsky-schulz.172", "kovalevsky-schulz.151", "kovalevsky-schulz.126")
+def third_condition() -> Check:
     """Check that the vertices of the constructed polyhedron are local corners."""
     volume = random_solid(2)
     corners = local_corners(volume, CENTRES)
@@ -89,7 +97,8 @@ def third_condition() -> CheckResult:
     return holds_if(hull_vertices <= {*map(tuple, corners.tolist())}, message)
 
 
-def complex_of_polyhedron() -> CheckResult:
+@claim("kovalevsky-schulz.129")
+def complex_of_polyhedron() -> Check:
     """Check that bounding is a partial order of the vertices, edges, faces and body of a hull; dimensions rise."""
     _, judge = sampled_hulls()[0]
     cells = [(0, frozenset([k])) for k in judge.vertices] + [(1, frozenset(e)) for e in judge.edges()]
@@ -100,7 +109,8 @@ def complex_of_polyhedron() -> CheckResult:
     return holds_if(passed, f"{len(cells)} cells have {len(pairs)} bounding pairs")
 
 
-def maximum_of_combinations() -> CheckResult:
+@claim("kovalevsky-schulz.124")
+def maximum_of_combinations() -> Check:
     """Check that a midpoint has the largest value if and only if both of its ends have it."""
     checks = []
     for points, _ in sampled_hulls():
@@ -128,7 +138,9 @@ def _horizons() -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple
                     yield new, visible, hidden, plane_through(*ends, new), [points[k] for k in judge.vertices], ends
 
 
-def lemma_be(kind: str = "") -> CheckResult:
+@claim("kovalevsky-schulz.71")
+@claim("kovalevsky-schulz.72", kind="normals")
+def lemma_be(kind: str = "") -> Check:
     """Check that the new plane supports and, with ``kind``, that its normal is a positive combination."""
     checks = []
     for _, visible, hidden, plane, vertices, _ in _horizons():
@@ -146,7 +158,8 @@ def lemma_be(kind: str = "") -> CheckResult:
     return holds_if(all(checks) and checks, f"{len(checks)} conditions at edges hold", conditional=True)
 
 
-def closed_boundary() -> CheckResult:
+@claim("kovalevsky-schulz.76")
+def closed_boundary() -> Check:
     """Check that the edges that bound one visible and one invisible face form closed boundaries."""
     checks = []
     for _, judge in sampled_hulls():
@@ -158,7 +171,8 @@ def closed_boundary() -> CheckResult:
     return holds_if(all(checks), f"the boundary is closed for {len(checks)} points outside a hull")
 
 
-def section_angles() -> CheckResult:
+@claim("kovalevsky-schulz.73")
+def section_angles() -> Check:
     """Check the angles of Fig. 9 with Q at the foot of the perpendicular from P on the edge, and with Q at an end.
 
     Only squares of cosines are compared: beta is 90 - alpha or alpha - 90 if the squares add up to 1.
@@ -190,7 +204,8 @@ def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fractio
     return Fraction(uv * uv) / (Fraction(uu) * vv)
 
 
-def coefficients_by_cosines() -> CheckResult:
+@claim("kovalevsky-schulz.122")
+def coefficients_by_cosines() -> Check:
     """Check the counterexample: an edge of a tetrahedron between the one face that a point sees and a slanted face.
 
     For unit normals a : b is sin(beta_n) : sin(beta_v); the squares are compared.
@@ -211,7 +226,7 @@ def coefficients_by_cosines() -> CheckResult:
     sines = (1 - _cosine(hidden, outer)) / (1 - _cosine(visible, outer))
     one_face_visible = dot(visible, minus(new, p)) > 0 > dot(hidden, minus(new, p))  # type: ignore[arg-type]
     message = f"(a : b)^2 is {ratio}, (cos beta_v : cos beta_n)^2 is {cosines}, (sin beta_n : sin beta_v)^2 is {sines}"
-    return fails_if(one_face_visible and a > 0 < b and ratio == sines != cosines, message)
+    return refuted(one_face_visible and a > 0 < b and ratio == sines != cosines, message)
 
 
 def _coefficients(u: Point, v: Point, w: Point) -> tuple[Fraction, Fraction]:
@@ -221,7 +236,8 @@ def _coefficients(u: Point, v: Point, w: Point) -> tuple[Fraction, Fraction]:
     return Fraction(uw * vv - vw * uv, determinant), Fraction(vw * uu - uw * uv, determinant)
 
 
-def hulls_of_more_points() -> CheckResult:
+@claim("kovalevsky-schulz.169", "kovalevsky-schulz.77")
+def hulls_of_more_points() -> Check:
     """Check that the vertices of a hull lie in the hull of more points."""
     checks = []
     for points, _ in sampled_hulls():
@@ -232,7 +248,8 @@ def hulls_of_more_points() -> CheckResult:
     return holds_if(bool(checks) and all(checks), f"{len(checks)} hulls lie in the next one")
 
 
-def moved_vertex() -> CheckResult:
+@claim("kovalevsky-schulz.167")
+def moved_vertex() -> Check:
     """Check that a vertex is outside the hull after it is moved to the mean of all vertices."""
     checks = []
     for points, judge in sampled_hulls():
@@ -246,7 +263,8 @@ def moved_vertex() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} vertices are lost when they are moved")
 
 
-def inner_side() -> CheckResult:
+@claim("kovalevsky-schulz.168")
+def inner_side() -> Check:
     """Check that no vertex lies on the outer side of the two faces or of the new plane."""
     checks = []
     for _, visible, hidden, plane, vertices, edge in _horizons():
@@ -257,7 +275,8 @@ def inner_side() -> CheckResult:
     return holds_if(bool(checks) and all(checks), f"{len(checks)} normals point away from all vertices")
 
 
-def angles_at_edge() -> CheckResult:
+@claim("kovalevsky-schulz.173")
+def angles_at_edge() -> Check:
     """Check the signs of the products of both normals with the direction to the new point, from points of each edge."""
     checks = []
     for new, visible, hidden, _, _, (start, end) in _horizons():

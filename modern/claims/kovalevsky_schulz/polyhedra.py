@@ -9,9 +9,9 @@ from random import Random
 
 import numpy as np
 
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.published import PAPERS, printed_lines, produced_by
-from modern.claims.register import CheckResult, fails_if, holds_if
-from modern.claims.sampled_sets import COUNT, Point, counterexample_points, plane_value, sampled_sets
+from modern.claims.sampled_sets import CASES, Point, counterexample_points, plane_value, sampled_sets
 from modern.digital.solids import Volume, half_ball, listed
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import dot, minus, plus
@@ -35,10 +35,20 @@ def random_solid(seed: int, side: int = 4) -> Volume:
 
 @cache
 def sampled_hulls() -> tuple[tuple[tuple[Point, ...], ExactHull], ...]:
-    return tuple((sampled.points, sampled.judge) for sampled in sampled_sets(3, int(COUNT)))
+    return tuple((sampled.points, sampled.judge) for sampled in sampled_sets(3, CASES))
 
 
-def algorithm_against_judge(kind: str = "") -> CheckResult:
+@claim(
+    "kovalevsky-schulz.1",
+    "kovalevsky-schulz.5",
+    "kovalevsky-schulz.47",
+    "kovalevsky-schulz.75",
+    "kovalevsky-schulz.127",
+    "kovalevsky-schulz.143",
+    kind="condition",
+)
+@claim("kovalevsky-schulz.10", "kovalevsky-schulz.51")
+def algorithm_against_judge(kind: str = "") -> Check:
     """Compare both treatments of coplanar faces with the exact hull, on samples and on a grid of coplanar points."""
     checks = _right_hulls()
     return holds_if(all(checks), f"{len(checks) // 2} hulls agree with the exact hull", conditional=kind)
@@ -58,7 +68,8 @@ def _right_hulls() -> tuple[bool, ...]:
     return tuple(checks)
 
 
-def vertices_among_local_corners() -> CheckResult:
+@claim("kovalevsky-schulz.6", "kovalevsky-schulz.7", "kovalevsky-schulz.11", "kovalevsky-schulz.125")
+def vertices_among_local_corners() -> Check:
     """Check that the vertices of the hull of voxels are among their local corners."""
     checks = []
     for seed in (1, 2):
@@ -69,7 +80,8 @@ def vertices_among_local_corners() -> CheckResult:
     return holds_if(all(checks), f"the vertices of {len(checks)} solids are local corners")
 
 
-def vertices_within_planes() -> CheckResult:
+@claim("kovalevsky-schulz.9")
+def vertices_within_planes() -> Check:
     """Check that all vertices satisfy all planes of the exact hulls."""
     checks = [
         plane_value(f.plane, points[k]) <= 0
@@ -80,7 +92,9 @@ def vertices_within_planes() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} values are not positive")
 
 
-def combinations_not_vertices(kind: str = "") -> CheckResult:
+@claim("kovalevsky-schulz.14", "kovalevsky-schulz.17", "kovalevsky-schulz.16")
+@claim("kovalevsky-schulz.15", kind="condition")
+def combinations_not_vertices(kind: str = "") -> Check:
     """Check that midpoints of two points are not vertices, and that a vertex is outside the hull of the others."""
     checks = _combined()
     return holds_if(all(checks), f"{len(checks)} points agree", conditional=kind)
@@ -99,17 +113,19 @@ def _combined() -> tuple[bool, ...]:
     return tuple(checks)
 
 
-def local_corner_inside_hull() -> CheckResult:
+@claim("kovalevsky-schulz.19")
+def local_corner_inside_hull() -> Check:
     """Check a voxel that has both voxels of none of its 13 opposite pairs and yet lies within three neighbours."""
     points = counterexample_points("tripod.csv")
     corners = {*map(tuple, local_corners(listed(points), CENTRES).tolist())}
     middle = points[-1]
     near = all(max(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in points[:-1])
     wrong = middle in corners and near and len(points) - 1 not in exact_hull(points).vertices
-    return fails_if(wrong, f"{middle} is a local corner and a convex combination of its {len(points) - 1} neighbours")
+    return refuted(wrong, f"{middle} is a local corner and a convex combination of its {len(points) - 1} neighbours")
 
 
-def choice_of_q() -> CheckResult:
+@claim("kovalevsky-schulz.48", "kovalevsky-schulz.49", "kovalevsky-schulz.74")
+def choice_of_q() -> Check:
     """Check that the product of the normal with P - Q is the same for all corners Q of a face."""
     checks = []
     for points, judge in sampled_hulls():
@@ -119,7 +135,8 @@ def choice_of_q() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} faces give one product each")
 
 
-def points_that_see_no_face() -> CheckResult:
+@claim("kovalevsky-schulz.50", "yau-srihari.15")
+def points_that_see_no_face() -> Check:
     """Check that grid points that see no face of a hull are in the hull."""
     points, judge = sampled_hulls()[0]
     checks, held = [], 0
@@ -131,7 +148,8 @@ def points_that_see_no_face() -> CheckResult:
     return holds_if(all(checks) and held > 0, f"{len(checks)} points agree, {held} of them in the hull")
 
 
-def cube_visible_from_corner() -> CheckResult:
+@claim("kovalevsky-schulz.52")
+def cube_visible_from_corner() -> Check:
     """Check what is removed from a cube when a point beyond one of its corners is added."""
     cube = [*product((0, 2), repeat=3)]
     judge, after = exact_hull(cube), exact_hull([*cube, (3, 3, 3)])
@@ -142,14 +160,17 @@ def cube_visible_from_corner() -> CheckResult:
     return holds_if((len(visible), len(edges), len(gone)) == (3, 3, 1), message)
 
 
-def coplanar_triangles() -> CheckResult:
+@claim("kovalevsky-schulz.54", "kovalevsky-schulz.166")
+def coplanar_triangles() -> Check:
     """Check that counting coplanar faces as visible makes more triangles than the hull has faces."""
     cells = convex_polyhedron(GRID, "visible")
     assert isinstance(cells, CellList)
     return holds_if(len(cells.faces) > 6, f"the cube of a grid gets {len(cells.faces)} triangles, and has 6 faces")
 
 
-def extended_faces(kind: str = "") -> CheckResult:
+@claim("kovalevsky-schulz.58", "kovalevsky-schulz.59")
+@claim("kovalevsky-schulz.60", kind="crossing")
+def extended_faces(kind: str = "") -> Check:
     """Check that extending faces to coplanar points gives the exact faces, and makes fewer new ones than triangles."""
     if kind:
         hull = coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)], EXTENDED)
@@ -164,14 +185,16 @@ def extended_faces(kind: str = "") -> CheckResult:
     )
 
 
-def quadrangles() -> CheckResult:
+@claim("kovalevsky-schulz.55")
+def quadrangles() -> Check:
     """Check a point in the plane of a pyramid's square that sees two of its sides."""
     hull = coplanar_hull([*PYRAMID, (3, 3, 0)], QUADRANGLES)
     message = f"{hull.larger} new face with four corners is merged with the square"
     return holds_if(hull.larger == 1 and hull.merged > 0, message)
 
 
-def formula_5() -> CheckResult:
+@claim("kovalevsky-schulz.78")
+def formula_5() -> Check:
     """Check that the integers of all vertices and triangles, three for each, exceed formula (5) by 6."""
     checks = []
     for points, _ in sampled_hulls():
@@ -184,7 +207,8 @@ def formula_5() -> CheckResult:
     return holds_if(all(checks), message, conditional=True)
 
 
-def integers_per_face() -> CheckResult:
+@claim("kovalevsky-schulz.91")
+def integers_per_face() -> Check:
     """Check that Table 5's last column is rounded at diameter 16, so that 1070 / 142 at 18 is 7.54, not 7.53."""
     sixteen, eighteen = (Fraction(100 * integers, faces) for _, _, faces, integers in _table_5()[4:6])
     passed = (int(sixteen), round(sixteen)) == (855, 856) and (int(eighteen), round(eighteen)) == (753, 754)
@@ -200,7 +224,8 @@ def _table_5() -> tuple[tuple[int, int, int, int], ...]:
     return tuple((int(p[1]), int(p[2]), int(m[4]), int(m[5])) for p, m in rows)
 
 
-def memory_requirements() -> CheckResult:
+@claim("kovalevsky-schulz.100")
+def memory_requirements() -> Check:
     """Compare the integers of the cell list with those of Marching Cubes and of triangles, for the bodies of Table 5.
 
     Formula (6) gives the number V of vertices from the number of integers; a hull has 2 V - 4 triangles.
@@ -220,13 +245,15 @@ def memory_requirements() -> CheckResult:
     return holds_if(all(fewer) and {*more} == {10, 18}, message + ", ".join(more.values()), conditional=True)
 
 
-def integers_of_triangles() -> CheckResult:
+@claim("kovalevsky-schulz.170", "kovalevsky-schulz.171")
+def integers_of_triangles() -> Check:
     """Check that Table 5 prints the integers of formula (5), 4.5 for each of the printed triangles."""
     checks = [triangulation_size(triangles) == integers for triangles, integers, _, _ in _table_5()]
     return holds_if(len(checks) == 8 and all(checks), f"{sum(checks)} of {len(checks)} rows agree")
 
 
-def planar_faces() -> CheckResult:
+@claim("kovalevsky-schulz.148", "kovalevsky-schulz.157")
+def planar_faces() -> Check:
     """Check that the corners of each face of a half-ball are coplanar and that some vertex has over four edges."""
     cells = _half_ball()
     checks = []
@@ -236,7 +263,8 @@ def planar_faces() -> CheckResult:
     return holds_if(all(checks) and most > 4, f"{len(checks)} faces are planar; one vertex has {most} edges")
 
 
-def halves_of_sorted_set() -> CheckResult:
+@claim("kovalevsky-schulz.146", "yau-srihari.17")
+def halves_of_sorted_set() -> Check:
     """Check that the halves of points sorted by x are apart if all x differ, and may meet otherwise."""
     apart = []
     for points, _ in sampled_hulls():
@@ -250,7 +278,8 @@ def halves_of_sorted_set() -> CheckResult:
     return holds_if(all(apart) and meet, message, conditional=True)
 
 
-def cells_removed() -> CheckResult:
+@claim("kovalevsky-schulz.161", "yau-srihari.114")
+def cells_removed() -> Check:
     """Check what a new point removes: visible faces, edges between two of them, and vertices on these faces only."""
     checks = []
     for points, judge in sampled_hulls():
@@ -271,7 +300,9 @@ def cells_removed() -> CheckResult:
     return holds_if(bool(checks) and all(checks), message)
 
 
-def collinear_edges(treatment: Treatment = EXTENDED) -> CheckResult:
+@claim("kovalevsky-schulz.163", treatment="quadrangles")
+@claim("kovalevsky-schulz.165")
+def collinear_edges(treatment: Treatment = EXTENDED) -> Check:
     """Check that the end of a side is no longer a vertex if a point is added on the line of the side."""
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 5)]
     judge = exact_hull([*square, (8, 0, 0)])
@@ -291,7 +322,8 @@ def _straight(volume: Volume) -> CellList:
     return straightened(merged(cells))
 
 
-def symmetry() -> CheckResult:
+@claim("kovalevsky-schulz.95")
+def symmetry() -> Check:
     """Check that rotations and reflections that map the voxels of a body to themselves map the faces to themselves."""
     short: list[Point] = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
     numbers, checks = [], []
@@ -319,7 +351,8 @@ def _moved(points: list[Point], order: tuple[int, ...] = (0, 1, 2), signs: tuple
     return [(signs[0] * p[order[0]], signs[1] * p[order[1]], signs[2] * p[order[2]]) for p in turned]
 
 
-def symmetric_faces() -> CheckResult:
+@claim("kovalevsky-schulz.96")
+def symmetric_faces() -> Check:
     """Count the faces of the half-ball of diameter 10 that some rotation or reflection maps to themselves."""
     cells = _half_ball()
     symmetric = [_is_symmetric([cells.vertices[v - 1].point for v in face.vertices]) for face in cells.faces]
@@ -340,7 +373,8 @@ def bounds(a: Point, b: Point) -> bool:
     return a != b and all(x == y or (y % 2 == 1 and abs(x - y) == 1) for x, y in zip(a, b, strict=True))
 
 
-def bounding_relation() -> CheckResult:
+@claim("kovalevsky-schulz.101", "kovalevsky-schulz.110")
+def bounding_relation() -> Check:
     """Check that bounding is antisymmetric and transitive for the cells of a voxel, and that incidence is not."""
     cells: list[Point] = [(x, y, z) for x in range(3) for y in range(3) for z in range(3)]
     pairs = {(a, b) for a in cells for b in cells if bounds(a, b)}

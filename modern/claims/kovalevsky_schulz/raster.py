@@ -8,9 +8,9 @@ from itertools import product
 
 import numpy as np
 
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.kovalevsky_schulz.complexes import closure, dimension
 from modern.claims.kovalevsky_schulz.polyhedra import random_solid
-from modern.claims.register import CheckResult, fails_if, holds_if
 from modern.claims.sampled_sets import Point, counterexample_points
 from modern.digital.solids import Volume, half_ball, listed
 from modern.exact_hull import exact_hull
@@ -26,7 +26,9 @@ def _placed(volume: Volume, of: str) -> set[Point]:
     return {(x, y, z) for x, y, z in np.argwhere(array).tolist()}
 
 
-def corners_against_centres(kind: str = "") -> CheckResult:
+@claim("kovalevsky-schulz.12", "kovalevsky-schulz.13")
+@claim("kovalevsky-schulz.25", kind="first")
+def corners_against_centres(kind: str = "") -> Check:
     """Check that the hull of the corners is that of the centres with a cube about each, in half units."""
     checks, sizes = [], []
     for volume in (random_solid(1, 3), listed([(0, 0, 0), (1, 0, 0), (1, 1, 0)]), half_ball(8)):
@@ -52,7 +54,9 @@ def _value(scale: int, plane: tuple[int, ...], point: Point) -> int:
     return sum(n * scale * c for n, c in zip(plane, point, strict=False)) + plane[3]
 
 
-def topological_raster(kind: str = "") -> CheckResult:
+@claim("kovalevsky-schulz.27")
+@claim("kovalevsky-schulz.133", "kovalevsky-schulz.134", "kovalevsky-schulz.135", "kovalevsky-schulz.118", kind="cells")
+def topological_raster(kind: str = "") -> Check:
     """Count the (2n + 1)^3 cells of a cube of n voxels on each side, and check their dimensions."""
     if kind == "cells":
         counts = Counter(sum(c % 2 for c in cell) for cell in product(range(3), repeat=3))
@@ -67,7 +71,8 @@ def cells_of(n: int) -> int:
     return len(range(2 * n + 1)) ** 3
 
 
-def corner_of_single_voxel() -> CheckResult:
+@claim("kovalevsky-schulz.28", "kovalevsky-schulz.29", "kovalevsky-schulz.30")
+def corner_of_single_voxel() -> Check:
     """Check corners of the counterexample that bound a single voxel but are not local corners by 6 neighbours."""
     volume = listed(counterexample_points("two_voxels.csv"))
     corners = {*map(tuple, local_corners(volume, VERTICES, 6).tolist())}
@@ -79,10 +84,12 @@ def corner_of_single_voxel() -> CheckResult:
     }
     wrong = single - corners
     message = f"corners that bound one voxel and are not local: {', '.join(map(str, sorted(wrong)))}"
-    return fails_if(wrong and corners <= single, message)
+    return refuted(wrong and corners <= single, message)
 
 
-def farthest_voxel_of_corner(kind: str = "") -> CheckResult:
+@claim("kovalevsky-schulz.32")
+@claim("kovalevsky-schulz.33", kind="figure")
+def farthest_voxel_of_corner(kind: str = "") -> Check:
     """Check that the farthest voxel at a corner has the coordinates of the corner, so that corners differ in name."""
     flat, size = bool(kind), 3
     raster = {(x, y, z) for x in range(size) for y in range(size) for z in range(1 if flat else size)}
@@ -99,7 +106,8 @@ def farthest_voxel_of_corner(kind: str = "") -> CheckResult:
     return holds_if(passed, message)
 
 
-def additional_labels() -> CheckResult:
+@claim("kovalevsky-schulz.174")
+def additional_labels() -> Check:
     """Check that exactly the elements behind a voxel, seen from the origin, become labelled in addition."""
     checks, labelled_count = [], 0
     for volume in (random_solid(2, 3), half_ball(8), listed([(0, 0, 0), (1, 0, 0), (1, 1, 0)])):
@@ -115,7 +123,8 @@ def additional_labels() -> CheckResult:
     return holds_if(all(checks), message)
 
 
-def edges_at_corner() -> CheckResult:
+@claim("kovalevsky-schulz.175")
+def edges_at_corner() -> Check:
     """Check that a 0-cell of a Cartesian complex has at most four 1-cells in the plane and six in space."""
     numbers = {}
     for dimensions in (2, 3):
@@ -131,7 +140,9 @@ def ends_at(edge: tuple[int, ...], corner: tuple[int, ...]) -> bool:
     return sum(x % 2 for x in edge) == 1 == sum(abs(a - b) for a, b in zip(edge, corner, strict=True))
 
 
-def corners_of_eight_voxels(kind: str) -> CheckResult:
+@claim("kovalevsky-schulz.154", kind="edge")
+@claim("kovalevsky-schulz.155", kind="more")
+def corners_of_eight_voxels(kind: str) -> Check:
     """Check the neighbours of a corner for all subsets of its eight voxels.
 
     ``more``: with two or more voxels some pair of opposite neighbours is present. ``edge``: if an edge at the corner is

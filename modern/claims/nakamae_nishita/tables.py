@@ -7,7 +7,7 @@ from fractions import Fraction
 from itertools import combinations, permutations, product
 from random import Random
 
-from modern.claims.register import CONDITION, FAILS, HOLDS, CheckResult, holds_if
+from modern.claims.evidence import Check, claim, exhibited, holds_if
 from modern.claims.sampled_sets import Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
 from modern.exact_hull import ExactHull, exact_hull
@@ -73,7 +73,8 @@ def _apart(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
 ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2), (2, 5, 1))
 
 
-def convex_contour() -> CheckResult:
+@claim("nakamae-nishita.5", "nakamae-nishita.12")
+def convex_contour() -> Check:
     """Check that the edges of exactly one front face form one ring that turns clockwise.
 
     The hulls are seen from oblique directions, and one along a face. The corners of the ring are those of the hull of
@@ -108,7 +109,9 @@ def _roof() -> tuple[tuple[Point, ...], ExactHull, tuple[int, int]]:
     return ROOF, exact_hull(ROOF), (0, 0)
 
 
-def correlations(kind: str = "") -> CheckResult:
+@claim("nakamae-nishita.13")
+@claim("nakamae-nishita.14", kind="figure")
+def correlations(kind: str = "") -> Check:
     """Classify pairs of polygons independently: exactly one relation applies unless they touch, and then sometimes
     none.
     """
@@ -133,7 +136,12 @@ def correlations(kind: str = "") -> CheckResult:
     return holds_if(passed, message, conditional=not kind)
 
 
-def formula(number: str, kind: str = "") -> CheckResult:
+@claim("nakamae-nishita.21", number="1")
+@claim("nakamae-nishita.22", number="2")
+@claim("nakamae-nishita.29", number="3", kind="in_line")
+@claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", number="3")
+@claim("nakamae-nishita.60", "nakamae-nishita.37", number="5")
+def formula(number: str, kind: str = "") -> Check:
     """Compare a formula with an independent computation; (1) for points at known distances to the right of a line.
 
     (3) ``in_line``: with sides that overlap on one line, about which d says nothing.
@@ -156,12 +164,12 @@ def formula(number: str, kind: str = "") -> CheckResult:
         return _formula_5()
     if kind:
         overlap = overlap_in_line()
-        passed = all(checks) and overlap.verdict == CONDITION
+        passed = all(checks) and overlap.holds
         return holds_if(passed, f"{len(checks)} cases agree; {overlap.message}", conditional=True)
     return holds_if(bool(checks) and all(checks), f"{len(checks)} cases agree")
 
 
-def _formula_5() -> CheckResult:
+def _formula_5() -> Check:
     """Compare the determinant of (5) and the program with the side of the eye, for a face z = 0 seen from above."""
     corners = [(0, 0, 0), (0, 4, 0), (4, 4, 0)]
     plane, signs = plane_through(*((*corner, 1) for corner in corners)), {}
@@ -201,7 +209,12 @@ def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
     return side(a, b, c) * side(a, b, d) == -1 == side(c, d, a) * side(c, d, b)
 
 
-def table_properties(number: str) -> CheckResult:
+@claim("nakamae-nishita.23", number="1")
+@claim("nakamae-nishita.24", number="2")
+@claim("nakamae-nishita.25", number="3")
+@claim("nakamae-nishita.26", number="4")
+@claim("nakamae-nishita.27", number="LP")
+def table_properties(number: str) -> Check:
     """Check a property of the tables on pairs of convex polygons; ``LP`` checks all four, with rows for columns."""
     checks, touching = [], False
     for v, w in pairs():
@@ -219,8 +232,8 @@ def table_properties(number: str) -> CheckResult:
             checks += property_checks
             touching |= touches
     if not all(checks) or not checks:
-        return CheckResult(FAILS, f"true for {sum(checks)} of {len(checks)} pairs of polygons and lines")
-    return CheckResult(CONDITION if touching else HOLDS, f"true for {len(checks)} pairs of polygons and lines")
+        return exhibited(False, f"true for {sum(checks)} of {len(checks)} pairs of polygons and lines")
+    return holds_if(True, f"true for {len(checks)} pairs of polygons and lines", conditional=touching)
 
 
 def _property(
@@ -241,14 +254,16 @@ def _property(
     return [not has_crossing for has_crossing in crossed], any(any(met[i]) for i in clear)
 
 
-def overlap_in_line() -> CheckResult:
+@claim("nakamae-nishita.33")
+def overlap_in_line() -> Check:
     """Check d for two squares whose upper sides overlap on one line."""
     pl, lp = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2)))
     d = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp))).crossing_number(1, 1)
     return holds_if(d == 0, f"d is {d} for two sides that overlap", conditional=True)
 
 
-def intersection_counts() -> CheckResult:
+@claim("nakamae-nishita.41")
+def intersection_counts() -> Check:
     """Check that segments meet contours in at most two points, and that d of (3) is not 0 twice at a corner."""
     counts, along, over_two = set(), 0, 0
     for v in _polygons():

@@ -6,9 +6,9 @@ from fractions import Fraction
 from functools import cache
 from itertools import combinations, permutations, product
 
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.nakamae_nishita.tables import SQUARE, crosses, inside, lines_of, pairs, side, tables_of
-from modern.claims.register import CheckResult, counterexample, fails_if, holds_if
-from modern.claims.sampled_sets import counterexample_points, sampled_sets
+from modern.claims.sampled_sets import counterexample, counterexample_points, sampled_sets
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.nakamae_nishita.contours import values
@@ -25,7 +25,9 @@ def _cuboid(way: tuple[int, int, int] = (3, -5, 2)) -> Drawing:
     return draw(lambda: [cuboid("box", Fraction(2), Fraction(3), Fraction(4))], parallel(way))
 
 
-def faces_and_edges(kind: str = "") -> CheckResult:
+@claim("nakamae-nishita.10", kind="condition")
+@claim("nakamae-nishita.20")
+def faces_and_edges(kind: str = "") -> Check:
     """Check that a cuboid has three front faces, three inner edges and six contour edges.
 
     With ``kind``, view it along an axis, so that four faces are neither front nor back.
@@ -50,7 +52,8 @@ def faces_and_edges(kind: str = "") -> CheckResult:
     )
 
 
-def hidden_contour_edges() -> CheckResult:
+@claim("nakamae-nishita.16")
+def hidden_contour_edges() -> Check:
     """Check that parts of the contour edges of the farther of two boxes are hidden."""
     drawing = _scene("enclosed.toml")
     hidden = {kind for kind in (INNER, CONTOUR) if _hidden(drawing, kind)}
@@ -73,12 +76,15 @@ def _hidden(drawing: Drawing, kind: str) -> int:
     return sum(not p.visible and (p.solid, frozenset((p.start, p.end))) in ends for p in drawing.pieces)
 
 
-def three_collinear_points() -> CheckResult:
+@claim("nakamae-nishita.19")
+def three_collinear_points() -> Check:
     message = "the formula gives 0 for three collinear points"
     return holds_if(value(line_through((0, 0, 1), (1, 1, 1)), (2, 2, 1)) == 0, message, conditional=True)
 
 
-def indices(kind: str = "") -> CheckResult:
+@claim("nakamae-nishita.45")
+@claim("nakamae-nishita.59", kind="k")
+def indices(kind: str = "") -> Check:
     """Compare the indices of the program with those of (6) for segments in general position.
 
     ``k``: the index -1 occurs only if there is one intersection.
@@ -106,7 +112,9 @@ def indices(kind: str = "") -> CheckResult:
     return holds_if(all(checks) and ways == expected and (not kind or alone == {1}), message)
 
 
-def touching_solids(kind: str = "") -> CheckResult:
+@claim("nakamae-nishita.36", kind="fails")
+@claim("nakamae-nishita.35")
+def touching_solids(kind: str = "") -> Check:
     """Check which rule decides the nearer of two touching boxes, and what is hidden without that rule."""
     (relation,) = _scene("stacked.toml").relations
     without = _scene("stacked.toml", "touching")
@@ -118,7 +126,8 @@ def touching_solids(kind: str = "") -> CheckResult:
     return holds_if(not passed, message) if kind else holds_if(passed, message, conditional=True)
 
 
-def three_conditions() -> CheckResult:
+@claim("nakamae-nishita.43", "nakamae-nishita.42")
+def three_conditions() -> Check:
     """Check that a segment that crosses the contour of a square enters, leaves, or does both."""
     index_patterns, touching = set(), 0
     grid = [(x, y) for x in (-3, 1, 2, 7) for y in (-3, 1, 3, 6)]
@@ -135,25 +144,28 @@ def three_conditions() -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def sense_of_intersection() -> CheckResult:
+@claim("nakamae-nishita.44")
+def sense_of_intersection() -> Check:
     """Compare the printed product with (6) for a segment that enters."""
     p, q, a, b = (point[:2] for point in counterexample_points("sense.csv"))
     printed = (p[0] - q[0]) * (a[1] - b[1]) - (p[1] - q[1]) * (a[0] - b[0])
     six = (q[0] - p[0]) * (a[1] - b[1]) - (q[1] - p[1]) * (a[0] - b[0])
     goes_in = value(line_through((*p, 1), (*q, 1)), (*a, 1)) < 0 < value(line_through((*p, 1), (*q, 1)), (*b, 1))
     message = f"for an entering segment the printed product is {printed}, and (6) gives {six}"
-    return fails_if(goes_in and printed < 0 < six, message)
+    return refuted(goes_in and printed < 0 < six, message)
 
 
-def edges_wholly_behind() -> CheckResult:
+@claim("nakamae-nishita.48")
+def edges_wholly_behind() -> Check:
     """Check a box behind a wall, whose edges are hidden without an intersection."""
     corrected, without = _scene("enclosed.toml"), _scene("enclosed.toml", "enclosed")
     alone = any(passage == ENCLOSED for edge_passages in corrected.passages for _, passage in edge_passages.behind)
     newly_visible = sum(p.visible for p in without.pieces) - sum(p.visible for p in corrected.pieces)
-    return fails_if(alone and newly_visible > 0, f"{newly_visible} edges of the box would be visible through the wall")
+    return refuted(alone and newly_visible > 0, f"{newly_visible} edges of the box would be visible through the wall")
 
 
-def overlap_by_neighbours() -> CheckResult:
+@claim("nakamae-nishita.66")
+def overlap_by_neighbours() -> Check:
     """Check that zeros of PL do not tell whether two collinear sides overlap, and that adjacent columns do."""
     zeros, beside = [], []
     for x, y, width in product(range(-5, 8), (-4, 0, 4), (2, 3)):
@@ -176,7 +188,8 @@ def overlap_by_neighbours() -> CheckResult:
     return holds_if(all(beside) and False in zeros, message, conditional=True)
 
 
-def segments_within() -> CheckResult:
+@claim("nakamae-nishita.64")
+def segments_within() -> Check:
     """Check that every side of V that crosses a diagonal of V' has a part inside V', but is not always inside."""
     checks, partly_inside = [], 0
     for v, w in pairs():
@@ -193,7 +206,8 @@ def segments_within() -> CheckResult:
     return holds_if(all(checks) and partly_inside, message, conditional=True)
 
 
-def table_by_formula_4() -> CheckResult:
+@claim("nakamae-nishita.65")
+def table_by_formula_4() -> Check:
     """Compare the table by the signs of (4), as printed, with that by (1) for the counterexample."""
     (eye, *contour), ends = (points := counterexample_points("table_by_4.csv"))[:-2], points[-2:]
     by_4 = {sign(dot(minus(p, eye), minus(p, end))) for p in contour for end in ends}
@@ -201,10 +215,11 @@ def table_by_formula_4() -> CheckResult:
     by_1 = [[sign(value(line, (x, y, 1))) for line in lines_of(flat)] for x, y, _ in ends]
     goes_in = -1 in by_1[0] and -1 not in by_1[1]
     wrong = by_4 == {-1} and goes_in
-    return fails_if(wrong, "by (4) every element is -1 as if nothing intersected; by (1) the edge enters")
+    return refuted(wrong, "by (4) every element is -1 as if nothing intersected; by (1) the edge enters")
 
 
-def nearer_contour_inside() -> CheckResult:
+@claim("nakamae-nishita.61")
+def nearer_contour_inside() -> Check:
     """Check a box in front of a frustum: sides of the top are hidden without an intersection."""
     corners = [(x, y, z) for z, low, high in ((0, 0, 8), (2, 3, 5)) for x, y in _ring(low, high)]
     walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
@@ -234,7 +249,8 @@ def _ring(low: int, high: int) -> tuple[tuple[int, int], ...]:
 COUNTS = {"a": (11, 116, 80), "c": (60, 480, 360), "d": (30, 216, 158)}
 
 
-def counts_of_table_1d() -> CheckResult:
+@claim("nakamae-nishita.56")
+def counts_of_table_1d() -> Check:
     """Check that the counts of Table 1 (d) need plates: a solid with F faces has at most 2 F - 4 vertices."""
     most = {name: 2 * faces - 4 * parts for name, (parts, _, faces) in COUNTS.items()}
     # 25 prisms, 23 on quadrangles and 2 on triangles, and five plates with four corners and two faces.
@@ -248,7 +264,8 @@ def counts_of_table_1d() -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def convex_faces() -> CheckResult:
+@claim("nakamae-nishita.63")
+def convex_faces() -> Check:
     """Check that any three consecutive corners of a face turn in the same direction about its outward normal."""
     checks = []
     for sampled in sampled_sets(3, 2):

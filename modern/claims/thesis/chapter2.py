@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations, permutations, product
 
-from modern.claims.register import CheckResult, fails_if, holds_if
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.sampled_sets import (
-    COUNT,
+    CASES,
     Plane,
     Point,
     SampledSet,
@@ -26,13 +26,15 @@ from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 
 
-def weights_of_combination() -> CheckResult:
+@claim("thesis.18")
+def weights_of_combination() -> Check:
     """Check that weights must not be negative: 2 P_1 - P_2 has weights with the sum 1 and lies outside the segment."""
     hull = exact_hull([(0, 0, 0), (1, 0, 0), (-1, 0, 0)])
     return holds_if(0 not in hull.vertices, "2 P - Q, with the weights 2 and -1, lies beyond P", conditional=True)
 
 
-def triangle_of_combinations() -> CheckResult:
+@claim("thesis.19", "thesis.214", "thesis.257", "thesis.133", "yau-srihari.40")
+def triangle_of_combinations() -> Check:
     """Check that the grid points of a triangle, and no others, are convex combinations of its corners."""
     p, q, r = (0, 0), (4, 1), (1, 5)
     agreeing = cases = 0
@@ -51,17 +53,19 @@ def _area(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 
 
-def supporting_planes(count: str = COUNT) -> CheckResult:
+@claim("thesis.20", "appel-will.129")
+def supporting_planes(cases: int = CASES) -> Check:
     """Check that the planes of the exact hull meet the definition of a supporting plane."""
-    return _supporting(sampled_sets(3, int(count)), 3)
+    return _supporting(sampled_sets(3, cases), 3)
 
 
-def supporting_lines(count: str = COUNT) -> CheckResult:
+@claim("thesis.21")
+def supporting_lines(cases: int = CASES) -> Check:
     """Check that the lines of the exact hull meet the definition of a supporting line."""
-    return _supporting(sampled_sets(2, int(count)), 2)
+    return _supporting(sampled_sets(2, cases), 2)
 
 
-def _supporting(sets: tuple[SampledSet, ...], dimension: int) -> CheckResult:
+def _supporting(sets: tuple[SampledSet, ...], dimension: int) -> Check:
     """Check that each facet contains enough independent points and that no point lies beyond it."""
     supporting = cases = 0
     for sampled in sets:
@@ -75,7 +79,8 @@ def _supporting(sets: tuple[SampledSet, ...], dimension: int) -> CheckResult:
     return holds_if(supporting == cases > 0, message)
 
 
-def vertex_formula_with_minus() -> CheckResult:
+@claim("thesis.22")
+def vertex_formula_with_minus() -> Check:
     """Check that the formula with the printed minus does not give the middle of three collinear points."""
     points = counterexample_points("middle.csv")
     middle = points[1]
@@ -90,10 +95,11 @@ def vertex_formula_with_minus() -> CheckResult:
         f"ordered pairs that give the middle point {middle}: {pair_counts['+']} with a plus, "
         f"{pair_counts['-']} with the printed minus"
     )
-    return fails_if(wrong, message)
+    return refuted(wrong, message)
 
 
-def vertex_of_hull() -> CheckResult:
+@claim("thesis.23")
+def vertex_of_hull() -> Check:
     """Check that (1, 1), inside the triangle (0, 0), (3, 0), (0, 3), is no vertex, although it lies between no two
     points.
     """
@@ -108,13 +114,14 @@ def vertex_of_hull() -> CheckResult:
     )
 
 
-def vertex_in_space(count: str = COUNT) -> CheckResult:
+@claim("thesis.200")
+def vertex_in_space(cases: int = CASES) -> Check:
     """Check that a point is between two points of the hull if and only if the hull of the other points contains it.
 
     Among the given points alone, a point inside a tetrahedron lies between no two.
     """
     checks = []
-    for sampled in sampled_sets(3, int(count)):
+    for sampled in sampled_sets(3, cases):
         for k, point in enumerate(sampled.points):
             rest = exact_hull([p for p in sampled.points if p != point])
             # The point is a combination of the others if no facet of their hull separates it.
@@ -130,10 +137,12 @@ def vertex_in_space(count: str = COUNT) -> CheckResult:
     return holds_if(all(checks) and alone, message, conditional=True)
 
 
-def gift_wrapping(kind: str, count: str = COUNT) -> CheckResult:
+@claim("thesis.202", "thesis.27", kind="planes")
+@claim("thesis.201", kind="lines")
+def gift_wrapping(kind: str, cases: int = CASES) -> Check:
     """Check that planes turned about points and edges, or lines turned about points, find all facets of the hull."""
     checks = []
-    for sampled in sampled_sets(2 if kind == "lines" else 3, int(count)):
+    for sampled in sampled_sets(2 if kind == "lines" else 3, cases):
         expected = {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
         checks.append((_turned_lines(sampled) if kind == "lines" else _turned_planes(sampled.points)) == expected)
     message = f"in {sum(checks)} of {len(checks)} sets turning finds all supporting {kind} and nothing else"
@@ -189,10 +198,11 @@ def _turned_lines(sampled: SampledSet) -> set[frozenset[int]]:
     return lines_found
 
 
-def planes_from_triples(count: str = COUNT) -> CheckResult:
+@claim("thesis.24")
+def planes_from_triples(cases: int = CASES) -> Check:
     """Compare the supporting planes among the planes of all triples with the facets of the exact hull."""
     agreeing = 0
-    sets = sampled_sets(3, int(count))
+    sets = sampled_sets(3, cases)
     for sampled in sets:
         planes = set()
         for three in combinations(sampled.points, 3):
@@ -204,10 +214,11 @@ def planes_from_triples(count: str = COUNT) -> CheckResult:
     return holds_if(agreeing == len(sets), f"the planes of {agreeing} of {len(sets)} sets agree with the exact hull")
 
 
-def lines_from_pairs(count: str = COUNT) -> CheckResult:
+@claim("thesis.25")
+def lines_from_pairs(cases: int = CASES) -> Check:
     """Compare the supporting lines among the lines of all pairs with the edges of the exact hull."""
     agreeing = 0
-    sets = sampled_sets(2, int(count))
+    sets = sampled_sets(2, cases)
     for sampled in sets:
         lines = set()
         flat = [(x, y) for x, y, _ in sampled.points]
@@ -219,7 +230,8 @@ def lines_from_pairs(count: str = COUNT) -> CheckResult:
     return holds_if(agreeing == len(sets), f"the lines of {agreeing} of {len(sets)} sets agree with the exact hull")
 
 
-def cost_of_triples() -> CheckResult:
+@claim("thesis.26")
+def cost_of_triples() -> Check:
     """Count the cost of testing all triples: C(N, 3) planes with N substitutions each."""
     cost = {n: math.comb(n, 3) * n for n in (8, 16, 51)}
     message = ", ".join(f"{n} points: {math.comb(n, 3):,} planes, {cost[n]:,} substitutions" for n in cost)

@@ -5,8 +5,8 @@ The equations are transcribed as printed and compared with independent formulas 
 
 from __future__ import annotations
 
-from modern.claims.register import CheckResult, holds_if
-from modern.claims.sampled_sets import COUNT, Plane, Point, flat_and_spatial_sets, plane_through, random_triples
+from modern.claims.evidence import Check, claim, holds_if
+from modern.claims.sampled_sets import CASES, Plane, Point, flat_and_spatial_sets, plane_through, random_triples
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import dot
 from modern.port import convex_hull
@@ -14,10 +14,11 @@ from modern.port import convex_hull
 Line = tuple[int, int, int]
 
 
-def procedure_against_judge(count: str = COUNT) -> CheckResult:
+@claim("thesis.1", "thesis.8", "thesis.86", "thesis.106", "thesis.179")
+def procedure_against_judge(cases: int = CASES) -> Check:
     """Compare the procedure in exact arithmetic with the exact hull: vertices, other points and planes."""
     right = sets = 0
-    for sampled in flat_and_spatial_sets(count):
+    for sampled in flat_and_spatial_sets(cases):
         sets += 1
         classification = (
             {*sampled.hull.vertices},
@@ -35,17 +36,19 @@ def procedure_against_judge(count: str = COUNT) -> CheckResult:
     return holds_if(right == sets, message, conditional=True)
 
 
-def reversed_order(count: str = COUNT) -> CheckResult:
+@claim("thesis.6")
+def reversed_order(cases: int = CASES) -> Check:
     """Check that the exact hull does not depend on the order of the points."""
     same = [
         {sampled.points[k] for k in sampled.judge.vertices}
         == {sampled.points[::-1][k] for k in exact_hull(sampled.points[::-1]).vertices}
-        for sampled in flat_and_spatial_sets(count)
+        for sampled in flat_and_spatial_sets(cases)
     ]
     return holds_if(all(same), f"{sum(same)} of {len(same)} sets have the same vertices when their points are reversed")
 
 
-def collinear_points() -> CheckResult:
+@claim("thesis.7", "thesis.48")
+def collinear_points() -> Check:
     """Check the two ends and the two equations of points on each of five lines."""
     passed = 0
     lines: tuple[Point, ...] = ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2))
@@ -57,14 +60,16 @@ def collinear_points() -> CheckResult:
     return holds_if(passed == 2 * len(lines), f"{passed // 2} of {len(lines)} lines have the right ends and equations")
 
 
-def few_points() -> CheckResult:
+@claim("thesis.32", "thesis.270")
+def few_points() -> Check:
     hulls = [convex_hull([(1, 2, 3), (4, 0, 1), (0, 5, 5)][:n]) for n in (1, 2, 3)]
     outcomes = [(h.status, h.dimension, len(h.vertices)) for h in hulls]
     message = "the hulls are a point, a segment and a triangle"
     return holds_if(outcomes == [("determined", k, k + 1) for k in range(3)], message)
 
 
-def first_two_points() -> CheckResult:
+@claim("thesis.211", "thesis.46")
+def first_two_points() -> Check:
     """Check that the first two points are the largest and the smallest in x, or in y if all x are equal, or in z."""
     base = [(3, 1), (-2, 5), (4, 0), (0, 2), (4, 4)]
     sets = {
@@ -83,7 +88,12 @@ def first_two_points() -> CheckResult:
     return holds_if(all(checks), message)
 
 
-def equation(number: str) -> CheckResult:
+@claim("thesis.40", number="3.1")
+@claim("thesis.41", number="3.2")
+@claim("thesis.43", number="3.3")
+@claim("thesis.51", number="3.4")
+@claim("thesis.62", number="3.5")
+def equation(number: str) -> Check:
     """Check an equation as printed on random points."""
     passed = all(_EQUATIONS[number](p, q, r) for p, q, r in random_triples())
     return holds_if(passed, "the equation agrees exactly for six triples of points")

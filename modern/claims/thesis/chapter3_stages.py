@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise, product
 
-from modern.claims.register import CONDITION, FAILS, HOLDS, CheckResult, holds_if
+from modern.claims.evidence import Check, claim, holds_if
 from modern.claims.sampled_sets import (
-    COUNT,
+    CASES,
     Approximation,
     Plane,
     Point,
@@ -28,34 +28,50 @@ from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
 
 
-def stage_property(kind: str, count: str = COUNT) -> CheckResult:
+@claim("thesis.2", "thesis.206", "thesis.29", kind="nested")
+@claim("thesis.204", "thesis.203", "thesis.69", "thesis.265", kind="last_hull")
+@claim("thesis.13", "thesis.224", "thesis.89", "thesis.226", kind="replaced_plane")
+@claim("thesis.30", kind="contained_points")
+@claim("thesis.31", "thesis.78", "thesis.100", kind="finite")
+@claim("thesis.60", kind="struck_points")
+@claim("thesis.216", "thesis.72", "thesis.220", "thesis.225", kind="counts")
+@claim("thesis.217", "thesis.75", kind="decreasing")
+@claim("thesis.68", "thesis.76", "thesis.255", kind="accepted_planes")
+@claim("thesis.70", kind="farthest_outside")
+@claim("thesis.73", kind="replaced_line")
+@claim("thesis.218", kind="renumbering")
+@claim("thesis.219", kind="netc_order")
+@claim("thesis.77", kind="largest_of_all")
+@claim("thesis.264", "thesis.228", "thesis.99", "thesis.258", kind="equations")
+@claim("thesis.221", "thesis.229", kind="vertices_used")
+@claim("thesis.222", "thesis.232", kind="vertex_when_added")
+@claim("thesis.227", "thesis.92", kind="convexity")
+@claim("thesis.266", kind="added_tetrahedra")
+@claim("thesis.239", "thesis.241", "thesis.240", kind="added_triangle")
+@claim("thesis.278", kind="two_new_lines")
+def stage_property(kind: str, cases: int = CASES) -> Check:
     """Check one property of H_1, H_2, ... (a key of ``_PROPERTIES``) in every stage of the sampled sets."""
     sets = (
-        sampled_sets(2, int(count))
+        sampled_sets(2, cases)
         if kind in _FLAT
-        else sampled_sets(3, int(count))
+        else sampled_sets(3, cases)
         if kind in _SPACE
-        else flat_and_spatial_sets(count)
+        else flat_and_spatial_sets(cases)
     )
-    cases = passing = 0
-    for sampled in sets:
-        for right in _PROPERTIES[kind](sampled):
-            cases += 1
-            passing += right
-    message = f"true in {passing} of {cases} cases in the construction of {len(sets)} sets"
-    if passing < cases or not cases:
-        return CheckResult(FAILS, message)
-    return CheckResult(CONDITION if kind in _WITH_CONDITION else HOLDS, message)
+    checks = [right for sampled in sets for right in _PROPERTIES[kind](sampled)]
+    message = f"true in {sum(checks)} of {len(checks)} cases in the construction of {len(sets)} sets"
+    return holds_if(checks and all(checks), message, conditional=kind in _WITH_CONDITION)
 
 
-def eliminated_points(count: str = COUNT) -> CheckResult:
+@claim("thesis.205")
+def eliminated_points(cases: int = CASES) -> Check:
     """Check the points eliminated at each stage, and a square in which the midpoint of a side is not eliminated."""
     points = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, 0, 0), (1, 1, 0)]
     hull = convex_hull(points, history=True)
     stays = hull.boundary == (4,) and {k for stage in hull.history for k in stage.struck} == {5}
-    inside_check = stage_property("struck_inside", count)
+    inside_check = stage_property("struck_inside", cases)
     message = f"{inside_check.message}; the midpoint of a side of a square is on the boundary and is not eliminated"
-    return holds_if(stays and inside_check.verdict == HOLDS, message, conditional=True)
+    return holds_if(stays and inside_check.holds, message, conditional=True)
 
 
 def _steps(sampled: SampledSet) -> Iterator[tuple[Approximation, Approximation, Stage, int]]:

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from modern.claims.register import CONDITION, FAILS, HOLDS, CheckResult, fails_if, holds_if
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.sampled_sets import (
-    COUNT,
+    CASES,
     Approximation,
     Point,
     SampledSet,
@@ -34,13 +34,16 @@ _POINT_ON_A_SIDE: list[Point] = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]
 PYRAMID: list[Point] = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
 
 
-def all_hold(cases: Iterator[bool] | list[bool], message: str) -> CheckResult:
+def all_hold(cases: Iterator[bool] | list[bool], message: str) -> Check:
     """Return HOLDS if there are cases and all of them are true; the message starts with their number."""
     checks = list(cases)
     return holds_if(bool(checks) and all(checks), f"{sum(checks)} of {len(checks)} {message}")
 
 
-def line_pairs(which: str) -> CheckResult:
+@claim("thesis.42", which="1")
+@claim("thesis.44", which="2")
+@claim("thesis.45", which="3")
+def line_pairs(which: str) -> Check:
     """Check that the two equations of a line of each kind hold at its points and have independent normals."""
     ends = {"1": ((1, 2, 3), (4, 0, 5)), "2": ((1, 2, 3), (1, 0, 5)), "3": ((1, 2, 3), (1, 2, 5))}[which]
     lines = convex_hull(ends).lines
@@ -50,9 +53,10 @@ def line_pairs(which: str) -> CheckResult:
     return holds_if(on and independent, "both equations hold at the two points, and their normals are independent")
 
 
-def third_point(count: str = COUNT) -> CheckResult:
+@claim("thesis.49")
+def third_point(cases: int = CASES) -> Check:
     """Check that no point is farther from the line of the first two points than the third point of H_1."""
-    return all_hold(list(_farthest(flat_and_spatial_sets(count))), "sets: no point is farther than the third of H_1")
+    return all_hold(list(_farthest(flat_and_spatial_sets(cases))), "sets: no point is farther than the third of H_1")
 
 
 def _farthest(sets: tuple[SampledSet, ...]) -> Iterator[bool]:
@@ -66,7 +70,8 @@ def _square(u: Point) -> int:
     return dot(u, u)
 
 
-def value_v() -> CheckResult:
+@claim("thesis.50")
+def value_v() -> Check:
     """Check that V by the formula of the proof is the square of a vector product, and by the display of our text is
     not.
     """
@@ -87,19 +92,21 @@ def value_v() -> CheckResult:
     return holds_if(right and on_line and as_text, message, conditional=True)
 
 
-def coplanarity_test(count: str = COUNT) -> CheckResult:
+@claim("thesis.52")
+def coplanarity_test(cases: int = CASES) -> Check:
     """Check that all values of (3.4) are 0 in the flat sets and in no others."""
     checks = []
-    for sampled in flat_and_spatial_sets(count):
+    for sampled in flat_and_spatial_sets(cases):
         first = plane_as_printed(*(sampled.points[k] for k in sampled.hull.history[0].added[:3]))
         checks.append(any(plane_value(first, point) for point in sampled.points) == (not sampled.flat))
     return all_hold(checks, "sets: all values of (3.4) are 0 if and only if the set is flat")
 
 
-def common_first_steps(count: str = COUNT) -> CheckResult:
+@claim("thesis.53")
+def common_first_steps(cases: int = CASES) -> Check:
     """Check that flat sets and sets with one more point outside their plane start with the same three points."""
     checks = []
-    for sampled in sampled_sets(2, int(count)):
+    for sampled in sampled_sets(2, cases):
         # Scale the set so that its mean moved by one unit is an integer point near the plane.
         size = 9 * len(sampled.points)
         flat = [(size * x, size * y, size * z) for x, y, z in sampled.points]
@@ -110,11 +117,12 @@ def common_first_steps(count: str = COUNT) -> CheckResult:
     return all_hold(checks, "sets start with the same three points; the plane of these decides which case applies")
 
 
-def classification_by_signs(count: str = COUNT) -> CheckResult:
+@claim("thesis.213", "thesis.57", "thesis.58", "thesis.59", "thesis.254")
+def classification_by_signs(cases: int = CASES) -> Check:
     """Check the classification into vertices, boundary and inside points by the signs of the exact equations."""
     checks = []
     some_boundary = bool(exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0), (0, 2, 0)]).boundary)
-    for sampled in flat_and_spatial_sets(count):
+    for sampled in flat_and_spatial_sets(cases):
         for k, point in enumerate(sampled.points):
             largest = max(plane_value(facet.plane, point) for facet in sampled.judge.facets)
             checks.append(largest <= 0 and (largest == 0) == (k not in sampled.judge.inside))
@@ -122,10 +130,11 @@ def classification_by_signs(count: str = COUNT) -> CheckResult:
     return holds_if(all(checks) and some_boundary, message)
 
 
-def mean_of_first_hull(count: str = COUNT) -> CheckResult:
+@claim("thesis.215", "thesis.61", "thesis.63", "thesis.64", "thesis.88")
+def mean_of_first_hull(cases: int = CASES) -> Check:
     """Check that the equations of H_1 are those of the exact hull and are negative at the mean of its points."""
     checks = []
-    for sampled in flat_and_spatial_sets(count):
+    for sampled in flat_and_spatial_sets(cases):
         first = sampled.stages()[0]
         judge = exact_hull([sampled.points[k] for k in first.vertices])
         x, y, z = (sum(sampled.points[k][axis] for k in first.vertices) for axis in range(3))
@@ -135,14 +144,17 @@ def mean_of_first_hull(count: str = COUNT) -> CheckResult:
     return all_hold(checks, "equations are exact and negative at C")
 
 
-def outside_convention() -> CheckResult:
+@claim("thesis.67")
+def outside_convention() -> Check:
     """Check a point that is inside the line x = 0 and by the printed definition also outside it."""
     ((x, _, _),) = counterexample_points("both_sides.csv")
     message = f"at the point x is {x}: by the printed definition it is both inside and outside the line x = 0"
-    return fails_if(x < 0, message)
+    return refuted(x < 0, message)
 
 
-def remaining_points(dimension: str) -> CheckResult:
+@claim("thesis.80", dimension="2")
+@claim("thesis.102", dimension="3")
+def remaining_points(dimension: str) -> Check:
     """Check that the points of a grid that are neither eliminated nor used lie on the boundary."""
     sizes = (5, 5, 1) if dimension == "2" else (3, 3, 3)
     points = [(x, y, z) for x in range(sizes[0]) for y in range(sizes[1]) for z in range(sizes[2])]
@@ -160,7 +172,8 @@ def remaining_points(dimension: str) -> CheckResult:
     return holds_if(passed, message)
 
 
-def used_boundary_point() -> CheckResult:
+@claim("thesis.81")
+def used_boundary_point() -> Check:
     """Check four points, one of which is used for a hull although it lies between two others."""
     points = _POINT_ON_A_SIDE
     hull = convex_hull(points, history=True)
@@ -170,7 +183,8 @@ def used_boundary_point() -> CheckResult:
     return holds_if(bool(boundary_used), message)
 
 
-def between_by_distances() -> CheckResult:
+@claim("thesis.82")
+def between_by_distances() -> Check:
     """Check that sums of distances tell which of three collinear points lies between the others."""
     checks = []
     for a, b, c in ((0, 5, 2), (0, 2, 5), (5, 0, -3), (1, 0, 2)):
@@ -183,7 +197,8 @@ def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:
     return a if ab + ac - bc == 0 else b if ab + bc - ac == 0 else c
 
 
-def duplicate_lines() -> CheckResult:
+@claim("thesis.85")
+def duplicate_lines() -> Check:
     """Check that a side with three used points has two equations before duplicates are removed."""
     points = _POINT_ON_A_SIDE
     hull = convex_hull(points, history=True)
@@ -201,7 +216,8 @@ def _on_side(points: list[Point], ends: tuple[int, ...], k: int) -> bool:
     return not any(cross(minus(q, p), minus(points[k], p)))
 
 
-def fourth_point_by_largest() -> CheckResult:
+@claim("thesis.87")
+def fourth_point_by_largest() -> Check:
     """Check a tetrahedron whose fourth corner is on the negative side of the first three: the largest value U is 0."""
     points = counterexample_points("negative_side.csv")
     plane = plane_as_printed(*points[:3])
@@ -212,20 +228,25 @@ def fourth_point_by_largest() -> CheckResult:
         f"the values are {', '.join(map(str, values))}; the largest belongs to a point of the plane itself, "
         "but the listing finds the hull"
     )
-    return fails_if(wrong, message)
+    return refuted(wrong, message)
 
 
-def visible_planes(kind: str, count: str = COUNT) -> CheckResult:
+@claim("thesis.94", kind="counts")
+@claim("thesis.95", kind="order")
+@claim("thesis.199", kind="as_worded")
+@claim("thesis.97", kind="pairs")
+@claim("thesis.98", kind="names")
+def visible_planes(kind: str, cases: int = CASES) -> Check:
     """Check how the planes that a new point is outside of are replaced.
 
     kind: ``counts`` of planes, ``pairs`` of planes with a common edge, the step ``as_worded``, the ``names`` MM,
     NN and KK of common points, or the ``order`` of the planes.
     """
     if kind == "order":
-        return _order(count)
+        return _order(cases)
     checks: list[bool] = []
     same_places = pairs = 0
-    for sampled in sampled_sets(3, int(count)):
+    for sampled in sampled_sets(3, cases):
         for before, after in zip(sampled.stages(), sampled.stages()[1:], strict=False):
             point = sampled.points[after.vertices[-1]]
             # Page 31: the planes that the added point is outside of, and their pairs with a common edge.
@@ -240,7 +261,7 @@ def visible_planes(kind: str, count: str = COUNT) -> CheckResult:
                 checks += [_separated(sampled.points, before, i, m, edge, point) for i, m, edge in shared]
     if kind == "names":
         message = f"in {same_places} of {pairs} pairs the two common points have the same positions among MM, NN and KK"
-        return CheckResult(CONDITION if same_places < pairs else HOLDS, message)
+        return holds_if(pairs, message, conditional=same_places < pairs)
     if kind == "as_worded":
         return holds_if(all(checks), f"{len(checks)} pairs of planes i and m agree", conditional=True)
     return all_hold(
@@ -269,9 +290,9 @@ def _separated(points: tuple[Point, ...], before: Approximation, i: int, m: int,
     return plane_value(plane, points[first_corner]) * plane_value(plane, points[second_corner]) < 0
 
 
-def _order(count: str) -> CheckResult:
+def _order(cases: int) -> Check:
     same = reordered = sets = 0
-    for sampled in sampled_sets(3, int(count)):
+    for sampled in sampled_sets(3, cases):
         text = convex_hull(sampled.points, text=True, on_refusal="return")
         if text.determined:
             sets += 1
@@ -281,15 +302,17 @@ def _order(count: str) -> CheckResult:
     return holds_if(same == sets, message, conditional=True)
 
 
-def without_constant_term() -> CheckResult:
+@claim("thesis.96")
+def without_constant_term() -> Check:
     """Check the centre of a cube away from the origin: without D it is outside a plane that it is inside of."""
     *corners, middle = counterexample_points("without_d.csv")
     planes = [facet.plane for facet in exact_hull(corners).facets]
     wrong = [plane for plane in planes if dot(plane[:3], middle) > 0 > plane_value(plane, middle)]
-    return fails_if(wrong, f"without D {len(wrong)} of {len(planes)} planes are positive at the centre")
+    return refuted(wrong, f"without D {len(wrong)} of {len(planes)} planes are positive at the centre")
 
 
-def duplicate_planes() -> CheckResult:
+@claim("thesis.103")
+def duplicate_planes() -> Check:
     """Check that a pyramid over nine points of a square keeps one equation of each plane."""
     hull = convex_hull(PYRAMID, history=True)
     equation_count = len(hull.history[-1].equations)
@@ -297,10 +320,12 @@ def duplicate_planes() -> CheckResult:
     return holds_if(len(hull.faces) == 5 < equation_count, message)
 
 
-def planes_at_vertex(kind: str = "", count: str = COUNT) -> CheckResult:
+@claim("thesis.104")
+@claim("thesis.105", kind="condition")
+def planes_at_vertex(kind: str = "", cases: int = CASES) -> Check:
     """Check how many planes of the exact hull contain each point."""
     checks = []
-    for points in (*(sampled.points for sampled in sampled_sets(3, int(count))), tuple(PYRAMID)):
+    for points in (*(sampled.points for sampled in sampled_sets(3, cases)), tuple(PYRAMID)):
         judge = exact_hull(points)
         for k, point in enumerate(points):
             on = sum(not plane_value(facet.plane, point) for facet in judge.facets)
@@ -308,12 +333,11 @@ def planes_at_vertex(kind: str = "", count: str = COUNT) -> CheckResult:
     message = (
         f"{sum(checks)} of {len(checks)} points: a vertex lies in three or more planes, any other point in two or fewer"
     )
-    if not all(checks):
-        return CheckResult(FAILS, message)
-    return CheckResult(CONDITION if kind else HOLDS, message)
+    return holds_if(all(checks), message, conditional=kind)
 
 
-def duplicates_removed() -> CheckResult:
+@claim("thesis.223")
+def duplicates_removed() -> Check:
     """Check a triangle with a used point on a side: three of four vertices and of four equations remain."""
     hull = convex_hull(_POINT_ON_A_SIDE, history=True)
     used = [k for stage in hull.history for k in stage.added]
@@ -330,7 +354,8 @@ def duplicates_removed() -> CheckResult:
 _TWO_PLANES: list[Point] = [(2, 1, 1), (1, 1, 3), (0, 1, 3), (0, 0, 0), (0, 2, 3), (0, 0, 2), (0, 1, 2)]
 
 
-def used_points_in_planes() -> CheckResult:
+@claim("thesis.231", "thesis.256")
+def used_points_in_planes() -> Check:
     """Count the planes of the last hull that contain each used point that is not a vertex."""
     hull, judge = convex_hull(_TWO_PLANES, history=True), exact_hull(_TWO_PLANES)
     used = {k for stage in hull.history for k in stage.added} - {*judge.vertices}
@@ -339,7 +364,8 @@ def used_points_in_planes() -> CheckResult:
     return holds_if(passed, ", ".join(f"{point} is in planes of the last hull: {n}" for point, n in planes.items()))
 
 
-def boundary_points_on_edges() -> CheckResult:
+@claim("thesis.230")
+def boundary_points_on_edges() -> Check:
     """Check that surface points of a pyramid in two planes lie between the ends of the common edge."""
     points = [(x, y, 0) for x in (0, 2, 4) for y in (0, 2, 4)] + [(2, 2, 4), (1, 1, 2)]
     judge = exact_hull(points)

@@ -9,9 +9,9 @@ from itertools import pairwise
 
 from emulator.language.objectcode import Program, code_positions
 from emulator.machine.machine import Machine
-from modern.claims.register import CONDITION, FAILS, HOLDS, CheckResult, fails_if, holds_if
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.sampled_sets import (
-    COUNT,
+    CASES,
     Point,
     SampledSet,
     counterexample_points,
@@ -35,7 +35,8 @@ Pair = tuple[int, int]
 _ELIMINATE_CHECK_GROW = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3.f": {103: "E", 114: "C", 125: "G"}}
 
 
-def text_against_listing() -> CheckResult:
+@claim("thesis.267")
+def text_against_listing() -> Check:
     """Check the four steps that differ from the listing: two lose the hull or a line, two only change an order."""
     results = (
         fourth_point_by_largest(),
@@ -43,7 +44,7 @@ def text_against_listing() -> CheckResult:
         visible_planes("order"),
         plane_duplicates_as_printed(),
     )
-    checks = [result.verdict for result in results] == [FAILS, FAILS, CONDITION, HOLDS]
+    checks = [result.holds for result in results] == [False, False, True, True]
     return holds_if(
         checks,
         "the fourth point and the removal of duplicate lines fail as worded; two other steps change only the "
@@ -52,7 +53,8 @@ def text_against_listing() -> CheckResult:
     )
 
 
-def line_duplicates_as_printed() -> CheckResult:
+@claim("thesis.275")
+def line_duplicates_as_printed() -> Check:
     """Check the removal of duplicate lines on page 28: it removes both equations of a side with three used points."""
     points = counterexample_points("line_lost.csv")
     judge, hull = exact_hull(points), convex_hull(points, history=True)
@@ -61,7 +63,7 @@ def line_duplicates_as_printed() -> CheckResult:
     lines = len({frozenset(_indices_on_line(points, *pair)) for pair in remaining})
     right = len({face.lowest for face in hull.faces}) == len(judge.facets)
     message = f"as worded {lines} of {len(judge.facets)} lines remain; the listing keeps all of them"
-    return fails_if(lines < len(judge.facets) and right, message)
+    return refuted(lines < len(judge.facets) and right, message)
 
 
 def _duplicates_removed_as_worded(
@@ -81,10 +83,11 @@ def _indices_on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
     return [k for k, x in enumerate(points) if not any(cross(minus(q, p), minus(x, p)))]
 
 
-def plane_duplicates_as_printed(count: str = COUNT) -> CheckResult:
+@claim("thesis.276")
+def plane_duplicates_as_printed(cases: int = CASES) -> Check:
     """Check the removal of duplicate planes: page 34 keeps the last equation of each plane, the listing the first."""
     checks, differing = [], 0
-    for points in (PYRAMID, *(list(sampled.points) for sampled in sampled_sets(3, int(count)))):
+    for points in (PYRAMID, *(list(sampled.points) for sampled in sampled_sets(3, cases))):
         last = convex_hull(points, history=True).history[-1].equations
         planes = [plane_through(points[a], points[b], points[c]) for a, b, c in last]
         # Page 34 removes plane j if a later plane i contains its three points.
@@ -111,7 +114,9 @@ def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
     return max(reduced, (-a, -b, -c, -d))
 
 
-def last_equation_accepted(dimension: str) -> CheckResult:
+@claim("thesis.79", dimension="2")
+@claim("thesis.101", dimension="3")
+def last_equation_accepted(dimension: str) -> Check:
     """Check a set with an H_j whose last equation, NETC = NE, is not supporting; at the end all equations are."""
     flat = dimension == "2"
     points = [(0, 3, 0), (0, 2, 0), (4, 4, 0), (4, 3, 0)]
@@ -119,12 +124,13 @@ def last_equation_accepted(dimension: str) -> CheckResult:
         points = [(2, 4, 4), (0, 3, 4), (1, 4, 4), (1, 3, 0), (3, 2, 4)]
     history = convex_hull(points, history=True).history
     equal = [before.number for before, after in pairwise(history) if after.checked == len(before.equations)]
-    passed = bool(equal) and stage_property("last_hull").verdict == HOLDS
+    passed = bool(equal) and stage_property("last_hull").holds
     message = f"H_{', H_'.join(map(str, equal))} has NETC = NE, and a point is outside that equation"
     return holds_if(passed, message, conditional=True)
 
 
-def collinearity_test() -> CheckResult:
+@claim("thesis.47")
+def collinearity_test() -> Check:
     """Check on a lattice that both equations of a line are 0 on the line only, for five kinds of lines."""
     checks = []
     for direction in ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2)):
@@ -137,7 +143,8 @@ def collinearity_test() -> CheckResult:
     return holds_if(all(checks), f"{sum(checks)} of {len(checks)} lattice points near five lines agree")
 
 
-def program3_against_program2() -> CheckResult:
+@claim("thesis.272")
+def program3_against_program2() -> Check:
     """Compare program 3 with program 2: the size of its code, and the step that the plane does not need."""
     two, three = (programs.deck(f"program{k}").text() for k in (2, 3))
     code = [code_positions(programs.program(f"program{k}")) for k in (2, 3)]
@@ -146,7 +153,8 @@ def program3_against_program2() -> CheckResult:
     return holds_if(passed, message)
 
 
-def substitution_counts() -> CheckResult:
+@claim("thesis.268")
+def substitution_counts() -> Check:
     """Count substitutions if all points are vertices: at most two of every remaining point into every equation of each
     H_j.
     """
@@ -163,10 +171,11 @@ def substitution_counts() -> CheckResult:
     return holds_if(shares == sorted(shares, reverse=True) and shares[-1] < 1 / 3, message)
 
 
-def consecutive_hulls(count: str = COUNT) -> CheckResult:
+@claim("thesis.269")
+def consecutive_hulls(cases: int = CASES) -> Check:
     """Check that H_1 to H_f make f - 1 pairs H_j, H_j+1, so that j + 1 starts at 2."""
     checks = []
-    for sampled in (*sampled_sets(2, int(count)), *sampled_sets(3, int(count))):
+    for sampled in (*sampled_sets(2, cases), *sampled_sets(3, cases)):
         sizes = [len(stage.vertices) for stage in sampled.stages()]
         larger = sum(a < b for a, b in pairwise(sizes))
         checks.append(larger == len(sizes) - 1 and sampled.hull.history[0].number == 1)
@@ -174,7 +183,8 @@ def consecutive_hulls(count: str = COUNT) -> CheckResult:
     return holds_if(all(checks), message, conditional=True)
 
 
-def order_of_elimination() -> CheckResult:
+@claim("thesis.286")
+def order_of_elimination() -> Check:
     """Check by a trace that programs 2 and 3 eliminate inside points before they check a hull or add a point."""
     sequences = []
     for example in (4, 5, 6):
@@ -192,7 +202,8 @@ def order_of_elimination() -> CheckResult:
     return holds_if(all(in_order and hulls > 1 for in_order, hulls in sequences), message)
 
 
-def coplanar_extremes() -> CheckResult:
+@claim("thesis.271")
+def coplanar_extremes() -> Check:
     """Check sets whose six extreme points are coplanar: their hull has no volume although the set has."""
     checks = []
     for points in EXTREMES_IN_A_PLANE:
@@ -205,13 +216,14 @@ def coplanar_extremes() -> CheckResult:
     )
 
 
-def first_hull_against_extremes(count: str = "12") -> CheckResult:
+@claim("thesis.39")
+def first_hull_against_extremes(cases: int = 12) -> Check:
     """Compare H_1 with the hull of the six extreme points by volume and number of planes.
 
     The sets are sampled sets, sets whose extreme points are coplanar, and a counterexample in which H_1 is larger.
     """
     within, fewer = [], []
-    for sampled in sampled_sets(3, int(count)):
+    for sampled in sampled_sets(3, cases):
         first, six_extremes = _volumes_and_planes(sampled.points, sampled)
         fewer.append(first[1] <= six_extremes[1] or not six_extremes[1])
         if {sampled.points[k] for k in sampled.hull.history[0].added} <= {*_extreme_points(sampled.points)}:

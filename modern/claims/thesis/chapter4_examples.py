@@ -6,14 +6,14 @@ The claims are computed exactly from the printed points. The programs read them 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from decimal import ROUND_DOWN, Context
 from fractions import Fraction
 from functools import cache
 from itertools import product
 
 from emulator.machine.result import Options
-from modern.claims.register import CONDITION, HOLDS, CheckResult, counterexample, fails_if, holds_if
+from modern.claims.evidence import Check, claim, holds_if, refuted
+from modern.claims.sampled_sets import counterexample
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
@@ -35,9 +35,9 @@ def theorem_of(name: str) -> Theorem:
     return {theorem.id: theorem for theorem in load_theorems()}[name]
 
 
-def worked_example_checks(theorem: Theorem, load: Load = programs.program) -> Mapping[str, CheckResult]:
+def worked_example_checks(theorem: Theorem, load: Load = programs.program) -> Mapping[str, Check]:
     """Check every claim of a worked example, by the name of its function. ``load`` returns the programs."""
-    checks: list[Callable[[Theorem], CheckResult]] = [_equations, *([_signs] if theorem.signs else [])]
+    checks: list[Callable[[Theorem], Check]] = [_equations, *([_signs] if theorem.signs else [])]
     checks += {"4.1": [_six_extremes], "4.2": [_not_supporting], "4.8": [_growing, _supporting, _last_outside]}[
         theorem.id
     ]
@@ -46,14 +46,27 @@ def worked_example_checks(theorem: Theorem, load: Load = programs.program) -> Ma
 
 
 @cache
-def _computed(theorem: str) -> Mapping[str, CheckResult]:
+def _computed(theorem: str) -> Mapping[str, Check]:
     return worked_example_checks(theorem_of(theorem))
 
 
-def worked_example(theorem: str, claim: str, kind: str = "") -> CheckResult:
+@claim("thesis.35", "thesis.233", theorem="4.1", claim="six_extremes")
+@claim("thesis.37", "thesis.112", theorem="4.2", claim="not_supporting")
+@claim("thesis.91", theorem="4.8", claim="last_outside")
+@claim("thesis.111", theorem="4.1", claim="programs")
+@claim("thesis.110", "thesis.109", theorem="4.1", claim="equations", kind="condition")
+@claim("thesis.118", theorem="4.2", claim="programs")
+@claim("thesis.115", theorem="4.2", claim="equations")
+@claim("thesis.116", theorem="4.2", claim="signs")
+@claim("thesis.152", theorem="4.8", claim="programs")
+@claim("thesis.147", theorem="4.8", claim="growing")
+@claim("thesis.150", theorem="4.8", claim="supporting")
+@claim("thesis.149", theorem="4.8", claim="equations")
+@claim("thesis.151", theorem="4.8", claim="signs")
+def worked_example(theorem: str, claim: str, kind: str = "") -> Check:
     """Return the check of a claim such as ``4.1 six_extremes``, with a condition if ``kind`` is given."""
     result = _computed(theorem)[claim]
-    return replace(result, verdict=CONDITION) if kind and result.verdict == HOLDS else result
+    return holds_if(result.holds, result.message, conditional=kind)
 
 
 # Sets in space whose three to six distinct extreme points are coplanar; only the last point is not in their plane.
@@ -65,7 +78,8 @@ EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
 )
 
 
-def number_of_extremes(claim: str) -> CheckResult:
+@claim("thesis.210", "thesis.107", claim="six_extremes")
+def number_of_extremes(claim: str) -> Check:
     """Check theorem 4.1 for three to six distinct extreme points that are coplanar, and its example."""
     checks = []
     for points in EXTREMES_IN_A_PLANE:
@@ -74,16 +88,16 @@ def number_of_extremes(claim: str) -> CheckResult:
         checks.append((exact_hull(points[:-1]).dimension, exact_hull(points).dimension) == (2, 3))
     example = worked_example("4.1", claim)
     message = f"three to six distinct extreme points are coplanar; the example: {example.message}"
-    return holds_if(all(checks) and example.verdict == HOLDS, message)
+    return holds_if(all(checks) and example.holds, message)
 
 
-def _equations(theorem: Theorem) -> CheckResult:
+def _equations(theorem: Theorem) -> Check:
     """Check that the printed equations are 0 at the points that they contain according to the text."""
     faults = theorem_faults(theorem, load_text())
     return holds_if(not faults, faults[0] if faults else "the printed equations are 0 at the named points")
 
 
-def _signs(theorem: Theorem) -> CheckResult:
+def _signs(theorem: Theorem) -> Check:
     """Check that the points lie outside or inside the equations as stated."""
     right = sum((theorem.plane(n).at(_point(theorem, p)) > 0) == (sign == "+") for n, p, sign in theorem.signs)
     return holds_if(right == len(theorem.signs), f"{right} of {len(theorem.signs)} signs are as stated")
@@ -111,7 +125,7 @@ def lost_candidates(theorem: Theorem) -> list[Vector]:
     return candidates
 
 
-def _six_extremes(theorem: Theorem) -> CheckResult:
+def _six_extremes(theorem: Theorem) -> Check:
     """Check that six extreme points are coplanar and the others are not in their plane, for every possible P3."""
     candidates = lost_candidates(theorem)
     off = [_point(theorem, name) for name in theorem.outside_plane]
@@ -130,7 +144,7 @@ def _faces(points: Sequence[Vector]) -> set[Vector]:
     return {scaled(tuple(Fraction(c) for c in hull.plane_of(facet)), True) for facet in hull.facets}
 
 
-def _not_supporting(theorem: Theorem) -> CheckResult:
+def _not_supporting(theorem: Theorem) -> Check:
     """Check that equations 7 and 8 of Table 1 are not supporting planes."""
     faces = _faces([point.at for point in theorem.points])
     table = [scaled(plane.coefficients, True) for plane in theorem.planes]
@@ -146,13 +160,13 @@ def _not_supporting(theorem: Theorem) -> CheckResult:
 ADDED = ("Q1", "Q6", "Q7", "Q2", "Q8", "Q5", "Q3", "Q4")
 
 
-def _growing(theorem: Theorem) -> CheckResult:
+def _growing(theorem: Theorem) -> Check:
     points = [_point(theorem, name).at for name in ADDED]
     vertices = [len(exact_hull([*map(list, points[:n])]).vertices) for n in range(4, 9)]
     return holds_if(vertices == [4, 5, 6, 7, 8], f"the hulls have {', '.join(map(str, vertices))} vertices")
 
 
-def _supporting(theorem: Theorem) -> CheckResult:
+def _supporting(theorem: Theorem) -> Check:
     faces = _faces([_point(theorem, name).at for name in ADDED])
     table = {scaled(plane.coefficients, True) for plane in theorem.planes}
     return holds_if(
@@ -161,7 +175,7 @@ def _supporting(theorem: Theorem) -> CheckResult:
     )
 
 
-def _last_outside(theorem: Theorem) -> CheckResult:
+def _last_outside(theorem: Theorem) -> Check:
     """Check that the last point is outside equations 3 to 8."""
     points = [_point(theorem, name).at for name in ADDED]
     outside = [plane.number for plane in theorem.planes if plane.at(_point(theorem, "Q9")) > 0]
@@ -169,7 +183,7 @@ def _last_outside(theorem: Theorem) -> CheckResult:
     return holds_if(passed, f"the last point is outside equations {', '.join(map(str, outside))}")
 
 
-def _programs(theorem: Theorem, load: Load) -> CheckResult:
+def _programs(theorem: Theorem, load: Load) -> Check:
     """Check that the listing finds the exact hull of the printed points, or rejects them if cards truncate them."""
     truncated_points = [[_CARD.divide(x.numerator, x.denominator) for x in point.at] for point in theorem.points]
     points: list[Vector] = [tuple(map(Fraction, point)) for point in truncated_points]
@@ -184,7 +198,9 @@ def _programs(theorem: Theorem, load: Load) -> CheckResult:
     return holds_if(passed, f"{description}{missing}: {_seen(outcome, agrees, judge)}")
 
 
-def procedure_of_4_8(kind: str = "") -> CheckResult:
+@claim("thesis.146", kind="theorem")
+@claim("thesis.245")
+def procedure_of_4_8(kind: str = "") -> Check:
     """Check that the procedure makes H_1, H_2 and H_5 of the text, but takes other points for H_3 and H_4.
 
     By the text of page 29 there is no H_1. ``theorem``: the last point is outside six planes of H_5.
@@ -203,21 +219,23 @@ def procedure_of_4_8(kind: str = "") -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def slips_of_4_8(which: str) -> CheckResult:
+@claim("thesis.246", which="list")
+@claim("thesis.247", which="table")
+def slips_of_4_8(which: str) -> Check:
     """Check the two points as page 56 prints them: (-4, -4, 2) in the list and (3, 4, -1) in the table."""
     theorem = theorem_of("4.8")
     printed_points, _ = csv_points(counterexample("slips_4_8.csv"), "slips_4_8.csv")
     listed, in_table = (Point("", tuple(map(Fraction, map(str, p))), "", "") for p in printed_points)
     if which == "list":
         nonzero = [plane.number for plane in theorem.planes if "Q1" in plane.vertices and plane.at(listed)]
-        return fails_if(nonzero == [1, 2, 7], f"equations {', '.join(map(str, nonzero))} are not 0 at (-4, -4, 2)")
+        return refuted(nonzero == [1, 2, 7], f"equations {', '.join(map(str, nonzero))} are not 0 at (-4, -4, 2)")
     nonzero = [plane.number for plane in theorem.planes if "Q6" in plane.vertices and plane.at(in_table)]
     not_a_point = in_table.at not in [point.at for point in theorem.points]
     message = (
         f"(3, 4, -1) is not one of the nine points, and equations {', '.join(map(str, nonzero))} of (3, 4, 1) are "
         "not 0 there"
     )
-    return fails_if(not_a_point and nonzero == [1, 6], message)
+    return refuted(not_a_point and nonzero == [1, 6], message)
 
 
 def _seen(outcome: Outcome, agrees: bool, judge: Outcome) -> str:

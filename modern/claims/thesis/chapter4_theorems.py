@@ -10,9 +10,9 @@ from fractions import Fraction
 from itertools import combinations, product
 from random import Random
 
-from modern.claims.register import CONDITION, FAILS, HOLDS, CheckResult, fails_if, holds_if
+from modern.claims.evidence import Check, claim, exhibited, holds_if, refuted
 from modern.claims.sampled_sets import (
-    COUNT,
+    CASES,
     Point,
     SampledSet,
     counterexample_points,
@@ -31,21 +31,24 @@ from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
 
 
-def eight_theorems() -> CheckResult:
+@claim("thesis.5")
+def eight_theorems() -> Check:
     """Check that theorems 4.1 to 4.8 each have a worked example or a check here."""
     examples = {theorem.id for theorem in load_theorems()}
     proofs = {"4.3": theorem_4_3, "4.4": theorem_4_4, "4.5": theorem_4_5, "4.6": theorem_4_6, "4.7": theorem_4_7}
-    passed = examples | proofs.keys() == {f"4.{k}" for k in range(1, 9)} and gap_in_4_7().verdict == CONDITION
+    passed = examples | proofs.keys() == {f"4.{k}" for k in range(1, 9)} and gap_in_4_7().holds
     message = "theorems 4.1 to 4.8 are all checked; one step of the proof of 4.7 does not follow"
     return holds_if(passed, message, conditional=True)
 
 
-def three_points_coplanar() -> CheckResult:
+@claim("thesis.108")
+def three_points_coplanar() -> Check:
     message = "six triples of points lie in a plane"
     return holds_if(all(exact_hull(three).dimension < 3 for three in random_triples()), message)
 
 
-def extremes_4_2() -> CheckResult:
+@claim("thesis.113")
+def extremes_4_2() -> Check:
     """Check that the six points are the extremes in x, y and z in the order of the theorem."""
     points = [point.at for point in theorem_of("4.2").points]
     passed = all(
@@ -55,29 +58,35 @@ def extremes_4_2() -> CheckResult:
     return holds_if(passed, "P1 to P6 are the extremes in x, y and z, the largest before the smallest")
 
 
-def inequalities_without_z() -> CheckResult:
+@claim("thesis.117")
+def inequalities_without_z() -> Check:
     """Check the printed inequality A x + B y + C < 0 for point 6 and equation 7."""
     (point,) = counterexample_points("point_6.csv")
     a, b, c, d = theorem_of("4.2").plane(7).coefficients
     as_printed, right = a * point[0] + b * point[1] + c, plane_value((int(a), int(b), int(c), int(d)), point)
     passed = as_printed > 0 > right and [*map(Fraction, point)] == [*theorem_of("4.2").points[5].at]
-    return fails_if(passed, f"at point 6 equation 7 has the value {as_printed} as printed, and {right} with z and D")
+    return refuted(passed, f"at point 6 equation 7 has the value {as_printed} as printed, and {right} with z and D")
 
 
-def theorem_4_3() -> CheckResult:
+@claim("thesis.119")
+def theorem_4_3() -> Check:
     """Check that V orders points by their distance from the line: V is the distance squared times D squared."""
     value_check = value_v()
     as_text = []
     for (x1, y1, z1), (x2, y2, z2), _ in random_triples():
         first_term = (y2 - y1) * (z2 - z1) - (z2 - z1) * (y2 - y1)
         as_text.append(first_term**2 + ((z2 - z1) * (x2 - x1) - (x2 - x1) * (z2 - z1)) ** 2)
-    return CheckResult(
-        value_check.verdict if not any(as_text) else FAILS,
+    return holds_if(
+        value_check.holds and not any(as_text),
         f"{value_check.message}; as displayed in our text of p. 41 it is 0 at every point",
+        conditional=True,
     )
 
 
-def distance_by_cosines(kind: str = "") -> CheckResult:
+@claim("thesis.120", kind="display")
+@claim("thesis.121", "thesis.122", "thesis.124", "thesis.235")
+@claim("thesis.234", kind="substituted")
+def distance_by_cosines(kind: str = "") -> Check:
     """Check that d squared, by three determinants with direction cosines, times (e D)^2 is V.
 
     With any ``kind`` the display in our text, which has lost signs and indices, is compared as well.
@@ -100,15 +109,19 @@ def distance_by_cosines(kind: str = "") -> CheckResult:
     return holds_if(all(checks), "the formula agrees exactly for six triples of points")
 
 
-def sign_e() -> CheckResult:
+@claim("thesis.123")
+def sign_e() -> Check:
     """Check the sign e of the counterexample's line, chosen as page 42 says."""
     p, q = counterexample_points("e_minus_one.csv")
     first = next(k for k in (q[2] - p[2], q[1] - p[1], q[0] - p[0]) if k)
     e = 1 if first > 0 else -1
-    return fails_if(e == -1 and e * e == 1, f"e is {e} if z decreases from P1 to P2; its square is 1")
+    return refuted(e == -1 and e * e == 1, f"e is {e} if z decreases from P1 to P2; its square is 1")
 
 
-def proof_of_4_4(part: str) -> CheckResult:
+@claim("thesis.128", part="coefficient")
+@claim("thesis.129", part="sum")
+@claim("thesis.130", part="letters")
+def proof_of_4_4(part: str) -> Check:
     """Check C_0 as page 46 prints it for two points and a point k between them: it is the C of (3.4), and 0.
 
     ``letters``: with z for y the formula gives -B, and with z for x it gives -A. The sign does not matter because both
@@ -155,10 +168,11 @@ def _letters(p: Point, q: Point, r: Point) -> bool:
     return (printed(0, 1), printed(0, 2), printed(2, 1)) == (c, -b, -a)
 
 
-def theorem_4_5(count: str = COUNT) -> CheckResult:
+@claim("thesis.74", "thesis.131", "thesis.238")
+def theorem_4_5(cases: int = CASES) -> Check:
     """Check that each H_j of a flat set is the hull of its vertices and that its edges are the lines."""
     checks = []
-    for sampled in sampled_sets(2, int(count)):
+    for sampled in sampled_sets(2, cases):
         for stage in sampled.stages():
             judge = exact_hull([sampled.points[k] for k in stage.vertices])
             checks.append(
@@ -174,7 +188,8 @@ def _touches(sampled: SampledSet, equations: Sequence[tuple[int, int, int, int]]
     return all(max(row) == 0 and row.count(0) >= 2 for row in values)
 
 
-def combinations_inside() -> CheckResult:
+@claim("thesis.132")
+def combinations_inside() -> Check:
     """Check that convex combinations of the vertices of a hull have no positive value."""
     random = Random(48)
     checks = []
@@ -190,7 +205,9 @@ def combinations_inside() -> CheckResult:
     return holds_if(all(checks), f"none of {len(checks)} values of combinations is positive")
 
 
-def theorem_4_6(kind: str = "") -> CheckResult:
+@claim("thesis.71", "thesis.135", "thesis.136")
+@claim("thesis.242", kind="bars")
+def theorem_4_6(kind: str = "") -> Check:
     """Check that the values of a line order points by their distance from it, and that the printed formula gives it.
 
     ``bars`` uses the absolute values as placed in our text.
@@ -219,25 +236,29 @@ def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]
     return (p[0] + t * along[0] - x[0]) ** 2 + (p[1] + t * along[1] - x[1]) ** 2
 
 
-def theorem_4_7(count: str = COUNT) -> CheckResult:
+@claim("thesis.90", "thesis.137", "thesis.142", "thesis.143", "thesis.259")
+def theorem_4_7(cases: int = CASES) -> Check:
     """Check that a point is outside at most one line of each H_j of flat sets."""
-    most = cases = 0
-    for sampled in sampled_sets(2, 2 * int(count)):
-        for stage in sampled.stages():
-            for point in sampled.points:
-                cases += 1
-                most = max(most, sum(plane_value(plane, point) > 0 for plane in stage.equations))
-    return holds_if(most == 1, f"in {cases} pairs of a point and a stage, a point is outside at most {most} line")
+    numbers = [
+        sum(plane_value(plane, point) > 0 for plane in stage.equations)
+        for sampled in sampled_sets(2, 2 * cases)
+        for stage in sampled.stages()
+        for point in sampled.points
+    ]
+    message = f"in {len(numbers)} pairs of a point and a stage, a point is outside at most {max(numbers)} line"
+    return holds_if(max(numbers) == 1, message)
 
 
-def choice_of_first_triangle() -> CheckResult:
+@claim("thesis.138")
+def choice_of_first_triangle() -> Check:
     """Check a triangle that is not chosen by the rule: a further point is outside two of its lines."""
     triangle, point = [(0, 0, 0), (2, 0, 0), (0, 2, 0)], (-1, -1, 0)
     outside = sum(plane_value(facet.plane, point) > 0 for facet in exact_hull(triangle).facets)
     return holds_if(outside == 2, "(-1, -1) is outside two lines of the triangle (0, 0), (2, 0), (0, 2)")
 
 
-def gap_in_4_7() -> CheckResult:
+@claim("thesis.145")
+def gap_in_4_7() -> Check:
     """Check a case that the proof does not exclude: a point outside one line of H_k and two lines of H_k+1."""
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
     lines = [facet.plane for facet in exact_hull(square).facets]
@@ -252,12 +273,13 @@ def gap_in_4_7() -> CheckResult:
         and any(plane_value(plane, (x, y, 0)) > 0 for plane in new)
         and sum(plane_value(plane, (x, y, 0)) > 0 for plane in after) > 1
     )
-    theorem_holds = theorem_4_7().verdict == HOLDS
+    theorem_holds = theorem_4_7().holds
     message = f"({point[0]}, {point[1]}) is outside at most one line of a square, and outside two after (5, 2) is added"
     return holds_if(theorem_holds, message, conditional=True)
 
 
-def outside_unreplaced_line() -> CheckResult:
+@claim("thesis.260")
+def outside_unreplaced_line() -> Check:
     """Check the counterexample: a point is outside a line of H_1 that is not replaced and so remains a line of H_2."""
     points = counterexample_points("line_stays.csv")
     sampled = SampledSet(tuple(points), convex_hull(points, history=True), exact_hull(points))
@@ -270,10 +292,12 @@ def outside_unreplaced_line() -> CheckResult:
         if k + 1 != checked and plane_value(plane, point) > 0 and plane in after.equations
     ]
     message = ", ".join(f"{point[:2]} is outside line {k}" for k, point in unreplaced)
-    return fails_if(unreplaced, f"{message}; the line replaced is line {checked}")
+    return refuted(unreplaced, f"{message}; the line replaced is line {checked}")
 
 
-def lines_of_figure_3(kind: str = "") -> CheckResult:
+@claim("thesis.243", "thesis.141", kind="condition")
+@claim("thesis.140")
+def lines_of_figure_3(kind: str = "") -> Check:
     """Check that the printed lines are outward, with P_3 at the origin, P_1 = (x1, y1), P_2 = (x1, y2) and y1 < y2."""
     checks = []
     for x1, y1, y2 in ((3, -1, 2), (5, -4, -1), (2, 1, 6)):
@@ -286,9 +310,7 @@ def lines_of_figure_3(kind: str = "") -> CheckResult:
             x < 0 for x, y in product(range(-6, 7), repeat=2) if all(a * x + b * y + c > 0 for a, b, c in lines[1:])
         ]
     message = f"{len(checks)} lines and points agree"
-    if not all(checks):
-        return CheckResult(FAILS, message)
-    return CheckResult(CONDITION if kind else HOLDS, message)
+    return holds_if(all(checks), message, conditional=kind)
 
 
 def _printed_lines(x1: int, y1: int, y2: int) -> tuple[tuple[int, int, int], ...]:
@@ -296,10 +318,11 @@ def _printed_lines(x1: int, y1: int, y2: int) -> tuple[tuple[int, int, int], ...
     return (1, 0, -x1), (y1, -x1, 0), (-y2, x1, 0)
 
 
-def origin_is_third_point(count: str = COUNT) -> CheckResult:
+@claim("thesis.244")
+def origin_is_third_point(cases: int = CASES) -> Check:
     """Check that no point has a negative x if P_3 is the origin and P_1 P_2 is parallel to the y axis."""
     checks = []
-    for sampled in sampled_sets(2, int(count)):
+    for sampled in sampled_sets(2, cases):
         p, q, r = sampled.hull.history[0].added
         (line,) = (
             e
@@ -316,7 +339,8 @@ def origin_is_third_point(count: str = COUNT) -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} conditions hold")
 
 
-def single_point_outside() -> CheckResult:
+@claim("thesis.148")
+def single_point_outside() -> Check:
     """Check that exactly one of the nine points is outside H_5 and that the other eight are its vertices."""
     theorem = theorem_of("4.8")
     eight = [[*point.at] for point in theorem.points if point.name in ADDED]
@@ -331,11 +355,15 @@ def _at(plane: Sequence[Fraction | int], point: Sequence[Fraction]) -> Fraction:
     return sum((Fraction(a) * x for a, x in zip(plane, (*point, Fraction(1)), strict=True)), Fraction(0))
 
 
-def figure(number: str) -> CheckResult:
+@claim("thesis.114", number="1")
+@claim("thesis.134", number="2")
+@claim("thesis.139", number="3")
+@claim("thesis.144", number="4")
+def figure(number: str) -> Check:
     return {"1": _figure_1, "2": _added_triangle, "3": lines_of_figure_3, "4": _added_triangle}[number]()
 
 
-def _figure_1() -> CheckResult:
+def _figure_1() -> Check:
     theorem = theorem_of("4.2")
     sides: dict[frozenset[str], int] = {}
     for plane in theorem.planes:
@@ -348,6 +376,6 @@ def _figure_1() -> CheckResult:
     return holds_if(closed and beyond > 0, message)
 
 
-def _added_triangle() -> CheckResult:
-    replaced_lines = stage_property("replaced_line", "2")
-    return CheckResult(replaced_lines.verdict, f"each step removes one line and adds two: {replaced_lines.message}")
+def _added_triangle() -> Check:
+    replaced_lines = stage_property("replaced_line")
+    return exhibited(replaced_lines.holds, f"each step removes one line and adds two: {replaced_lines.message}")

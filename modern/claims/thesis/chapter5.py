@@ -8,7 +8,7 @@ from functools import cache
 
 from emulator.language.cards import deck_from_lines
 from emulator.language.formats import Literal
-from modern.claims.register import CheckResult, fails_if, holds_if
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.thesis.chapter7 import PLACES, deck_of, run_of, typed, vertices_of
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_card_hull, from_judge
@@ -26,7 +26,8 @@ MOST_POINTS = 51
 _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
 
 
-def error_in_program() -> CheckResult:
+@claim("thesis.280")
+def error_in_program() -> Check:
     """Check two decks that end with the message: one meets a fault of program 3, the other has too many digits."""
     names = ("throughc.deck", "zeroplane.deck")
     ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
@@ -41,13 +42,14 @@ def error_in_program() -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def message_after_wrong_hull() -> CheckResult:
+@claim("thesis.282")
+def message_after_wrong_hull() -> Check:
     """Check the last cards of a run that has lost vertices."""
     punched = run_of("silent.deck").final.result.punched
     punched_vertices, hull_vertices = vertices_of("silent.deck")
     announced = any("CONVEX HULL HAS BEEN DETERMINED" in card for card in punched)
     wrong = announced and punched_vertices != hull_vertices
-    return fails_if(wrong, f"the message is punched after {len(punched_vertices)} of {len(hull_vertices)} vertices")
+    return refuted(wrong, f"the message is punched after {len(punched_vertices)} of {len(hull_vertices)} vertices")
 
 
 @cache
@@ -56,7 +58,8 @@ def _first_run(exponent: str) -> HullRun:
     return run_hull(deck_from_lines("small", [f"{len(cards):2}", *cards]), programs.program)
 
 
-def points_are_coplanar() -> CheckResult:
+@claim("thesis.281")
+def points_are_coplanar() -> Check:
     """Check that points in space are reported as coplanar if their squared differences underflow."""
     typed_coplanar = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-16", "E-17")]
     passed = typed_coplanar == [False, False, True] and exact_hull(_SPACE).dimension == 3
@@ -64,7 +67,8 @@ def points_are_coplanar() -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def underflow() -> CheckResult:
+@claim("thesis.178")
+def underflow() -> Check:
     """Check that the result for one-digit coordinates depends on the power of ten that multiplies them."""
     hulls = [_first_run(exponent) for exponent in ("E+01", "E-17")]
     names = [run.final.name for run in hulls]
@@ -73,7 +77,8 @@ def underflow() -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def ninth_digit_of_product() -> CheckResult:
+@claim("thesis.158")
+def ninth_digit_of_product() -> Check:
     """Check that a product that needs nine digits loses the ninth."""
     arithmetic, (coordinates, *_) = take([("99999999", "0", "0"), ("11", "0", "0")], "truncating")
     product = Fraction(arithmetic.exact(coordinates[0] * coordinates[1], 2))
@@ -81,7 +86,8 @@ def ninth_digit_of_product() -> CheckResult:
     return holds_if(passed, f"99999999 times 11 is {product} instead of 1099999989")
 
 
-def plane_table_size() -> CheckResult:
+@claim("thesis.284")
+def plane_table_size() -> Check:
     """Check the 98 entries of the plane table, 2N - 4 for 51 points, although intermediate hulls need more."""
     size = next(entry.size for entry in programs.program("program3").storage.arrays() if entry.name == "KK")
     hull = exact_hull([(k, k**2, k**3) for k in range(MOST_POINTS)])
@@ -96,7 +102,8 @@ def plane_table_size() -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def line_table_size() -> CheckResult:
+@claim("thesis.283")
+def line_table_size() -> Check:
     """Check the 51 entries of the line table of program 2 with points on a parabola, all of which are vertices."""
     size = next(entry.size for entry in programs.program("program2").storage.arrays() if entry.name == "MM")
     most = {}
@@ -108,7 +115,8 @@ def line_table_size() -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def printed_hulls() -> CheckResult:
+@claim("thesis.285")
+def printed_hulls() -> Check:
     """Compare the hulls of examples 1 to 6 as printed in chapter 6 with the exact hulls."""
     checks = []
     for example in EXAMPLES:
@@ -123,7 +131,8 @@ def printed_hulls() -> CheckResult:
     )
 
 
-def possible_output() -> CheckResult:
+@claim("thesis.17")
+def possible_output() -> Check:
     """Compare the headings and messages in the listings with those on the cards printed in chapter 6."""
     missing: dict[str, set[str]] = {"PUNCH": set(), "PRINT": set()}
     for number in (1, 2, 3):
@@ -153,7 +162,8 @@ def _heading(item: object) -> str:
     return item.text if isinstance(item, Literal) and len(item.text.strip()) > len("NO.") else ""
 
 
-def first_card() -> CheckResult:
+@claim("thesis.279")
+def first_card() -> Check:
     """Check that N is in columns 1 and 2, read by FORMAT 1, and that one card for each point follows."""
     deck = data_deck([["1", "2", "3"]] * 8, "eight")
     cards = [card.text.rstrip() for card in deck.cards]
@@ -177,7 +187,8 @@ _CITED = {
 }
 
 
-def cited_pages() -> CheckResult:
+@claim("thesis.252")
+def cited_pages() -> Check:
     """Check that every cited page exists in its work and which works are cited by number."""
     within = [page <= _WORKS[work] for work, pages in _CITED.items() for page in pages]
     uncited = sorted({*_WORKS, 10} - {*_CITED})

@@ -12,8 +12,8 @@ from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import code_positions
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
-from modern.claims.register import FAILS, CheckResult, counterexample, fails_if, holds_if
-from modern.claims.sampled_sets import COUNT, Point, SampledSet, plane_through, sampled_sets
+from modern.claims.evidence import Check, claim, exhibited, holds_if, refuted
+from modern.claims.sampled_sets import CASES, Point, SampledSet, counterexample, plane_through, sampled_sets
 from modern.comparison.outcome import from_cards
 from modern.edition import programs
 from modern.exact_hull import exact_hull
@@ -48,7 +48,9 @@ def typed(run: HullRun) -> str:
     return " / ".join(line for step in run.steps for line in step.result.typed)
 
 
-def programs_compile(kind: str = "") -> CheckResult:
+@claim("thesis.3", "thesis.169")
+@claim("thesis.208", "thesis.207", kind="condition")
+def programs_compile(kind: str = "") -> Check:
     cards = {name: len(programs.deck(name).cards) for name in THREE}
     compiled = all(programs.program(name).code for name in THREE)
     message = "the decks compile: " + ", ".join(f"{name} with {n} cards" for name, n in cards.items())
@@ -60,14 +62,16 @@ def _positions(name: str) -> int:
     return OBJECT_PROGRAM + FUNCTION_NAMES + code_positions(program) + program.storage.fields * FIELD
 
 
-def program_sizes() -> CheckResult:
+@claim("thesis.4", "thesis.153")
+def program_sizes() -> Check:
     """Check that each program and its data fit 40,000 positions, and not 20,000, by the estimated size of the code."""
     sizes = [_positions(name) for name in THREE]
     message = f"the programs take about {', '.join(f'{n:}' for n in sizes)} positions"
     return holds_if(SMALLER_CORE < max(sizes) <= CORE, message)
 
 
-def three_programs_needed() -> CheckResult:
+@claim("thesis.193")
+def three_programs_needed() -> Check:
     """Check that a single program would need more than 40,000 positions for all code and the largest data."""
     code = sum(code_positions(programs.program(name)) for name in THREE)
     data = max(programs.program(name).storage.fields * FIELD for name in THREE)
@@ -76,7 +80,8 @@ def three_programs_needed() -> CheckResult:
     return holds_if(total > CORE, message, conditional=True)
 
 
-def fifty_one_points() -> CheckResult:
+@claim("thesis.14", "thesis.33", "thesis.157")
+def fifty_one_points() -> Check:
     """Check the arrays for 51 points, and a deck of fewer points that overflows the plane table."""
     points, _ = exact_points(deck_of("table.deck"))
     sizes = {entry.size for entry in programs.program("program3").storage.arrays()}
@@ -95,17 +100,19 @@ def _most_planes(points: np.ndarray) -> int:
     return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairs)
 
 
-def plane_through_c() -> CheckResult:
+@claim("thesis.93")
+def plane_through_c() -> Check:
     """Check the deck of KNOWN-FAULTS 3: it ends with an error message although its exact hull exists."""
     message = typed(run_of("throughc.deck"))
     points = [[*map(Fraction, point)] for point in exact_points(deck_of("throughc.deck"))[0].values()]
     judge = exact_hull(points)
     passed = message.endswith("ERROR IN PROGRAM") and judge.dimension == 3
     message = f"typed: {message}; the exact hull has {len(judge.vertices)} vertices and {len(judge.facets)} planes"
-    return fails_if(passed, message)
+    return refuted(passed, message)
 
 
-def truncated_roots() -> CheckResult:
+@claim("thesis.83", "thesis.84")
+def truncated_roots() -> Check:
     """Check that the listing punches wrong vertices for the deck of KNOWN-FAULTS 14."""
     punched, judge = vertices_of("between.deck")
     message = f"{len(punched ^ judge)} points differ between the punched vertices and the exact ones"
@@ -119,15 +126,17 @@ def vertices_of(name: str) -> tuple[set[int], set[int]]:
     return set(outcome.vertices), set(exact_hull([*map(list, points)]).vertices)
 
 
-def silent_loss() -> CheckResult:
+@claim("thesis.159")
+def silent_loss() -> Check:
     """Check four five-digit points for which the listing punches a wrong hull without a message."""
     punched, judge = vertices_of("silent.deck")
     message = typed(run_of("silent.deck"))
     passed = punched != judge and "NOT ACCEPTABLE" not in message
-    return fails_if(passed, f"{len(punched)} of {len(judge)} vertices are punched; typed: {message}")
+    return refuted(passed, f"{len(punched)} of {len(judge)} vertices are punched; typed: {message}")
 
 
-def notation() -> CheckResult:
+@claim("thesis.65")
+def notation() -> Check:
     """Check that programs 2 and 3 use the names of chapter 3 for their variables."""
     names = {entry.name for entry in programs.program("program3").storage.arrays()}
     text = programs.deck("program3").text() + programs.deck("program2").text()
@@ -138,7 +147,8 @@ def notation() -> CheckResult:
     )
 
 
-def inside_heading() -> CheckResult:
+@claim("thesis.263")
+def inside_heading() -> Check:
     """Check that program 3 punches FORMAT 5, the heading of inside points, only once."""
     cards = [card.text.strip() for card in programs.deck("program3").cards]
     place = next(k for k, card in enumerate(cards) if card.endswith("PUNCH 5"))
@@ -148,22 +158,26 @@ def inside_heading() -> CheckResult:
     return holds_if(passed, f"{cards[place - 1]} / {cards[place]} / {cards[place + 1]}")
 
 
-def eight_digits() -> CheckResult:
+@claim("thesis.181")
+def eight_digits() -> Check:
     """Check that a card field holds eight digits and has no room for a ninth."""
     try:
         coordinate_field("1.23456789")
     except ValueError as error:
         return holds_if(coordinate_field("1.2345678") == "+.12345678E+01", str(error))
-    return CheckResult(FAILS, "a ninth digit fits")
+    return exhibited(False, "a ninth digit fits")
 
 
-def quotient_truncated() -> CheckResult:
+@claim("thesis.182")
+def quotient_truncated() -> Check:
     arithmetic, row = take([("2", "3", "1")], "truncating")
     quotient = arithmetic.text(arithmetic.quotient(row[0][0], 3), 1)
     return holds_if(Fraction(quotient) == Fraction(66666666, 10**8), f"2 / 3 is {quotient}")
 
 
-def two_kinds_of_error(kind: str = "") -> CheckResult:
+@claim("thesis.248", kind="device")
+@claim("thesis.180", "thesis.249")
+def two_kinds_of_error(kind: str = "") -> Check:
     """Check that truncation changes coordinates, and also coefficients; with ``kind``, that more digits avoid the
     second.
     """
@@ -194,13 +208,15 @@ def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
     return [k for k, point in enumerate(all_points) if not arithmetic.is_zero(at(equation, point))]
 
 
-def points_off_own_plane() -> CheckResult:
+@claim("thesis.183")
+def points_off_own_plane() -> Check:
     """Check three points of three digits that do not satisfy the plane through them."""
     missed = _misses(_THREE)
     return holds_if(bool(missed), f"the plane through three points misses {', '.join(str(_THREE[k]) for k in missed)}")
 
 
-def fourth_point_off_plane() -> CheckResult:
+@claim("thesis.185")
+def fourth_point_off_plane() -> Check:
     """Check that a fourth point in the plane of three points can miss it in eight digits."""
     exactly = not any(
         sum(a * x for a, x in zip(plane_through(*_FOURTH[:3]), (*_FOURTH[3], 1), strict=True)) for _ in (0,)
@@ -209,13 +225,15 @@ def fourth_point_off_plane() -> CheckResult:
     return holds_if(exactly and _misses(_FOURTH) == [3], message)
 
 
-def programs_rejecting_data() -> CheckResult:
+@claim("thesis.184")
+def programs_rejecting_data() -> Check:
     """Check which programs contain the message."""
     has = [name for name in THREE if "DATA NOT ACCEPTABLE" in programs.deck(name).text()]
     return holds_if(has == ["program2", "program3"], f"the message is in {' and '.join(has)}", conditional=True)
 
 
-def vertex_within_interval() -> CheckResult:
+@claim("thesis.250", "thesis.187")
+def vertex_within_interval() -> Check:
     """Check that e = 20 hides a vertex that is about a tenth above a plane."""
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
     exact, with_epsilon = convex_hull(points), convex_hull(points, epsilon="20")
@@ -223,7 +241,8 @@ def vertex_within_interval() -> CheckResult:
     return holds_if(4 in exact.vertices and 4 not in with_epsilon.vertices, message)
 
 
-def interval_instead_of_rejection() -> CheckResult:
+@claim("thesis.186")
+def interval_instead_of_rejection() -> Check:
     """Check that e = 10 gives the right hull instead of a rejection, and e = 10,000,000 a wrong hull."""
     points = [*_THREE, (101, 77, -340), (250, 333, 90)]
     whole = [tuple(map(str, point)) for point in points]
@@ -237,7 +256,8 @@ def interval_instead_of_rejection() -> CheckResult:
     return holds_if(right == [False, True, False], message, conditional=True)
 
 
-def value_against_distance() -> CheckResult:
+@claim("thesis.188")
+def value_against_distance() -> Check:
     """Check that the value of an equation is not the distance: a point at the distance 1 has the value 1/100."""
     csv_rows, _ = csv_points(counterexample("short_normal.csv"), "short_normal.csv")
     p, q, r, x = (tuple(map(Fraction, map(str, point))) for point in csv_rows)
@@ -248,16 +268,17 @@ def value_against_distance() -> CheckResult:
     return holds_if(distance == 1 and abs(value) == Fraction(1, 100), message, conditional=True)
 
 
-def orientation_by_c(count: str = COUNT) -> CheckResult:
+@claim("thesis.189")
+def orientation_by_c(cases: int = CASES) -> Check:
     """Check that the outward planes of each H_j are negative at C; a plane eliminated later may pass through C."""
     checks = []
-    for sampled in sampled_sets(3, int(count)):
+    for sampled in sampled_sets(3, cases):
         added = sampled.hull.history[0].added
         total = _sum(sampled.points, added)
         for stage in sampled.stages():
             planes = [f.plane for f in exact_hull([sampled.points[k] for k in stage.vertices]).facets]
             checks += [dot(plane[:3], total) + plane[3] * len(added) < 0 for plane in planes]
-    through_c = plane_through_c().verdict == FAILS
+    through_c = not plane_through_c().holds
     return holds_if(all(checks) and through_c, f"{len(checks)} planes of all H_j are negative at C", conditional=True)
 
 
@@ -266,13 +287,14 @@ def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, i
     return x, y, z
 
 
-def orientation_by_constant_term(count: str = COUNT) -> CheckResult:
+@claim("thesis.190")
+def orientation_by_constant_term(cases: int = CASES) -> Check:
     """Check that, with the origin at C, the constant term has the sign of the value at C.
 
     If a plane passes through C, both are 0. The planes are those of all H_j and of all triples of five points.
     """
     checks = []
-    for sampled in sampled_sets(3, int(count)):
+    for sampled in sampled_sets(3, cases):
         added = sampled.hull.history[0].added
         x, y, z = total = _sum(sampled.points, added)
         moved = [tuple(len(added) * x - t for x, t in zip(point, total, strict=True)) for point in sampled.points]
@@ -282,7 +304,7 @@ def orientation_by_constant_term(count: str = COUNT) -> CheckResult:
             there, constant = a * x + b * y + c * z + d * len(added), plane_through(*(moved[k] for k in defining))[3]  # type: ignore[arg-type]
             checks.append((constant > 0, constant < 0) == (there > 0, there < 0))
     message = f"{len(checks)} constant terms have the sign of the value at C"
-    return holds_if(all(checks) and plane_through_c().verdict == FAILS, message, conditional=True)
+    return holds_if(all(checks) and not plane_through_c().holds, message, conditional=True)
 
 
 def _equations_made(sampled: SampledSet) -> int:
@@ -291,7 +313,8 @@ def _equations_made(sampled: SampledSet) -> int:
     return first + sum(3 * stage.outside for stage in stages[1:])
 
 
-def cost_of_orientation() -> CheckResult:
+@claim("thesis.195")
+def cost_of_orientation() -> Check:
     """Count the operations that substitute C into an equation; with the origin at C the constant term needs none."""
     operations: list[str] = []
 
@@ -310,20 +333,25 @@ def cost_of_orientation() -> CheckResult:
     return holds_if(products > 0 < sums, message)
 
 
-def cost_of_translation(count: str = COUNT) -> CheckResult:
+@claim("thesis.251", "thesis.196")
+def cost_of_translation(cases: int = CASES) -> Check:
     """Compare the sums saved, three for each equation, with the sums of the translation, six for each point."""
-    few = [3 * _equations_made(sampled) - 6 * len(sampled.points) for sampled in sampled_sets(3, int(count))]
+    few = [3 * _equations_made(sampled) - 6 * len(sampled.points) for sampled in sampled_sets(3, cases)]
     many = 3 * 4 - 6 * 51
     message = f"balance of sums saved: {', '.join(map(str, few))}; for 51 points with a tetrahedron as hull {many}"
     return holds_if(max(few) > 0 > many, message)
 
 
-def data_sheet(part: str) -> CheckResult:
+@claim("thesis.160", part="values")
+@claim("thesis.163", part="digits")
+@claim("thesis.161", part="columns")
+@claim("thesis.162", part="blank")
+def data_sheet(part: str) -> Check:
     """Check the sample cards of pages 58 and 59."""
     if part == "columns":
         points, _ = exact_points(deck_of("z_in_39.deck"))
         z = [point[2] for point in points.values()][-1]
-        return fails_if(Fraction(z) != 1, f"a z of 1 punched in columns 39 to 52 is read as {z}")
+        return refuted(Fraction(z) != 1, f"a z of 1 punched in columns 39 to 52 is read as {z}")
     if part == "blank":
         last = len(data_deck([["3", "12", ".0146"]], "one").cards[-1].text.rstrip())
         return holds_if(last == 42, f"three fields of 14 columns end in column {last}", conditional=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations, product
 
-from modern.claims.register import CheckResult, holds_if
-from modern.claims.sampled_sets import COUNT, Point, plane_through, plane_value, random_triples, sampled_sets
+from modern.claims.evidence import Check, claim, holds_if
+from modern.claims.sampled_sets import CASES, Point, plane_through, plane_value, random_triples, sampled_sets
 from modern.claims.thesis.chapter3_steps import all_hold
 from modern.claims.thesis.chapter4_examples import theorem_of
 from modern.exact_hull import ExactHull, exact_hull
@@ -16,7 +16,8 @@ from modern.geometry.vectors import cross, dot, minus
 _RAY: Point = (101, 37, 11)
 
 
-def coordinate_planes() -> CheckResult:
+@claim("thesis.277")
+def coordinate_planes() -> Check:
     """Check that the equation of a coordinate plane, from three of its points, has one nonzero coefficient."""
     checks = []
     for zero in range(3):
@@ -31,13 +32,14 @@ def _with_0(point: Point, axis: int) -> Point:
     return x, y, z
 
 
-def hull_of_projection(count: str = COUNT) -> CheckResult:
+@claim("thesis.274")
+def hull_of_projection(cases: int = CASES) -> Check:
     """Check that projections of flat sets keep the vertices, boundary and inside points, and the points of each line.
 
     The exact hull represents a line of a set in space by the plane through it perpendicular to the set.
     """
     checks = []
-    for sampled in sampled_sets(2, int(count)):
+    for sampled in sampled_sets(2, cases):
         plane = sampled.judge.plane
         assert plane is not None
         for axis in (k for k in range(3) if plane[k]):
@@ -52,7 +54,8 @@ def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
     return {*hull.vertices}, {*hull.boundary}, {*hull.inside}, lines
 
 
-def inside_nonconvex_polyhedron() -> CheckResult:
+@claim("thesis.38")
+def inside_nonconvex_polyhedron() -> Check:
     """Check that points inside the polyhedron of theorem 4.2 can be positive in an equation of a face.
 
     A point is inside if its ray meets an odd number of faces.
@@ -85,7 +88,8 @@ def _goes_through(start: Point, face: Sequence[Point]) -> bool:
     return len({*turns}) == 1 and (dot(normal, a) > 0) == (dot(normal, _RAY) > 0)
 
 
-def perpendicular_projection() -> CheckResult:
+@claim("thesis.55", "thesis.237")
+def perpendicular_projection() -> Check:
     """Check that a triangle projects to a segment if and only if its plane is perpendicular to the coordinate plane."""
     checks = [(_image_area(normal, axis) == 0) == (normal[axis] == 0) for normal in _normals() for axis in range(3)]
     return all_hold(
@@ -106,7 +110,8 @@ def _image_area(normal: Point, axis: int) -> int:
     return cross(u, v)[axis]  # type: ignore[arg-type]
 
 
-def projection_along_axis() -> CheckResult:
+@claim("thesis.198")
+def projection_along_axis() -> Check:
     """Check that setting one coordinate to 0 gives the foot of the perpendicular on the coordinate plane."""
     checks = []
     for point in (p for triple in random_triples() for p in triple):
@@ -117,16 +122,18 @@ def projection_along_axis() -> CheckResult:
     return all_hold(checks, "feet: the line from the point to its foot is perpendicular to the plane")
 
 
-def choice_of_projection() -> CheckResult:
+@claim("thesis.56")
+def choice_of_projection() -> Check:
     """Check that a triangle keeps a positive area on the coordinate plane that the rule chooses."""
     chosen = [(normal, 0 if normal[0] else 1 if normal[1] else 2) for normal in _normals()]
     return all_hold([_image_area(normal, axis) != 0 for normal, axis in chosen], "normals: the image is not a segment")
 
 
-def theorem_4_4(count: str = COUNT) -> CheckResult:
+@claim("thesis.54", "thesis.197", "thesis.125", "thesis.127", "thesis.236")
+def theorem_4_4(cases: int = CASES) -> Check:
     """Check that projections of flat sets along a coordinate that their plane is not parallel to keep the vertices."""
     checks = []
-    for sampled in sampled_sets(2, int(count)):
+    for sampled in sampled_sets(2, cases):
         plane = sampled.judge.plane
         assert plane is not None
         for k in range(3):
@@ -136,7 +143,8 @@ def theorem_4_4(count: str = COUNT) -> CheckResult:
     return holds_if(bool(checks) and all(checks), f"{sum(checks)} of {len(checks)} projections keep the vertices")
 
 
-def constant_term_of_4_4() -> CheckResult:
+@claim("thesis.273", "thesis.126")
+def constant_term_of_4_4() -> Check:
     """Check the constant terms of the coordinate planes, and of planes parallel to two of them."""
     units = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
     constants = {plane_through((0, 0, 0), p, q)[3] for p, q in combinations(units, 2)}

@@ -9,7 +9,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from modern.claims.register import CheckResult, fails_if, holds_if
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.sampled_sets import Point, counterexample_points
 from modern.claims.yau_srihari.envelopes import SOLID, array_of
 from modern.exact_hull import exact_hull
@@ -25,7 +25,8 @@ from modern.papers.yau_srihari.convexity import (
 )
 
 
-def definitions_differ() -> CheckResult:
+@claim("yau-srihari.6", "yau-srihari.20", "yau-srihari.116", "yau-srihari.27")
+def definitions_differ() -> Check:
     """Check that two voxels with a common corner are midpoint convex but not a convex solid; a bend is neither."""
     corner, bend = (array_of([(0, 0, 0), (1, 1, 0)]), array_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (2, 2, 0)]))
     definitions = [(is_midpoint_convex(a), is_digitally_convex(a)) for a in (corner, bend)]
@@ -33,7 +34,8 @@ def definitions_differ() -> CheckResult:
     return holds_if(definitions[0] == (True, False) and not definitions[1][1], message)
 
 
-def midpoint_convexity() -> CheckResult:
+@claim("yau-srihari.24")
+def midpoint_convexity() -> Check:
     """Check covers of one to eight voxels, and that a row with a gap is not convex."""
     sizes = [len(midpoint_cover((0, 0, 0), voxel)) for voxel in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1))]
     gap = is_midpoint_convex(array_of([(0, 0, 0), (2, 0, 0)]))
@@ -41,7 +43,8 @@ def midpoint_convexity() -> CheckResult:
     return holds_if(sizes == [1, 2, 4, 8] and not gap, message)
 
 
-def midpoint_covers() -> CheckResult:
+@claim("yau-srihari.107", "yau-srihari.25")
+def midpoint_covers() -> Check:
     """Check that the voxels that contain midpoints of two voxels are exactly those of the cover."""
     quarters = [Fraction(k, 4) for k in range(-2, 2)]
     checks = []
@@ -54,7 +57,8 @@ def midpoint_covers() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} pairs of voxels agree")
 
 
-def expansion_of_voxel() -> CheckResult:
+@claim("yau-srihari.26")
+def expansion_of_voxel() -> Check:
     """Check that one voxel meets eight voxels of the lattice moved by half a cell."""
     cell_count = int(half_cell_expansion(array_of([(0, 0, 0)])).sum())
     return holds_if(
@@ -64,7 +68,8 @@ def expansion_of_voxel() -> CheckResult:
     )
 
 
-def convexity_by_expansion() -> CheckResult:
+@claim("yau-srihari.126")
+def convexity_by_expansion() -> Check:
     """Check that expansions of convex solids, and of nine voxels without convexity, pass the test of 3.2.3."""
     nine = [(0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 2, 0), (1, 2, 1), (2, 0, 0), (2, 0, 1), (2, 1, 1), (2, 2, 1)]
     steps: list[Point] = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)]
@@ -81,7 +86,8 @@ def convexity_by_expansion() -> CheckResult:
     return holds_if(all(checks) and wider, message, conditional=True)
 
 
-def simple_with_a_tunnel() -> CheckResult:
+@claim("yau-srihari.29")
+def simple_with_a_tunnel() -> Check:
     """Check that a ring of twelve voxels around a cube's diagonal is simple although its Euler number is a ring's."""
     array = array_of(counterexample_points("tunnel.csv"))
     cells: set[Point] = set()
@@ -89,10 +95,12 @@ def simple_with_a_tunnel() -> CheckResult:
         cells.update((2 * x + i, 2 * y + j, 2 * z + k) for i, j, k in product(range(3), repeat=3))
     euler = sum((-1) ** sum(c % 2 for c in cell) for cell in cells)
     message = f"the solid is simple, but its Euler number is {euler}, and a ball has 1"
-    return fails_if(is_simple(array) and euler == 0, message)
+    return refuted(is_simple(array) and euler == 0, message)
 
 
-def nearness(kind: str = "semidigital") -> CheckResult:
+@claim("yau-srihari.31", kind="semidigital")
+@claim("yau-srihari.32", kind="near")
+def nearness(kind: str = "semidigital") -> Check:
     """Compare the semidigital points and the near points of the convexity test with their definitions.
 
     ``semidigital``: points of faces, sampled in thirds, with an integer coordinate that is not constant on the face are
@@ -162,7 +170,11 @@ def in_hypograph(f: Height, x: Fraction, y: Fraction, z: Fraction) -> bool:
     return z <= f(x, y)
 
 
-def convex_functions(kind: str = "segment") -> CheckResult:
+@claim("yau-srihari.42", "yau-srihari.117", "yau-srihari.43", "yau-srihari.118")
+@claim("yau-srihari.44", kind="negative")
+@claim("yau-srihari.47", kind="G+")
+@claim("yau-srihari.96", kind="G-")
+def convex_functions(kind: str = "segment") -> Check:
     """Check nine functions of two coordinates by the inequality, at shares of 1/3, 1/2 and 2/3 between eight points.
 
     ``segment``: no chord of a convex function is below the graph, and none of a concave one above. ``negative``: the

@@ -11,7 +11,7 @@ from random import Random
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.claims.register import FAILS, CheckResult, fails_if, holds_if
+from modern.claims.evidence import Check, claim, holds_if, refuted
 from modern.claims.sampled_sets import Point, counterexample_points, plane_through, plane_value, sampled_sets
 from modern.digital.solids import VERTEX, ball, listed
 from modern.exact_hull import exact_hull
@@ -38,23 +38,43 @@ def _hull() -> OctreeHull:
     return octree_hull(array_of(SOLID))
 
 
-def algorithm_as_printed(name: str) -> CheckResult:
+@claim("yau-srihari.58", name="triangles")
+@claim("yau-srihari.61", "yau-srihari.122", "yau-srihari.105", name="angle")
+@claim("yau-srihari.66", name="bound")
+@claim("yau-srihari.71", name="corners")
+@claim("yau-srihari.83", name="start")
+@claim("yau-srihari.86", name="truncation")
+@claim("yau-srihari.87", name="marks")
+def algorithm_as_printed(name: str) -> Check:
     """Compare one statement as printed with the corrected algorithm, on its counterexample."""
     array = array_of(counterexample_points(f"yau_{name}.csv"))
     wrong, right = octree_hull(array, Printed.only(name)).filled, octree_hull(array).filled
     missing, more = int((right & ~wrong).sum()), int((wrong & ~right).sum())
     message = f"of {int(right.sum())} voxels {missing} are missing, and {more} voxels are too many"
-    return fails_if(missing or more, message)
+    return refuted(missing or more, message)
 
 
-def minimum_not_unique() -> CheckResult:
+@claim("yau-srihari.1", "yau-srihari.109")
+def minimum_not_unique() -> Check:
     """Check that two voxels with a common corner have two smallest digitally convex solids, of three voxels."""
     both: list[Point] = [(0, 0, 0), (1, 1, 0)]
     least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
     return holds_if(all(least) and not is_simple(array_of(both)), "either of two voxels makes a convex solid of three")
 
 
-def envelopes_against_judge(kind: str = "") -> CheckResult:
+@claim(
+    "yau-srihari.2",
+    "yau-srihari.45",
+    "yau-srihari.95",
+    "yau-srihari.48",
+    "yau-srihari.51",
+    "yau-srihari.53",
+    "yau-srihari.54",
+    "yau-srihari.97",
+    "yau-srihari.120",
+)
+@claim("yau-srihari.4", "yau-srihari.38", "yau-srihari.49", kind="condition")
+def envelopes_against_judge(kind: str = "") -> Check:
     """Check that the faces of the envelopes are those of the exact hull that look down or up.
 
     Between them lie the digital points of the Euclidean hull. With ``kind``, also check that those of the
@@ -70,11 +90,12 @@ def envelopes_against_judge(kind: str = "") -> CheckResult:
     checks.append({*map(tuple, np.argwhere(_hull().filled).tolist())} == inside)
     message = f"a solid of {len(SOLID)} voxels, whose hull has {len(inside)} voxels"
     if kind:
-        return holds_if(all(checks) and disconnected_hull().verdict == FAILS, message, conditional=True)
+        return holds_if(all(checks) and not disconnected_hull().holds, message, conditional=True)
     return holds_if(all(checks), message)
 
 
-def deficiency_of_solid() -> CheckResult:
+@claim("yau-srihari.5")
+def deficiency_of_solid() -> Check:
     """Check that the hull without the convex deficiency is the solid."""
     array = array_of(SOLID)
     missing = convex_deficiency(array)
@@ -82,7 +103,8 @@ def deficiency_of_solid() -> CheckResult:
     return holds_if(bool((_hull().filled & ~missing == array).all()), message)
 
 
-def euclidean_convexity() -> CheckResult:
+@claim("yau-srihari.8", "yau-srihari.9", "yau-srihari.41")
+def euclidean_convexity() -> Check:
     """Check that the hull of the vertices is the hull, and that midpoints of vertices are in it."""
     checks = []
     for sampled in sampled_sets(3, 1):
@@ -99,7 +121,9 @@ def euclidean_convexity() -> CheckResult:
     return holds_if(all(checks), f"{len(checks)} cases hold")
 
 
-def light_cap(kind: str = "") -> CheckResult:
+@claim("yau-srihari.14")
+@claim("yau-srihari.16", kind="complexity")
+def light_cap(kind: str = "") -> Check:
     """Check that the light faces seen from a point in general position form one cap with one closed boundary."""
     points: list[Point] = [(0, 0, 0), (7, 1, 2), (1, 8, 3), (2, 3, 9), (9, 9, 8)]
     judge, new = exact_hull(points), (11, -4, 13)
@@ -114,7 +138,8 @@ def light_cap(kind: str = "") -> CheckResult:
     return holds_if(closed, message)
 
 
-def voxels_fill_space() -> CheckResult:
+@claim("yau-srihari.19")
+def voxels_fill_space() -> Check:
     """Check that every multiple of 1/4 is in exactly one half-open voxel, x - 1/2 < V <= x + 1/2."""
     checks = []
     for k in range(-8, 9):
@@ -126,7 +151,8 @@ def in_voxel(x: Fraction, v: int) -> bool:
     return x - Fraction(1, 2) < v <= x + Fraction(1, 2)
 
 
-def disconnected_hull() -> CheckResult:
+@claim("yau-srihari.36")
+def disconnected_hull() -> Check:
     """Check the counterexample: nine connected voxels whose hull contains a voxel without neighbours, midway."""
     stairs = counterexample_points("yau_stairs.csv")
     hull = octree_hull(array_of(stairs))
@@ -137,10 +163,11 @@ def disconnected_hull() -> CheckResult:
     whole = tuple(2 * m for m in middle) == (x + u, y + v, z + w)
     wrong = hull.components == 1 and whole and alone and not is_simple(hull.filled)
     message = f"the hull of {len(stairs)} connected voxels has {len(inside)}, and {middle} has no neighbour among them"
-    return fails_if(wrong, message)
+    return refuted(wrong, message)
 
 
-def smallest_convex_solid() -> CheckResult:
+@claim("yau-srihari.35")
+def smallest_convex_solid() -> Check:
     """Check that the digital points of a solid's hull pass the convexity test, and that a path of six voxels does not.
 
     The path contains all digital points of its hull. Two solids of seven voxels that contain the path pass, so there is
@@ -161,7 +188,9 @@ def smallest_convex_solid() -> CheckResult:
     return holds_if(passed and len(completions) > 1, message, conditional=True)
 
 
-def floor_and_ceiling(kind: str = "") -> CheckResult:
+@claim("yau-srihari.39")
+@claim("yau-srihari.50", kind="condition")
+def floor_and_ceiling(kind: str = "") -> Check:
     """Check that floor and ceiling are the smallest and the largest z of each column; ``kind`` names them alpha and
     beta.
     """
@@ -170,7 +199,8 @@ def floor_and_ceiling(kind: str = "") -> CheckResult:
     return holds_if(passed, f"{len(columns)} columns agree", conditional=kind)
 
 
-def ceiling_by_negation() -> CheckResult:
+@claim("yau-srihari.52", "yau-srihari.103")
+def ceiling_by_negation() -> Check:
     """Check that the envelope found for -beta has the negated heights of the upper hull."""
     judge = exact_hull(SOLID)
     envelope_points = {(x, y, -z) for face in _hull().upper.faces for x, y, z in face.vertices}
@@ -179,7 +209,8 @@ def ceiling_by_negation() -> CheckResult:
     return holds_if(envelope_points == upper, message, conditional=True)
 
 
-def extreme_points() -> CheckResult:
+@claim("yau-srihari.55", "yau-srihari.98", "yau-srihari.56", "yau-srihari.64")
+def extreme_points() -> Check:
     """Check that the vertices of the lower envelope are points of the floor and of the reduced set."""
     floor = {(x, y, z) for (x, y), z in _hull().floor.items()}
     vertices = {v for face in _hull().lower.faces for v in face.vertices}
@@ -187,7 +218,8 @@ def extreme_points() -> CheckResult:
     return holds_if(vertices <= floor and vertices <= {*_hull().lower.reduced}, message)
 
 
-def integer_normals() -> CheckResult:
+@claim("yau-srihari.84")
+def integer_normals() -> Check:
     """Check that all normals of faces and in the queue are integers and perpendicular to their edges or sides."""
     checks, upright = [], 0
     for side in (_hull().lower, _hull().upper):
@@ -201,17 +233,19 @@ def integer_normals() -> CheckResult:
     return holds_if(upright > 0 and all(checks), message)
 
 
-def supporting_triangle() -> CheckResult:
+@claim("yau-srihari.100")
+def supporting_triangle() -> Check:
     """Check the counterexample: a supporting plane contains a triangle of three corners that is not the whole face."""
     points = counterexample_points("yau_triangles.csv")
     judge = exact_hull(points)
     larger = [f for f in judge.facets if f.plane[2] < 0 and len(f.polygon) > 3]
     support = all(max(plane_value(f.plane, p) for p in points) == 0 for f in larger)
     message = ", ".join(str(len(f.polygon)) for f in larger)
-    return fails_if(larger and support, f"supporting planes that look down have {message} corners")
+    return refuted(larger and support, f"supporting planes that look down have {message} corners")
 
 
-def opposite_sides() -> CheckResult:
+@claim("yau-srihari.101")
+def opposite_sides() -> Check:
     """Check that planes through an edge of the lower envelope support unless a point lies on the opposite side."""
     checks = []
     floor = [(x, y, z) for (x, y), z in _hull().floor.items()]
@@ -225,14 +259,16 @@ def opposite_sides() -> CheckResult:
     return holds_if(all(checks) and bool(checks), f"{len(checks)} planes agree")
 
 
-def another_vertex() -> CheckResult:
+@claim("yau-srihari.99")
+def another_vertex() -> Check:
     """Check that the faces of the lower envelope have normals that point up when reversed, as v3 v2 v1."""
     normals = [normal_of(*reversed(face.vertices[:3])) for face in _hull().lower.faces]
     passed = all(n[2] > 0 for n in normals) and all(face.normal[2] < 0 for face in _hull().lower.faces)
     return holds_if(passed, f"the normals of {len(normals)} reversed faces point up", conditional=True)
 
 
-def epigraph_at_inner_nodes() -> CheckResult:
+@claim("yau-srihari.90")
+def epigraph_at_inner_nodes() -> Check:
     """Check an inner node with the heights 0, 1, 1, 1: as printed it is full, but the epigraph is not."""
     tops = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
     tree = written(no_columns(2), {place: Leaf(top) for place, top in tops.items()})
@@ -244,14 +280,16 @@ def epigraph_at_inner_nodes() -> CheckResult:
     return holds_if(passed, message, conditional=True)
 
 
-def pairs_of_points() -> CheckResult:
+@claim("yau-srihari.113")
+def pairs_of_points() -> Check:
     """Count the segments between n points for n up to 12."""
     counts = {n: len([*combinations(range(n), 2)]) for n in range(2, 13)}
     message = "the number is n (n - 1) / 2 for n from 2 to 12"
     return holds_if(all(2 * count == n * (n - 1) for n, count in counts.items()), message)
 
 
-def outward_normals() -> CheckResult:
+@claim("yau-srihari.119")
+def outward_normals() -> Check:
     """Check that the normals of the lower envelope point down and away from all points of the floor."""
     floor = [(x, y, z) for (x, y), z in _hull().floor.items()]
     checks = []
@@ -262,7 +300,8 @@ def outward_normals() -> CheckResult:
     return holds_if(bool(checks) and all(checks), f"the normals of {len(checks)} faces point outward")
 
 
-def queued_edges_reversed() -> CheckResult:
+@claim("yau-srihari.85")
+def queued_edges_reversed() -> Check:
     """Check that edges entered in the queue as u1 u3 or u3 u2 are always removed in the reverse direction."""
     random = Random(8)
     same, reverse, neither = 0, 0, 0
@@ -282,7 +321,8 @@ def queued_edges_reversed() -> CheckResult:
     return holds_if(reverse and not same and not neither, message, conditional=True)
 
 
-def row_and_column_steps() -> CheckResult:
+@claim("yau-srihari.128")
+def row_and_column_steps() -> Check:
     """Compare points extreme in both row and column with those left after a step by rows and one by columns."""
     random = Random(29)
     checks, larger = [], 0
@@ -300,7 +340,8 @@ def row_and_column_steps() -> CheckResult:
     return holds_if(all(checks) and larger, message, conditional=True)
 
 
-def angle_counts() -> CheckResult:
+@claim("yau-srihari.129")
+def angle_counts() -> Check:
     """Count angles in the lower halves of two balls, one for each point beyond an edge, and those the tree search
     computes.
     """

@@ -5,7 +5,21 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from modern.claims.register import CONDITION, DOCUMENTS, FAILS, HOLDS, UNTESTABLE, VERDICTS, Judged
+from modern.claims.evidence import GRADES
+from modern.claims.register import (
+    COLUMNS,
+    CONDITION,
+    DOCUMENTS,
+    FAILS,
+    HOLDS,
+    REPETITION,
+    SLIP,
+    UNTESTABLE,
+    USED,
+    Judged,
+    column,
+    grades,
+)
 from modern.edition.reproduce import DIFFERENT, EXACT, ORDER
 
 Paint = Callable[[str, str], str]
@@ -14,8 +28,16 @@ Indented = Callable[[str], Iterable[str]]
 """Wraps and indents an explanation."""
 
 _REASON = {CONDITION: "condition", HOLDS: "note"}
-_PAINT_KINDS = {HOLDS: EXACT, CONDITION: ORDER, FAILS: DIFFERENT, UNTESTABLE: ""}
-_PLURAL = {HOLDS: "hold", CONDITION: "with a condition", FAILS: "do not hold", UNTESTABLE: "not testable"}
+_PAINT_KINDS = {HOLDS: EXACT, CONDITION: ORDER, FAILS: DIFFERENT}
+_PLURAL = {
+    HOLDS: "hold",
+    CONDITION: "with a condition",
+    FAILS: "do not hold",
+    SLIP: "slips",
+    USED: "used",
+    UNTESTABLE: "not testable",
+    REPETITION: "repetitions",
+}
 
 
 def theorem_lines(judgements: Sequence[Judged], paint: Paint, indented: Indented) -> Iterator[str]:
@@ -44,12 +66,18 @@ def statement_lines(judgements: Sequence[Judged], paint: Paint, indented: Indent
         if row.document != document:
             document = row.document
             yield f"Statements of {document}"
-        yield f"  {row.id} ({row.page}, {row.kind}): {paint(row.verdict, _PAINT_KINDS[row.verdict])}"
+        grade = "" if row.verdict in (USED, UNTESTABLE) else f", {judged.grade}"
+        yield f"  {row.id} ({row.page}, {row.kind}): {paint(row.verdict, _PAINT_KINDS.get(row.verdict, ''))}{grade}"
         yield from indented(f"{row.says} [{row.words}]")
+        if row.same:
+            yield from indented(f"repeats {row.same}")
         if row.why:
             yield from indented(f"{_REASON.get(row.verdict, 'reason')}: {row.why}")
         if judged.message:
             yield from indented(judged.message)
+        for check in judged.checks:
+            if (description := check.evidence.describe()) != "exhibited":
+                yield from indented(description)
         if row.run:
             yield from indented(f"run: {row.run}")
         if not judged.agrees:
@@ -59,22 +87,22 @@ def statement_lines(judgements: Sequence[Judged], paint: Paint, indented: Indent
 
 
 def statement_summary(judgements: Sequence[Judged], paint: Paint, indented: Indented) -> Iterator[str]:
-    """Yield the number of statements of each document by verdict, and the ids of those that do not hold."""
+    """Yield the statements of each document by verdict and grade, and the ids of those that do not hold."""
     yield "Statements"
     for document in DOCUMENTS:
-        verdicts = [judged.statement for judged in judgements if judged.statement.document == document]
-        kinds = Counter(statement.verdict for statement in verdicts)
-        counted = ", ".join(f"{kinds[kind]} {_PLURAL[kind]}" for kind in VERDICTS if kinds[kind])
-        yield f"  {document}: {len(verdicts)}: {counted}"
-        failing = [statement.id for statement in verdicts if statement.verdict == FAILS]
+        rows = [judged for judged in judgements if judged.statement.document == document]
+        kinds = Counter(column(judged.statement) for judged in rows)
+        counted = ", ".join(f"{kinds[kind]} {_PLURAL[kind]}" for kind in COLUMNS if kinds[kind])
+        yield f"  {document}: {len(rows)}: {counted}"
+        graded = grades(rows)
+        yield from indented(f"of those that hold: {', '.join(f'{graded[g]} {g}' for g in GRADES if graded[g])}")
+        failing = [judged.statement.id for judged in rows if column(judged.statement) == FAILS]
         if failing:
             yield from indented(f"do not hold: {', '.join(failing)}")
     for judged in judgements:
         if not judged.agrees:
             message = f"{judged.statement.id}: computed: {judged.computed}: {judged.message}"
             yield from indented(paint(message, DIFFERENT))
-    tested = sum(judged.computed is None and judged.statement.verdict != UNTESTABLE for judged in judgements)
-    computed = sum(judged.computed is not None for judged in judgements)
-    yield f"  computed now: {computed}; checked by a test: {tested}"
+    yield f"  computed now: {sum(judged.computed is not None for judged in judgements)}"
     yield "  details: hull1620 reproduce DOCUMENT, or the id of a statement"
     yield ""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
-from modern.claims.register import DOCUMENTS, Statement, statements_of
+from modern.claims.register import DOCUMENTS, UNTESTABLE, USED, Judged, judged
 from modern.drawing.draw import draw_svg
 from modern.drawing.stages import frames, strip
 from modern.edition import programs
@@ -149,14 +149,17 @@ def statements() -> Iterator[str]:
     """Yield the statements of the five documents with their verdicts."""
     for name in DOCUMENTS:
         yield heading(f"Statements: {name}", 2, label("statements", name))
-        rows = [_statement(row) for row in statements_of(name)]
-        place = max(len(row.page) for row in statements_of(name))
+        rows = [_statement(judgement) for judgement in judged(name)]
+        place = max(len(judgement.statement.page) for judgement in judged(name))
         head = [say(title) for title in ("", "page", "statement", "verdict")]
         yield table(head, rows, (4, place, 90, 62), (4, min(place, 11), 12, 12))
 
 
-def _statement(row: Statement) -> list[str]:
-    verdict = call("strong", say(_SHORT.get(row.verdict, row.verdict)))
-    why = say(f": {row.why}") if row.why else ""
+def _statement(judgement: Judged) -> list[str]:
+    row = judgement.statement
+    grade = "" if row.verdict in (USED, UNTESTABLE) else f", {judgement.grade}"
+    verdict = call("strong", say(_SHORT.get(row.verdict, row.verdict) + grade))
+    reason = f"as {row.same.partition('.')[2]}" if row.same else row.why
+    why = say(f": {reason}") if reason else ""
     number = row.id.partition(".")[2]
     return [f"#[{say(number)}] <{label('row', row.id)}>", say(row.page), say(row.says), verdict + why]

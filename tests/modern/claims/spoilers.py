@@ -12,30 +12,38 @@ from typing import Any
 
 import pytest
 
-from modern.claims.register import CONDITION, FAILS, HOLDS, CheckResult, run_claim
+from modern.claims.evidence import Check, exhibited
 from tests.support.caches import cleared
 
 Original = Any
 Spoiler = Callable[[Original], object]
-SUPPORTING = (HOLDS, CONDITION)
 
 
 def assert_verdict_changes(claim: str, attribute: str, spoiler: Spoiler) -> None:
     """Assert that a claim that holds fails with the spoiled attribute, and the other way round."""
     module = import_module("modern.claims." + claim.split()[0].rpartition(".")[0])
-    expected = run_claim(claim).verdict
+    expected = run_claim(claim).holds
     with cleared(module), pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, attribute, spoiler(getattr(module, attribute)))
-        spoiled = run_claim.__wrapped__(claim).verdict
-    assert (spoiled in SUPPORTING) != (expected in SUPPORTING)
+        spoiled = run_claim(claim).holds
+    assert spoiled != expected
+
+
+def run_claim(claim: str) -> Check:
+    """Run a check, named by module and function below modern.claims, with the given positional arguments."""
+    name, *arguments = claim.split()
+    module, _, function_name = name.rpartition(".")
+    function = getattr(import_module(f"modern.claims.{module}"), function_name)
+    check: Check = function(*arguments)
+    return check
 
 
 def always(value: object) -> Spoiler:
     return lambda _: lambda *arguments, **named: value
 
 
-check_holds = always(CheckResult(HOLDS, ""))
-check_fails = always(CheckResult(FAILS, ""))
+check_holds = always(exhibited(True, ""))
+check_fails = always(exhibited(False, ""))
 
 
 def identity(_: Original) -> object:

@@ -12,7 +12,6 @@ import pytest
 import modern.claims.kovalevsky_schulz.complexes as complexes
 import modern.claims.kovalevsky_schulz.polyhedra as polyhedra
 import modern.claims.kovalevsky_schulz.raster as raster
-from modern.claims.register import CONDITION, FAILS, HOLDS
 from modern.digital.solids import Volume, listed
 from modern.papers.kovalevsky_schulz import CENTRES
 from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES
@@ -274,13 +273,13 @@ def test_memory_condition_names_the_right_diameters(diameter: int, monkeypatch: 
     k = polyhedra.DIAMETERS.index(diameter)
     triangles, integers, faces, _ = rows[k]
     other_vertices = 2000 if diameter in (10, 18) else 1
-    assert polyhedra.memory_requirements().verdict == CONDITION
+    assert polyhedra.memory_requirements().holds
     for spoiled in (
         (triangles, integers, faces, integers),
         (triangles, 10**6, faces, 5 * faces + 3 * other_vertices),
     ):
         monkeypatch.setattr(polyhedra, "_table_5", lambda row=spoiled: (*rows[:k], row, *rows[k + 1 :]))
-        assert polyhedra.memory_requirements().verdict == FAILS
+        assert not polyhedra.memory_requirements().holds
 
 
 @pytest.mark.parametrize("claim", ["smallest_neighbourhood", "topological_line", "raster incident", "raster shared"])
@@ -288,16 +287,16 @@ def test_missing_bounding_pair_fails(claim: str, monkeypatch: pytest.MonkeyPatch
     """Let the corner in the middle bound one voxel less."""
     bounded, sides = complexes.bounded, complexes.sides
     name, *arguments = claim.split()
-    assert getattr(complexes, name)(*arguments).verdict == HOLDS
+    assert getattr(complexes, name)(*arguments).holds
     monkeypatch.setattr(complexes, "bounded", lambda c: bounded(c) - {(3, 3, 3)} if c == (2, 2, 2) else bounded(c))
     monkeypatch.setattr(complexes, "sides", lambda c: sides(c) - {(2, 2, 2)} if c == (3, 3, 3) else sides(c))
-    assert getattr(complexes, name)(*arguments).verdict == FAILS
+    assert not getattr(complexes, name)(*arguments).holds
 
 
 def test_interior_without_a_cell_fails(monkeypatch: pytest.MonkeyPatch) -> None:
     original = complexes.interior
     monkeypatch.setattr(complexes, "interior", lambda cells: frozenset(sorted(original(cells))[1:]))
-    assert complexes.greatest_open_subset().verdict == FAILS
+    assert not complexes.greatest_open_subset().holds
 
 
 def test_missing_corner_fails(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -309,4 +308,4 @@ def test_missing_corner_fails(monkeypatch: pytest.MonkeyPatch) -> None:
         return array
 
     monkeypatch.setattr(complexes, "places", without_first)
-    assert complexes.cells_incident_to_voxels().verdict == FAILS
+    assert not complexes.cells_incident_to_voxels().holds

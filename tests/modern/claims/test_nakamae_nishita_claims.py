@@ -9,7 +9,6 @@ import pytest
 
 import modern.claims.nakamae_nishita.tables as tables
 import modern.claims.nakamae_nishita.visibility as visibility
-from modern.claims.register import CONDITION, FAILS, HOLDS
 from modern.papers.nakamae_nishita.contours import Tables
 from modern.papers.nakamae_nishita.crossings import CLEAR, Passage
 from modern.papers.nakamae_nishita.hidden import draw
@@ -142,7 +141,7 @@ def test_indices_must_count_the_intersections(monkeypatch: pytest.MonkeyPatch) -
         return replace(passage, marks=tuple((place, 1 if index > 0 else -1) for place, index in passage.marks))
 
     monkeypatch.setattr(visibility, "clipped", without_count)
-    assert [visibility.indices().verdict, visibility.three_conditions().verdict] == [FAILS, FAILS]
+    assert [visibility.indices().holds, visibility.three_conditions().holds] == [False, False]
 
 
 @pytest.mark.parametrize(("number", "wrong"), [(-2, -1), (-1, 0), (0, -1), (-4, -2)])
@@ -154,16 +153,16 @@ def test_wrong_crossing_number_fails(number: int, wrong: int, monkeypatch: pytes
         return wrong if crossing_number == number else crossing_number
 
     monkeypatch.setattr(Tables, "crossing_number", spoiled)
-    assert tables.formula("3").verdict == FAILS
+    assert not tables.formula("3").holds
 
 
 def test_condition_of_property_3_is_about_polygons_that_touch(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without polygons that touch, property 3 holds as printed and the list of three correlations is complete."""
     apart = [(tables.SQUARE, tables.BESIDE), (tables.SQUARE, tables.WITHIN), (tables.SQUARE, tables.ACROSS)]
-    assert [tables.table_properties(name).verdict for name in ("3", "LP")] == [CONDITION] * 2
+    assert [bool(tables.table_properties(name).evidence.violation) for name in ("3", "LP")] == [True] * 2
     monkeypatch.setattr(tables, "pairs", lambda: iter(apart))
-    assert [tables.table_properties(name).verdict for name in ("3", "LP")] == [HOLDS] * 2
-    assert tables.correlations().verdict == FAILS
+    assert [bool(tables.table_properties(name).evidence.violation) for name in ("3", "LP")] == [False] * 2
+    assert not tables.correlations().holds
 
 
 def test_touching_pair_of_the_row_has_a_column_without_minus_one() -> None:
@@ -184,4 +183,4 @@ def test_contour_with_a_dent_fails(monkeypatch: pytest.MonkeyPatch) -> None:
         return -1 if front_faces[0] == 2 else original(a, b)
 
     monkeypatch.setattr(tables, "dot", spoiled)
-    assert tables.convex_contour().verdict == FAILS
+    assert not tables.convex_contour().holds

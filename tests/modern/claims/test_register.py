@@ -1,13 +1,11 @@
-"""The register: its rows, the evidence that they name, and the detection of a wrong verdict."""
+"""The register: its rows, the evidence for them, and the detection of a wrong verdict."""
 
 from __future__ import annotations
 
-import ast
 import re
 import shlex
 from collections import Counter
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 
 import pytest
@@ -18,63 +16,46 @@ from modern.claims.register import (
     FAILS,
     HOLDS,
     MOST_WORDS,
+    SLIPS,
     UNTESTABLE,
-    CheckResult,
     Judgements,
     StatementError,
     Verdict,
+    counts,
+    decisions,
     judge,
+    judged,
     read_rows,
-    run_claim,
+    resolve,
     statements_of,
 )
-from modern.claims.thesis.chapter3_stages import PROPERTY_NAMES
 from modern.cli.main import main
 from tests.support.paths import ROOT
 
 ROWS = [row for document in DOCUMENTS for row in statements_of(document)]
+BY_ID = {row.id: row for row in ROWS}
 COUNTEREXAMPLES = Path(ROOT, "transcripts", "counterexamples")
-CLAIM = 'claim = "thesis.chapter3_equations.few_points"'
-VALID_ROW = f"""[[statement]]
-id = "x.1"
+VALID_ROW = """[1]
 page = "1"
 kind = "claim"
 words = "some words"
 says = "Something."
 verdict = "holds"
-{CLAIM}
 """
-
-
-@cache
-def functions_of(path: str) -> frozenset[str]:
-    tree = ast.parse(Path(ROOT, path).read_text(encoding="utf-8"))
-    return frozenset(node.name for node in tree.body if isinstance(node, ast.FunctionDef))
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_computed_verdicts_are_the_recorded_ones(document: str) -> None:
-    results = Judgements()
-    disagreements = [
-        (judged.statement.id, judged.computed, judged.message)
-        for judged in (judge(row, results) for row in statements_of(document))
-        if not judged.agrees
-    ]
-    assert disagreements == []
+    assert [(row.statement.id, row.computed, row.message) for row in judged(document) if not row.agrees] == []
 
 
-@pytest.mark.parametrize("name", sorted({name for row in ROWS for name in row.tests}))
-def test_tests_named_in_rows_exist(name: str) -> None:
-    path, _, function = name.partition("::")
-    assert function.startswith("test_")
-    assert function in functions_of(path)
+def test_checks_decide_existing_statements_that_record_a_verdict() -> None:
+    assert [name for name in decisions() if name not in BY_ID or BY_ID[name].same] == []
 
 
-def test_rows_have_unique_ids_and_quotations_and_end_in_a_full_stop() -> None:
-    assert max(Counter(row.id for row in ROWS).values()) == 1
+def test_rows_have_unique_quotations_and_end_in_a_full_stop() -> None:
     assert {place: n for place, n in Counter((row.document, row.words) for row in ROWS).items() if n > 1} == {}
     for row in ROWS:
-        assert re.fullmatch(rf"{row.document}\.\d+", row.id)
         assert 1 <= len(row.words.split()) <= MOST_WORDS
         assert row.says.endswith(".")
 
@@ -89,14 +70,14 @@ def test_rows_have_unique_ids_and_quotations_and_end_in_a_full_stop() -> None:
         (UNTESTABLE, FAILS, FAILS),
     ],
 )
-def test_worst_verdict_of_claim_and_results_counts(first: Verdict, second: Verdict, worst: Verdict) -> None:
-    row = replace(ROWS[0], claim="thesis.chapter3_equations.few_points", results=("first", "second"), tests=())
+def test_worst_verdict_of_check_and_results_counts(first: Verdict, second: Verdict, worst: Verdict) -> None:
+    row = replace(BY_ID["thesis.47"], results=("first", "second"))
     results = {"first": first, "second": second}
-    judged = judge(row, lambda _, name: results[name])
-    assert judged.computed == worst
-    assert judged.message.endswith("; published results: first, second")
-    failing_claim = replace(row, claim="thesis.chapter2.vertex_formula_with_minus")
-    assert judge(failing_claim, lambda *_: HOLDS).computed == FAILS
+    judgement = judge(row, lambda _, name: results[name])
+    assert judgement.computed == worst
+    assert judgement.message.endswith("; published results: first, second")
+    failing_claim = replace(BY_ID["thesis.22"], results=("first",))
+    assert judge(failing_claim, lambda *_: HOLDS).computed in (FAILS, *SLIPS)
 
 
 @pytest.mark.parametrize(
@@ -153,26 +134,30 @@ def test_commands_that_show_counterexamples_run(
 
 def test_wrong_verdict_is_reported(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     results = Judgements()
-    for row in [row for row in statements_of("thesis") if row.claim][::12]:
+    checked = [row for row in statements_of("thesis") if row.id in decisions() and row.verdict not in SLIPS]
+    for row in checked[::12]:
         assert not judge(replace(row, verdict=FAILS if row.verdict != FAILS else HOLDS), results).agrees
-    monkeypatch.setattr("modern.claims.register.run_claim", lambda _: CheckResult(FAILS, "nothing"))
-    row = next(row for row in statements_of("yau-srihari") if row.claim and row.verdict == HOLDS)
+    row = next(row for row in statements_of("yau-srihari") if row.id in decisions() and row.verdict == HOLDS)
+    wrong = replace(row, verdict=FAILS)
+    monkeypatch.setattr("modern.cli.reproduce.statements_of", lambda _: (wrong,))
     assert main(["reproduce", row.id]) == 1
-    assert "BUT the computed verdict is: does not hold" in capsys.readouterr().out
+    assert "BUT the computed verdict is: holds" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
     ("original", "replacement", "message"),
     [
-        ("kind", "sort", "unknown field: sort"),
-        ("x.1", "y.1", "x: y.1: expected an id of the form x.NUMBER"),
+        ("kind", "sort", "x.1: unknown field: sort"),
+        ("[1]", "[first]", "x: expected tables with a number as name; found 'first'"),
         ('page = "1"\n', "", "missing field: page"),
         ('"holds"', '"perhaps"', "expected one of the verdicts holds"),
         ("some words", "one two three four five six seven eight nine", "at most 8 words"),
-        ('"holds"', '"not testable"', "must not name a claim or test"),
-        (CLAIM, "", "must name a claim, result or test"),
+        ('"holds"', '"used"', "the field 'code' and the verdict 'used' belong together"),
+        ('"holds"', '"holds"\ncode = "math.pi"', "the field 'code' and the verdict 'used' belong together"),
         ('"holds"', '"holds with a condition"', "needs a reason"),
         ('"holds"', '"does not hold"\nwhy = "so"', "needs a counterexample"),
+        ('"holds"', '"holds"\nsame = 2', "a repetition has no field verdict"),
+        ('verdict = "holds"', "same = 2", "expected in 'same' the number of a row with a verdict; found x.2"),
     ],
 )
 def test_invalid_row_is_rejected(original: str, replacement: str, message: str) -> None:
@@ -181,42 +166,29 @@ def test_invalid_row_is_rejected(original: str, replacement: str, message: str) 
         list(read_rows("x", VALID_ROW.replace(original, replacement)))
 
 
-def test_unknown_claim_or_result_is_named() -> None:
-    for name in ("thesis.chapter3_equations.nothing", "nothing.at_all"):
-        with pytest.raises(StatementError, match=f"there is no claim {re.escape(name)}"):
-            run_claim(name)
-    text = VALID_ROW.replace("x.1", "thesis.1").replace(CLAIM, 'result = "example 9"')
-    (row,) = read_rows("thesis", text)
-    with pytest.raises(StatementError, match="there is no result example 9"):
-        judge(row, Judgements())
+def test_repetition_has_the_verdict_of_the_row_that_decides() -> None:
+    repeated = VALID_ROW.replace("[1]", "[2]").replace('verdict = "holds"', "same = 1")
+    first, second = read_rows("x", VALID_ROW.replace('"holds"', '"not testable"\nwhy = "lost"') + repeated)
+    assert (second.verdict, second.why, second.same) == (UNTESTABLE, "lost", first.id)
 
 
-@pytest.mark.parametrize(
-    "claim",
-    [
-        "chapter3_equations.procedure_against_judge",
-        *(f"chapter3_stages.stage_property {name}" for name in PROPERTY_NAMES),
-        "chapter3_stages.eliminated_points",
-        "chapter2.planes_from_triples",
-        "chapter2.lines_from_pairs",
-        "chapter2.vertex_in_space",
-        "chapter2.gift_wrapping planes",
-        "chapter2.gift_wrapping lines",
-        "chapter4_theorems.origin_is_third_point",
-        "chapter3_steps.third_point",
-        "chapter3_steps.mean_of_first_hull",
-        "chapter3_steps.visible_planes counts",
-        "chapter3_steps.visible_planes pairs",
-        "projections.theorem_4_4",
-        "chapter4_theorems.theorem_4_5",
-        "chapter4_theorems.theorem_4_7",
-        "chapter7.orientation_by_c",
-        "chapter7.orientation_by_constant_term",
-    ],
-)
-def test_verdict_is_the_same_for_twenty_sets(claim: str) -> None:
-    """The command samples two sets of each dimension."""
-    assert run_claim(f"thesis.{claim} 20").verdict == run_claim(f"thesis.{claim}").verdict
+def test_missing_evidence_is_named() -> None:
+    row = BY_ID["thesis.47"]
+    with pytest.raises(StatementError, match=re.escape("there is no result example 9")):
+        judge(replace(row, results=("example 9",)), Judgements())
+    with pytest.raises(StatementError, match=re.escape("thesis.999: the verdict is 'holds', and there is no check")):
+        judge(replace(row, id="thesis.999"), Judgements())
+    with pytest.raises(StatementError, match=re.escape("the verdict is 'not testable', and there is a check")):
+        judge(replace(row, verdict=UNTESTABLE), Judgements())
+    with pytest.raises(StatementError, match=re.escape("there is no code modern.port.nothing")):
+        resolve(replace(row, code="modern.port.nothing"))
+
+
+def test_counts_separate_repetitions_and_slips() -> None:
+    numbers = sum(map(counts, DOCUMENTS), Counter())
+    assert numbers.total() == len(ROWS)
+    assert numbers["repetition"] == sum(bool(row.same) for row in ROWS)
+    assert numbers["slip"] == sum(row.verdict in SLIPS and not row.same for row in ROWS)
 
 
 def test_reproduce_accepts_documents_theorems_and_statements(capsys: pytest.CaptureFixture[str]) -> None:
@@ -232,10 +204,3 @@ def test_reproduce_accepts_documents_theorems_and_statements(capsys: pytest.Capt
     )
     assert main(["reproduce", "yau"]) == 2
     assert "a document (thesis, appel-will" in capsys.readouterr().err
-
-
-def test_every_claim_function_is_named_in_a_test() -> None:
-    """The tests of each document spoil what its claims rely on."""
-    texts = "".join(path.read_text(encoding="utf-8") for path in Path(__file__).parent.glob("test_*.py"))
-    functions = {row.claim.split()[0].rpartition(".")[2] for row in ROWS if row.claim}
-    assert sorted(name for name in functions if not re.search(rf'[".]{name}\b', texts)) == []

@@ -12,7 +12,6 @@ import modern.claims.thesis.chapter2 as chapter2
 import modern.claims.thesis.chapter3_stages as stages
 import modern.claims.thesis.chapter3_steps as steps
 import modern.claims.thesis.chapter3_wording as wording
-from modern.claims.register import CONDITION, FAILS, HOLDS
 from modern.claims.sampled_sets import SampledSet, sampled_sets
 from modern.exact_hull import exact_hull
 from modern.geometry.hull import Hull, Stage
@@ -273,7 +272,7 @@ PROPERTIES: dict[str, HullChange] = {
 
 @pytest.mark.parametrize("name", stages.PROPERTY_NAMES)
 def test_stage_property_fails_for_a_spoiled_construction(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert stages.stage_property(name, "6").verdict in (HOLDS, CONDITION)
+    assert stages.stage_property(name, 6).holds
     flat, spatial = (
         tuple(replace(sampled, hull=PROPERTIES[name](sampled.hull)) for sampled in sampled_sets(dimension, 6))
         for dimension in (2, 3)
@@ -281,16 +280,16 @@ def test_stage_property_fails_for_a_spoiled_construction(name: str, monkeypatch:
     monkeypatch.setattr(stages, "sampled_sets", lambda dimension, _: flat if dimension == 2 else spatial)
     monkeypatch.setattr(stages, "flat_and_spatial_sets", lambda _: (*flat, *spatial))
     try:
-        verdict = stages.stage_property(name, "6").verdict
+        holds = stages.stage_property(name, 6).holds
     except (IndexError, ValueError, StopIteration):
-        verdict = FAILS
-    assert verdict == FAILS
+        holds = False
+    assert not holds
 
 
 def test_condition_on_names_is_about_pairs_in_different_positions(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert steps.visible_planes("names").verdict == CONDITION
+    assert steps.visible_planes("names").holds
     monkeypatch.setattr(steps, "_same_places", lambda *_: True)
-    assert steps.visible_planes("names").verdict == HOLDS
+    assert steps.visible_planes("names").holds
 
 
 def test_plane_with_three_collinear_points_does_not_support(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -299,9 +298,9 @@ def test_plane_with_three_collinear_points_does_not_support(monkeypatch: pytest.
     judge = exact_hull(points)
     wrong = replace(judge, facets=(replace(judge.facets[0], plane=(0, -1, -1, 0)), *judge.facets[1:]))
     hull = sampled_sets(3, 1)[0].hull
-    for hull_of_judge, verdict in ((wrong, FAILS), (judge, HOLDS)):
+    for hull_of_judge, holds in ((wrong, False), (judge, True)):
         monkeypatch.setattr(chapter2, "sampled_sets", lambda *_, used=hull_of_judge: (SampledSet(points, hull, used),))
-        assert chapter2.supporting_planes().verdict == verdict
+        assert chapter2.supporting_planes().holds == holds
 
 
 def test_first_hull_is_often_larger_than_the_hull_of_the_extremes() -> None:

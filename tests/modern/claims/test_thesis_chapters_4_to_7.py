@@ -11,8 +11,7 @@ import pytest
 import modern.claims.thesis.chapter4_examples as examples
 import modern.claims.thesis.chapter4_theorems as theorems
 import modern.claims.thesis.chapter7 as chapter7
-from modern.claims.register import FAILS, HOLDS
-from modern.claims.register import counterexample as counterexample_text
+from modern.claims.sampled_sets import counterexample as counterexample_text
 from modern.edition.chapter6 import input_deck
 from modern.formats.deck import data_deck
 from tests.modern.claims.spoilers import (
@@ -257,11 +256,11 @@ def test_verdict_changes_with_spoiled_attribute(claim: str, attribute: str, spoi
 @pytest.mark.parametrize("kind", ["", "bars"])
 def test_distance_must_be_measured_from_the_line(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(theorems, "_distance_squared", lambda x, p, q: (x[0] - p[0]) ** 2 + (x[1] - p[1]) ** 2)
-    assert theorems.theorem_4_6(kind).verdict == FAILS
+    assert not theorems.theorem_4_6(kind).holds
 
 
 @pytest.mark.parametrize(("text", "place"), [("-4,4,2\n3,4,-1\n", "list"), ("-4,-4,2\n3,4,1\n", "table")])
 def test_corrected_slips_of_4_8_are_not_counterexamples(text: str, place: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert counterexample_text("slips_4_8.csv") == "-4,-4,2\n3,4,-1\n"
     monkeypatch.setattr(examples, "counterexample", lambda _: text)
-    assert examples.slips_of_4_8(place).verdict == HOLDS
+    assert examples.slips_of_4_8(place).holds

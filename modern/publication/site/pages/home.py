@@ -6,7 +6,7 @@ import hashlib
 from collections import Counter
 
 from emulator.language.cards import Deck
-from modern.claims.register import DOCUMENTS, THESIS, VERDICTS, statements_of
+from modern.claims.register import COLUMNS, DOCUMENTS, THESIS, counts
 from modern.drawing.draw import draw_svg
 from modern.drawing.punched import cards_svg
 from modern.edition import programs
@@ -69,16 +69,16 @@ def _restored(card: Card) -> str:
 def _verdicts() -> str:
     """Return the numbers of verdicts for the five documents, and the comparison of the printed examples."""
     rows = []
-    signs = {verdict: text("span", SIGNS[verdict], cls="quiet", aria_hidden="true") for verdict in VERDICTS}
+    signs = {name: text("span", SIGNS[name], cls="quiet", aria_hidden="true") for name in COLUMNS}
     for name in DOCUMENTS:
         prefix = "butler" if name == THESIS else name
         document = next(document for document in sources().documents if document.id.startswith(prefix))
-        count = Counter(row.verdict for row in statements_of(name))
+        count = counts(name)
         cells = (f"{count[verdict]}&nbsp;{sign}" for verdict, sign in signs.items())
-        shares = bar((f"v-{at}", count[verdict]) for at, verdict in enumerate(VERDICTS))
+        shares = bar((f"v-{at}", count[verdict]) for at, verdict in enumerate(COLUMNS))
         document_link = f"{escape(document.author)} {link(f'statements/{name}', '', document.title)}"
         rows.append((document_link, *cells, shares))
-    statements = table(("document", *VERDICTS, "share"), rows, "Verdicts", "Statements of the five documents")
+    statements = table(("document", *COLUMNS, "share"), rows, "Verdicts", "Statements of the five documents")
     return statements + _examples()
 
 
@@ -102,9 +102,14 @@ def _programs() -> str:
         pages = [page for page, _ in listing.pages()]
         rows_used = [row for row in listing.rows() if row.layer in built_in.layers]
         certainty = Counter(row.certainty for row in rows_used)
-        counts = ", ".join(f"{certainty[c]} {c}" for c in ("certain", "probable", "conjecture") if certainty[c])
+        sure = ", ".join(f"{certainty[c]} {c}" for c in ("certain", "probable", "conjecture") if certainty[c])
         title, page_range = link(built_in.name, "", built_in.title), f"{pages[0]}\u2013{pages[-1]}"
-        cells = (title, text("span", page_range, cls="whole"), str(len(listing.cards)), f"{len(rows_used)}: {counts}")
+        cells = (
+            title,
+            text("span", page_range, cls="whole"),
+            str(len(listing.cards)),
+            f"{len(rows_used)}: {sure}",
+        )
         rows.append((*cells, link(built_in.name.replace("program", "chart"), "", "flow chart")))
     return table(("program", "pages", "cards", "emendations", "control flow"), rows, "Programs")
 

@@ -5,44 +5,40 @@ The page contains all statements.  The script ``data.js`` hides those that the r
 
 from __future__ import annotations
 
-from collections import Counter
-
-from modern.claims.register import DOCUMENTS, VERDICTS, Statement, Verdict, counterexample, statements_of
+from modern.claims.register import COLUMNS, DOCUMENTS, UNTESTABLE, USED, Judged, Statement, column, counts, judged
+from modern.claims.sampled_sets import counterexample
 from modern.publication.site.made import Made, Part, Target, one_of, slug
 from modern.publication.site.markup import definitions, details, element, escape, preformatted, text
 
-SIGNS: dict[Verdict, str] = {
-    "holds": "\u2713",
-    "holds with a condition": "(\u2713)",
-    "does not hold": "\u2717",
-    "not testable": "\u2013",
-}
-_CLASSES = dict(zip(SIGNS, ("holds", "condition", "fails", "untested"), strict=True))
+# The sign and the CSS class of each column of the counts.
+SIGNS = dict(zip(COLUMNS, ("\u2713", "(\u2713)", "\u2717", "\u2248", "=", "\u2013", "\u2191"), strict=True))
+_CLASSES = dict(zip(COLUMNS, ("holds", "condition", "fails", "slip", "used", "untested", "repetition"), strict=True))
 
 
 def make(argument: str) -> Made:
     """Return the statements of a document, page by page."""
     name = one_of(argument, DOCUMENTS)
-    rows = statements_of(name)
-    parts = [Part(html=_controls(rows))]
-    rows_of: dict[str, list[Statement]] = {}
-    for row in rows:
-        rows_of.setdefault(row.page, []).append(row)
+    judgements = judged(name)
+    parts = [Part(html=_controls(name))]
+    rows_of: dict[str, list[Judged]] = {}
+    for judgement in judgements:
+        rows_of.setdefault(judgement.statement.page, []).append(judgement)
     for page, rows_of_page in rows_of.items():
         title = f"Page {page}" if page[:1].isdigit() else page.capitalize()
         html = element("ol", "".join(map(_statement, rows_of_page)), cls="statements")
         parts.append(Part(title, slug("page", page), html=html))
-    targets = [Target(row.id, row.id, f"statement {row.id}") for row in rows]
+    ids = [judgement.statement.id for judgement in judgements]
+    targets = [Target(row_id, row_id, f"statement {row_id}") for row_id in ids]
     return Made(tuple(parts), tuple(targets))
 
 
-def _controls(rows: tuple[Statement, ...]) -> str:
-    """Return the form that chooses the statements shown, with the number of statements for each verdict."""
-    counts = Counter(row.verdict for row in rows)
+def _controls(document: str) -> str:
+    """Return the form that chooses the statements shown, with the number of statements in each column."""
+    numbers = counts(document)
     boxes = ""
-    for verdict in VERDICTS:
-        box = element("input", type="checkbox", value=_CLASSES[verdict], name="verdict", checked=True)
-        boxes += element("label", box + escape(f" {SIGNS[verdict]} {verdict}: {counts[verdict]}"))
+    for name in COLUMNS:
+        box = element("input", type="checkbox", value=_CLASSES[name], name="verdict", checked=True)
+        boxes += element("label", box + escape(f" {SIGNS[name]} {name}: {numbers[name]}"))
     field = element("label", "Text: " + element("input", type="search", name="words", autocomplete="off"))
     button = text("button", "Show", type="submit")
     shown = text("output", "", cls="shown")
@@ -50,25 +46,27 @@ def _controls(rows: tuple[Statement, ...]) -> str:
     return element("form", inner, cls="controls filter", aria_label="Filter of the statements", hidden=True)
 
 
-def _statement(row: Statement) -> str:
+def _statement(judgement: Judged) -> str:
+    row, name = judgement.statement, column(judgement.statement)
     head = text("a", row.id, href=f"#{row.id}", cls="place")
-    sign = element("span", escape(SIGNS[row.verdict]), aria_hidden="true")
-    head += element("span", sign + " " + text("strong", row.verdict), cls=f"verdict v-{_CLASSES[row.verdict]}")
-    head += text("span", row.kind, cls="quiet")
+    sign = element("span", escape(SIGNS[name]), aria_hidden="true")
+    head += element("span", sign + " " + text("strong", row.verdict), cls=f"verdict v-{_CLASSES[name]}")
+    grade = "" if row.verdict in (USED, UNTESTABLE) else f"{judgement.grade}, "
+    head += text("span", grade + row.kind, cls="quiet")
     facts = definitions(
         (
             ("quotation", text("q", row.words) if row.words else ""),
+            ("repeats", text("a", row.same, href=f"#{row.same}") if row.same else ""),
             ("reason", escape(row.why)),
-            ("check", text("code", row.claim) if row.claim else ""),
-            ("results", escape(", ".join(row.results))),
-            ("tests", "<br>".join(text("code", name) for name in row.tests)),
+            ("check", escape(judgement.message)),
+            ("evidence", "<br>".join(escape(check.evidence.describe()) for check in judgement.checks)),
             ("counterexample", _counterexample(row)),
         ),
         cls="facts",
     )
     body = details("evidence", facts) if facts else ""
     inner = element("div", head, cls="statement-head") + text("p", row.says) + body
-    return element("li", inner, id=row.id, cls=_CLASSES[row.verdict])
+    return element("li", inner, id=row.id, cls=_CLASSES[name])
 
 
 def _counterexample(row: Statement) -> str:

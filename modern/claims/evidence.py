@@ -1,0 +1,197 @@
+"""Evidence for statements: the result of a check, and the grade that follows from the way in which it was computed.
+
+A check is a function that returns a :class:`Check`.  Only the constructors of this module make one, and each sets the
+grade from what it was given: :func:`proved` counts the steps of an argument, :func:`exhausted` the configurations of a
+whole domain, :func:`searched` the cases of a generator.  The decorator :func:`claim` names the statements that a check
+decides.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from random import Random
+from typing import Any, Final, Generic, Literal, TypeVar, get_args
+
+T = TypeVar("T")
+F = TypeVar("F", bound=Callable[..., "Check"])
+Grade = Literal["proved", "exhausted", "searched", "exhibited", "used", "quoted"]
+# The grades, strongest first.
+GRADES: tuple[Grade, ...] = get_args(Grade)
+_ATTRIBUTE: Final = "decides"
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """How a check was computed.
+
+    ``domain`` is the argument of a proof, the set that was exhausted, or the name of a generator; ``seed`` is that of
+    the generator.  ``violation`` is a case that violates the condition of the statement and refutes the statement.
+    ``correction`` is the reading with which a slip becomes true.
+    """
+
+    grade: Grade
+    cases: int = 1
+    domain: str = ""
+    seed: int | None = None
+    violation: str = ""
+    correction: str = ""
+
+    def describe(self) -> str:
+        """Return the grade with its cases, and the violation of the condition or the correction, in words."""
+        parts = [f"proved: {self.domain} ({self.cases} steps)" if self.grade == "proved" else ""]
+        if self.grade in ("exhausted", "searched"):
+            seed = "" if self.seed is None else f", seed {self.seed}"
+            parts = [f"{self.grade}: {self.domain}, {self.cases:,} cases{seed}"]
+        parts += [f"without the condition refuted by {self.violation}" if self.violation else ""]
+        parts += [f"true when read as {self.correction}" if self.correction else ""]
+        return "; ".join(part for part in parts if part) or self.grade
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """The result of a check: whether the statement holds, a message, and the evidence."""
+
+    holds: bool
+    message: str
+    evidence: Evidence
+
+    def unless(self, refutes: object, case: str) -> Check:
+        """Return the check of a statement with a condition: ``case`` violates the condition, and refutes.
+
+        If it does not refute, the condition is not needed, and the statement is reported to hold without one.
+        """
+        return replace(self, evidence=replace(self.evidence, violation=case)) if refutes else self
+
+
+@dataclass(frozen=True, slots=True)
+class Generator(Generic[T]):
+    """A generator of cases; ``draw`` makes one from random numbers, and ``accepts`` excludes unsuitable ones."""
+
+    name: str
+    seed: int
+    draw: Callable[[Random], T]
+    accepts: Callable[[T], bool] = lambda case: True
+
+    def cases(self, count: int) -> Iterator[T]:
+        """Yield the first ``count`` accepted cases, always the same ones."""
+        random = Random(self.seed)
+        while count:
+            case = self.draw(random)
+            if self.accepts(case):
+                count -= 1
+                yield case
+
+
+def proved(argument: str, steps: Iterable[object], message: str) -> Check:
+    """Return the check of a proof; ``steps`` are the truth values of the identities and cases that it consists of."""
+    return _all("proved", argument, steps, message)
+
+
+def exhausted(domain: str, outcomes: Iterable[object], message: str) -> Check:
+    """Return the check of a whole domain, with one truth value for each of its configurations."""
+    return _all("exhausted", domain, outcomes, message)
+
+
+def searched(generator: Generator[Any], cases: int, outcomes: Iterable[object], message: str) -> Check:
+    """Return the check of ``cases`` cases of a generator, each of which has any number of outcomes."""
+    check = _all("searched", generator.name, outcomes, message)
+    return replace(check, evidence=replace(check.evidence, cases=cases, seed=generator.seed))
+
+
+def search(generator: Generator[T], statement: Callable[[T], object], cases: int, message: str) -> Check:
+    """Return the check of a statement about every case of a generator; the first case that refutes it is shrunk."""
+    for case in generator.cases(cases):
+        if not statement(case):
+            smallest = shrink(case, lambda smaller: generator.accepts(smaller) and not statement(smaller))
+            return searched(generator, cases, [False], f"refuted by {smallest}")
+    return searched(generator, cases, [cases], message)
+
+
+def exhibited(holds: object, message: str) -> Check:
+    """Return the check of an instance that shows the statement."""
+    return Check(bool(holds), message, Evidence("exhibited"))
+
+
+def refuted(by: object, message: str) -> Check:
+    """Return the check of a counterexample; ``by`` is true if it refutes the statement."""
+    return Check(not by, message, Evidence("exhibited"))
+
+
+def slip(as_printed: object, as_corrected: object, correction: str, message: str) -> Check:
+    """Return the check of a slip of the print: the printed reading is false and the corrected one true."""
+    evidence = Evidence("exhibited", 2, correction=correction if as_corrected else "")
+    return Check(bool(as_printed), message, evidence)
+
+
+def holds_if(holds: object, message: str, conditional: object = False) -> Check:
+    check = exhibited(holds, message)
+    return check.unless(conditional, "see the reason") if conditional else check
+
+
+def _all(grade: Grade, domain: str, outcomes: Iterable[object], message: str) -> Check:
+    values = [bool(outcome) for outcome in outcomes]
+    return Check(all(values) and bool(values), message, Evidence(grade, len(values), domain))
+
+
+def shrink(case: T, fails: Callable[[T], bool]) -> T:
+    """Return a smaller case that still fails: nested tuples of integers lose elements, and integers approach 0."""
+    while (smaller := next((c for c in _smaller(case) if _fails(c, fails)), None)) is not None:
+        case = smaller
+    return case
+
+
+def _fails(case: T, fails: Callable[[T], bool]) -> bool:
+    # A smaller case may be one to which the statement does not apply, for example too few points.
+    try:
+        return fails(case)
+    except (ValueError, IndexError, ZeroDivisionError, AssertionError):
+        return False
+
+
+def _smaller(case: Any) -> Iterator[Any]:
+    if isinstance(case, tuple):
+        yield from (case[:k] + case[k + 1 :] for k in range(len(case)))
+        yield from ((*case[:k], inner, *case[k + 1 :]) for k, part in enumerate(case) for inner in _smaller(part))
+    elif isinstance(case, int) and case:
+        yield from (value for value in (0, int(case / 2), case - 1 if case > 0 else case + 1) if value != case)
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """A check with the arguments with which it decides a statement; ``full`` is the size of the full search, or 0."""
+
+    statement: str
+    function: Callable[..., Check]
+    subject: tuple[tuple[str, Any], ...] = ()
+    full: int = 0
+
+    def run_full(self) -> Check:
+        """Run the check at its full size."""
+        return self.function(**dict(self.subject), cases=self.full)
+
+
+def claim(*statements: str, full: int = 0, **subject: Any) -> Callable[[F], F]:
+    """Name the statements that a check decides.
+
+    statements: ids of rows of the register.
+    full: the number of cases of the full search, for a check with the parameter ``cases``.
+    subject: arguments that choose the subject of the check, for example a table; they never choose the verdict.
+    """
+
+    def decorate(function: F) -> F:
+        if full and "cases" not in inspect.signature(function).parameters:
+            raise TypeError(f"{function.__qualname__}: a check with a full size needs the parameter 'cases'")
+        decisions = [Decision(name, function, tuple(subject.items()), full) for name in statements]
+        function.__dict__.setdefault(_ATTRIBUTE, []).extend(decisions)
+        return function
+
+    return decorate
+
+
+def decisions_in(module: object) -> Iterator[Decision]:
+    """Yield the decisions of the checks that a module defines, in their order."""
+    for value in vars(module).values():
+        if inspect.isfunction(value) and value.__module__ == getattr(module, "__name__", ""):
+            yield from reversed(getattr(value, _ATTRIBUTE, ()))
