@@ -20,11 +20,11 @@ To add a verdict on a statement:
    must then change.
 6. Run ``hull1620 reproduce DOCUMENT.NUMBER``.
 
-A row without a check has the verdict "used", with the name of the code that follows it in ``code``, or "not testable",
-with a reasoned sentence in ``why``.  A row that repeats another one names its number in ``same`` and has no verdict.
+A row without a check has the verdict "used", with the name of the code that follows it in ``code``, or "not
+testable", with a reasoned sentence in ``why``.  A row that repeats another one names its number in ``same`` and has no verdict.
 
-To correct a verdict, change ``verdict`` and ``why`` in the row and the check.  The row records the verdict and the check
-computes it; ``hull1620 reproduce`` and the tests fail if they differ.
+To correct a verdict, change ``verdict`` and ``why`` in the row and the check.  The row records the verdict and the
+check computes it; ``hull1620 reproduce`` and the tests fail if they differ.
 
 To add a document (a paper needs more steps, see :mod:`modern.papers`):
 
