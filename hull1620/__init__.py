@@ -17,8 +17,6 @@
 - ``reproduce``: the printed results computed again
 """
 
-from __future__ import annotations
-
 import os
 from contextlib import suppress
 from importlib.util import find_spec

@@ -1,7 +1,5 @@
 """Convex hulls for Python programs: compute, draw and save them, and run the programs of 1963."""
 
-from __future__ import annotations
-
 import os
 import warnings
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Exact convex hulls of voxels for Python programs."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -5,8 +5,6 @@ The names below are the public interface; they are imported when first used.
 
 # Part of the distribution hull1620.
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from emulator import named

@@ -6,8 +6,6 @@ larger one, because doubles round where the 1620 truncates eight digits. Anythin
 number of points or planes, another order, or a refusal.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 ``python -m modern.bench.decks`` runs one deck, read from standard input, on the compiled engine.
 """
 
-from __future__ import annotations
-
 import random
 import sys
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The engines compared in one run: plain, compiled, the port in doubles, and the same program compiled natively."""
 
-from __future__ import annotations
-
 import importlib.metadata
 import os
 import platform

@@ -1,7 +1,5 @@
 """A modern Fortran compiler, if one is installed, and programs compiled with it."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import shutil

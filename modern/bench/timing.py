@@ -1,7 +1,5 @@
 """Timing: medians of five runs after one that fills caches, and plots of growth."""
 
-from __future__ import annotations
-
 import math
 import statistics
 import time

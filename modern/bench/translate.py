@@ -14,8 +14,6 @@ The differences of the two languages are translated as follows:
 Integers are those of the compiler, not four digits modulo 10000. ACCEPT has no counterpart and is refused.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator
 from typing import assert_never
 

@@ -1,7 +1,5 @@
 """The differences between punched cards and the exact hull, by point and by face, for a drawing of both."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from fractions import Fraction
 

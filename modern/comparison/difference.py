@@ -1,7 +1,5 @@
 """Compare an outcome with that of the exact hull: missing and extra points and equations, and numerical errors."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass

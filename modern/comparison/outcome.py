@@ -5,8 +5,6 @@ polyhedron, or the supporting lines of a polygon projected as in the thesis (p. 
 coordinate whose coefficient in the polygon's plane is not zero, so its coefficient in the line is 0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction

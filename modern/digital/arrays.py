@@ -1,7 +1,5 @@
 """Arrays of numbers from the bytes of a file: NPY, NPZ, and raw data whose shape and type the user states."""
 
-from __future__ import annotations
-
 import io
 import math
 import warnings

@@ -3,8 +3,6 @@
 A column is a line of voxels along the last axis. The hull of a volume is the hull of the ends of its columns.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -6,8 +6,6 @@ used. Planes have integer coefficients, and integers decide whether a voxel on a
 Kovalevsky and Schulz's polyhedron of voxel centres.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ If a plane or a line passes between two grid points, an integer division rounds 
 upper side. A grid point on the plane or line belongs to the hull.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -7,8 +7,6 @@ folder. It returns spacing, origin and directions as the shortest decimal text t
 treats these decimals as exact.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import os
@@ -33,6 +31,7 @@ from modern.digital.solids import MAX_CELLS, VolumeError
 from modern.digital.world import LPS, Position, World, length_text
 
 SERIES = "DICOM series"
+# The format of a file by the extension of its name.
 KINDS = {
     ".nii": "NIfTI",
     ".nii.gz": "NIfTI",
@@ -42,9 +41,8 @@ KINDS = {
     ".tiff": "TIFF",
     ".dcm": "DICOM",
 }
-"""The format of a file by the extension of its name."""
+# The seconds allowed for reading a file, plus one for each megabyte.
 LIMIT = 60
-"""The seconds allowed for reading a file, plus one for each megabyte."""
 _NO_PIXELS = "expected pixel data, found none"
 _CHILD = str(Path(__file__).with_name("itk_child.py"))
 

@@ -5,8 +5,6 @@ The result is ``array.npy``, in which x varies fastest, and ``facts.json``. The 
 as text and the names of the files of a series, or an ``error``.
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import json
@@ -20,8 +18,8 @@ from typing import Any
 
 READERS = {"NIfTI": "NiftiImageIO", "MetaImage": "MetaImageIO", "TIFF": "TIFFImageIO", "DICOM": "GDCMImageIO"}
 _POSITION, _ORIENTATION = "0020|0032", "0020|0037"
+# Distances between slices that differ by more than this fraction of their mean are reported.
 _UNEVEN = 1e-3
-"""Distances between slices that differ by more than this fraction of their mean are reported."""
 _LONGEST_MESSAGE = 160
 
 

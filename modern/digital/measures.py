@@ -4,8 +4,6 @@ The hull's vertices have integer coordinates (of voxel centres or corners). Volu
 surface is a sum of square roots, computed to ``AREA_DIGITS`` significant digits. It is exact if no root needs more.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -7,8 +7,6 @@ is kept as the exact value of its decimal text. ``space origin`` is the centre o
 truth values as compressed uint8 with the position.
 """
 
-from __future__ import annotations
-
 import gzip
 import io
 import math

@@ -9,8 +9,6 @@ on arrays of 64-bit integers. With coordinates from 0 on, the coefficients of a 
 of X by Y by Z cells are at most 12 XYZ. No volume that fits in memory comes near 63 bits.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, MutableSequence, Sequence
 from functools import cache, partial
 from typing import Any, NamedTuple

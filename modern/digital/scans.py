@@ -3,8 +3,6 @@
 Nothing is rounded. A threshold is a decimal, and the exact value of a binary floating-point number is compared with it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -18,8 +16,8 @@ from modern.digital.solids import NoVoxels, Volume, VolumeError
 from modern.digital.world import World, decimal_or_fraction
 from modern.geometry.numbers import finite_decimal
 
+# The largest range of values that is counted in a table. Other values are sorted.
 _TABLE_SIZE = 1 << 16
-"""The largest range of values that is counted in a table. Other values are sorted."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

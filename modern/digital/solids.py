@@ -4,8 +4,6 @@ A voxel is identified by its integer coordinates (x, y, z). Its centre is that p
 unit in each direction. The pixels of a plane picture are voxels with two coordinates.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ MetaImage, TIFF and DICOM, see :mod:`modern.digital.itk`. The coordinates of an 
 in the order x, y, z. A list of coordinates keeps its coordinates.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Sequence
@@ -29,8 +27,8 @@ from modern.digital.world import world_of
 from modern.formats.csv import rows
 from modern.geometry.numbers import quoted, real
 
+# The file name extensions for a filled hull.
 ARRAYS = (".npy", ".nrrd")
-"""The file name extensions for a filled hull."""
 _BALL = re.compile(r"(half-)?ball:([0-9]{1,9})(?::(voxel|vertex))?", re.ASCII)
 _INTEGER = re.compile(r"[+-]?[0-9]+", re.ASCII)
 _EXAMINED = 1 << 16

@@ -1,7 +1,5 @@
 """The differences between a claimed hull and the true hull in one picture, distinguished by shape and brightness."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction

@@ -5,8 +5,6 @@ Nakamae and Nishita (``modern.drawing.visible``) decides this, in fractions of t
 numbers only choose the positions of labels.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction

@@ -5,8 +5,6 @@ reconsidered until nothing changes. Only sums, products and quotients are used, 
 picture.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

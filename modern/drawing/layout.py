@@ -1,7 +1,5 @@
 """The layout of a picture: exact images of points converted to pixels, in hundredths."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction

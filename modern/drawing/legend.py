@@ -1,7 +1,5 @@
 """The band below a picture: its caption, the meaning of its marks and the directions of the axes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from fractions import Fraction
 

@@ -7,8 +7,6 @@ plate H (part 362277 of the parts catalog of IBM's 24 and 26 card punches). The 
 in their rows, numbers of columns below.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from emulator.errors import DeckError

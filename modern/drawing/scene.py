@@ -1,7 +1,5 @@
 """The scene of a picture: images of points, and the edges visible and hidden by the method of Nakamae and Nishita."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The construction H_1 to H_f (thesis p. 22-33) in pictures: a strip of stages, or an animation."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The elements of an SVG file as ASCII text; the marks of a picture differ in shape and in grey, never in colour."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass

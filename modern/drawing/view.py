@@ -4,8 +4,6 @@ The direction points from the solid to the eye. The x axis of the image is ``z x
 eye)``, so that the z axis of space is upright. Seen along z itself, x points right and y is upright.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ Images are homogeneous, (x, y, w) for the point (x/w, y/w) with w > 0, y upward.
 vertices, clockwise as seen from outside, as in the paper (section 2). All numbers are integers or fractions.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

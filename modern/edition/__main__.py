@@ -1,7 +1,5 @@
 """Write the device files of chapter 6 from witness, apparatus and layout, or check the chapter."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from pathlib import Path

@@ -4,8 +4,6 @@ Each point and plane names a line of the corrected print (witness and apparatus 
 its words.  :func:`theorem_faults` parses these words and compares the result with the data.
 """
 
-from __future__ import annotations
-
 import re
 import tomllib
 from collections.abc import Mapping, Sequence

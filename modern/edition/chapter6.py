@@ -6,8 +6,6 @@ print (layer ``stated``).  :mod:`modern.edition.chapter6_cards` combines print a
 deck, the cards that a program punches, or the lines that it types.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

@@ -7,8 +7,6 @@
 * :func:`check_files`: The committed device files equal those built from witness, apparatus and layout.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from decimal import Decimal

@@ -15,8 +15,6 @@ The kinds of ground (table ``ground`` of a row; ``also`` may hold a second groun
                 table count up from 1; ``page``: the piece is the number of its page
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal

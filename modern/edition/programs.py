@@ -1,7 +1,5 @@
 """The built-in programs, as committed or built from witness and apparatus with additional layers."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass

@@ -19,8 +19,6 @@ ones, for example ``l`` by ``1``.  The pairs that may be exchanged are listed in
 A pair must be used by at least two rows, or its entry in the table must name other evidence.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping

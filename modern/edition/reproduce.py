@@ -6,8 +6,6 @@ punched cards.  The print proves numbers, signs, order and words.  It does not p
 OCR lost and the FORMATs supply; a verdict distinguishes the two.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence

@@ -6,8 +6,6 @@ excerpts of that text.  These are the witnesses.  Each excerpt is recorded with 
 if a user has it.
 """
 
-from __future__ import annotations
-
 import hashlib
 import tomllib
 from collections.abc import Iterator

@@ -14,8 +14,6 @@ The alterations are:
 :mod:`modern.edition.weight` runs the variants.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -17,8 +17,6 @@ The checks of a variant (:mod:`modern.edition.variants`), in this order:
 run, up to the first that differs.  Each answer is stored at once, so that an interrupted run can be resumed.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import re

@@ -1,7 +1,5 @@
 """Write the results of the weight of evidence: a report, a table of cards and the undetected variants."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections import Counter

@@ -1,7 +1,5 @@
 """Construct the exact hull of points of any dimension, classify the points, and prove the result."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

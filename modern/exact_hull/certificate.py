@@ -28,8 +28,6 @@ same facts by other means (:mod:`modern.exact_hull.convexity`).
 The proof shares nothing with the construction: it has its own vectors, float64 images and error bounds.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress

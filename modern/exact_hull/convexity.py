@@ -63,8 +63,6 @@ of -N . (o - p) / |N| over all planes.  A point whose image is within r of o has
 Points within r - 2**-40 are accepted in this way.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

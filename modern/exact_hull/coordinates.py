@@ -1,7 +1,5 @@
 """Convert points to exact numbers, and these to integers with one common scale."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from itertools import chain

@@ -4,8 +4,6 @@ The triangles of a polyhedron that share a plane become one polygon.  Points in 
 their facets, the ends of a segment or the edges of a polygon, are found by sorting.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Evaluate every plane at every point exactly, for the certificate only, with a separate error bound."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

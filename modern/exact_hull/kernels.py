@@ -6,8 +6,6 @@ lists, each at a triangle that it sees, and the farthest point of a list is inse
 its points are compared with the new triangles.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The polygons of a surface as arrays, their planes as integers, and float64 images (see ``convexity``)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain

@@ -18,8 +18,6 @@ With numba (extra ``fast``) the same hull grows one point at a time (:mod:`moder
 Errors in this module cannot cause a wrong result, because every proposal is proved afterwards.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache

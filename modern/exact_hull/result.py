@@ -1,7 +1,5 @@
 """The result of the exact hull."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

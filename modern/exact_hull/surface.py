@@ -31,8 +31,6 @@ has the true sign, and any value closer to zero is computed in integers.
 If the points are small enough, all of this arithmetic is exact and the bound is 0; see ``Frame.bound``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Text in aligned columns, for tables on a terminal."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 
 

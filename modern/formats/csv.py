@@ -1,7 +1,5 @@
 """Lists of points: rows of three decimal numbers, separated by commas, semicolons, tabs or blanks."""
 
-from __future__ import annotations
-
 import csv
 import re
 from collections.abc import Iterator, Sequence

@@ -5,8 +5,6 @@ A data set is a card with N, the number of points, in columns 1-2, followed by N
 hold several data sets.  With the layer ``epsilon`` the card with N also holds e in columns 3-16 (OPEN-QUESTIONS 28).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from decimal import Decimal

@@ -4,8 +4,6 @@ OFF, OBJ and PLY preserve the faces as polygons.  STL splits them into triangles
 of a mesh are those of ``Hull.vertices``, in that order; only JSON also contains boundary and inside points.
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import Any
 

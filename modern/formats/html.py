@@ -4,8 +4,6 @@ The page responds to dragging, the arrow keys, the mouse wheel, +, - and 0.  Wit
 table of the exact vertices.
 """
 
-from __future__ import annotations
-
 import json
 from html import escape
 from string import Template

@@ -6,8 +6,6 @@ accepts a hull, any object with the member ``points`` or ``vertices``, or a list
 or strings.
 """
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict
 from typing import Any

@@ -4,8 +4,6 @@ The result holds the points and faces of the file.  The caller decides whether t
 Equal corners of an STL file are one point; every vertex of OFF, OBJ and PLY is a separate point.
 """
 
-from __future__ import annotations
-
 from emulator.errors import FileError
 from emulator.files import decoded
 from modern.formats import obj, off, ply, stl

@@ -6,8 +6,6 @@ surface it also returns the faces.  A vertex of a face is numbered from 1, or ba
 number is negative; anything after a slash is ignored.
 """
 
-from __future__ import annotations
-
 import re
 
 from modern.formats.tokens import FileMesh, Token, error, lines, vertex

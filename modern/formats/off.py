@@ -4,8 +4,6 @@ A polyhedron is written with its faces, a polygon with one face, a segment as tw
 both without faces.  The reader accepts the plain ASCII form: one vertex or face in a line, comments after ``#``.
 """
 
-from __future__ import annotations
-
 from emulator.errors import FileError
 from modern.formats.tokens import FileMesh, Token, count, decimal, error, last_line, take, vertex
 from modern.formats.tokens import lines as token_lines

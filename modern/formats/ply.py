@@ -6,8 +6,6 @@ exact.  The reader returns the vertices and faces of ASCII and binary files of e
 strips if faces are needed.
 """
 
-from __future__ import annotations
-
 import math
 import struct
 from collections.abc import Callable

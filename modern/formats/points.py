@@ -5,8 +5,6 @@ field are read, whereas the programs on the machine would truncate it after the 
 its first bytes or its first line, and by its extension only if these fit several formats.
 """
 
-from __future__ import annotations
-
 import io
 from collections.abc import Iterable
 from dataclasses import dataclass

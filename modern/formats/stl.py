@@ -8,8 +8,6 @@ Reading: STL repeats a vertex in each of its triangles, so equal corners become 
 first appear.
 """
 
-from __future__ import annotations
-
 import math
 import struct
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Tokens of a text file with their lines and columns, for the readers of OFF, OBJ, PLY and STL."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -13,8 +13,6 @@ An E that is too large for the solid raises CoplanarError: all points lie within
 fewer than four faces remain, or a joined face is not a simple polygon that is convex to within E.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

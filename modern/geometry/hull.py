@@ -5,8 +5,6 @@ Points are identified by their index in the input, from 0.  A program's numbers 
 binary float appears as the exact decimal of its value.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, SupportsIndex, TypeVar, overload

@@ -1,7 +1,5 @@
 """The surface of a hull as vertices and polygons, for mesh formats and drawings."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction

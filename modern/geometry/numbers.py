@@ -4,8 +4,6 @@
 messages.  These functions begin to use an exponent at different lengths.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Sequence
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal

@@ -3,8 +3,6 @@
 Every public function that accepts points uses these checks, so that all raise the same errors.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Set
 from decimal import Decimal
 from fractions import Fraction
@@ -18,8 +16,8 @@ from modern.geometry.numbers import PointsError
 Coordinate = int | float | Fraction | Decimal | str | np.integer[Any] | np.floating[Any]
 Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
 
+# Iterables that are not a sequence of points or of coordinates: a set, for example, has no order.
 _NO_SEQUENCE = (str, bytes, bytearray, memoryview, Set, Mapping)
-"""Iterables that are not a sequence of points or of coordinates: a set, for example, has no order."""
 
 
 def check_array(points: NDArray[Any]) -> None:

@@ -4,8 +4,6 @@ The exact hull (:mod:`modern.exact_hull`) and the port do not share these functi
 results of the port.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from fractions import Fraction

@@ -6,8 +6,6 @@ coordinates, 2 for the coefficients A, B, C of a plane and 3 for D. An arithmeti
 needs the degree to convert them.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Binary arithmetics: ``float64`` and ``float32`` in numpy vectors, ``mp:BITS`` in mpmath numbers."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction

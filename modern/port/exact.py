@@ -3,8 +3,6 @@
 If every number of the procedure fits in 64 bits the vectors hold int64, otherwise Python's integers.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The kernels of program 3 compiled by numba (the extra ``fast``), and the choice between them and numpy."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache

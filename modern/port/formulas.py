@@ -6,8 +6,6 @@ product less t with the sign reversed (:func:`less`). Therefore such a differenc
 cancel (emulator/language/expressions.py).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 # A number or a vector of an arithmetic.

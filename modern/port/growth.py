@@ -1,7 +1,5 @@
 """The loop that expands H_1 to the hull of all points, the same in the plane and in space (thesis p. 20-33)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
@@ -16,12 +14,12 @@ class Remaining:
     """The points that remain and are not vertices. Each has an equation that prevents its elimination."""
 
     def __init__(self) -> None:
+        # The serial number of an equation whose value at the point is not negative; -1 if unknown.
         self.keeper: NDArray[np.int64] = np.empty(0, np.int64)
-        """The serial number of an equation whose value at the point is not negative; -1 if unknown."""
+        # The equations before this serial number existed when the points were last tested.
         self.tried = 0
-        """The equations before this serial number existed when the points were last tested."""
+        # True if that test eliminated a point.
         self.eliminated_any = False
-        """True if that test eliminated a point."""
 
     def begin(self, count: int) -> None:
         self.keeper = np.full(count, -1, np.int64)

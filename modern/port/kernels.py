@@ -6,8 +6,6 @@ of a pair or of C for the first time, or whose new vertex is already a vertex. F
 UNUSUAL and changes only the equation to check.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -4,8 +4,6 @@ Thesis p. 11-17 and 29, listing p. 64-74. Numbers in parentheses are statement l
 counted from 0 here, from 1 in the listing.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Input points: read exactly, then converted to an arithmetic that is selected by its name."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

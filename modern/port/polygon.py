@@ -3,8 +3,6 @@
 Numbers in parentheses are statement labels of the listing. Points are counted from 0 here, from 1 in the listing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """The hull by the procedure of chapter 3, from points to result, in any arithmetic."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The data of the construction: the points in their current order, and the table of equations of planes or lines."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction

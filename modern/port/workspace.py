@@ -3,8 +3,6 @@
 Planes occupy *slots* in the order of the table. The slot of a deleted plane stays empty until :func:`pack`.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -4,18 +4,16 @@ Each build is a function that raises :class:`BuildError` with one line for the u
 error into an exit code.  :func:`citation` and :func:`newest_wheel` read files of the checkout.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
+# The root of the checkout; the builds run there only, never from an installed wheel.
 ROOT: Final = Path(__file__).parents[2]
-"""The root of the checkout; the builds run there only, never from an installed wheel."""
+# The folder in which ``make wheel``, ``make edition``, ``make book`` and ``make archive`` put their results.
 DIST: Final = ROOT / "dist"
-"""The folder in which ``make wheel``, ``make edition``, ``make book`` and ``make archive`` put their results."""
 
 
 class BuildError(Exception):

@@ -7,18 +7,16 @@ length with the shortest next to the boxes.  A jump to another page, or a jump w
 of connectors with the number of the target statement.  Lengths are in pixels, and y increases downward.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from modern.publication.flow import Box, Flow
 
+# The width of every box; a decision has this width at its middle.
 BOX = 244
-"""The width of every box; a decision has this width at its middle."""
+# The space between a box and the first lane, for the conditions of exits and for connectors.
 ZONE = 38
-"""The space between a box and the first lane, for the conditions of exits and for connectors."""
 LANE = 11
 LANES = 8
 MARGIN = 14
@@ -26,8 +24,8 @@ LEFT = MARGIN + LANES * LANE + ZONE
 RIGHT = LEFT + BOX
 SPINE = LEFT + BOX // 2
 RADIUS = 11
+# The width of a character and the height of a line in a monospaced font of nine pixels.
 LETTER, ROW = 5.42, 12
-"""The width of a character and the height of a line in a monospaced font of nine pixels."""
 WRAP = 39
 _TURN, _LAND, _JOIN, _DOWN, _ARROW = 16, 2 * RADIUS + 2, 6, 12, 11
 

@@ -4,16 +4,14 @@ The symbols are: direction of flow, decision, input and output, processing, and 
 boxes can be links, and nothing depends on colour.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 
 from modern.drawing.svg import escape
 from modern.publication.chart import BOX, LEFT, MARGIN, RADIUS, RIGHT, ROW, SPINE, ZONE, Chart, Page, Path, Placed
 from modern.publication.flow import Box
 
+# Returns the address to which a box links, or an empty string.
 Link = Callable[[Box], str]
-"""Returns the address to which a box links, or an empty string."""
 
 _STYLE = (
     "text{font:9px ui-monospace,Menlo,Consolas,'DejaVu Sans Mono',monospace;fill:#000}"

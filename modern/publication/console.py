@@ -5,8 +5,6 @@ package ``pyodide``, which ``docs/console/package-lock.json`` pins.  The project
 and mpmath from the installed packages.  Without the npm package or the wheel, the pages show recorded answers only.
 """
 
-from __future__ import annotations
-
 import gzip
 import html
 import json
@@ -26,10 +24,10 @@ from modern.publication.parting import parted
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "docs" / "console"
 PERIOD = ROOT / "tests" / "data" / "period"
+# The files of the npm package that a page loads unchanged.
 PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "python_stdlib.zip", "pyodide-lock.json")
-"""The files of the npm package that a page loads unchanged."""
+# The file that a page loads compressed; it is two thirds of the total and servers do not compress it.
 PACKED = "pyodide.asm.wasm"
-"""The file that a page loads compressed; it is two thirds of the total and servers do not compress it."""
 _PACKAGES = ("lark", "mpmath")
 _NOT_LOADED = ("/tests/", "/__pyinstaller/", "__pycache__")
 _EPOCH = (1980, 1, 1, 0, 0, 0)

@@ -4,8 +4,6 @@ The order of the regions is IBM's (form C26-5619, p. 66-69; :mod:`emulator.langu
 program is an estimate (:func:`emulator.language.objectcode.code_positions`), and so is the free space.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -16,12 +14,11 @@ from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES, OBJECT_PROGR
 from modern.edition import programs
 from modern.thesis.capacity import array_lengths, largest
 
+# The positions of core storage in the machine of 1963.
 CORE = 40_000
-"""The positions of core storage in the machine of 1963."""
 SYSTEM, PROGRAM, FREE = "subroutines and tables", "object program", "free"
 ARRAY, SINGLE, NAMES = "array", "single fields", "names of functions"
 KINDS = (SYSTEM, PROGRAM, FREE, ARRAY, SINGLE, NAMES)
-"""The kinds of regions."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,8 +6,6 @@ the rows of studies.  It is described as an RO-Crate, by CodeMeta and by Frictio
 always give the same bytes.
 """
 
-from __future__ import annotations
-
 import gzip
 import hashlib
 import re
@@ -31,6 +29,7 @@ from modern.publication.metadata import Work, codemeta, crate, data_package, wor
 
 _CACHES = {"node_modules", "__pycache__", ".mypy_cache", ".ruff_cache", ".pytest_cache"}
 _NOT_SOURCE = {".git", ".venv", "dist", "build"} | _CACHES
+# The folders of a deposit and a description of each.
 FOLDERS = {
     "source": "all files of the project: decks in fortran_src, prints in transcripts, vectors in tests/data",
     "wheel": "the package that pip installs",
@@ -39,7 +38,6 @@ FOLDERS = {
     "tei": "listings and prints with their apparatus, TEI P5",
     "rows": "rows of studies, one for each judged hull",
 }
-"""The folders of a deposit and a description of each."""
 
 
 @dataclass(frozen=True, slots=True)

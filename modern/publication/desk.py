@@ -7,8 +7,6 @@ so a halt without an answer ends the slice, and the next slice continues there. 
 library, lark and mpmath, which are available in the browser, but not numpy.
 """
 
-from __future__ import annotations
-
 import io
 import time
 from collections import deque
@@ -31,8 +29,8 @@ from emulator.numbers import numbers
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, input_deck
 
+# The answer to a request: keys and plain values, which the docstring of each method describes.
 Answer = dict[str, Any]
-"""The answer to a request: keys and plain values, which the docstring of each method describes."""
 
 _WIDTH = 72
 _WHILE_RUNNING = ("ATTN", "SWITCH", "BREAK", "CLEAR", "STOP", "STEP")

@@ -4,8 +4,6 @@ The corrected print and its relation to the lines of the witness come from :mod:
 run and its comparison with the print come from :mod:`modern.edition.reproduce`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import SequenceMatcher

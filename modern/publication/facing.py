@@ -9,8 +9,6 @@ first comment.  Counting may continue past the next number: if 148 is the statem
 ``148+1``, and the card has both names.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -24,10 +22,10 @@ from modern.edition.apparatus import Line, Row, Text, build
 from modern.edition.sources import sources
 
 Kind = Literal["title", "comment", "statement", "format"]
+# The number of statements that are counted past the next statement number.
 FURTHER = 3
-"""The number of statements that are counted past the next statement number."""
+# A range of characters: the index of the first, and that of the first after the range.
 Span = tuple[int, int]
-"""A range of characters: the index of the first, and that of the first after the range."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,8 +5,6 @@ replaces the names in Markdown text, for the site and for the book.  The figures
 ``docs/studies`` and ``docs/weight`` (:data:`CELLS`), from the data of the edition, and from a new run of the examples.
 """
 
-from __future__ import annotations
-
 import csv
 import re
 from collections import Counter
@@ -42,6 +40,7 @@ class Cell:
 _LISTED, _CORRECTED = ("as listed",), ("last pair mended",)
 _SHEET = ("33.3 %", "as on the sheet (.0146)")
 _TENTH = ("near a plane with a gap of .1",)
+# The figures that are cells of committed tables, by name.
 CELLS: Mapping[str, Cell] = {
     "seventy.sets": Cell("studies/seventy/table.csv", _LISTED, "sets"),
     "seventy.failures": Cell("studies/seventy/table.csv", _LISTED, "failures in 70"),
@@ -77,7 +76,6 @@ CELLS: Mapping[str, Cell] = {
     "divergence.share": Cell("studies/divergence/table.csv", ("program1 196+2",), "of all sets"),
     "divergence.nowhere": Cell("studies/divergence/table.csv", ("nowhere",), "of all sets"),
 }
-"""The figures that are cells of committed tables, by name."""
 
 _CHECKS = ("print", "machine", "equation", "sibling")
 

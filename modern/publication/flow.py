@@ -5,8 +5,6 @@ or an end.  The boxes are derived from object code, so that the chart shows the 
 DO becomes its first assignment and, after its last statement, the decision whether to repeat the loop.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property

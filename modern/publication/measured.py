@@ -5,8 +5,6 @@ evidence counts altered readings of a card by the first check that detects them.
 ``docs/weight/cards.csv``, which exists only in a checkout.
 """
 
-from __future__ import annotations
-
 import csv
 from dataclasses import dataclass
 from functools import cache
@@ -18,11 +16,11 @@ from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.thesis.job import run_hull
 
+# The largest number of statements that a run may execute.
 LIMIT = 200_000
-"""The largest number of statements that a run may execute."""
 TABLE = Path(__file__).parents[2] / "docs" / "weight" / "cards.csv"
+# The checks in the order in which they are applied; the columns of the table.
 DETECTED_BY = ("compiler", "print", "machine", "equation", "sibling", "nothing")
-"""The checks in the order in which they are applied; the columns of the table."""
 
 
 @dataclass(frozen=True, slots=True)

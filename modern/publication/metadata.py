@@ -4,8 +4,6 @@ The module writes ``codemeta.json`` (CodeMeta 3.0), ``ro-crate-metadata.json`` (
 ``rocrate``) and ``datapackage.json`` (a Frictionless data package with a schema for every CSV table).
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import re

@@ -1,7 +1,5 @@
 """Read the known faults and the open questions: the numbered items of a Markdown file, with their decks and rows."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from functools import cache

@@ -5,8 +5,6 @@ testing every plane through three points (:func:`true_hull`), which is fast enou
 code with the programs, the port or the exact hull; the tests compare it with the exact hull.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
@@ -28,10 +26,10 @@ from modern.thesis.cards import read_hull
 from modern.thesis.job import HullRun, run_hull
 from modern.thesis.refusals import Cause, explain_run
 
+# The largest number of points; the arrays of the programs have 51 elements.
 MOST = 51
-"""The largest number of points; the arrays of the programs have 51 elements."""
+# The largest number of operations of a run, three times the need of 51 points.
 LIMIT = 300_000
-"""The largest number of operations of a run, three times the need of 51 points."""
 Whole = tuple[int, int, int]
 
 

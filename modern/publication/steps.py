@@ -4,8 +4,6 @@ The objects have no size or colour; ``site/pages/papers.py`` draws them.  The st
 :mod:`modern.papers.appel_will`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -29,12 +27,12 @@ from modern.papers.yau_srihari.hull import OctreeHull, octree_hull
 from modern.papers.yau_srihari.octree import QUADRANTS, divided
 from modern.papers.yau_srihari.quadtree import Quadtree, ceiling, sons_of
 
+# The direction of view from the front, slightly above and to the right.
 EYE: Eye = (24, -55, 29)
-"""The direction of view from the front, slightly above and to the right."""
+# A direction of view from which all three axes point towards the eye.
 ABOVE: Eye = (57, 31, 43)
-"""A direction of view from which all three axes point towards the eye."""
+# The kinds of strokes; ``removed`` means removed by this step.
 SEEN, EDGE_OF_CONTOUR, HIDDEN, REMOVED = "seen", "contour", "hidden", "removed"
-"""The kinds of strokes; ``removed`` means removed by this step."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,8 +271,8 @@ class Level:
     plate: Plate
 
 
+# The length of the three rods in the picture of the octree, in voxels.
 RODS = 8
-"""The length of the three rods in the picture of the octree, in voxels."""
 
 
 @cache

@@ -9,8 +9,6 @@ of the whole document.  :mod:`modern.publication.tei_reading` restores witness, 
 Source: TEI P5 Guidelines, chapter 2 (header), 12.1 (apparatus entries), 12.2.3 (parallel segmentation).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib.resources import files
@@ -27,7 +25,6 @@ TEI = "http://www.tei-c.org/ns/1.0"
 XML = "http://www.w3.org/XML/1998/namespace"
 _ID, _SPACE, _LANG = f"{{{XML}}}id", f"{{{XML}}}space", f"{{{XML}}}lang"
 CERTAINTY = {"certain": "high", "probable": "medium", "conjecture": "low"}
-"""The values of the attribute ``cert`` for our degrees of certainty."""
 LAYERS = {
     "ocr": "a misreading of the OCR; the page certainly has this reading",
     "typist": "a typing error on the page",
@@ -39,7 +36,6 @@ LAYERS = {
     "translation": "proposal of chapter 7: the origin is moved to C",
     "corrected": "our corrections of faults of the original",
 }
-"""A short description of every layer of the apparatus."""
 
 
 @dataclass(frozen=True, slots=True)

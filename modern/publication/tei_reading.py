@@ -4,8 +4,6 @@ The module is the inverse of :mod:`modern.publication.tei`.  It shares no code w
 so that a successful round trip proves that the document is complete.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator
 from xml.etree.ElementTree import Element, ParseError, fromstring
 

@@ -3,8 +3,6 @@
 They are read from the syntax tree and therefore do not depend on a run.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -16,8 +14,8 @@ from emulator.language.parser import parse
 from emulator.language.storage import Storage
 from modern.edition import programs
 
+# What a card does with a name.
 How = Literal["declared", "set", "used"]
-"""What a card does with a name."""
 _SIGNS = ("\u2212", "0", "+")
 
 

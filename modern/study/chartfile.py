@@ -4,8 +4,6 @@ The file is a list.  Each chart has a kind (``bars`` or ``lines``), the fields o
 ``Lines``, marks, and series with points ``[position, value, low, high]``.  A null stands for an infinite limit.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterable
@@ -22,7 +20,6 @@ from modern.study.store import put
 NAME = "charts.json"
 _KINDS: dict[str, type[Chart]] = {"bars": Bars, "lines": Lines}
 _PARTS = ("kind", "marks", "series")
-_TYPES: dict[str, type] = {"str": str, "bool": bool}
 _FILE_NAME = re.compile(r"[A-Za-z0-9][\w-]*")
 
 
@@ -66,27 +63,26 @@ def _limit(value: float) -> float | None:
 def _chart(data: dict[str, Any]) -> Chart:
     """Return the chart of JSON data.  Raise ValueError, TypeError or KeyError if the data does not describe one."""
     chart_type = _KINDS[data["kind"]]
-    types = {f.name: str(f.type) for f in fields(chart_type)}
+    types = {f.name: f.type for f in fields(chart_type)}
     labels = {name: _checked(value, types[name]) for name, value in data.items() if name not in _PARTS}
     if not _FILE_NAME.fullmatch(labels["name"]):
         raise ValueError
     marks = tuple(
-        Mark(float(mark["at"]), _checked(mark["words"], "str"), _checked(mark["upright"], "bool"))
-        for mark in data["marks"]
+        Mark(float(mark["at"]), _checked(mark["words"], str), _checked(mark["upright"], bool)) for mark in data["marks"]
     )
     series = tuple(
-        Series(_checked(entry["name"], "str"), tuple(_point(chart_type, *point) for point in entry["points"]))
+        Series(_checked(entry["name"], str), tuple(_point(chart_type, *point) for point in entry["points"]))
         for entry in data["series"]
     )
     return chart_type(series=series, marks=marks, **labels)
 
 
-def _checked(value: Any, type_name: str) -> Any:
-    if type(value) is not _TYPES[type_name]:
+def _checked(value: Any, expected: Any) -> Any:
+    if type(value) is not expected:
         raise TypeError
     return value
 
 
 def _point(chart_type: type[Chart], x: Any, value: float, low: float | None, high: float | None) -> Any:
-    position = float(x) if chart_type is Lines else _checked(x, "str")
+    position = float(x) if chart_type is Lines else _checked(x, str)
     return position, Interval(float(value), -inf if low is None else float(low), inf if high is None else float(high))

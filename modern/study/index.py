@@ -5,8 +5,6 @@ inside and tags (JSON); the table ``runs`` has cell, place, route, outcome, deta
 writes and locks the file, so a second run in the same folder fails.
 """
 
-from __future__ import annotations
-
 import json
 import sqlite3
 from collections.abc import Iterable
@@ -26,8 +24,8 @@ CREATE TABLE IF NOT EXISTS runs (
     PRIMARY KEY (cell, place, route)
 ) WITHOUT ROWID;
 """
+# The columns that describe the size of a sample and of its exact hull.
 JUDGE = ("n", "dimension", "vertices", "planes", "boundary", "inside")
-"""The columns that describe the size of a sample and of its exact hull."""
 
 
 class RouteRow(TypedDict):

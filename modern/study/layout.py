@@ -4,8 +4,6 @@ Series with equal values are drawn side by side, shifted by a few typographic po
 close for that, each in a separate panel.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from itertools import combinations, pairwise

@@ -1,7 +1,5 @@
 """The manifest of a study: its plan, the versions and the code of its run, and hashes for comparing a repetition."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import platform

@@ -5,8 +5,6 @@ A measure is a function of a sample and its run, a :class:`modern.thesis.job.Hul
 names a user-defined measure.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Mapping
 from decimal import Decimal

@@ -23,8 +23,6 @@ Two equations describe the same plane if their coefficients agree within :data:`
 error of the coefficients is recorded as a figure.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Context, Decimal

@@ -5,8 +5,6 @@ The key of the cell, the tags of a set and the figures of a run have separate co
 the other values are decimals as text, and text otherwise.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from itertools import islice
 from pathlib import Path

@@ -36,9 +36,8 @@ from emulator.machine.result import DEFAULT_CORE, DEFAULT_LIMIT
 F = TypeVar("F", bound=Callable[..., object])
 Value = str | int
 SEED = 1963
-"""The default seed of a study."""
+# The default number of samples in a chunk: about a second's work for small sets.
 CHUNK = 200
-"""The default number of samples in a chunk: about a second's work for small sets."""
 
 
 class PlanError(EmulatorError):

@@ -5,8 +5,6 @@ Series differ in lightness, marker, line style and hatching, never in hue alone,
 which contain no date and no random identifiers.
 """
 
-from __future__ import annotations
-
 import io
 import textwrap
 from math import ceil, isfinite

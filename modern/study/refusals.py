@@ -4,8 +4,6 @@ The thesis attributes its two failures to the eight digits of the machine.  The 
 of chapter 5 (:func:`modern.study.families.thesis.data_sheet`) more often if more of their coordinates are decimals.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 

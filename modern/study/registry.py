@@ -1,7 +1,5 @@
 """The built-in studies by name.  Each module of :mod:`modern.study.builtin` is one."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module

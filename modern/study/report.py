@@ -1,7 +1,5 @@
 """Reports of studies: tables, charts and sentences as data, and the texts and files made from them."""
 
-from __future__ import annotations
-
 import csv
 import io
 import textwrap

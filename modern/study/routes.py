@@ -1,7 +1,5 @@
 """Send the samples of a chunk through a route, the programs or the port, and collect the answers."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from functools import cache

@@ -1,7 +1,5 @@
 """Carry out a study in a folder: check the plan, begin or resume it, work through its chunks, write the report."""
 
-from __future__ import annotations
-
 import os
 import sqlite3
 import sys
@@ -35,8 +33,8 @@ from modern.study.sample import CARD_DIGITS
 from modern.study.store import ROWS, Store
 from modern.study.workers import connect, in_processes, on_cluster, processes
 
+# Files of rows that a study may have. Their names are held in memory while it runs.
 MOST_FILES = 1_000_000
-"""Files of rows that a study may have.  Their names are held in memory while it runs."""
 
 Reporter = Callable[[Plan, Store], Report]
 

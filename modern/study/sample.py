@@ -1,7 +1,5 @@
 """A sample: its points, the deck that holds them, and the exact hull of the points on the cards."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction

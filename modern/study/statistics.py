@@ -16,8 +16,6 @@ Biometrika 26 (1934) 404-413.  W. Hoeffding, On the distribution of the number o
 Ann. Math. Statist. 27 (1956) 713-721.  Student (W. S. Gosset), The probable error of a mean, Biometrika 6 (1908) 1-25.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from math import exp, inf, lgamma, log, log1p, sqrt

@@ -1,7 +1,5 @@
 """Count outcomes by cell and route, for most of the reports, and select cells by their keys."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -28,8 +28,6 @@ parameters.  ``family = "mine:points"`` is the function ``points`` of ``mine.py`
 Python's module path; ``measures = ["mine:spread"]`` works the same way.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 import tomllib

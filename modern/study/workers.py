@@ -4,8 +4,6 @@ A chunk is a run of consecutive samples of one cell.  Its result is the JSONL te
 clusters are both executors of :mod:`concurrent.futures` and share one loop, which submits chunks and waits for them.
 """
 
-from __future__ import annotations
-
 import json
 import logging
 import multiprocessing

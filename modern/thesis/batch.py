@@ -1,7 +1,5 @@
 """Run the hull programs on many decks: program 1 on all of them, then programs 2 and 3 on the cards it punched."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 

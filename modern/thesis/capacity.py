@@ -5,8 +5,6 @@ With the layer ``corrected`` the lengths are 52 and 193, that is N+1 and 4N-11 (
 object program is estimated by ``code_positions``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from emulator.language.objectcode import Program, code_positions

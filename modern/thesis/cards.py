@@ -4,8 +4,6 @@ The last program of a run punches a hull.  Program 1 before it punches the inter
 reads.  The cards follow the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """Run program 1 on a data deck, then the program that its typewriter names (thesis p. 59)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ statement 126 of program 2, 119 of program 3), and ERROR IN PROGRAM if it reache
 number there.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal

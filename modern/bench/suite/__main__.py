@@ -1,7 +1,5 @@
 """The benchmarks of the project: median, minimum and maximum of each figure, and a value to compare it with."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -4,8 +4,6 @@
 with the slope of each curve (extra ``plot``).
 """
 
-from __future__ import annotations
-
 import statistics
 import subprocess
 import sys

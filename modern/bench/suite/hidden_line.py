@@ -3,8 +3,6 @@
 ``python -m modern.bench.suite.hidden_line FILE.svg`` measures the growth and plots it (extra ``plot``).
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Iterator

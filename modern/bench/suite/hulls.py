@@ -4,8 +4,6 @@
 the slope of each curve (extra ``plot``).
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

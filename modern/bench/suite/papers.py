@@ -5,8 +5,6 @@ Appel and Will's 60 points are computed exactly, with the star polygon and with 
 Kovalevsky and Schulz's cell list are seconds, and microseconds for each inserted local corner.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterator
 from dataclasses import replace

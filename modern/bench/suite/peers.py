@@ -1,7 +1,5 @@
 """The programs that hulls are compared with: Qhull through scipy, and CGAL through a short C++ program."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import shutil

@@ -4,8 +4,6 @@ SimpleITK leaves files that are truncated early out of a series. Pixel data in a
 checksum and are rejected.
 """
 
-from __future__ import annotations
-
 import os
 import struct
 from dataclasses import dataclass, field
@@ -14,14 +12,14 @@ from typing import BinaryIO
 from modern.digital.integrity.streams import check_length, check_sizes
 from modern.digital.solids import VolumeError
 
+# The position and the bytes of the signature of a DICOM file.
 SIGNATURE = (128, b"DICM")
-"""The position and the bytes of the signature of a DICOM file."""
 _LONG = frozenset({b"OB", b"OD", b"OF", b"OL", b"OV", b"OW", b"SQ", b"SV", b"UC", b"UN", b"UR", b"UT", b"UV"})
+# Types of values: those with two reserved bytes and a four-byte length, and those with a two-byte length.
 _SHORT = frozenset(
     {b"AE", b"AS", b"AT", b"CS", b"DA", b"DS", b"DT", b"FD", b"FL", b"IS", b"LO", b"LT", b"PN", b"SH", b"SL", b"SS"}
     | {b"ST", b"TM", b"UI", b"UL", b"US"}
 )
-"""Types of values: those with two reserved bytes and a four-byte length, and those with a two-byte length."""
 _IMPLICIT, _EXPLICIT, _BIG_ENDIAN = "1.2.840.10008.1.2", "1.2.840.10008.1.2.1", "1.2.840.10008.1.2.2"
 _SYNTAX = (0x0002, 0x0010)
 _SAMPLES, _FRAMES, _ROWS, _COLUMNS, _BITS = ((0x0028, number) for number in (0x02, 0x08, 0x10, 0x11, 0x100))

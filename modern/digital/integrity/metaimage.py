@@ -4,8 +4,6 @@ The data follow the header (``ElementDataFile = LOCAL``) or are in one file or i
 each line, or a pattern ``NAME%03d.raw FIRST LAST STEP``. SimpleITK leaves memory uninitialised if a list is too short.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import re
@@ -16,6 +14,7 @@ from emulator.files import reason
 from modern.digital.integrity.streams import check_compressed, check_length, check_sizes
 from modern.digital.solids import VolumeError
 
+# The number of bytes of a value, by the name of its type.
 _BYTES = {
     "MET_CHAR": 1,
     "MET_UCHAR": 1,
@@ -30,7 +29,6 @@ _BYTES = {
     "MET_FLOAT": 4,
     "MET_DOUBLE": 8,
 }
-"""The number of bytes of a value, by the name of its type."""
 _FIELD = re.compile(rb"\s*(\w+)\s*[=:]\s*(.*?)\s*", re.DOTALL)
 _INTEGER = re.compile(r"-?[0-9]{1,18}", re.ASCII)
 _PATTERN = re.compile(r"([^%]*%(?:0?[0-9])?d[^%]*?)((?:\s+[0-9]{1,9})*)", re.ASCII)

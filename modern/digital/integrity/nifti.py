@@ -5,8 +5,6 @@ the standard says that values are then not scaled. Such headers are rejected. If
 spacing of ``sform`` differs from ``pixdim``, notes say which one is used.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import struct
@@ -22,6 +20,7 @@ from modern.digital.world import World
 
 _HEADER, _FIRST_DATA = 348, 352
 _NIFTI_2 = 540
+# The number of bits of a value, by the code of its type.
 _BITS = {
     2: 8,
     4: 16,
@@ -40,16 +39,15 @@ _BITS = {
     2048: 256,
     2304: 32,
 }
-"""The number of bits of a value, by the code of its type."""
+# The length in millimetres of other units of length, by their code.
 _MILLIMETRES = {1: 1000.0, 3: 0.001}
-"""The length in millimetres of other units of length, by their code."""
 _WIDEST = 16 * MAX_CELLS
 _TO_LPS = np.diag([-1.0, -1.0, 1.0])
+# Positions that differ by less than this fraction of a voxel are considered equal.
 _SAME = 0.01
-"""Positions that differ by less than this fraction of a voxel are considered equal."""
 
+# Three rows of four numbers: the steps of the axes and the origin, in LPS and millimetres.
 Affine = NDArray[np.float64]
-"""Three rows of four numbers: the steps of the axes and the origin, in LPS and millimetres."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,5 @@
 """Lengths of data, and decompression that verifies a checksum without keeping the data."""
 
-from __future__ import annotations
-
 import gzip
 import math
 import zlib
@@ -11,8 +9,8 @@ from typing import BinaryIO
 from modern.digital.solids import MAX_CELLS, VolumeError
 
 CHUNK = 1 << 20
+# The ``wbits`` of zlib that recognise both headers. Each format ends with a checksum.
 _ZLIB_OR_GZIP = 47
-"""The ``wbits`` of zlib that recognise both headers. Each format ends with a checksum."""
 
 
 def check_length(source: str, expected: int, available: int) -> None:

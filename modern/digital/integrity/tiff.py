@@ -4,8 +4,6 @@ SimpleITK stops at a missing directory and fills truncated strips, so it would r
 slices. Strips and tiles must be uncompressed, or compressed with Deflate, which has a checksum.
 """
 
-from __future__ import annotations
-
 import os
 import struct
 from collections.abc import Mapping
@@ -14,13 +12,13 @@ from typing import Any, BinaryIO
 from modern.digital.integrity.streams import check_compressed, check_sizes
 from modern.digital.solids import MAX_CELLS, VolumeError
 
+# The ``struct`` code of a value, by the code of its type. Fractions are not needed.
 _FORMATS = {1: "B", 2: "B", 3: "H", 4: "I", 6: "b", 7: "B", 8: "h", 9: "i", 11: "f", 12: "d", 13: "I", 16: "Q", 17: "q"}
-"""The ``struct`` code of a value, by the code of its type. Fractions are not needed."""
 _WIDTH, _HEIGHT, _BITS, _COMPRESSION, _DESCRIPTION, _SAMPLES, _ROWS, _PLANAR = 256, 257, 258, 259, 270, 277, 278, 284
 _STRIPS, _TILES = (273, 279), (324, 325)
 _TILE_WIDTH, _TILE_HEIGHT = 322, 323
+# The tags that must be equal in all pages: width, height, bits, samples and sample format.
 _ALIKE = (_WIDTH, _HEIGHT, _BITS, _SAMPLES, 339)
-"""The tags that must be equal in all pages: width, height, bits, samples and sample format."""
 _NONE, _DEFLATE = 1, (8, 32946)
 _WITHOUT_CHECKSUM = {2: "CCITT", 3: "CCITT", 4: "CCITT", 5: "LZW", 6: "JPEG", 7: "JPEG", 32773: "PackBits"}
 _MOST_VALUES = 1 << 22

@@ -1,7 +1,5 @@
 """Inside corners: points that are found not to be vertices of the hull before any projection (Figs. 15, 16 and 18)."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,8 +11,8 @@ from modern.papers.appel_will.surfaces import Line, Surface, lines, oriented
 
 Rule = Literal["any", "two", "concave"]
 RULES: tuple[Rule, ...] = get_args(Rule)
+# The greatest number of planes that intersect at a point of a well behaved object.
 PLANES = 3
-"""The greatest number of planes that intersect at a point of a well behaved object."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +34,8 @@ class Preprocessing:
     rule: Rule
     inside: tuple[Corner, ...]
     deleted: tuple[int, ...]
+    # Points on more than three planes. If there are any, the object is not well behaved.
     crowded: tuple[int, ...]
-    """Points on more than three planes. If there are any, the object is not well behaved."""
 
 
 def triple_product(i: IntPoint, k: IntPoint, l: IntPoint) -> int:  # noqa: E741  # the paper's letters

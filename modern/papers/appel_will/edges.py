@@ -1,7 +1,5 @@
 """Convex edges (section "Determination of convex hull edges"): the points are projected parallel to every pair."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The complete method: remove duplicates and inside corners, find the convex edges, assemble loops and map."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -25,8 +23,8 @@ class Method:
 
 
 CORRECTED = Method()
+# The names of the rules that can be applied as printed: that of Fig. 12 and five steps of the appendix.
 PRINTED = ("star", "step3", "step5", "step7", "step9", "step10")
-"""The names of the rules that can be applied as printed: that of Fig. 12 and five steps of the appendix."""
 
 
 def printed(*names: str) -> Method:
@@ -45,8 +43,8 @@ def printed(*names: str) -> Method:
     return Method(as_printed if "star" in names else in_one_pass, Rules("step3" not in names, *steps))
 
 
+# The method with every rule as printed.
 LITERAL = printed(*PRINTED)
-"""The method with every rule as printed."""
 
 
 @dataclass(frozen=True, slots=True)

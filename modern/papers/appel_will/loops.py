@@ -4,16 +4,14 @@ A line is an edge of the convex edge list. Lines are numbered L from 1 and have 
 if it runs along the line from LC1 to LC2, otherwise -L.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will.edges import IntPoint, Pair
 
+# The number of loops that use each edge: an edge is the intersection of two convex planes.
 TIMES = 2
-"""The number of loops that use each edge: an edge is the intersection of two convex planes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +36,8 @@ class Rules:
     step_10: bool = False
 
 
+# The reading that reproduces all printed loops and finds every face of every hull.
 PREFERRED = Rules()
-"""The reading that reproduces all printed loops and finds every face of every hull."""
 
 
 @dataclass(frozen=True, slots=True)

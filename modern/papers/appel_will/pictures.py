@@ -4,8 +4,6 @@ Points have their numbers in the input, convex edges their numbers L in the conv
 in integers. Floating point only places the labels.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -31,21 +29,21 @@ from modern.papers.appel_will.star import Image, on_one_ray, star_polygon, vorti
 from modern.papers.appel_will.surfaces import Surface
 
 WIDTH, WIDER = 640, 1000
+# The greatest numbers of points and of convex edges that are numbered.
 MOST_POINTS, MOST_LINES = 400, 60
-"""The greatest numbers of points and of convex edges that are numbered."""
 _SIZE, _SMALL = 13.0, 11.0
 FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _LINE_FONT = f'font-family="{svg.FONT}" font-size="11" font-style="italic" fill="#444"'
+# A white outline that keeps a number legible on top of lines.
 _HALO = 'stroke="#fff" stroke-width="3" paint-order="stroke"'
-"""A white outline that keeps a number legible on top of lines."""
+# The distance of legend lines in pixels.
 _STEP = 19
-"""The distance of legend lines in pixels."""
 GIVEN = Style("given", "given line that is not a convex edge", "line", 'stroke="#777" stroke-width="0.8"')
 SIDE = Style("star", "star polygon", "line", 'stroke="#000" stroke-width="1.2" fill="none"')
 CLOCKWISE = Style("clockwise", "side that turns clockwise about C", "line", 'stroke="#000" stroke-width="3.4"')
 RAY = Style("rays", "ray from C", "line", 'stroke="#aaa" stroke-width="0.8"')
+# A row of a legend: a function that draws it on the given base line.
 Row = Callable[[int], Iterator[str]]
-"""A row of a legend: a function that draws it on the given base line."""
 CENTRE = Style("centre", "C", "dot", 'fill="#fff" stroke="#000" stroke-width="1.6"')
 
 

@@ -10,8 +10,6 @@ References
 W. T. Tutte, "How to draw a graph", Proceedings of the London Mathematical Society 13 (1963).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from fractions import Fraction
@@ -36,12 +34,12 @@ from modern.papers.appel_will.pictures import (
 from modern.papers.appel_will.surfaces import Surface
 
 Place = tuple[float, float]
+# The greatest number of points that can be told apart in a map, and the greatest number in a map of normal width.
 MOST, CROWD = 100, 24
-"""The greatest number of points that can be told apart in a map, and the greatest number in a map of normal width."""
+# Changes of the weights, relaxations before the first and before each later change, greatest factor of a change.
 _TURNS, _FIRST, _ROUNDS, _STEP = 150, 200, 10, 1.1
-"""Changes of the weights, relaxations before the first and before each later change, greatest factor of a change."""
+# The distance of legend lines in pixels, and the smallest region, in square pixels, that has its number.
 _LINE, _SMALLEST = 19, 160.0
-"""The distance of legend lines in pixels, and the smallest region, in square pixels, that has its number."""
 _SURFACES = f'font-family="{svg.FONT}" font-size="15" fill="#999" text-anchor="middle"'
 
 

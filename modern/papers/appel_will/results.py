@@ -4,8 +4,6 @@ The object of Fig. 4 is read from the corrected print. The paper draws the other
 this project chose for them are in ``coordinates.toml`` next to the print.
 """
 
-from __future__ import annotations
-
 import math
 import tomllib
 from collections.abc import Collection, Iterable, Iterator, Sequence
@@ -22,13 +20,13 @@ from modern.papers.appel_will.hull import Assembled, Method, appel_will
 from modern.papers.appel_will.star import as_corrected
 from modern.papers.appel_will.surfaces import Line, Surface, oriented
 
+# The folder of the print under ``transcripts``.
 FOLDER = "appel_will_1976"
-"""The folder of the print under ``transcripts``."""
+# The method with sorted star polygons, as in the paper, instead of the test in one pass.
 BY_STAR = Method(star=as_corrected)
-"""The method with sorted star polygons, as in the paper, instead of the test in one pass."""
 ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
+# The lines of Fig. 18 by label: surface k, on which the line runs counterclockwise, and surface l.
 FIG_18_LINES = {5: (1, 2), 7: (2, 3), 6: (4, 3)}
-"""The lines of Fig. 18 by label: surface k, on which the line runs counterclockwise, and surface l."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,8 +6,6 @@ convex. Only the sense of rotation of the images about C matters, so the images 
 square root is needed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import cmp_to_key
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """The surfaces of the given polyhedron (Fig. 4): their orientation, their normals and their fate on the hull."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
@@ -11,8 +9,8 @@ from modern.geometry.mesh import sides
 from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers.appel_will.edges import IntPoint, Pair
 
+# The indices of a surface's points, from 0, in the order in which they are connected.
 Surface = tuple[int, ...]
-"""The indices of a surface's points, from 0, in the order in which they are connected."""
 
 
 class MapError(EmulatorError):

@@ -5,8 +5,6 @@ redundant list. ``Economical`` contains only the coordinates and the vertices of
 redundant list from the economical one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain, pairwise
@@ -21,8 +19,8 @@ IntPoint = tuple[int, int, int]
 Plane = tuple[int, int, int, int]
 Numbers = NDArray[np.int64]
 Array = NDArray[Any]
+# The number of values computed at a time: they fit the processor's cache, and BLAS does not start a second thread.
 _BLOCK = 1 << 15
-"""The number of values computed at a time: they fit the processor's cache, and BLAS does not start a second thread."""
 
 
 class CellListError(EmulatorError):

@@ -8,8 +8,6 @@ There is one face for each plane, stored as the cycle of its vertices without th
 arithmetic is in integers.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal

@@ -7,8 +7,6 @@ The test by 6 neighbours runs slab by slab over whole arrays. The other 10 pairs
 remain.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import product
 from typing import Final, Literal
@@ -18,15 +16,15 @@ from numpy.typing import NDArray
 
 from modern.digital.solids import Volume, VolumeError, Voxels
 
+# The points whose hull is computed: the centres of voxels or their corners.
 Of = Literal["centres", "vertices"]
-"""The points whose hull is computed: the centres of voxels or their corners."""
 CENTRES: Final = "centres"
 VERTICES: Final = "vertices"
 NEIGHBOURS = (6, 26)
 
 Points = NDArray[np.int64]
+# The approximate number of grid points tested at a time, which fit the processor's cache.
 _SLAB = 1 << 20
-"""The approximate number of grid points tested at a time, which fit the processor's cache."""
 
 
 def places(volume: Volume, of: Of = VERTICES) -> Voxels:

@@ -4,8 +4,6 @@ The last step merges the triangles of one plane into a face and edges in one lin
 and 7). If no order of insertion is requested, the merged list is computed directly, without inserting the points.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final, Literal
@@ -21,8 +19,8 @@ from modern.papers.kovalevsky_schulz.corners import NEIGHBOURS, VERTICES, Of, Po
 from modern.papers.kovalevsky_schulz.outcome import hull_cells
 from modern.papers.kovalevsky_schulz.polyhedron import VISIBLE, Coplanar, Flat, convex_polyhedron
 
+# The order in which local corners are inserted.
 Order = Literal["raster", "shuffled"]
-"""The order in which local corners are inserted."""
 RASTER: Final = "raster"
 SHUFFLED: Final = "shuffled"
 _SEED = 1963

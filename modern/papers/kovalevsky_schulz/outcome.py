@@ -7,8 +7,6 @@ with later points disappears, because all faces at it are visible. Only the numb
 faces are sorted by their cycles of vertices, each beginning with its lowest number.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -20,8 +20,6 @@ point, or the point lies in the face itself.
    face at this edge, and P sees that face too.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -34,15 +32,15 @@ from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
 
+# The treatment of a face whose plane contains the new point.
 Coplanar = Literal["visible", "invisible"]
-"""The treatment of a face whose plane contains the new point."""
 VISIBLE: Final = "visible"
 INVISIBLE: Final = "invisible"
 _KINDS = ("point", "segment", "polygon")
+# The least number of points times faces for which the values are computed by one matrix product.
 _MANY = 128
-"""The least number of points times faces for which the values are computed by one matrix product."""
+# Three signed edges and the four coefficients of the plane, whose value is positive outside.
 Triangle = tuple[int, int, int, int, int, int, int]
-"""Three signed edges and the four coefficients of the plane, whose value is positive outside."""
 
 
 @dataclass(frozen=True, slots=True)

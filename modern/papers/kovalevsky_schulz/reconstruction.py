@@ -7,8 +7,6 @@ and a cube, so it contains the cube of a voxel only if the first contains the vo
 convex, the result is the convex object around it.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

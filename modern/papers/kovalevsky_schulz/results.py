@@ -6,8 +6,6 @@ voxels' corners. The tables and the 1404 triangles need 6 neighbours and coplana
 the text prefers 26 neighbours and visible faces.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
@@ -20,8 +18,8 @@ from modern.papers.kovalevsky_schulz.hull import voxel_hull
 from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, convex_polyhedron
 from modern.papers.kovalevsky_schulz.tables import cell_list_size, cube_triangles, triangulation_size
 
+# Four points in the arrangement of Fig. 4: points 1, 2, 3 run counterclockwise, and point 4 is behind them.
 TETRAHEDRON = ((0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))
-"""Four points in the arrangement of Fig. 4: points 1, 2, 3 run counterclockwise, and point 4 is behind them."""
 
 
 def produced(printed: Lines) -> Lines:

@@ -4,8 +4,6 @@ Tables 1, 2 and 3 are lines of cells separated by tabs. The number of integers t
 computed by the paper's formulas of section 4 and counted exactly.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 

@@ -6,8 +6,6 @@ convex, the message names the deepest reflex edge, where the solid can be divide
 merging faces within a distance of one plane. Faces and vertices are counted from 1 in the order of the file.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction

@@ -5,8 +5,6 @@ requested one. The intersections of edges with this plane are exact, so a clippe
 face in the plane.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction

@@ -8,8 +8,6 @@ clockwise. ``PL[j][i]`` is the side of the segment from P_i to P_(i+1) on which 
 segment from P_j to P_(j+1) on which P_i lies. 1 is the inner side.
 """
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
@@ -86,8 +84,8 @@ Row = tuple[int, ...]
 Line = tuple[int, int, int]
 Values = list[list[int]]
 
+# The number d of formula (3) if two segments intersect.
 CROSSING = -4
-"""The number d of formula (3) if two segments intersect."""
 
 
 def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -> Values | None:

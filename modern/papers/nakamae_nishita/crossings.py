@@ -4,8 +4,6 @@ A point on a segment from P_A to P_B is given by the fraction s of the segment b
 the segment enters the contour there and -k if it leaves, where k is the number of intersections with the contour.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The fields of a table of a scene file, checked one by one."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any

@@ -4,8 +4,6 @@ Two edges of one object are not drawn where they overlap, if their front faces l
 one plane share a key, so only edges with the same key are compared.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter, defaultdict
 from collections.abc import Sequence
@@ -16,8 +14,8 @@ from modern.papers.nakamae_nishita.projection import Homogeneous
 from modern.papers.nakamae_nishita.solids import Solid
 
 Span = tuple[Fraction, Fraction]
+# The name of an edge: the number of a solid and the indices of two vertices, the smaller first.
 Name = tuple[int, int, int]
-"""The name of an edge: the number of a solid and the indices of two vertices, the smaller first."""
 
 _Key = tuple[object, ...]
 

@@ -1,7 +1,5 @@
 """Hidden line elimination of a scene: the paper's third step (sections 3.2 to 3.5, time III) after its first two."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Collection, Iterator, Sequence
@@ -19,14 +17,12 @@ from modern.papers.nakamae_nishita.projection import Observer
 from modern.papers.nakamae_nishita.solids import Solid, solid
 
 ENCLOSED, TOUCHING, ENDS, GHOSTS = "enclosed", "touching", "ends", "ghosts"
+# The refinements that can be switched off to show their effect. The first three close gaps of the paper. ``enclosed``:
+# a segment entirely within a nearer contour has no intersection, so section 3.5 does not count it. ``touching``:
+# formulas (4) and (5) may both be 0 for polyhedra that touch, and a separating plane decides. ``ends``: d is -2 or -1
+# if a segment ends on a contour or runs through its vertex, which formula (6) does not cover. ``ghosts``: the paper's
+# own section 3.4.
 REFINEMENTS = (ENCLOSED, TOUCHING, ENDS, GHOSTS)
-"""The refinements that can be switched off to show their effect. The first three close gaps of the paper.
-
-``enclosed``: a segment entirely within a nearer contour has no intersection, so section 3.5 does not count it.
-``touching``: formulas (4) and (5) may both be 0 for polyhedra that touch, and a separating plane decides.
-``ends``: d is -2 or -1 if a segment ends on a contour or runs through its vertex, which formula (6) does not cover.
-``ghosts``: the paper's own section 3.4.
-"""
 
 
 @dataclass(frozen=True, slots=True)

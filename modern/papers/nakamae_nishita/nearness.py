@@ -4,8 +4,6 @@ If polyhedra touch, both formulas may give 0. A plane that separates the two the
 the eye's side of it. Such a plane also proves that they do not intersect.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Final, Literal
 
@@ -14,8 +12,8 @@ from modern.papers.nakamae_nishita.contours import Tables, Values
 from modern.papers.nakamae_nishita.projection import Homogeneous
 from modern.papers.nakamae_nishita.solids import Plane, Solid, height, plane_through
 
+# The criterion that decides: formula (4) at a crossing, formula (5) at a face, a separating plane, or none.
 By = Literal["(4)", "(5)", "plane", "undecided"]
-"""The criterion that decides: formula (4) at a crossing, formula (5) at a face, a separating plane, or none."""
 BY_CROSSING: Final = "(4)"
 BY_FACE: Final = "(5)"
 BY_PLANE: Final = "plane"

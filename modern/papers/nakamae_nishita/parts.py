@@ -1,7 +1,5 @@
 """The parts of a scene file: standard shapes and solids from files, their placement, and figures on their faces."""
 
-from __future__ import annotations
-
 import itertools
 import os
 from collections.abc import Callable, Iterator
@@ -21,8 +19,8 @@ from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneEr
 from modern.papers.nakamae_nishita.shapes import moved, placed, scaled, turned
 
 _ZERO: Vector = (Fraction(0), Fraction(0), Fraction(0))
+# The greatest number of polyhedra that one part may define.
 MOST = 20_000
-"""The greatest number of polyhedra that one part may define."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,8 +5,6 @@ The drawing consists of straight strokes, one for each visible piece. Where part
 to both may be drawn twice.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 
@@ -21,8 +19,8 @@ from modern.papers.nakamae_nishita.projection import Homogeneous, image
 Point = tuple[int, int]
 Stroke = tuple[Point, Point]
 
+# The area, in plotter units of 0.025 mm, that fits a sheet of A4 on every such plotter.
 PLOT_WIDTH, PLOT_HEIGHT = 10_000, 7_200
-"""The area, in plotter units of 0.025 mm, that fits a sheet of A4 on every such plotter."""
 
 SOLID, DASHED = "LT;", "LT2,2;"
 

@@ -4,8 +4,6 @@ A plate is a polyhedron without thickness: one polygon as two faces, one for eac
 files with faces (``bodies``) and from hulls.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -6,8 +6,6 @@ In perspective w is proportional to the distance from the eye's plane, and z/w t
 planes, lines and the sense of rotation, so formulas (1) to (6) of the paper hold for the mapped coordinates.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -28,10 +26,10 @@ class Observer:
     right: Eye
     up: Eye
     point: Vector | None = None
+    # The factor that brings x of the image to the scale of y: the length of ``eye``, to 15 decimals.
     stretch: Fraction = Fraction(1)
-    """The factor that brings x of the image to the scale of y: the length of ``eye``, to 15 decimals."""
+    # The distance of the near plane from the eye in perspective, along the direction of view.
     near: Fraction | None = None
-    """The distance of the near plane from the eye in perspective, along the direction of view."""
 
 
 def parallel(direction: Sequence[Fraction | int]) -> Observer:

@@ -3,8 +3,6 @@
 The intermediate results are faces and edges, the PL and LP tables with d, and the indices of the intersections.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from typing import get_args

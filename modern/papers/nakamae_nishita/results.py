@@ -1,7 +1,5 @@
 """The computed lines of every published result of the paper."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 

@@ -4,8 +4,6 @@ All numbers are exact: integers, decimals, and fractions written as text, such a
 ``docs/papers/nakamae_nishita.md``. The project's own scenes are in the folder ``scenes`` and are selected by name.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import tomllib

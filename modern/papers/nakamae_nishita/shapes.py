@@ -3,8 +3,6 @@
 All coordinates are fractions. Cosine and sine of a rotation are fractions too, so a rotated shape is exactly congruent.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The projection of a polyhedron with its contour and inner edges: the paper's second step (section 4, time II)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final, Literal
@@ -55,8 +53,8 @@ class Solid:
     planes: tuple[Plane, ...]
     segments: tuple[Segment, ...]
     used: tuple[int, ...]
+    # The points of ``used``.
     images: tuple[Homogeneous, ...]
-    """The points of ``used``."""
 
     @property
     def vertices(self) -> tuple[Homogeneous, ...]:

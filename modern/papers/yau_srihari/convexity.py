@@ -5,8 +5,6 @@ at the midpoint of any two of its voxels. Definition 3.2.3 requires a convex sol
 expansion of the region. Kim and Rosenfeld's test for it examines the semidigital points on the faces of the hull.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from fractions import Fraction

@@ -5,8 +5,6 @@ from lower chains. The paper computes these by Sklansky's scan, which follows a 
 turns the wrong way.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Sized
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 Section 3.1 requires a 6-connected solid, so this module also counts the 6-connected components of a volume.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

@@ -13,8 +13,6 @@ References
 I. Gargantini, "Linear octtrees for fast processing of three-dimensional objects", 1982.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -23,10 +21,10 @@ from numpy.typing import NDArray
 
 from modern.digital.columns import SLAB, Grid
 
+# The x and y half of each quadrant.
 QUADRANTS = ((0, 0), (1, 0), (0, 1), (1, 1))
-"""The x and y half of each quadrant."""
+# The bits of a son's number that select the half of x, of y and of z.
 ACROSS, UP, ALONG = 1, 2, 0
-"""The bits of a son's number that select the half of x, of y and of z."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

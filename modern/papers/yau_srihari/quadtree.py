@@ -6,8 +6,6 @@ height of its unmarked columns, are computed level by level. Sons are numbered a
 :mod:`modern.papers.yau_srihari.octree`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
@@ -20,8 +18,8 @@ from modern.papers.yau_srihari.octree import QUADRANTS, Octree, tree_of
 Place = tuple[int, int]
 Point = tuple[int, int, int]
 
+# The height stored for a missing column, greater than every height.
 NO_COLUMN = np.iinfo(np.int64).max
-"""The height stored for a missing column, greater than every height."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,8 +7,6 @@ Angles are compared exactly. The cosine of the angle between two integer normals
 finds the same points in the same order by one pass over arrays of all points.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -24,8 +22,8 @@ from modern.papers.yau_srihari.quadtree import NO_COLUMN, Point, Quadtree, bound
 Normal = tuple[int, int, int]
 Bounds = tuple[Fraction | None, Fraction | None]
 
+# A bound of the relative rounding error of a float64 score, which is one product and one quotient (2 ** -53 each).
 ROUNDED = 2.0**-48
-"""A bound of the relative rounding error of a float64 score, which is one product and one quotient (2 ** -53 each)."""
 
 
 def normal_of(u: Point, v: Point, w: Point) -> Normal:

@@ -5,8 +5,6 @@ compiler, makes PDF/A from it.  System fonts are ignored and the date is that of
 always give the same bytes.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 import tempfile
@@ -26,6 +24,7 @@ from modern.publication.numbered import numbered
 DOCS = ROOT / "docs"
 STANDARD: Final = "a-2a"
 MISSING_TYPST = "Typst typesets the book: pip install 'hull1620[edition]'"
+# The chapters: documents below ``docs``; a name with ``@`` is a part that is generated from data.
 CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("Introduction", ("article.md",)),
     ("The algorithm", ("explanation/method.md", "explanation/eight-digits.md", "reference/concordance.md")),
@@ -44,7 +43,6 @@ CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("Studies", ("explanation/studies.md", "@studies", "weight/report.md")),
     ("Glossary", ("reference/glossary.md",)),
 )
-"""The chapters: documents below ``docs``; a name with ``@`` is a part that is generated from data."""
 
 
 def documents() -> dict[str, str]:

@@ -4,8 +4,6 @@ Text is written as string literals of Typst's code mode (``#"..."``), in which o
 a meaning.  No character of a text can therefore be interpreted as markup (Typst reference, "Syntax" and "Strings").
 """
 
-from __future__ import annotations
-
 import posixpath
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence

@@ -4,8 +4,6 @@ The facts are the same as on the site.  Notes refer to cards, not to lines or pa
 depend on page breaks.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator
 
@@ -25,8 +23,8 @@ from modern.publication.examples import TITLES, VERDICTS, example, homes
 from modern.publication.facing import Card, Facing, facing
 from modern.publication.flow import flow
 
+# Saves a picture, given its name and SVG, and returns the name by which Typst finds it.
 SavePicture = Callable[[str, str], str]
-"""Saves a picture, given its name and SVG, and returns the name by which Typst finds it."""
 
 _FONTS = re.compile(r"font-family(=|:)\s*(\"[^\"]*\"|[^;\"}]*)")
 _SHORT = {"holds": "holds", "holds with a condition": "with a condition", "does not hold": "does not hold"}

@@ -5,8 +5,6 @@ by a complete site that was built without a warning.  The same sources always gi
 time, the machine or the user of the build.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys

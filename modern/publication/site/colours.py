@@ -4,8 +4,7 @@ Text has a contrast of at least 4.5 to 1 with its background, which axe checks i
 sign: coloured text is also underlined, marked with a sign or labelled.
 """
 
-from __future__ import annotations
-
+# Each role with its colour in the light and in the dark theme.
 ROLES = {
     "paper": ("#fdfcf8", "#17181a"),
     "desk": ("#f6f3ea", "#1e1f21"),
@@ -25,7 +24,6 @@ ROLES = {
     "shade-4": ("#d9cba8", "#544b37"),
     "alarm": ("#a3321a", "#ff9d80"),
 }
-"""Each role with its colour in the light and in the dark theme."""
 
 # For each role, the CSS variables of the theme Furo that have its colour, without "color-".
 _FURO = {
@@ -47,5 +45,5 @@ def _variables(theme: int) -> dict[str, str]:
     return variables | {f"color-{name}": ROLES[role][theme] for role, names in _FURO.items() for name in names.split()}
 
 
+# The CSS variables of the light and of the dark theme, named without the two dashes.
 LIGHT, DARK = _variables(0), _variables(1)
-"""The CSS variables of the light and of the dark theme, named without the two dashes."""

@@ -1,7 +1,5 @@
 """The witness and the rows of the apparatus in HTML, for the pages of listings and of printed examples."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from functools import cache
 
@@ -23,6 +21,7 @@ GROUNDS = {
     "order": "a column in the witness, a numbering, or the page number",
     "result": "with the row, a computation reproduces a published result",
 }
+# The possible causes of a difference between the witness and our reading.
 CAUSES = {
     "ocr": "the OCR",
     "typist": "the typist",
@@ -30,7 +29,6 @@ CAUSES = {
     "editor": "the editor",
     "undecidable": "cannot be decided",
 }
-"""The possible causes of a difference between the witness and our reading."""
 
 
 def entry(row: Row, places: Iterable[str], page: str) -> str:

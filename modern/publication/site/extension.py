@@ -1,7 +1,5 @@
 """The Sphinx extension: the directive ``made``, the roles that refer to data, and links to files that are no pages."""
 
-from __future__ import annotations
-
 import posixpath
 import re
 from pathlib import Path
@@ -18,8 +16,9 @@ from modern.publication.site.made import Made, Part, make
 from modern.publication.site.markup import relative
 from modern.publication.site.translator import AccessibleTranslator
 
+# Each role with the pattern of its labels: ``{name}`program3 KELEQ``` refers to ``name program3 keleq``.
 ROLES = {"card": "{}", "row": "{}", "name": "name {}", "error": "error {}"}
-"""Each role with the pattern of its labels: ``{name}`program3 KELEQ``` refers to ``name program3 keleq``."""
+# Files of the project that are no pages, with the pages that contain or replace them.
 PAGES_OF_FILES = {
     "fortran_src/README.md": "text",
     "fortran_src/KNOWN-FAULTS.md": "known-faults",
@@ -28,7 +27,6 @@ PAGES_OF_FILES = {
     "README.md": "index",
     "CHANGELOG.md": "changes",
 }
-"""Files of the project that are no pages, with the pages that contain or replace them."""
 
 
 class MadeDirective(SphinxDirective):

@@ -1,7 +1,5 @@
 """The content of a page that is generated from data, and the functions that generate it, by name."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 from importlib import import_module

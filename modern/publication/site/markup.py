@@ -3,14 +3,12 @@
 A parameter called ``inner`` is HTML; other texts are plain and are escaped.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from html import escape as escape
 
+# The prefix of addresses within the site; :func:`relative` replaces it when the depth of the page is known.
 HERE = "@/"
-"""The prefix of addresses within the site; :func:`relative` replaces it when the depth of the page is known."""
 _OPERATOR = re.compile(r"(?<=[\w)])[-+*/=,](?=\S)")
 _NO_END = frozenset({"input", "br", "img", "hr", "col"})
 

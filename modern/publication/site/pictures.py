@@ -4,8 +4,6 @@ The pictures of :mod:`modern.drawing` distinguish things by shape and shades of 
 invert the shades (class ``drawing`` in docs/_static/edition.css).
 """
 
-from __future__ import annotations
-
 import re
 
 from modern.publication.site.markup import element, escape

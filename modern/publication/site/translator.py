@@ -4,8 +4,6 @@ Templates (``docs/_templates``) correct the frame of a page: landmarks get names
 This module corrects elements of the text.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from docutils import nodes

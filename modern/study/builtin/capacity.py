@@ -5,8 +5,6 @@ for which sets the 98-entry table is large enough.  Coordinates have two digits.
 each family and N.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from emulator.language.objectcode import code_positions

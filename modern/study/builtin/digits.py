@@ -7,8 +7,6 @@ docs/explanation/eight-digits.md derives the number of digits with which every t
 that is always enough.
 """
 
-from __future__ import annotations
-
 from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route

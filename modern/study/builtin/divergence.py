@@ -6,8 +6,6 @@ step with the first run, up to the first IF, computed GO TO or end of a DO at wh
 miss their own points.  ``samples`` counts the sets of each family.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass
 

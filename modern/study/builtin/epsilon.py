@@ -6,8 +6,6 @@ count as a point on the plane, so that a vertex is not recognized.  The programs
 number of sets of a cell.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 

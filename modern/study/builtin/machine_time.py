@@ -4,8 +4,6 @@ The corrected programs are used, so that no set fails because of faults of the l
 emulator/machine/timing.py.  ``samples`` counts the sets of each family and N.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from modern.study.outcomes import DETERMINED

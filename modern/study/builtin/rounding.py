@@ -6,8 +6,6 @@ With the interval of chapter 7 (thesis p. 117), scaled to the equation, all run 
 sets of a cell.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -9,8 +9,6 @@ The data sheet of chapter 5 (p. 58-59) has decimals.  So sets like it, ``samples
 through the listing too.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ on runs of the programs in exact arithmetic, in which no set is rejected.  Digit
 is the number of timed sets of each kind and N.  Each kind whose digits are varied has four times as many sets.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

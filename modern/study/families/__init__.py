@@ -14,8 +14,6 @@ To add a family:
    ``tests/modern/study/test_study_families.py``.
 """
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable, Mapping
 

@@ -1,7 +1,5 @@
 """Random numbers for the families: a generator, distinct points, and decimals made from integers."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from random import Random

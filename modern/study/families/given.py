@@ -1,7 +1,5 @@
 """Point sets that are given and not drawn: those that the thesis prints, and those of a user."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 

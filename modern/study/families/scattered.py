@@ -3,8 +3,6 @@
 Only integers are drawn; a decimal is an integer times a power of ten.
 """
 
-from __future__ import annotations
-
 from math import isqrt
 
 from modern.geometry.numbers import scaled_decimal

@@ -1,7 +1,5 @@
 """Prisms and pyramids, whose faces contain many points, and points that lie nearly in one plane."""
 
-from __future__ import annotations
-
 from math import isqrt
 
 from modern.study.families.draws import Count, Draw, Drawn, FamilyError, Whole, drawn, size_of

@@ -24,8 +24,6 @@ has.  The kind ``data sheet`` is modelled on it and is drawn only on request: 8 
 to 12, of which a given share is replaced by such decimals, from .0100 to .0999.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 from modern.study.families.draws import Count, Draw, Drawn, FamilyError, Whole, drawn

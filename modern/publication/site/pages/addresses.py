@@ -4,8 +4,6 @@ The lists are plain HTML and can be read, printed and searched without JavaScrip
 by the text in the input field.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from emulator.errors import explanations

@@ -1,7 +1,5 @@
 """The flow charts of the programs, drawn from the compiled control flow, with a table of all transitions."""
 
-from __future__ import annotations
-
 from modern.edition import programs
 from modern.publication.chart import chart
 from modern.publication.chart_svg import chart_svg

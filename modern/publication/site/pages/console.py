@@ -1,7 +1,5 @@
 """The page with the emulator, and the page that compares the programs with exact arithmetic."""
 
-from __future__ import annotations
-
 from modern.publication.console import console_page, parting_page
 from modern.publication.site.made import Made, Part, one_of
 

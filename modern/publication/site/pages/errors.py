@@ -1,7 +1,5 @@
 """The error numbers of the compiler and the error codes of the machine, each with an example that causes it."""
 
-from __future__ import annotations
-
 from emulator.errors import explanations
 from modern.publication.site.made import Made, Part, Target
 from modern.publication.site.markup import definitions, escape, preformatted, text

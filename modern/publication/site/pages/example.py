@@ -1,7 +1,5 @@
 """A printed example: verdicts, hull, construction and time, and each print next to its witness and today's run."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from emulator.machine.endings import Ending

@@ -4,8 +4,6 @@ All cards, rows and addresses are plain HTML and need neither JavaScript nor CSS
 layers and the example whose figures appear in the margin with form controls, which CSS evaluates.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from modern.edition import programs
@@ -18,12 +16,12 @@ from modern.publication.site.pages import symbols
 from modern.publication.tei import LAYERS
 from modern.publication.uses import uses
 
+# The kinds of difference between a card and the witness, each with its sign and meaning.
 SIGNS = {
     "changed": ("\u2260", "differs from the witness"),
     "blanks": ("\u2423", "differs from the witness in blanks only"),
     "ours": ("+", "not in the witness"),
 }
-"""The kinds of difference between a card and the witness, each with its sign and meaning."""
 
 
 def make(argument: str) -> Made:

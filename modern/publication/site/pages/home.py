@@ -1,7 +1,5 @@
 """The parts of the home page that are made from data: pictures, verdicts, the table of programs, the citation."""
 
-from __future__ import annotations
-
 import hashlib
 from collections import Counter
 
@@ -25,8 +23,8 @@ from modern.publication.site.markup import address, bar, element, escape, link, 
 from modern.publication.site.pages.statements import SIGNS
 from modern.publication.site.pictures import figure
 
+# Cards of program 3 that the OCR misread visibly.
 _SHOWN = ("105+3", "130", "131+2", "143", "167")
-"""Cards of program 3 that the OCR misread visibly."""
 
 
 def make(argument: str) -> Made:

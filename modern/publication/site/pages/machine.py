@@ -1,7 +1,5 @@
 """Storage maps to scale and the composition of running time, each with a table."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from emulator.machine.timing import ARITHMETIC, CONTROL, CONVERSION, FIXED, SUBSCRIPTS
@@ -24,6 +22,7 @@ _GREYS = dict(zip(core.KINDS, ("#b4b4b4", "#dcdcdc", "#fff", "#f0f0f0", "#c8c8c8
 # The smallest heights in pixels for a region with its name, and with its name and size on two lines.
 _LINE, _TWO_LINES = 9, 26
 
+# The parts of a bar, each with the causes in the time table that it adds up.
 PARTS = {
     "floating point": (ARITHMETIC,),
     "subscripts": (SUBSCRIPTS,),
@@ -33,7 +32,6 @@ PARTS = {
     "card punch": ("card punch",),
     "typewriter": ("typewriter",),
 }
-"""The parts of a bar, each with the causes in the time table that it adds up."""
 _FILLS = ("#222", "#666", "#999", "#ddd", "url(#rising)", "url(#upright)", "url(#level)")
 _HATCHINGS = (("rising", 5, "M-1 1L1-1M0 5L5 0M4 6L6 4"), ("upright", 4, "M2 0V4"), ("level", 4, "M0 2H4"))
 _PATTERNS = "".join(

@@ -1,7 +1,5 @@
 """The pictures of the four papers, drawn from the intermediate results of each method."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
@@ -27,8 +25,8 @@ from modern.publication.site.markup import details, element, escape, preformatte
 from modern.publication.site.pictures import figure
 from modern.publication.steps import EDGE_OF_CONTOUR, EYE, HIDDEN, REMOVED, SEEN, Level, Plate, Stroke
 
+# The width of a picture in pixels.
 WIDTH = 328
-"""The width of a picture in pixels."""
 _MARGIN = 12
 _STYLES = {
     SEEN: 'stroke="#000" stroke-width="1.1" stroke-linecap="round"',
@@ -37,12 +35,12 @@ _STYLES = {
     REMOVED: 'stroke="#777" stroke-width="0.8" stroke-dasharray="3 3"',
 }
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000" text-anchor="middle"'
+# The style of an edge that no loop, one loop or two loops have used.
 _USES = (
     'stroke="#777" stroke-width="0.9" stroke-dasharray="3 3"',
     'stroke="#000" stroke-width="1.4"',
     'stroke="#000" stroke-width="3"',
 )
-"""The style of an edge that no loop, one loop or two loops have used."""
 
 
 def make(argument: str) -> Made:

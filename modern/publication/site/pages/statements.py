@@ -3,8 +3,6 @@
 The page contains all statements.  The script ``data.js`` hides those that the reader's choice excludes.
 """
 
-from __future__ import annotations
-
 from modern.claims.register import COLUMNS, DOCUMENTS, UNTESTABLE, USED, Judged, Statement, column, counts, judged
 from modern.claims.sampled_sets import counterexample
 from modern.publication.site.made import Made, Part, Target, one_of, slug

@@ -1,7 +1,5 @@
 """The variables and FORMAT statements of a program: type, size, and the cards that declare, set and use them."""
 
-from __future__ import annotations
-
 from modern.edition import programs
 from modern.publication.facing import facing
 from modern.publication.site.made import Made, Part, Target, one_of

@@ -1,7 +1,5 @@
 """The known faults with the decks that demonstrate them, the open questions, and the sources of the texts."""
 
-from __future__ import annotations
-
 import re
 
 from modern.edition.sources import Document, read, sources
@@ -10,8 +8,8 @@ from modern.publication.site.made import Made, Part, Target, one_of, slug
 from modern.publication.site.markup import definitions, details, element, escape, preformatted, table, text
 
 _FILE = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]+\)")
+# The files of numbered items, with the prefix of their ids.
 FILES = {"fortran_src/KNOWN-FAULTS.md": "fault", "fortran_src/OPEN-QUESTIONS.md": "question"}
-"""The files of numbered items, with the prefix of their ids."""
 
 
 def make(argument: str) -> Made:

@@ -1,7 +1,5 @@
 """A set of points for which the programs punch a wrong hull, compared with the true hull."""
 
-from __future__ import annotations
-
 import re
 
 from emulator.language.cards import deck_from_text
