@@ -9,7 +9,7 @@ from emulator.files import write_text
 from emulator.language.cards import read_deck
 from modern.cli.shared.console import DIFFERS, OK, UsageError, print_notes
 from modern.cli.shared.inputs import exact_hull_of
-from modern.comparison.card_differences import card_differences
+from modern.comparison.difference import card_differences
 from modern.drawing.against import draw_against
 from modern.drawing.draw import Show, draw_svg
 from modern.drawing.scene import eye_of

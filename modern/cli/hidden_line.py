@@ -17,7 +17,7 @@ from modern.drawing.scene import eye_of
 from modern.geometry.coplanar import parse_distance
 from modern.geometry.numbers import number, quoted
 from modern.geometry.vectors import Vector
-from modern.papers.nakamae_nishita import picture, report
+from modern.papers.nakamae_nishita import picture
 from modern.papers.nakamae_nishita.bodies import Reading, read_bodies
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.polyhedron import SceneError
@@ -48,9 +48,9 @@ def main(args: argparse.Namespace) -> int:
         title = scene_file.title if args.title is None else args.title
         write_text(output, picture.as_hpgl(drawing) if plot else picture.as_svg(drawing, title, args.width))
     if args.tables:
-        sys.stdout.writelines(line + "\n" for line in report.tables(drawing))
+        sys.stdout.writelines(line + "\n" for line in picture.tables(drawing))
     print_notes(f"note: {note}" for note in (*scene_file.notes, *_near_plane_notes(drawing)))
-    print_notes(report.table1(drawing))
+    print_notes(picture.table1(drawing))
     return OK
 
 

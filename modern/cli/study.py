@@ -14,10 +14,10 @@ from modern.cli.shared.console import BAD_INPUT, OK, print_error
 
 def main(args: argparse.Namespace) -> int:
     # Imported here because these modules take long to import and --help does not need them.
+    from modern.study.builtin import entries, names, study
     from modern.study.families import FAMILIES, given
     from modern.study.measures import MEASURES
     from modern.study.plan import SEED, PlanError
-    from modern.study.registry import entries, names, study
     from modern.study.report import terminal_text
     from modern.study.run import cut_lines, run_study
     from modern.study.tomlplan import is_plan_file, read_plan

@@ -39,7 +39,7 @@ from modern.papers.kovalevsky_schulz import (
     VoxelHull,
     voxel_hull,
 )
-from modern.papers.kovalevsky_schulz.tables import all_rows, cell_list_size, economical_size, triangulation_size
+from modern.papers.kovalevsky_schulz.cells import all_rows, cell_list_size, economical_size, triangulation_size
 
 
 def main(args: argparse.Namespace) -> int:

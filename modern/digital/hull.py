@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from emulator.jit.functions import NotInstalled
-from modern.digital.columns import Grid, Truth, column_ends, fill, reduced
-from modern.digital.intervals import below_edges, below_facets, in_plane
+from modern.digital.intervals import Grid, Truth, below_edges, below_facets, column_ends, fill, in_plane, reduced
 from modern.digital.polytope import compiled_hull, polyhedron
 from modern.digital.solids import NoVoxels, Volume, VolumeError
 from modern.digital.world import World, voxel_volume, world_of

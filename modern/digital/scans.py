@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.digital.columns import slabs
+from modern.digital.intervals import slabs
 from modern.digital.solids import NoVoxels, Volume, VolumeError
 from modern.digital.world import World, decimal_or_fraction
 from modern.geometry.numbers import finite_decimal

@@ -5,7 +5,7 @@ from dataclasses import replace
 from fractions import Fraction
 from math import atan2
 
-from modern.comparison.card_differences import CardDifferences
+from modern.comparison.difference import CardDifferences
 from modern.drawing import svg
 from modern.drawing.draw import Show, filter_scene, number_items, scene_items, width_of
 from modern.drawing.layout import MARGIN, Layout, Pixel, lay_out

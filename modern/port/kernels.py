@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.port.formulas import at, plane
+from modern.port.arithmetic import at, plane
 from modern.port.workspace import (
     ADDED,
     ALIVE,

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modern.port.arithmetic import Arithmetic, Scalar, Vector
-from modern.port.formulas import Point, at, line, moments, plane
+from modern.port.arithmetic import Arithmetic, Point, Scalar, Vector, at, line, moments, plane
 from modern.port.table import Equations, PointTable, Slack, snapped
 
 Four = tuple[Scalar, Scalar, Scalar, Scalar]

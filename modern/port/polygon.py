@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modern.geometry.hull import ERROR, NOT_ACCEPTABLE
-from modern.port.arithmetic import Arithmetic, Scalar, Vector
-from modern.port.formulas import distance_squared, line
+from modern.port.arithmetic import Arithmetic, Scalar, Vector, distance_squared, line
 from modern.port.growth import BETWEEN, NUMBERING, TABLE_OF_LINES, Progress, Remaining, Stopped, Watcher, grow
 from modern.port.table import Equations, PointTable, Slack, turned
 

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modern.geometry.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL
-from modern.port.arithmetic import Arithmetic, Scalar, Vector
-from modern.port.formulas import plane
+from modern.port.arithmetic import Arithmetic, Scalar, Vector, plane
 from modern.port.growth import (
     LAST_PAIR,
     LAST_REPEAT,

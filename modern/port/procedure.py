@@ -12,9 +12,8 @@ from emulator.jit.functions import require_numba
 from modern.geometry.hull import DETERMINED, ERROR, Hull, HullRefused
 from modern.geometry.numbers import quoted, read_epsilon
 from modern.geometry.points import Points
-from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector
+from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector, at, less
 from modern.port.fast import choose
-from modern.port.formulas import at, less
 from modern.port.growth import Progress, Stopped
 from modern.port.opening import Opening, mean, open_hull, tetrahedron
 from modern.port.outcome import LINE, PLANE, Faces, Historian, coefficients, point_texts, texts

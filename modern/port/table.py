@@ -7,8 +7,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.port.arithmetic import Arithmetic, Scalar, Vector
-from modern.port.formulas import at
+from modern.port.arithmetic import Arithmetic, Scalar, Vector, at
 
 
 @dataclass

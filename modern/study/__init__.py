@@ -7,7 +7,7 @@ explains the terms sample, route, cell and chunk.
 To add a built-in study:
 
 1. Write ``builtin/NAME.py`` with ``TITLE``, ``SAMPLES``, ``plan(samples, seed)`` and ``report(plan, store)``
-   (:class:`modern.study.registry.Study`).  Each module in that package is a study; its name has ``-`` for ``_``.
+   (:class:`modern.study.builtin.Study`).  Each module in that package is a study; its name has ``-`` for ``_``.
 2. Test its report in ``tests/modern/study/test_study_reports.py`` on rows made for the test.
 3. Run it at full size and commit its report, tables, charts and manifest in ``docs/studies/NAME/``; describe the result
    in ``docs/explanation/studies.md``.  ``test_docs_studies.py`` compares the figures quoted there with the tables.

@@ -39,10 +39,10 @@ from typing import Any
 
 from emulator.errors import EmulatorError
 from emulator.files import read_text
+from modern.study.builtin import names as built_in_names
 from modern.study.families import FAMILIES, check_keywords, family_of
 from modern.study.families.given import file_points
 from modern.study.plan import CHUNK, SEED, Cell, Plan, PlanError, Port, Programs, Route
-from modern.study.registry import names as built_in_names
 from modern.study.run import check_cell, check_route
 
 _SAMPLES = 1000

@@ -13,8 +13,7 @@ from modern.claims.sampled_sets import CASES, Point, counterexample_points, plan
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will import Method, appel_will, printed
-from modern.papers.appel_will.edges import project
-from modern.papers.appel_will.star import as_corrected, as_printed, vorticity
+from modern.papers.appel_will.star import as_corrected, as_printed, project, vorticity
 
 Flat = tuple[int, int]
 CUBE = tuple(product((0, 1), repeat=3))

@@ -11,8 +11,7 @@ from modern.claims.sampled_sets import CASES, Point, counterexample_points, samp
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import Method, appel_will, printed
 from modern.papers.appel_will.corners import triple_product
-from modern.papers.appel_will.edges import project
-from modern.papers.appel_will.star import as_corrected, as_printed, star_polygon, vorticity
+from modern.papers.appel_will.star import as_corrected, as_printed, project, star_polygon, vorticity
 
 # The vectors I, K and L of [512], [723] and [643].
 FIG_18: tuple[tuple[Point, Point, Point], ...] = (

@@ -16,10 +16,9 @@ from modern.digital.solids import Volume, half_ball, listed
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import dot, minus, plus
 from modern.papers.kovalevsky_schulz import CENTRES, VERTICES, convex_polyhedron, local_corners
-from modern.papers.kovalevsky_schulz.cells import CellList
+from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size, triangulation_size
 from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, Treatment, coplanar_hull
 from modern.papers.kovalevsky_schulz.hull import merged, straightened
-from modern.papers.kovalevsky_schulz.tables import cell_list_size, triangulation_size
 
 GRID = tuple(product(range(3), repeat=3))
 # The diameters of the half-balls of Table 5.

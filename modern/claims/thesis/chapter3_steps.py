@@ -26,7 +26,7 @@ from modern.claims.thesis.chapter3_equations import plane_as_printed
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
-from modern.port.formulas import moments
+from modern.port.arithmetic import moments
 
 # A triangle, and a point on one of its sides that the procedure uses.
 _POINT_ON_A_SIDE: list[Point] = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]

@@ -21,7 +21,7 @@ from modern.formats.csv import points as csv_points
 from modern.formats.deck import coordinate_field, data_deck, exact_points
 from modern.geometry.vectors import dot
 from modern.port import convex_hull
-from modern.port.formulas import at, plane
+from modern.port.arithmetic import at, plane
 from modern.port.points import take
 from modern.thesis.job import HullRun, run_hull
 

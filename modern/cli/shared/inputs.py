@@ -86,13 +86,13 @@ def _figure(name: str) -> str | None:
 
 
 def _sample(study_name: str, cell: int, index: int) -> str | None:
-    from modern.study import registry
+    from modern.study import builtin
     from modern.study.families import draw_sample
     from modern.study.plan import SEED
 
-    if study_name not in registry.names():
+    if study_name not in builtin.names():
         return None
-    study = registry.study(study_name)
+    study = builtin.study(study_name)
     plan = study.plan(study.SAMPLES, SEED)
     if cell >= len(plan.cells) or index >= plan.cells[cell].samples:
         choices = f"cells 0 to {len(plan.cells) - 1}"

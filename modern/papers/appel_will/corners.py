@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
-from modern.papers.appel_will.edges import IntPoint
+from modern.papers.appel_will.star import IntPoint
 from modern.papers.appel_will.surfaces import Line, Surface, lines, oriented
 
 Rule = Literal["any", "two", "concave"]

@@ -7,9 +7,8 @@ from modern.exact_hull.coordinates import common_scale, read_points, to_integers
 from modern.geometry.points import Points
 from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers.appel_will.corners import Preprocessing, Rule, preprocess
-from modern.papers.appel_will.edges import Deleted, IntPoint, Pair, convex_edges
 from modern.papers.appel_will.loops import PREFERRED, LoopTable, Rules, find_loops, surface
-from modern.papers.appel_will.star import StarTest, as_printed, in_one_pass
+from modern.papers.appel_will.star import Deleted, IntPoint, Pair, StarTest, as_printed, convex_edges, in_one_pass
 from modern.papers.appel_will.surfaces import Fates, Surface, check_surfaces, fates
 
 

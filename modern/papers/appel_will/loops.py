@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from modern.geometry.vectors import cross, dot, minus
-from modern.papers.appel_will.edges import IntPoint, Pair
+from modern.papers.appel_will.star import IntPoint, Pair
 
 # The number of loops that use each edge: an edge is the intersection of two convex planes.
 TIMES = 2

@@ -23,9 +23,8 @@ from modern.geometry.hull import Hull as Record
 from modern.geometry.mesh import ExportError, Mesh, sides
 from modern.geometry.numbers import Point
 from modern.geometry.vectors import area_vector, dot, lowest, minus
-from modern.papers.appel_will.edges import Pair, project
 from modern.papers.appel_will.hull import Assembled
-from modern.papers.appel_will.star import Image, on_one_ray, star_polygon, vorticity
+from modern.papers.appel_will.star import Image, Pair, on_one_ray, project, star_polygon, vorticity
 from modern.papers.appel_will.surfaces import Surface
 
 WIDTH, WIDER = 640, 1000

@@ -20,7 +20,6 @@ from modern.drawing.layout import MARGIN, Pixel, fit
 from modern.drawing.legend import wrapped
 from modern.drawing.svg import VERTEX, VISIBLE
 from modern.geometry.mesh import sides
-from modern.papers.appel_will.edges import Pair
 from modern.papers.appel_will.pictures import (
     FONT,
     MOST_LINES,
@@ -31,6 +30,7 @@ from modern.papers.appel_will.pictures import (
     numbers,
     text_row,
 )
+from modern.papers.appel_will.star import Pair
 from modern.papers.appel_will.surfaces import Surface
 
 Place = tuple[float, float]

@@ -15,9 +15,8 @@ from itertools import combinations
 from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers import Lines
 from modern.papers.appel_will.corners import corners, triple_product, vectors
-from modern.papers.appel_will.edges import IntPoint, Pair, project
 from modern.papers.appel_will.hull import Assembled, Method, appel_will
-from modern.papers.appel_will.star import as_corrected
+from modern.papers.appel_will.star import IntPoint, Pair, as_corrected, project
 from modern.papers.appel_will.surfaces import Line, Surface, oriented
 
 # The folder of the print under ``transcripts``.

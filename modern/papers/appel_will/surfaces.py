@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from emulator.errors import EmulatorError
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import area_vector, cross, dot, minus
-from modern.papers.appel_will.edges import IntPoint, Pair
+from modern.papers.appel_will.star import IntPoint, Pair
 
 # The indices of a surface's points, from 0, in the order in which they are connected.
 Surface = tuple[int, ...]

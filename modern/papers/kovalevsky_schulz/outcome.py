@@ -11,8 +11,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from modern.digital.columns import reduced
 from modern.digital.hull import independent
+from modern.digital.intervals import reduced
 from modern.digital.polytope import polyhedron
 from modern.papers.kovalevsky_schulz.cells import CellList, Economical, IntPoint, Numbers, expanded
 from modern.papers.kovalevsky_schulz.corners import Points

@@ -12,11 +12,17 @@ from fractions import Fraction
 
 from modern.digital.solids import ball, half_ball
 from modern.papers import Lines
-from modern.papers.kovalevsky_schulz import tables
-from modern.papers.kovalevsky_schulz.cells import CellList
+from modern.papers.kovalevsky_schulz.cells import (
+    CellList,
+    cell_list_size,
+    cube_triangles,
+    edge_rows,
+    face_rows,
+    triangulation_size,
+    vertex_rows,
+)
 from modern.papers.kovalevsky_schulz.hull import voxel_hull
 from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, convex_polyhedron
-from modern.papers.kovalevsky_schulz.tables import cell_list_size, cube_triangles, triangulation_size
 
 # Four points in the arrangement of Fig. 4: points 1, 2, 3 run counterclockwise, and point 4 is behind them.
 TETRAHEDRON = ((0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))
@@ -45,9 +51,9 @@ def _tetrahedron() -> Iterator[tuple[str, Sequence[str]]]:
     # Tables 1 to 3 print the cell list of the tetrahedron of Fig. 4, with symbols instead of coordinates.
     cells = convex_polyhedron(TETRAHEDRON)
     assert isinstance(cells, CellList)
-    yield "table1", list(tables.vertex_rows(cells, lambda number, _: f"(x_{number}, y_{number}, z_{number})"))
-    yield "table2", list(tables.edge_rows(cells))
-    yield "table3", list(tables.face_rows(cells))
+    yield "table1", list(vertex_rows(cells, lambda number, _: f"(x_{number}, y_{number}, z_{number})"))
+    yield "table2", list(edge_rows(cells))
+    yield "table3", list(face_rows(cells))
 
 
 def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:

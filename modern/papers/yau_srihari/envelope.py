@@ -13,8 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from modern.digital.columns import Grid
-from modern.digital.intervals import lower_chain, write_heights
+from modern.digital.intervals import Grid, lower_chain, write_heights
 from modern.papers.yau_srihari import quadtree as trees
 from modern.papers.yau_srihari.printed import Printed
 from modern.papers.yau_srihari.quadtree import NO_COLUMN, Leaf, Place, Point, Quadtree, written

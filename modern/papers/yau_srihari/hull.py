@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.digital.columns import Grid
+from modern.digital.intervals import Grid
 from modern.digital.solids import MAX_CELLS, NoVoxels, Volume, VolumeError, as_volume
 from modern.papers.yau_srihari import octree as trees
 from modern.papers.yau_srihari.envelope import Envelope, envelope

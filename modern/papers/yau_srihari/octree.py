@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.digital.columns import SLAB, Grid
+from modern.digital.intervals import SLAB, Grid
 
 # The x and y half of each quadrant.
 QUADRANTS = ((0, 0), (1, 0), (0, 1), (1, 1))

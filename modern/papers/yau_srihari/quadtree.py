@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.digital.columns import Grid, Truth
+from modern.digital.intervals import Grid, Truth
 from modern.papers.yau_srihari.octree import QUADRANTS, Octree, tree_of
 
 Place = tuple[int, int]

@@ -14,7 +14,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from modern.digital.columns import Grid
+from modern.digital.intervals import Grid
 from modern.papers.yau_srihari.octree import QUADRANTS, interleaved
 from modern.papers.yau_srihari.printed import Printed
 from modern.papers.yau_srihari.quadtree import NO_COLUMN, Point, Quadtree, bounds_by_level

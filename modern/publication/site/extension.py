@@ -1,4 +1,7 @@
-"""The Sphinx extension: the directive ``made``, the roles that refer to data, and links to files that are no pages."""
+"""The Sphinx extension: the directive ``made``, roles that refer to data, links to files, and the writer of the HTML.
+
+Templates (``docs/_templates``) make the frame of a page accessible.  The writer does the same for elements of the text.
+"""
 
 import posixpath
 import re
@@ -11,10 +14,10 @@ from sphinx.application import Sphinx
 from sphinx.domains.std import StandardDomain
 from sphinx.environment import BuildEnvironment
 from sphinx.util.docutils import SphinxDirective
+from sphinx.writers.html5 import HTML5Translator
 
 from modern.publication.site.made import Made, Part, make
 from modern.publication.site.markup import relative
-from modern.publication.site.translator import AccessibleTranslator
 
 # Each role with the pattern of its labels: ``{name}`program3 KELEQ``` refers to ``name program3 keleq``.
 ROLES = {"card": "{}", "row": "{}", "name": "name {}", "error": "error {}"}
@@ -153,3 +156,40 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("source-read", _project_files)
     app.set_translator("html", AccessibleTranslator)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
+
+
+class AccessibleTranslator(HTML5Translator):
+    """Sphinx's HTML writer with scope, tabindex and roles as WCAG 2.2 and the HTML standard require them."""
+
+    def starttag(
+        self, node: nodes.Element, tagname: str, suffix: str = "\n", empty: bool = False, **attributes: Any
+    ) -> str:
+        """Return a start tag.
+
+        A heading cell has the scope of its column, but an empty one is a data cell.  The keyboard can scroll a wide
+        table.  The caption of a table of contents is not a heading, because it has no level.  The parameters of a long
+        signature are no description list, although Sphinx writes them as ``dl``.
+        """
+        if tagname == "th":
+            tagname, attributes = ("th", attributes | {"scope": "col"}) if node.astext() else ("td", attributes)
+        if "table-wrapper" in node.get("classes", ()):
+            attributes["tabindex"] = "0"
+        if tagname == "dl" and isinstance(node, addnodes.desc_parameterlist):
+            attributes["role"] = "presentation"
+        if attributes.get("ROLE") == "heading":
+            del attributes["ROLE"]
+        tag: str = super().starttag(node, tagname, suffix, empty, **attributes)
+        return tag
+
+    def visit_literal_block(self, node: nodes.Element) -> None:
+        """Let the keyboard scroll a block of code."""
+        try:
+            super().visit_literal_block(node)
+        finally:  # Sphinx raises SkipNode after it has written a highlighted block
+            self.body[-1] = self.body[-1].replace("<pre>", '<pre tabindex="0">', 1)
+
+    def visit_entry(self, node: nodes.Element) -> None:
+        """Close an empty heading cell as the data cell that :meth:`starttag` began."""
+        super().visit_entry(node)
+        if isinstance(node.parent.parent, nodes.thead) and not node.astext():
+            self.context[-1] = "</td>\n"

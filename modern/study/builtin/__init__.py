@@ -1,1 +1,58 @@
-"""The built-in studies, one module each.  :class:`modern.study.registry.Study` describes what a module defines."""
+"""The built-in studies by name.  Each module of this package is one; :class:`Study` describes what it defines."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import Protocol
+
+from modern.study.plan import SEED, Plan
+from modern.study.report import Report
+from modern.study.store import Store
+
+
+class Study(Protocol):
+    """The interface of a module of :mod:`modern.study.builtin`.
+
+    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the module says what they count.  plan:
+    makes the plan with the given number of samples.  report: makes the report from the finished rows.
+    """
+
+    TITLE: str
+    SAMPLES: int
+
+    def plan(self, samples: int, seed: int) -> Plan: ...
+
+    def report(self, plan: Plan, store: Store) -> Report: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A built-in study as a list shows it: its default of ``--samples``, and the resulting number of sets and cells."""
+
+    name: str
+    title: str
+    samples: int
+    sets: int
+    cells: int
+
+
+def names() -> tuple[str, ...]:
+    """Return the names of the built-in studies."""
+    return tuple(sorted(module.name.replace("_", "-") for module in iter_modules(__path__)))
+
+
+def study(name: str) -> Study:
+    """Return the built-in study of that name.  Raise KeyError if it is unknown."""
+    if name not in names():
+        raise KeyError(name)
+    module: Study = import_module(f"{__name__}.{name.replace('-', '_')}")
+    return module
+
+
+def entries() -> Iterator[Entry]:
+    """Yield the entries of all built-in studies."""
+    for name in names():
+        module = study(name)
+        plan = module.plan(module.SAMPLES, SEED)
+        yield Entry(name, module.TITLE, module.SAMPLES, plan.samples, len(plan.cells))

@@ -6,9 +6,9 @@ every machine.  :data:`FAMILIES` names the built-in families; ``module:function`
 
 To add a family:
 
-1. Write the function in ``scattered.py`` (points drawn one by one), ``solids.py`` (prisms, pyramids, nearly flat sets),
-   ``thesis.py`` (sets like those of the thesis) or ``given.py`` (sets that are not drawn).  ``draws.py`` has the random
-   numbers.  ``hull1620 study --families`` prints the docstring.
+1. Write the function in ``scattered.py`` (points drawn one by one, prisms, pyramids, nearly flat sets), ``thesis.py``
+   (sets like those of the thesis) or ``given.py`` (sets that are not drawn).  ``draws.py`` has the random numbers.
+   ``hull1620 study --families`` prints the docstring.
 2. Enter it in :data:`FAMILIES`.
 3. Describe its parameters in a row of ``docs/how-to/own-study.md``, and add parameters for the tests to ``DRAWN`` in
    ``tests/modern/study/test_study_families.py``.
@@ -18,7 +18,7 @@ import inspect
 from collections.abc import Callable, Mapping
 
 from modern.formats.deck import coordinate_field
-from modern.study.families import given, scattered, solids, thesis
+from modern.study.families import given, scattered, thesis
 from modern.study.families.draws import Draw, Drawn, FamilyError
 from modern.study.plan import Cell, PlanError, named, random_of, user_code
 
@@ -32,9 +32,9 @@ FAMILIES: Mapping[str, Family] = {
     "ball": scattered.ball,
     "sphere": scattered.sphere,
     "cube": scattered.cube,
-    "prism": solids.prism,
-    "pyramid": solids.pyramid,
-    "near-coplanar": solids.near_coplanar,
+    "prism": scattered.prism,
+    "pyramid": scattered.pyramid,
+    "near-coplanar": scattered.near_coplanar,
     "published": given.published,
     "points": given.points,
 }

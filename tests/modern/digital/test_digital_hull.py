@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from emulator.jit.functions import NotInstalled
-from modern.digital import columns, intervals
+from modern.digital import intervals
 from modern.digital.hull import KINDS, WORTH_COMPILING, digital_hull
 from modern.digital.polytope import polyhedron
 from modern.digital.solids import VERTEX, NoVoxels, VolumeError, ball
@@ -62,7 +62,7 @@ def test_coplanar_voxels_have_the_grid_points_of_the_judge(
 def test_the_comparison_with_the_judge_can_fail(monkeypatch: pytest.MonkeyPatch) -> None:
     array = solid_of([(0, 0, 0), (2, 0, 0), (0, 2, 1), (0, 0, 3)])
     assert agrees(array)
-    monkeypatch.setattr(columns, "_along", lambda line, t, z: (line[:1], t[:1], z[:1]))
+    monkeypatch.setattr(intervals, "_along", lambda line, t, z: (line[:1], t[:1], z[:1]))
     assert not agrees(array)
 
 
@@ -140,7 +140,7 @@ def test_hull_of_a_ball_surface_has_the_grid_points_of_the_judge() -> None:
 def test_batch_size_does_not_change_the_hull(monkeypatch: pytest.MonkeyPatch) -> None:
     array = ball(15).array & (np.indices((15, 15, 15)).sum(axis=0) % 5 == 0)
     whole = digital_hull(array)
-    monkeypatch.setattr(columns, "SLAB", 1)
+    monkeypatch.setattr(intervals, "SLAB", 1)
     monkeypatch.setattr(intervals, "BATCH", 7)
     assert np.array_equal(digital_hull(array).filled, whole.filled)
     assert agrees(array)

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from modern.comparison.card_differences import CardDifferences, UnrelatedCards, card_differences
+from modern.comparison.difference import CardDifferences, UnrelatedCards, card_differences
 from modern.drawing.against import draw_against
 from modern.drawing.draw import Show, draw_svg
 from modern.drawing.stages import frames, played, strip

@@ -11,13 +11,13 @@ from hypothesis import strategies as st
 
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import CORRECTED, Method, appel_will
-from modern.papers.appel_will.edges import project
 from modern.papers.appel_will.star import (
     Image,
     as_corrected,
     as_printed,
     in_one_pass,
     on_one_ray,
+    project,
     star_polygon,
     vorticity,
 )

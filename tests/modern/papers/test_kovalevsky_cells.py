@@ -27,8 +27,7 @@ from modern.papers.kovalevsky_schulz import (
     voxel_hull,
 )
 from modern.papers.kovalevsky_schulz import cells as cells_module
-from modern.papers.kovalevsky_schulz.cells import planes_of
-from modern.papers.kovalevsky_schulz.tables import all_rows, cube_triangles, economical_size
+from modern.papers.kovalevsky_schulz.cells import all_rows, cube_triangles, economical_size, planes_of
 
 POINTS = st.lists(st.tuples(*[st.integers(-3, 3)] * 3), min_size=4, max_size=40)
 COPLANAR = st.sampled_from([VISIBLE, INVISIBLE])

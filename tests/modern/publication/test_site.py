@@ -17,8 +17,7 @@ from emulator.errors import explanations
 from modern.edition import programs
 from modern.publication.site import build as site_build
 from modern.publication.site.made import make, names
-from modern.publication.site.markup import code, element, escape, relative
-from modern.publication.site.pictures import inline
+from modern.publication.site.markup import code, element, escape, inline, relative
 from tests.support import editions
 from tests.support.editions import page_of_each_kind, pages, words
 from tests.support.paths import ROOT

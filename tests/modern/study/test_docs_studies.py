@@ -10,10 +10,10 @@ from inspect import signature
 
 import pytest
 
+from modern.study.builtin import names, study
 from modern.study.families import FAMILIES
 from modern.study.measures import MEASURES
 from modern.study.plan import Port, Programs
-from modern.study.registry import names, study
 from modern.study.tomlplan import _CELL, _HEAD
 from tests.support.paths import ROOT
 

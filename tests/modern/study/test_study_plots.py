@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 
 from modern.cli.main import main
 from modern.study import layout, plots
+from modern.study.builtin import names as studies
 from modern.study.chartfile import read_charts, write_charts
 from modern.study.plan import StudyFileError
-from modern.study.registry import names as studies
 from modern.study.report import Bars, Chart, Lines, Mark, Series
 from modern.study.statistics import Interval
 from tests.support.paths import ROOT

@@ -15,13 +15,12 @@ from emulator.errors import EmulatorError
 from modern.cli.main import main
 from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.study import Plan, PlanError, Port, Programs, refusals, run_study
-from modern.study.builtin import seventy
+from modern.study.builtin import entries, names, seventy, study
 from modern.study.families import FAMILIES
 from modern.study.index import JUDGE, Row
 from modern.study.measures import MEASURES
 from modern.study.outcomes import DETERMINED, OUTCOMES
 from modern.study.parquet import column_types
-from modern.study.registry import entries, names, study
 from modern.study.report import Table, percent, with_interval
 from modern.study.statistics import Interval, exact, mean
 from modern.study.tomlplan import read_plan

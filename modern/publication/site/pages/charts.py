@@ -6,8 +6,7 @@ from modern.publication.chart_svg import chart_svg
 from modern.publication.facing import facing
 from modern.publication.flow import Box, Flow, flow
 from modern.publication.site.made import Made, Part, Target, one_of
-from modern.publication.site.markup import address, details, element, escape, link, table, text
-from modern.publication.site.pictures import inline
+from modern.publication.site.markup import address, details, element, escape, inline, link, table, text
 
 _ORIGIN = "Drawn from the compiled program. The charts of the thesis are lost."
 

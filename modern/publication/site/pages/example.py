@@ -17,8 +17,7 @@ from modern.publication.measured import runs
 from modern.publication.site.entries import column, entry, sign, witness_line
 from modern.publication.site.made import Made, Target, one_of
 from modern.publication.site.made import Part as Section
-from modern.publication.site.markup import definitions, details, element, escape, link, marked, table, text
-from modern.publication.site.pictures import figure
+from modern.publication.site.markup import definitions, details, element, escape, figure, link, marked, table, text
 
 STATES = {"examples": "program 1 in the state that ran the examples", "listing": "program 1 as listed"}
 

@@ -1,4 +1,4 @@
-"""A listing as facing text: the witness on the left, the deck on the right, and details for every card.
+"""A listing as facing text, with details for every card, and the tables of its names and FORMAT statements.
 
 All cards, rows and addresses are plain HTML and need neither JavaScript nor CSS.  The reader chooses the highlighted
 layers and the example whose figures appear in the margin with form controls, which CSS evaluates.
@@ -11,10 +11,20 @@ from modern.publication.facing import Card, Facing, Piece, Variant, facing
 from modern.publication.measured import DETECTED_BY, runs, weights
 from modern.publication.site.entries import column, entry, sign, witness_line
 from modern.publication.site.made import Made, Part, Target, one_of
-from modern.publication.site.markup import bar, code, definitions, details, element, escape, link, preformatted, text
-from modern.publication.site.pages import symbols
+from modern.publication.site.markup import (
+    bar,
+    code,
+    definitions,
+    details,
+    element,
+    escape,
+    link,
+    preformatted,
+    table,
+    text,
+)
 from modern.publication.tei import LAYERS
-from modern.publication.uses import uses
+from modern.publication.uses import Name, uses
 
 # The kinds of difference between a card and the witness, each with its sign and meaning.
 SIGNS = {
@@ -37,7 +47,7 @@ def make(argument: str) -> Made:
     for page, cards in listing.pages():
         items = "".join(_card(listing, card, first_cards) for card in cards)
         parts.append(Part(f"Page {page}", f"page-{page}", html=head + element("ol", items, cls="cards")))
-    tables = symbols.make(name)
+    tables = _symbols(name)
     return Made((*parts, *tables.parts), (*_targets(listing), *tables.targets))
 
 
@@ -204,3 +214,39 @@ def _weight(detected: tuple[int, ...], formula: str) -> str:
     )
     sentence = f"{sum(detected)}: {counts}" + (f"; computes {formula}" if formula else "")
     return escape(sentence) + bar((f"w-{check}", count) for check, count in zip(DETECTED_BY, detected, strict=True))
+
+
+def _symbols(program: str) -> Made:
+    """Return the table of names and the table of FORMATs of a built-in program, with their addresses."""
+    known, cards = uses(program), {card.number: card for card in facing(program).cards}
+
+    def places(numbers: tuple[int, ...]) -> str:
+        return ", ".join(link(program, cards[n].place, cards[n].place) for n in numbers)
+
+    rows, targets = [], []
+    for name in known.names:
+        code = text("code", name.name, id=f"name-{name.name}")
+        rows.append((code, _type_of(name), *map(places, (name.declared, name.set, name.used))))
+        index = f"{name.name}; {program}"
+        targets.append(Target(f"name-{name.name}", f"name {program} {name.name}", name.name, index))
+    names = table(("name", "type", "declared", "set", "used"), rows, "Names")
+    formats = []
+    for card in cards.values():
+        if card.kind == "format":
+            users = [jump for jump in known.to(card.number) if jump.kind == "format"]
+            used = ", ".join(f"{places((jump.card,))} {escape(jump.taken)}" for jump in users)
+            specification = card.text.split("FORMAT", 1)[1].strip()
+            formats.append((link(program, card.place, str(card.label)), text("code", specification), used or "nothing"))
+    parts = (
+        Part("Names", "names", html=names),
+        Part("FORMATs", "formats", html=table(("FORMAT", "specification", "used by"), formats, "FORMATs")),
+    )
+    return Made(parts, tuple(targets))
+
+
+def _type_of(name: Name) -> str:
+    if name.function:
+        return "library function"
+    mode = "floating point" if name.floating else "fixed point"
+    size = f", array of {' by '.join(map(str, name.shape))}" if name.shape else ""
+    return mode + size

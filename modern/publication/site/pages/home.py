@@ -19,9 +19,19 @@ from modern.publication.chart_svg import chart_svg
 from modern.publication.facing import Card, facing
 from modern.publication.flow import flow
 from modern.publication.site.made import Made, Part, one_of
-from modern.publication.site.markup import address, bar, element, escape, link, marked, preformatted, table, text
+from modern.publication.site.markup import (
+    address,
+    bar,
+    element,
+    escape,
+    figure,
+    link,
+    marked,
+    preformatted,
+    table,
+    text,
+)
 from modern.publication.site.pages.statements import SIGNS
-from modern.publication.site.pictures import figure
 
 # Cards of program 3 that the OCR misread visibly.
 _SHOWN = ("105+3", "130", "131+2", "143", "167")

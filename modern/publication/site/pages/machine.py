@@ -11,8 +11,7 @@ from modern.publication import core
 from modern.publication.core import ARRAY, CORE, CoreMap, Region, core_map
 from modern.publication.measured import Run, runs
 from modern.publication.site.made import Made, Part, one_of
-from modern.publication.site.markup import details, element, escape, link, table, text
-from modern.publication.site.pictures import figure
+from modern.publication.site.markup import details, element, escape, figure, link, table, text
 
 PER_PIXEL = 50  # positions of core storage for each pixel of the map
 _LEFT, _WIDE = 42, 104

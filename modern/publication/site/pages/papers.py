@@ -18,11 +18,10 @@ from modern.papers.appel_will.pictures import solid_svg, star, star_svg, texts
 from modern.papers.appel_will.planar import embedded, map_svg
 from modern.papers.appel_will.results import Solid, found_solid, printed_solid
 from modern.papers.appel_will.star import vorticity
-from modern.papers.kovalevsky_schulz.tables import all_rows
+from modern.papers.kovalevsky_schulz.cells import all_rows
 from modern.publication import steps
 from modern.publication.site.made import Made, Part, one_of
-from modern.publication.site.markup import details, element, escape, preformatted, table, text
-from modern.publication.site.pictures import figure
+from modern.publication.site.markup import details, element, escape, figure, preformatted, table, text
 from modern.publication.steps import EDGE_OF_CONTOUR, EYE, HIDDEN, REMOVED, SEEN, Level, Plate, Stroke
 
 # The width of a picture in pixels.

@@ -3,7 +3,7 @@
 import re
 
 from emulator.language.cards import deck_from_text
-from modern.comparison.card_differences import card_differences
+from modern.comparison.difference import card_differences
 from modern.drawing.against import draw_against
 from modern.drawing.draw import Show
 from modern.edition.programs import program
@@ -15,8 +15,7 @@ from modern.port import convex_hull
 from modern.publication.facing import facing
 from modern.publication.parting import parted
 from modern.publication.site.made import Made, Part, one_of
-from modern.publication.site.markup import element, link, preformatted, text
-from modern.publication.site.pictures import figure
+from modern.publication.site.markup import element, figure, link, preformatted, text
 from modern.thesis.cards import read_hull
 from modern.thesis.job import run_hull
 
