@@ -1,0 +1,103 @@
+"""The interface of IBM's library of 1962: entry points, and the digits of numbers, FORMATs and calls in core storage.
+
+The facts come from running the library in a simulator with object code made by hand (docs/reference/ibm-library.md).
+A position of core storage is an integer: its digit, plus FLAG if it has a flag.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from emulator.language.formats import FormatSpec, Literal, Slash
+from emulator.numbers.fields import Field
+
+FLAG = 16
+RECORD_MARK = 10
+
+# The entry points.  A statement calls its verb with the field of its FORMAT's label, then ITEM for each number of its
+# list except the last one, for which it calls LAST_ITEM.  The low-order position of a field is its address.
+VERBS = {"READ": 4512, "ACCEPT": 4548, "ACCEPT TAPE": 4596}
+VERBS |= {"PUNCH": 4748, "TYPE": 4796, "PRINT": 4796, "PUNCH TAPE": 4844}
+ITEM, LAST_ITEM = 4992, 4940
+
+# The words of a FORMAT are addresses of routines, except for fields: a digit for the letter, the width, the decimals.
+OPEN, CLOSE, SLASH, LITERAL = 4044, 4076, 4136, 4264
+KINDS = {"E": 5, "F": 6, "I": 9}
+
+_SPECIAL = {" ": 0, ".": 3, ")": 4, "+": 10, "$": 13, "*": 14, "-": 20, "/": 21, ",": 23, "(": 24, "=": 33, "@": 34}
+_NUMBER = re.compile(r"([+-]?)\.(\d{8})E([+-])(\d\d)")
+
+
+def character_code(character: str) -> int:
+    """Return the two-digit alphameric code of a character."""
+    if character.isdigit():
+        return 70 + int(character)
+    for first, base in (("A", 41), ("J", 51), ("S", 62)):
+        if first <= character <= chr(ord(first) + 8):
+            return base + ord(character) - ord(first)
+    return _SPECIAL[character]
+
+
+def digits(number: int, count: int, *, negative: bool = False) -> list[int]:
+    """Return ``count`` positions with a number: a flag on the first digit, and on the last if it is negative."""
+    positions = [int(digit) for digit in f"{number:0{count}}"]
+    positions[0] |= FLAG
+    positions[-1] |= FLAG if negative else 0
+    return positions
+
+
+def fixed_field(number: str) -> list[int]:
+    """Return the ten positions of a fixed-point number such as ``-12`` or ``-0``."""
+    return [0] * 6 + digits(abs(int(number)), 4, negative=number.startswith("-"))
+
+
+def floating_field(number: str) -> list[int]:
+    """Return the ten positions of a floating-point number such as ``-.25000000E+01``."""
+    match = _NUMBER.fullmatch(number)
+    if match is None:
+        raise ValueError(f"{number!r} is not a number like .25000000E+01")
+    sign, mantissa, below, exponent = match.groups()
+    return digits(int(mantissa), 8, negative=sign == "-") + digits(int(exponent), 2, negative=below == "-")
+
+
+def field_text(positions: Sequence[int], kind: str) -> str:
+    """Return the number in ten positions: kind I as ``-0012``, kinds E and F as ``-.25000000E+01``."""
+    text = "".join("0123456789|"[position % FLAG] for position in positions)
+    if kind == "I":
+        return ("-" if positions[9] & FLAG else "") + text[6:]
+    mantissa = ("-" if positions[7] & FLAG else "") + "." + text[:8]
+    return mantissa + "E" + ("-" if positions[9] & FLAG else "+") + text[8:]
+
+
+def format_positions(spec: FormatSpec) -> list[int]:
+    """Return the words of a FORMAT as they follow the position that its label's field points to."""
+    return [position for word in _words(spec) for position in word]
+
+
+def _words(spec: FormatSpec) -> Iterator[list[int]]:
+    yield digits(OPEN, 5)
+    for index, item in enumerate(spec.specs):
+        # A longer list continues after the last word OPEN that was passed.
+        if index == spec.again and index:
+            yield digits(OPEN, 5)
+        if isinstance(item, Field):
+            yield digits(KINDS[item.kind] * 10000 + item.width * 100 + item.decimals, 5, negative=True)
+        elif isinstance(item, Slash):
+            yield digits(SLASH, 5)
+        else:
+            yield from _literal(item)
+    yield digits(CLOSE, 5)
+
+
+def _literal(item: Literal) -> Iterator[list[int]]:
+    yield digits(LITERAL, 5)
+    yield digits(len(item.text), 2)
+    for character in item.text:
+        yield digits(character_code(character), 2)
+
+
+def call(entry: int, address: int) -> list[int]:
+    """Return the twelve positions of an instruction that calls a verb (BT) or an item (BTM) with an address."""
+    operation = [1, 7] if entry in (ITEM, LAST_ITEM) else [2, 7]
+    return operation + digits(entry, 5) + digits(address, 5)

@@ -1,0 +1,83 @@
+"""One input or output statement, executed by the library: its object code, its data, and the numbers it leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from emulator.language.formats import FormatSpec, parse_format
+from emulator.language.ibm1962 import (
+    ITEM,
+    LAST_ITEM,
+    VERBS,
+    call,
+    digits,
+    field_text,
+    fixed_field,
+    floating_field,
+    format_positions,
+)
+from emulator.language.tree import Format, Place
+from modern.bench.ibm1962.simulator import Run, run
+
+# The parts of the object program: the calls, the FORMAT, the field of its label, and the first number of the list.
+CALLS, WORDS, LABEL, NUMBERS = 9000, 10000, 15186, 14700
+HALT = [4, 8, *[0] * 10]
+
+# The contents of a number before a statement reads it.  No card of the comparisons holds them.
+BEFORE = {"I": "5555", "E": ".55555555E+55"}
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """``verb`` with a FORMAT and the values of its list, such as ``12`` or ``-.25000000E+01``."""
+
+    verb: str
+    text: str
+    values: Sequence[str] = ()
+
+    @property
+    def is_input(self) -> bool:
+        return self.verb in ("READ", "ACCEPT")
+
+    @property
+    def spec(self) -> FormatSpec:
+        """The parsed FORMAT."""
+        places = tuple(Place(1, min(column, 80)) for column in range(1, len(self.text) + 1))
+        return parse_format(Format(self.text, places))[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """The effects of a statement: typed lines, punched cards, and the numbers of the list."""
+
+    typed: tuple[str, ...]
+    punched: tuple[str, ...]
+    numbers: tuple[str, ...]
+    trouble: str = ""
+
+
+def execute(statement: Statement, deck: Sequence[str], *, cards: Sequence[str] = (), seconds: float = 5) -> Outcome:
+    """Execute a statement with the library in ``deck``.  ``cards`` are data cards, or lines that are typed."""
+    values = statement.values
+    kinds = ["E" if "." in value else "I" for value in values]
+    addresses = [NUMBERS - 10 * k for k in range(len(values))]
+    calls = call(VERBS[statement.verb], LABEL)
+    for address in addresses:
+        calls += call(LAST_ITEM if address == addresses[-1] else ITEM, address)
+    stored = {CALLS: [*calls, *HALT], LABEL - 4: digits(WORDS, 5), WORDS + 1: format_positions(statement.spec)}
+    for address, kind, value in zip(addresses, kinds, values, strict=True):
+        stored[address - 9] = fixed_field(value) if kind == "I" else floating_field(value)
+    keyed = statement.verb == "ACCEPT"
+    examine = [(addresses[-1] - 9, NUMBERS)] if addresses else []
+    output: Run = run(
+        deck,
+        start=CALLS,
+        stored=stored,
+        cards=() if keyed else cards,
+        keys=cards if keyed else (),
+        examine=examine,
+        seconds=seconds,
+    )
+    numbers = tuple(field_text(output.field(a), kind) for a, kind in zip(addresses, kinds, strict=True))
+    return Outcome(output.typed, output.punched, numbers, output.trouble)
