@@ -144,18 +144,12 @@ def draw(
     hidden: bool = True,
     others: bool = True,
 ) -> str:
-    """Return a drawing of a hull, or of the exact hull of points, as the text of an SVG file.
-
-    The arguments and errors are those of ``Hull.draw``.
-    """
+    """Return a hull, or the exact hull of points, as the text of an SVG file; see ``Hull.draw``."""
     return _hull(points).draw(eye, title, width, labels, hidden, others)
 
 
 def save(points: Points | Hull, path: Path, digits: int | None = None) -> None:
-    """Write a hull, or the exact hull of points, to a file.
-
-    The arguments and errors are those of ``Hull.save``.
-    """
+    """Write a hull, or the exact hull of points, to a file; the options are those of ``Hull.save``."""
     _hull(points).save(path, digits)
 
 

@@ -163,10 +163,9 @@ class UnrelatedCards(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class CardDifferences:
-    """The vertices that punched cards miss or add, the exact faces that they lack (``not_found``), and false faces.
+    """The vertices that punched cards miss or add, the exact faces that they lack, and false faces.
 
-    ``polygons`` has the vertices that the cards list on each false face. ``others`` counts the false faces with fewer
-    than two vertices.
+    ``polygons`` are false faces by the vertices on their cards; ``others`` counts those with fewer than two.
     """
 
     missed: tuple[int, ...] = ()

@@ -79,10 +79,7 @@ def _member(names: Sequence[str], source: str, name: str | None) -> str:
 
 
 def parse_raw(data: bytes, source: str, shape: Sequence[int] | None, dtype: str) -> NDArray[Any]:
-    """Return an array of raw data in which x varies fastest.
-
-    Raise VolumeError if the shape or the type is invalid, or if the data have a different size.
-    """
+    """Return an array of raw data in which x varies fastest. Raise VolumeError if shape, type and size do not match."""
     try:
         kind = np.dtype(dtype)
     except (TypeError, ValueError, SyntaxError, OverflowError):  # numpy reads a small language here

@@ -53,10 +53,7 @@ def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove all points on or above the chord between their neighbours on the same line.
-
-    The removal is repeated as long as it removes enough points.
-    """
+    """Remove points on or above the chord between their neighbours on a line, as long as it removes enough."""
     removed = np.ones(len(line), dtype=np.bool_)
     while len(line) > 2 and STILL_PAYS * np.count_nonzero(removed) >= len(line):
         before, after = t[1:-1] - t[:-2], t[2:] - t[1:-1]
@@ -79,10 +76,7 @@ def fill(low: Grid, high: Grid, depth: int) -> Truth:
 
 
 def lower_chain(points: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Return the vertices of the lower side of the hull of points (t, z), by Andrew's scan.
-
-    The points must be sorted by t, with each t once.
-    """
+    """Return the lower side of the hull of points (t, z), sorted by t with each t once, by Andrew's scan."""
     chain: list[tuple[int, int]] = []
     for t, z in points:
         while len(chain) > 1:
@@ -115,10 +109,9 @@ def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]
 
 
 def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) -> None:
-    """Write the height of every triangle at the positions below it and its boundary. Later triangles overwrite earlier.
+    """Write the rounded height of each triangle at the positions below it; later triangles overwrite earlier ones.
 
-    ``triangles`` has the shape (n, 3, 3), counterclockwise as seen from above. ``plane`` has four coefficients for
-    each, the third positive. Heights that are not integers are rounded up or down.
+    ``triangles`` (n, 3, 3) are counterclockwise seen from above. ``plane`` has four coefficients, the third positive.
     """
     x, y = triangles[:, :, 0], triangles[:, :, 1]
     first, rows = x.min(axis=1), np.ptp(x, axis=1) + 1

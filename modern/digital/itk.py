@@ -94,10 +94,7 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
 
 
 def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | None]:
-    """Return the number of voxels along each axis, if the format states it, and the header of a NIfTI file.
-
-    Raise VolumeError if the file is damaged.
-    """
+    """Return the sizes along the axes and the header of NIfTI, as far as known. Raise VolumeError if damaged."""
     if kind == "NIfTI":
         header = check_nifti(path)
         return header.sizes, header
@@ -170,10 +167,7 @@ def _check_folder(path: str) -> None:
 
 
 def _bytes(path: str) -> int:
-    """Return an upper bound for the number of bytes to read: the size of the file or of its folder.
-
-    The folder counts if a header may refer to data in it, or if it holds a DICOM series.
-    """
+    """Return an upper bound for the bytes to read: the size of the file, or of the folder that holds its data."""
     try:
         if path.lower().endswith(".mhd"):
             path = os.path.dirname(os.path.abspath(path))

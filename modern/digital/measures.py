@@ -22,8 +22,7 @@ Whole = tuple[int, int, int]
 class Measures:
     """The measures of a solid and its hull, in physical units, or in voxels if the position is unknown.
 
-    ``voxels`` and ``volume`` are those of the solid. ``hull_volume`` and ``hull_area`` are 0 for a flat hull; the area
-    of a polygon is that of one side.
+    The volume and area of a flat hull are 0, but the area of a polygon is that of one side.
     """
 
     voxels: int

@@ -101,10 +101,7 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
 
 
 def write_nrrd(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
-    """Write truth values of a volume's shape as NRRD with the volume's position, atomically.
-
-    Raise FileError, and VolumeError for a position that has no finite decimal text.
-    """
+    """Write truth values as NRRD with the volume's position, which must have finite decimals (else VolumeError)."""
     world = volume.world
     if world is None and any(volume.origin):
         world = world_of(array.ndim, origin=(0,) * array.ndim)

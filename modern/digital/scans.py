@@ -123,10 +123,7 @@ def label_notes(scan: Scan) -> tuple[str, ...]:
 
 
 def label_boxes(scan: Scan, labels: Sequence[int] = ()) -> dict[int, tuple[slice, ...]]:
-    """Return the smallest box of indices that holds all voxels of a label, for the given labels or for all.
-
-    Raise NoVoxels for a label without voxels, and for a scan without labels.
-    """
+    """Return the box of indices around each label, or around the given labels. Raise NoVoxels for an absent label."""
     sides: dict[int, list[slice]] = {}
     for axis in range(scan.values.ndim):
         first: dict[int, int] = {}

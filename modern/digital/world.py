@@ -89,10 +89,7 @@ class World:
         return tuple(_length(step) for step in self.steps)
 
     def bearings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the anatomical direction of each axis, and True if it is exact.
-
-        If the space is not anatomical, the result is empty.
-        """
+        """Return the anatomical direction of each axis, and True if it is exact; empty for another space."""
         if self.space not in ANATOMICAL or len(self.steps) != 3:
             return ()
         names = self.space.split("-")
@@ -149,10 +146,7 @@ def voxel_volume(world: World | None) -> Fraction:
 
 
 def length_text(text: str) -> Fraction:
-    """Read a number of a header: decimal text of at most 100 digits with an exponent from -400 to 400.
-
-    Raise ValueError for other text.
-    """
+    """Read a number of a header, of at most 100 digits and an exponent from -400 to 400. Raise ValueError otherwise."""
     _, whole, fraction, exponent = split_decimal(text)
     if len(whole) + len(fraction) > _MOST_DIGITS or abs(exponent) > _MOST_EXPONENT:
         raise ValueError(f"{quoted(text)} has more than {_MOST_DIGITS} digits or an exponent beyond {_MOST_EXPONENT}")

@@ -159,10 +159,7 @@ def _behind(
 
 
 def _light(normal: Vector, sight: View) -> Fraction:
-    """Return the light on a face from a lamp at the left shoulder of the viewer.
-
-    It is (1 + cosine) / 2 of the angle between the normal of the face and the direction to the lamp.
-    """
+    """Return (1 + cosine) / 2 of the angle between a normal and a lamp at the left shoulder of the viewer."""
     length = sight.stretch
     level = root(Fraction(dot(sight.right, sight.right)))
     tall = level * length

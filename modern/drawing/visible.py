@@ -55,8 +55,7 @@ def sign(number: int | Fraction) -> int:
 def facing(corners: Sequence[tuple[N, N, N]]) -> int:
     """Return 1 if a face with these images, clockwise from outside, is visible, -1 if it is turned away, 0 if edge-on.
 
-    The value is the sum of formula (1) over the triangles from the first corner. The face is convex, so no two terms
-    differ in sign. The paper uses only the first term, which is 0 if three corners are collinear.
+    The paper uses one triangle, whose formula (1) is 0 for collinear corners. The sum over all triangles has its sign.
     """
     first = corners[0]
     return sign(sum(value(line_through(first, corners[k]), corners[k + 1]) for k in range(1, len(corners) - 1)))
@@ -80,10 +79,9 @@ def classify(
 
 
 def contour(faces: Sequence[tuple[int, ...]], signs: Sequence[int]) -> tuple[int, ...]:
-    """Return the contour line as a chain of vertices, clockwise in the image, that begins with its smallest index.
+    """Return the contour as a chain of vertices, clockwise in the image; it is empty for a plate seen edge-on.
 
-    The sides of a visible face run clockwise in the image. Those without a visible face on the other side form the
-    contour. The chain is empty if no face is visible, as for a plate seen edge-on.
+    The contour consists of the sides of visible faces that have no visible face on the other side.
     """
     directed = {(a, b) for face, sign in zip(faces, signs, strict=True) if sign > 0 for a, b in sides(face)}
     successor = {a: b for a, b in directed if (b, a) not in directed}

@@ -154,8 +154,7 @@ class Text:
 def read_witness(source: str, furniture: Collection[str] = ()) -> tuple[Line, ...]:
     """Return the lines of a witness, numbered from 1 without the page marks.
 
-    Blank lines and ``furniture`` are counted but not returned.  Furniture is lines that belong to no text, such as code
-    fences.
+    Blank lines and ``furniture`` (lines that belong to no text, such as code fences) are counted but not returned.
     """
     lines: list[Line] = []
     page, number = "", 0
@@ -170,10 +169,7 @@ def read_witness(source: str, furniture: Collection[str] = ()) -> tuple[Line, ..
 
 
 def load(folder: Traversable, name: str) -> Text:
-    """Read ``apparatus/NAME.toml`` (or ``NAME.toml``) of a data folder, with the witness that it names.
-
-    Raises ApparatusError if a row lacks a field, uses an unknown layer or repeats an id.
-    """
+    """Read the apparatus and the witness of a text from a data folder. Raise ApparatusError if a row is invalid."""
     entry = folder.joinpath("apparatus", f"{name}.toml")
     if not entry.is_file():
         entry = folder.joinpath(f"{name}.toml")
@@ -287,10 +283,7 @@ class _Page:
         self._at[line.id] = Line(line.id, text, line.page, (*line.rows, row.id))
 
     def _insert(self, row: Row, behind: Line, texts: Sequence[str], inserted: int) -> int:
-        """Insert lines after the line ``behind``.  Their ids continue the numbering of the row.
-
-        Return the last number used.
-        """
+        """Insert lines after the line ``behind``, numbered within the row, and return the last number used."""
         if texts:
             new = [f"{row.id}.{inserted + k}" for k in range(1, len(texts) + 1)]
             at = self._order.index(behind.id) + 1

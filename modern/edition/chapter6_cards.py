@@ -38,10 +38,7 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """A card of a device file, or a typed line, which has no tokens.
-
-    ``number`` counts all cards, blank ones too, from 1.
-    """
+    """A card of a device file, numbered from 1 with the blank cards, or a typed line, which has no tokens."""
 
     example: int
     program: int
@@ -132,10 +129,7 @@ def printed_lines(chapter: Chapter, entry: DeviceLayout) -> tuple[Line, ...]:
 
 
 def cards(chapter: Chapter, example: int, program: int, device: Device) -> tuple[Card, ...]:
-    """Return the cards (or typed lines) of one device file in order.
-
-    Raises TranscriptError if the printed numbers and words do not fill the fields of the cards exactly.
-    """
+    """Return the cards or typed lines of a device file. Raise TranscriptError if the print does not fill them."""
     entry = device_layout(chapter, example, program, device)
     if entry.layer == "stated":
         return tuple(Card(example, program, device, i, "", "", t, ()) for i, t in enumerate(entry.typed, start=1))

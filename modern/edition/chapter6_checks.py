@@ -35,10 +35,7 @@ def check_chapter(chapter: Chapter, folder: Traversable | None = None) -> tuple[
 
 
 def check_tie(chapter: Chapter) -> tuple[str, ...]:
-    """Check that cards and print have the same characters.
-
-    Also check that each printed line is a card or a heading.
-    """
+    """Check that cards and print have the same characters, and that each printed line is a card or a heading."""
     faults: list[str] = []
     used: list[str] = list(chapter.layout.headings)
     for entry in chapter.layout.devices:
@@ -91,10 +88,9 @@ def check_layout(chapter: Chapter) -> tuple[str, ...]:
 
 
 def records(text: str, values: int) -> tuple[tuple[tuple[Field, str], ...], ...]:
-    """Return the fields of the cards on which FORMAT ``text`` punches ``values`` numbers in one pass.
+    """Return the fields of the cards that FORMAT ``text`` punches for ``values`` numbers, each with its word.
 
-    Each word of a literal is a field.  A number has an empty text.  Raises Refused if the FORMAT does not parse or has
-    too few fields.
+    The word of a number is empty. Raise Refused if the FORMAT does not parse or has too few fields.
     """
     spec, _ = parse_format(Format(text, tuple(Place(1, column) for column in range(1, len(text) + 1))))
     card_fields: list[list[tuple[Field, str]]] = [[]]

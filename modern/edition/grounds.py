@@ -239,10 +239,7 @@ class _Outcome:
         return self.ending.message if isinstance(self.ending, Ending) else str(self.ending)
 
     def same_as(self, other: _Outcome) -> bool:
-        """Return True if the output and the kind of ending are equal.
-
-        Messages may differ, because they contain card numbers.
-        """
+        """Return True if output and kind of ending are equal. Messages differ, because they contain card numbers."""
         return self.lines == other.lines and _reason(self.ending) == _reason(other.ending)
 
 

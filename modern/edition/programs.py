@@ -61,8 +61,7 @@ def text(name: str) -> Text:
 def _named(name: str, layers: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...]:
     """Return the name of each card of a built-in program in the edition, and the rows that changed the card.
 
-    A card is named by its distance from the last statement number before it (``147+1``).  A comment is named by the
-    statement after it.
+    The name is the distance from the last statement number (``147+1``), or for a comment the next statement.
     """
     entry = built_in(name)
     lines = build(text(entry.text), (*entry.layers, *layers))

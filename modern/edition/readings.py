@@ -54,10 +54,7 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A replacement by a pair.
-
-    It starts at index ``at`` of the witness and ``to`` of the lemma; blanks are not counted.
-    """
+    """A replacement by a pair at index ``at`` of the witness and ``to`` of the lemma; blanks are not counted."""
 
     change: int
     at: int

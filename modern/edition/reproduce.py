@@ -95,10 +95,7 @@ def reproduce(
 
 
 def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
-    """Return whether everything is reproduced, and the numbers of exact, reordered and different results.
-
-    In the state of the examples, a result counts as reproduced only if it is exact.
-    """
+    """Return whether the examples are exact and the listing at most reordered, then the counts by kind of verdict."""
     kinds = [(report.state, report.verdict.kind) for report in reports]
     exact = sum(kind == EXACT for _, kind in kinds)
     order = sum(kind == ORDER for _, kind in kinds)
@@ -132,10 +129,7 @@ def _reports(
 
 
 def compare(printed: Sequence[str], produced: Sequence[str], final: bool, oriented: bool) -> Verdict:
-    """Return the verdict on the lines of a device; ``final`` is True if the cards hold a hull.
-
-    For ``oriented`` see :func:`modern.thesis.cards.same_hull`.
-    """
+    """Return the verdict on the lines of a device; ``final`` means that the cards hold a hull."""
     tokens = [token for line in printed for token in line.split()]
     numbers = sum(len(_NUMBER.findall(line)) for line in printed)
     word_count = sum(any(c.isalpha() for c in token) and not _NUMBER.search(token) for token in tokens)

@@ -18,11 +18,7 @@ from modern.edition.apparatus import PAGE_MARK, ApparatusError
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A document.
-
-    ``lines`` is its number of lines, including the last one, which has no line end.  ``pages`` holds (page, first line,
-    last line) for each page.
-    """
+    """A document with the number of its lines and, for each page, its name, first and last line."""
 
     id: str
     author: str
@@ -44,10 +40,7 @@ class Document:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Consecutive lines of a witness, which begin at line ``at`` of the document.
-
-    With ``part``, they hold only some words of the document's lines.
-    """
+    """Consecutive lines of a witness from line ``at`` of the document; with ``part``, only some of their words."""
 
     first: int
     last: int

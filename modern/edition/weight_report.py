@@ -42,10 +42,7 @@ def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
 
 
 def unvouched(answers: Mapping[str, str]) -> list[Variant]:
-    """Return a variant of each card that only the compiler confirms.
-
-    Such a card has two or more undetected variants.
-    """
+    """Return a variant of each card that has two or more undetected variants and that only the compiler confirms."""
     return [
         variant
         for variant, count in by_card(answers)

@@ -41,10 +41,7 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
 
 
 def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequence[int] | None = None) -> list[int]:
-    """Return the points that lie in the plane of a facet.
-
-    Search ``others``, or all points that are not vertices if ``others`` is None.
-    """
+    """Return the points in the plane of a facet, among ``others`` or, by default, all points that are not vertices."""
     if others is None:
         vertices = {index for facet in facets for index in facet.polygon}
         others = [index for index in range(len(points)) if index not in vertices]

@@ -244,10 +244,7 @@ def _proved(hull: ExactHull) -> tuple[int, Incidences]:
 
 
 def certify(points: Points, hull: ExactHull) -> Certificate:
-    """Prove that ``hull`` is the convex hull of ``points``, or raise CertificateError.
-
-    ``points`` are the points passed to ``exact_hull``.  They cannot be an iterator, because they are read twice.
-    """
+    """Prove that ``hull`` is the convex hull of ``points``, which are read twice, or raise CertificateError."""
     _check_integers(points, hull)
     _check_classes(hull)
     _check_dimension(hull)

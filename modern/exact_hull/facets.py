@@ -36,10 +36,7 @@ def plane_at(normal: IntPoint, p: IntPoint) -> Plane:
 
 
 def plane_through(p: IntPoint, q: IntPoint, r: IntPoint) -> Plane:
-    """Return the plane through three points, not in lowest terms.
-
-    The points are counterclockwise as seen from the positive side of the plane.
-    """
+    """Return the plane (not in lowest terms) through points that are counterclockwise seen from its positive side."""
     return plane_at(cross(minus(q, p), minus(r, p)), p)
 
 
@@ -51,10 +48,7 @@ def lowest_terms(plane: Plane) -> Plane:
 
 
 def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
-    """Return the indices of at most four affinely independent points, one more than the dimension.
-
-    The points must be distinct.
-    """
+    """Return the indices of affinely independent points, at most four and one more than the dimension."""
     if len(points) == 1:
         return (0,)
     origin = points[0]
@@ -166,10 +160,9 @@ def positive(plane: Plane) -> Plane:
 
 
 def polygon(points: Sequence[IntPoint], three: Sequence[int]) -> tuple[Plane, tuple[int, ...], list[Facet]]:
-    """Return the plane, the vertices in cyclic order and the edges of distinct points in a plane.
+    """Return plane, vertices in cyclic order and edges of coplanar points; ``three`` are not collinear.
 
-    ``three`` are points that do not lie in a line.  The method is that of monotone chains (Andrew, Information
-    Processing Letters 9 (1979), 216-219), applied to two coordinates.
+    Monotone chains (Andrew, Information Processing Letters 9 (1979), 216-219) are applied to two coordinates.
     """
     plane = positive(plane_through(points[three[0]], points[three[1]], points[three[2]]))
     normal = plane[:3]

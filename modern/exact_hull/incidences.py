@@ -92,8 +92,7 @@ def _in_floats(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidence
 def incidences(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidences:
     """Evaluate every plane at every point exactly, until the first point outside a plane.
 
-    Every plane has a nonzero normal and contains one of the points (for the bound on D), and there are at least two
-    distinct points.
+    For the bound on D, every plane must contain one of the points, which are not all equal.
     """
     # int64 suffices if no value can reach 2**62.
     reach = [max(1, *(abs(number) for number in column)) for column in zip(*points, strict=True)]

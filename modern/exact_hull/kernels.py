@@ -156,10 +156,7 @@ def distribute(known: Any, p: int, slots: Any, count: int, exact: bool) -> bool:
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
-    """Find the triangles that a point sees, searching from ``start``, and the edges (slot, edge) around them.
-
-    Write both into the arrays and return their counts.
-    """
+    """Write the triangles that a point sees, from ``start`` on, and the edges around them; return both counts."""
     mark, neighbours = known.mark, known.neighbours
     visible[0] = start
     mark[start] = 2 * step

@@ -102,10 +102,7 @@ def polygons(hull: ExactHull) -> Polygons:
 
 
 def check_planes(hull: ExactHull, sides: Polygons) -> Objects:
-    """Check each plane and the corners of its polygon, and return the planes (m, 4) as integers.
-
-    Polygons of more than three corners must turn left.  ``convexity`` checks the orientation of triangles.
-    """
+    """Check each plane and the corners of its polygon, and return the planes (m, 4) as integers."""
     planes = [facet.plane for facet in hull.facets]
     require(
         set(map(len, planes)) == {4} and set(map(type, chain.from_iterable(planes))) == {int},
@@ -135,10 +132,7 @@ def values(planes: Objects, scaled: Sequence[IntPoint], facets: Ints, points: In
 
 @dataclass(frozen=True, slots=True)
 class Images:
-    """The images u of points x = c + s u.
-
-    ``places`` (n, 3) holds the images, ``low`` is c, and ``shifts`` holds the exponents of s.
-    """
+    """The images u of points x = c + s u: ``places`` (n, 3) is u, ``low`` is c, and ``shifts`` the exponents of s."""
 
     low: tuple[int, ...]
     shifts: tuple[int, ...]

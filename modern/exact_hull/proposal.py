@@ -61,10 +61,7 @@ def on_grid(points: Sequence[IntPoint]) -> tuple[Ints, bool]:
 
 
 def propose(points: Sequence[IntPoint], fast: bool | None = None) -> Proposal | None:
-    """Return a proposed hull, or None.
-
-    ``fast`` selects the compiled kernel; None uses it if it is loaded, or if there are very many points.
-    """
+    """Return a proposed hull or None. ``fast`` selects the compiled kernel; None chooses the faster one."""
     grid, exact = on_grid(points)
     start = _simplex(grid)
     if start is None:
@@ -103,10 +100,7 @@ def _chosen(fast: bool | None, count: int) -> Function | None:
 
 
 def _simplex(grid: Ints) -> list[int] | None:
-    """Return four points that are far from each other, or None if all points are coplanar.
-
-    The fourth point is on the inner side of the plane of the other three.
-    """
+    """Return four points far from each other, the fourth on the inner side, or None for coplanar points."""
     # a and b are extreme on the longest axis, c is farthest from their line, d from the plane of the three.
     axis = int(np.ptp(grid, axis=0).argmax())
     a, b = int(grid[:, axis].argmin()), int(grid[:, axis].argmax())
@@ -273,10 +267,7 @@ class _Growing:
         return True
 
     def _nominated(self) -> tuple[Ints, Ints]:
-        """Return candidate points and their triangles, in increasing height.
-
-        No neighbour of these triangles has a higher point.
-        """
+        """Return candidate points and their triangles by increasing height, each the highest of its neighbours."""
         highest = np.full(self.made, -1.0)
         np.maximum.at(highest, self.home, self.height)
         top = self.height == highest[self.home]

@@ -240,10 +240,7 @@ class Surface:
 
 
 def convex_surface(frame: Frame, simplex: Sequence[int], order: Sequence[int]) -> list[tuple[Triangle, Plane]]:
-    """Return the hull of the frame's points as triangles, from four affinely independent points.
-
-    ``order`` lists all other points.  It affects the time but not the faces of the result.
-    """
+    """Return the hull as triangles, from four affinely independent points and the others in ``order``."""
     surface = Surface(frame, simplex)
     for p in order:
         surface.insert(p)

@@ -35,10 +35,7 @@ def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def _normalised(line: str, separator: str) -> str:
-    """Return a line for the csv reader.
-
-    A comment becomes an empty line.  If blanks separate the fields, they become single blanks.
-    """
+    """Return a line for the csv reader: empty for a comment, with single blanks if blanks separate the fields."""
     if line.lstrip().startswith("#"):
         return ""
     return line if separator else " ".join(line.split())

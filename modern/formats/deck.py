@@ -93,10 +93,7 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
 
 
 class UnfitPoint(ArgumentError):
-    """A coordinate that no card can hold, for example because it has too many digits.
-
-    ``point`` and ``field`` number the point and the coordinate from 1.
-    """
+    """A coordinate that no card can hold. ``point`` and ``field`` number the point and its coordinate from 1."""
 
     def __init__(self, point: int, field: int, why: str, digits: bool) -> None:
         super().__init__(f"point {point}, field {field}: {why}")
@@ -123,10 +120,7 @@ def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = Fal
 
 
 def with_epsilon(deck: Deck, epsilon: object) -> Deck:
-    """Return the deck of one data set with e punched after N, as the layer ``epsilon`` reads it.
-
-    Raise ArgumentError if e is invalid or no card can hold it.
-    """
+    """Return the deck with e punched after N for the layer ``epsilon``. Raise ArgumentError if e does not fit."""
     size = read_epsilon(epsilon)
     if size is None or size[1]:
         raise ArgumentError("epsilon: a card holds an absolute e, not a relative one (rel:)")

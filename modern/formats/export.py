@@ -16,8 +16,7 @@ from modern.geometry.mesh import ExportError, Mesh, mesh
 def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
     """Return the text of a file in one of the formats ``HULLS``.
 
-    Coordinates are exact.  A coordinate without a finite decimal expansion is rounded to ``digits`` significant
-    digits, or raises ExportError if that is None; JSON preserves fractions.
+    Coordinates without a finite decimal are rounded to ``digits`` digits (None raises ExportError), except in JSON.
     """
     if form == "json":
         return json.write(hull)
@@ -41,19 +40,17 @@ def format_of(path: str) -> str:
 
 
 def write_hull(hull: Hull, path: str, form: str | None = None, digits: int | None = None) -> None:
-    """Write a hull to a file, or to standard output if ``path`` is ``-``.  A failure leaves an existing file unchanged.
+    """Write a hull to a file, ``-`` for standard output, in ``form`` or the format of the extension, atomically.
 
-    ``form`` is one of ``HULLS``.  If it is None, the extension of the file determines the format.  Raise ExportError if
-    the format cannot hold the hull, and FileError if the file cannot be written.
+    Raise ExportError if the format cannot hold the hull, and FileError if the file cannot be written.
     """
     write_text(path, export_text(hull, form or format_of(path), digits))
 
 
 def to_trimesh(hull: Hull) -> Any:
-    """Return a ``trimesh.Trimesh`` of the hull.  Vertices keep their order; faces are split into triangles.
+    """Return a ``trimesh.Trimesh`` with the vertices in order, rounded to floats, and faces split into triangles.
 
-    Coordinates are rounded to the nearest binary float.  Raise ExportError if trimesh is not installed, the hull has no
-    area, or a number is too large for a float.
+    Raise ExportError without trimesh, for a hull without area, and for a number too large for a float.
     """
     surface = mesh(hull)
     if surface.dimension < 2:

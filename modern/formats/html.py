@@ -12,11 +12,7 @@ from modern.geometry.mesh import ExportError, Mesh
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """Return the text of the page.
-
-    The picture uses binary floats.  The table has exact vertices; those without a finite decimal expansion are rounded
-    to ``digits`` significant digits.
-    """
+    """Return the text of the page, with exact vertices as far as decimals are finite, otherwise ``digits`` digits."""
     try:
         points = [[float(number) for number in point] for point in mesh.numbers()]
     except OverflowError:

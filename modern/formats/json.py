@@ -39,10 +39,7 @@ def document(hull: Hull) -> dict[str, Any]:
 
 
 def write(hull: Hull) -> str:
-    """Return the text of a JSON file.
-
-    Each member is on one line.  A list of lists or of objects has one line for each item.
-    """
+    """Return the text of a JSON file with one line for each member, and for each item of a list of lists or objects."""
     members = ",\n".join(f" {json.dumps(name)}: {_member(value)}" for name, value in document(hull).items())
     return "{\n" + members + "\n}\n"
 

@@ -40,10 +40,7 @@ def write(mesh: Mesh, digits: int | None = None) -> str:
 
 
 def unit_text(vector: Vector) -> str:
-    """Return the unit vector of ``vector`` as three numbers truncated to nine decimals, using only integers.
-
-    The zero vector remains zero.
-    """
+    """Return the unit vector as three numbers truncated to nine decimals, by integers; zero remains zero."""
     square = dot(vector, vector)
     return " ".join(_truncated_quotient(component, square) for component in vector)
 

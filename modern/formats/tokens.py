@@ -24,10 +24,7 @@ class FileMesh:
 
 
 def lines(text: str, comment: str = "#") -> Iterator[Line]:
-    """Yield the lines that have tokens.
-
-    The rest of a line after the text ``comment`` is ignored.  If ``comment`` is empty, there are no comments.
-    """
+    """Yield the lines that have tokens. Text after ``comment`` is ignored, unless ``comment`` is empty."""
     for line_number, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
         content = line.split(comment, 1)[0] if comment else line
         tokens = [(match[0], match.start() + 1) for match in re.finditer(r"\S+", content)]

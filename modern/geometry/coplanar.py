@@ -65,10 +65,7 @@ class Joined:
 
 
 def parse_distance(value: object) -> Fraction:
-    """Return E as a fraction.
-
-    ``value`` is decimal text, a fraction ``p/q`` or a real number.  Raise CoplanarError if it is invalid.
-    """
+    """Return E as a fraction, from text, a fraction ``p/q`` or a real number. Raise CoplanarError if it is invalid."""
     try:
         distance = Fraction(real(value))
     except ValueError as error:
@@ -79,10 +76,7 @@ def parse_distance(value: object) -> Fraction:
 
 
 def join(surface: Mesh, within: Fraction) -> Joined:
-    """Join the faces of a closed convex surface that are coplanar to within a distance.
-
-    Raise CoplanarError if the distance is too large or the faces do not close.
-    """
+    """Join the faces that are coplanar to within a distance. Raise CoplanarError if the distance is too large."""
     points, scale = _integers(surface)
     normals = [area_vector(points, face) for face in surface.faces]
     sizes = [dot(normal, normal) for normal in normals]

@@ -33,11 +33,7 @@ def check_array(points: NDArray[Any]) -> None:
 
 
 def point_rows(points: Any) -> Iterator[list[Any]]:
-    """Yield the three coordinates of each point, without checking their values.
-
-    Raise PointsError if ``points`` is empty or is not a sequence of points with three coordinates.  The message counts
-    points from 0.
-    """
+    """Yield the three coordinates of each point, unchecked. Raise PointsError for no points or other sequences."""
     if isinstance(points, np.ndarray):
         check_array(points)
         points = points.tolist()

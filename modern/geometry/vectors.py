@@ -40,10 +40,7 @@ def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
 
 
 def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
-    """Return a normal of the face whose length is twice the area.
-
-    The corners are counterclockwise as seen from the tip of the normal.
-    """
+    """Return a normal twice as long as the area; from its tip, the corners appear counterclockwise."""
     origin = points[face[0]]
     total = minus(origin, origin)
     for here, ahead in pairwise(face[1:]):

@@ -159,10 +159,7 @@ def plane(p: Point, q: Point, r: Point) -> tuple[Number, Number, Number, Number]
 
 
 def line(u1: Number, v1: Number, u2: Number, v2: Number, cu: Number, cv: Number) -> tuple[Number, Number, Number]:
-    """Return the line A u + B v + C = 0 through two points, by (3.1) to (3.3) and (3.5).
-
-    (cu, cv) is the one of the two points from which C is computed.
-    """
+    """Return the line A u + B v + C = 0 through two points by (3.1) to (3.5); (cu, cv) is the one that determines C."""
     return v2 - v1, u1 - u2, (v1 - v2) * cu + (u2 - u1) * cv
 
 

@@ -125,10 +125,7 @@ class Grown:
 
 
 def stage(hull: Growing, first: bool) -> Grown | None:
-    """Add the next point and eliminate the points inside. Return None if no point lies outside.
-
-    ``first`` marks the stage of H_1, whose vertices exist already.
-    """
+    """Add the next point and eliminate the points inside, in H_1 if ``first``. Return None if no point lies outside."""
     if first:
         added, checked, outside = hull.points.input_indices(slice(0, hull.vertices)), 0, 0
     else:

@@ -147,10 +147,7 @@ def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
 
 
 def tetrahedron(arithmetic: Arithmetic, points: PointTable, slack: Slack | None) -> Equations:
-    """Return the four planes of H_1, not yet oriented (200 to 203).
-
-    Program 3 reads the first of the three numbers on a card as NN and the second as MM (100+7 of program 3).
-    """
+    """Return the four planes of H_1, not yet oriented (200 to 203)."""
     corners = np.array([(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)]).T
     p, q, r = (points.several(row) for row in corners)
     coefficients = np.stack(plane(p, q, r))

@@ -71,10 +71,7 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:
-    """Return the named arithmetic, and the points as three rows of its numbers.
-
-    If ``wide`` is true, exact numbers do not use machine words.
-    """
+    """Return the named arithmetic and the points as three rows of its numbers; ``wide`` avoids machine words."""
     arithmetic = fixed_arithmetic(name)
     if isinstance(arithmetic, FloatArithmetic) and isinstance(points, np.ndarray) and points.dtype == arithmetic.dtype:
         return arithmetic, _floats(points)

@@ -21,10 +21,7 @@ class BuildError(Exception):
 
 
 def run(name: str, build: Callable[[], str]) -> int:
-    """Run a build and print the summary that it returns.
-
-    Return 0, or 2 after one line on standard error if the build raises BuildError, ValueError or OSError.
-    """
+    """Run a build and print its summary. Return 0, or 2 after one line on standard error if the build fails."""
     try:
         print(build())
     except (BuildError, ValueError, OSError) as error:

@@ -52,11 +52,7 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """The line of the exit ``way`` of ``box``, as a sequence of corners.
-
-    ``lane`` is the number of its lane, counted from 0 at the boxes, or -1 if the line goes straight down or ends in a
-    connector.  ``connector`` is the centre of that connector.
-    """
+    """The line of an exit as corners, its lane (0 next to the boxes, -1 for none), and the centre of its connector."""
 
     box: int
     way: int

@@ -44,10 +44,9 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class CoreMap:
-    """The storage of a program from address 0 up, without gaps.
+    """The storage of a program from address 0 up, and the lengths of its arrays as formulas of the number of points.
 
-    ``points`` pairs each size of core with the largest number of points that fits, or 0 if the program does not fit.
-    ``lengths`` are the lengths of the arrays as formulas of the number of points.
+    ``points`` pairs each size of core with the largest number of points that fits, or 0.
     """
 
     program: str

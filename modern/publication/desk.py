@@ -61,10 +61,7 @@ class _Visitor(Operator):
 
 @dataclass
 class Desk:
-    """A machine with its program, its decks and its operator.
-
-    ``clock`` returns seconds and ends a slice.  It is read after every ``small`` operations.
-    """
+    """A machine with program, decks and operator. ``clock``, read after every ``small`` operations, ends a slice."""
 
     clock: Callable[[], float] = time.monotonic
     small: int = 2_000
@@ -160,10 +157,7 @@ class Desk:
         return self._answer(messages)
 
     def act(self, line: str) -> Answer:
-        """Process a command of the operator, or a line for ACCEPT (``ENTER`` and the line).
-
-        The answer has ``lines`` to show.  The next slice executes the action.
-        """
+        """Process a command of the operator, or ``ENTER`` and a line for ACCEPT. The answer has ``lines`` to show."""
         session = self._session
         if session is None or self._ending:
             return {"lines": ["nothing is running: load a program first"]}

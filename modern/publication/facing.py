@@ -85,10 +85,9 @@ class Card:
 
 @dataclass(frozen=True)
 class Facing:
-    """The facing text of a built-in program.
+    """The facing text of a built-in program: its cards, the rows that change most cards, and the dropped lines.
 
-    ``everywhere`` are the rows that change most cards (the columns of the coding form).  ``dropped`` are the lines of
-    the witness that this deck omits, by the row that replaces them.
+    ``dropped`` are the lines of the witness that this deck omits, by the row that replaces them.
     """
 
     program: str
@@ -187,10 +186,7 @@ def _further_places(places: Sequence[tuple[str, Kind, int]]) -> Mapping[str, tup
 def _pieces(
     text: Text, lines: Sequence[Line], layers: Sequence[str], everywhere: Collection[str]
 ) -> tuple[dict[str, tuple[Piece, ...]], tuple[tuple[str, tuple[Piece, ...]], ...]]:
-    """Return the witness lines of each card by its id, and the lines that the deck omits by the row that drops them.
-
-    A witness line that became several cards is divided among them.
-    """
+    """Return the witness lines of each card, divided among several cards if necessary, and the dropped lines."""
     witness = {line.id: line for line in text.witness}
     order = {name: index for index, name in enumerate(witness)}
     bases = {line.id: _base(text, line.id) for line in lines}
@@ -276,10 +272,7 @@ def _divided(line: str, cards: Sequence[str]) -> list[str]:
 
 
 def _compared(pieces: Sequence[Piece], card: str) -> tuple[tuple[Piece, ...], tuple[Span, ...]]:
-    """Return the pieces with the characters that the card lacks, and the characters that only the card has.
-
-    Blanks are not compared.
-    """
+    """Return the pieces with the characters that the card lacks, and those that only the card has, without blanks."""
     if not pieces:
         return (), ((0, len(card)),)
     joined = "\n".join(piece.text for piece in pieces)

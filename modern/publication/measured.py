@@ -46,8 +46,7 @@ class Run:
 def runs(program: str) -> tuple[Run, ...]:
     """Return the runs of a built-in program in the printed examples.
 
-    Program 1 reads the six input decks, both as listed and in the state of the examples.  Programs 2 and 3 read the
-    cards that the state of the examples punches.
+    Programs 2 and 3 read the cards that program 1 in the state of the examples punches.
     """
     first = program if program.startswith("program1") else "program1_examples"
     return tuple(run for example in EXAMPLES for run in _job(example, first) if run.program == program)

@@ -17,11 +17,7 @@ SPDX = "https://spdx.org/licenses/"
 
 @dataclass(frozen=True, slots=True)
 class Work:
-    """The project as CITATION.cff and pyproject.toml describe it.
-
-    ``python`` is the range of supported versions, ``requirements`` are the packages that it needs, and ``references``
-    the documents that it restores.
-    """
+    """The project as CITATION.cff and pyproject.toml describe it; ``references`` are the documents that it restores."""
 
     name: str
     title: str
@@ -78,11 +74,7 @@ def codemeta(about: Work) -> str:
 
 
 def crate(about: Work, folders: Mapping[str, str], files: Mapping[str, tuple[str, str]]) -> str:
-    """Return the text of ro-crate-metadata.json.
-
-    ``folders`` maps the path of a dataset to its description, ``files`` the path of a file to its description and
-    media type.
-    """
+    """Return ro-crate-metadata.json for datasets and files by path; a file has a description and a media type."""
     from rocrate.model.data_entity import DataEntity
     from rocrate.model.person import Person
     from rocrate.rocrate import ROCrate
@@ -111,10 +103,7 @@ def crate(about: Work, folders: Mapping[str, str], files: Mapping[str, tuple[str
 
 
 def data_package(about: Work, tables: Mapping[str, str]) -> str:
-    """Return the text of datapackage.json: a Frictionless resource for each CSV table, given by path and text.
-
-    Raise ValueError if two columns of a table have the same name.
-    """
+    """Return datapackage.json with a resource for each CSV table. Raise ValueError for equal names of columns."""
     resources = [
         {
             "name": re.sub(r"[^a-z0-9]+", "-", path.lower().removesuffix(".csv")).strip("-"),

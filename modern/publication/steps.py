@@ -74,8 +74,7 @@ _WHOLE: Spans = [(Fraction(0), Fraction(1))]
 def hidden_lines(name: str = "house") -> tuple[Eye, tuple[Plate, ...]]:
     """Draw a scene in four steps (Nakamae and Nishita, sections 3.1 to 3.5), and return the eye and the steps.
 
-    The first step has all edges.  The others remove the edges between two faces turned away from the eye, then the
-    parts behind a nearer contour, then the lines that only divide an object (ghost lines).
+    The steps after the first remove edges between faces turned away, parts behind contours, and ghost lines.
     """
     model = scene(name)
     x, y, z = (int(number) for number in model.sight.eye)
@@ -152,11 +151,7 @@ class Cells:
 
 @cache
 def cells(diameter: int = 5) -> Cells:
-    """Return the ball of a diameter, its hull, and the numbers of cells of both.
-
-    Only cells on the boundary of the voxels are counted, except the 3-cells, which are the voxels.  A polyhedron counts
-    as one 3-cell.
-    """
+    """Return the ball of a diameter, its hull, and the numbers of cells of both (3-cells, and boundary cells)."""
     volume = ball(diameter)
     polyhedron = voxel_hull(volume, order=RASTER).polyhedron
     counts = [("the ball's voxels and their boundary", (*_boundary(volume), volume.count))]
@@ -243,10 +238,7 @@ def _moved(cell: tuple[int, ...], axis: int, step: int) -> tuple[int, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Quadrant:
-    """A square of the quadtree of heights: its corner, its side, and the greatest height in it.
-
-    ``height`` is None if the square has no column.  ``whole`` is True for a leaf, which is not divided further.
-    """
+    """A square of the quadtree of heights. ``height`` is None without a column; ``whole`` is True for a leaf."""
 
     x: int
     y: int

@@ -57,10 +57,7 @@ def witness(root: Element) -> str:
 
 
 def corrected(root: Element, selected: Collection[str] | None = None) -> str:
-    """Return the text with the rows of the selected layers, by default those of the edited text.
-
-    For a listing this is the deck.
-    """
+    """Return the text with the selected layers, by default those of the edited text (for a listing, the deck)."""
     chosen = printed_layers(root) if selected is None else selected
     lines = (_reading(ab, chosen) for ab in _listing(root) if ab.tag == _TEI + "ab" and ab.get("type") == "line")
     return "".join(line + "\n" for line in lines if line.strip())

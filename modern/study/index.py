@@ -50,10 +50,7 @@ class Row(TypedDict):
 
 
 def open_index(folder: Path) -> sqlite3.Connection:
-    """Open the index of a folder and lock it for this run.  A damaged index is replaced by an empty one.
-
-    Raise StudyFileError if another run has locked it or it cannot be written.
-    """
+    """Open and lock the index of a folder; replace a damaged one. Raise StudyFileError if it is locked."""
     path = folder / NAME
     try:
         try:

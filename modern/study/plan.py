@@ -80,10 +80,7 @@ class Programs:
 
 @dataclass(frozen=True, slots=True)
 class Port:
-    """A route through the modern port, with the parameters of :func:`modern.port.convex_hull`.
-
-    ``history`` keeps the stages H_1, H_2, ... of the construction for the measures.
-    """
+    """A route through :func:`modern.port.convex_hull`; ``history`` keeps the stages H_1, H_2, ... for the measures."""
 
     name: str
     arithmetic: str = "exact"
@@ -129,10 +126,7 @@ class Cell:
 
 
 def named(kind: str, name: str, known: Mapping[str, F]) -> F:
-    """Return the known function of that name, or the user-defined ``module:function``.
-
-    ``kind`` is ``family`` or ``measure``.  Raise PlanError if there is no such function.
-    """
+    """Return the known function of that name or the user's ``module:function``. Raise PlanError if it is missing."""
     if name in known:
         return known[name]
     module, colon, function = name.partition(":")
@@ -150,10 +144,7 @@ def named(kind: str, name: str, known: Mapping[str, F]) -> F:
 
 @contextmanager
 def user_code(where: str, module: str) -> Iterator[None]:
-    """Run code of a user's module: turn an exception into a PlanError with file and line.
-
-    Errors of this project pass unchanged, because their messages already are one line.
-    """
+    """Turn an exception in a user's module into a PlanError with file and line. EmulatorErrors pass unchanged."""
     try:
         yield
     except EmulatorError:
@@ -198,10 +189,7 @@ class Chunk:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A study: its name, its question, its seed and its cells.
-
-    notes: explanations for readers of the manifest, such as the reasons for the parameters.
-    """
+    """A study: its name, question, seed and cells, and notes for readers of the manifest."""
 
     name: str
     title: str
@@ -232,10 +220,7 @@ class Plan:
 
     @classmethod
     def of_document(cls, data: Mapping[str, Any]) -> Plan:
-        """Return the plan from which :meth:`document` made the data.
-
-        Raise KeyError, TypeError, ValueError or AttributeError if the data does not describe a plan.
-        """
+        """Return the plan of a document. Raise KeyError, TypeError, ValueError or AttributeError for other data."""
         cells = tuple(
             Cell(**{**cell, "key": dict(cell["key"]), "routes": tuple(map(_route_of_document, cell["routes"]))})
             for cell in data["cells"]

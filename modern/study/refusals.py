@@ -95,10 +95,9 @@ def needed(sheets: Sheets) -> str:
 
 
 def likely_shares(rates: tuple[tuple[int, float], ...]) -> tuple[float, float] | None:
-    """Return the shares of decimals, in thousandths, between which two rejections in seventy are most probable.
+    """Return the shares of decimals, in thousandths, for which two rejections in seventy are most probable, or None.
 
-    ``rates`` holds (share, frequency of rejection) with ascending shares, interpolated linearly.  Return None if they
-    do not reach both bounds.
+    ``rates`` holds (share, frequency of rejection) with ascending shares, interpolated linearly.
     """
     crossings = []
     for bound in TWO_LIKELIEST:

@@ -116,10 +116,7 @@ def run_study(
 
 
 def verify_study(folder: Path) -> tuple[Plan, int, list[str]]:
-    """Return the plan of the study in a folder, the number of its intact rows, and a message for each damaged file.
-
-    Raise StudyFileError if the folder holds no study.
-    """
+    """Return a study's plan, the number of its intact rows, and a message for each damaged file."""
     document = read_manifest(folder)
     try:
         plan = Plan.of_document(document["plan"])

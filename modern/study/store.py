@@ -65,10 +65,7 @@ class Run:
 
 @dataclass
 class Store:
-    """The rows of a study on disk, written while it runs and read when it is finished.
-
-    The reading methods yield rows in the order of cells and samples and hold one at a time in memory.
-    """
+    """The rows of a study on disk, in the order of cells and samples. Readers hold one row at a time in memory."""
 
     folder: Path
     plan: Plan
@@ -151,11 +148,7 @@ class Store:
             yield Run(c, place, n, dimension, json.loads(tags), name, outcome, detail, json.loads(figures))
 
     def counts(self, *columns: str, cell: int | None = None, route: str | None = None) -> dict[tuple[Any, ...], int]:
-        """Return the number of answers for each combination of values of the columns, sorted.
-
-        The columns are those of the index (cell, route, outcome, detail, n, dimension, vertices, planes) and tags,
-        such as ``tags.kind``.
-        """
+        """Return the number of answers for each combination of columns of the index or tags (``tags.kind``), sorted."""
         names = [_column(name) for name in columns]
         where, values = _where(cell, route)
         answers = self.database.execute(
@@ -171,10 +164,7 @@ class Store:
         return self.database.execute(sql, values)
 
     def _chunk_rows(self, chunk: Chunk) -> Iterator[Row]:
-        """Yield the rows of a chunk from its file.
-
-        Raise StudyFileError if a row differs from its checksum or belongs to another sample, or if rows are missing.
-        """
+        """Yield the rows of a chunk. Raise StudyFileError if one is missing, damaged, or belongs to another sample."""
         path = self.folder / ROWS / chunk.name
         try:
             lines = path.read_bytes().splitlines(keepends=True)

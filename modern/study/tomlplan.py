@@ -64,10 +64,7 @@ _HEADER = re.compile(r"\s*(\[\[?)\s*([\w.-]+)")
 
 @dataclass(frozen=True, slots=True)
 class _Section:
-    """A section of a plan file, for error messages.
-
-    name, number: ``route`` or ``cell`` and its number, counted from 1; empty and 0 for the keys before all sections.
-    """
+    """A section of a plan file: ``route`` or ``cell`` with its number from 1, or the keys before all sections."""
 
     path: str
     text: str
@@ -135,10 +132,7 @@ def is_plan_file(name: str) -> bool:
 
 
 def read_plan(path: str, samples: int | None = None, seed: int | None = None) -> Plan:
-    """Read and check the plan of a file; ``samples`` and ``seed`` override those of the file.
-
-    Raise FileError or PlanError, with the line of the fault.
-    """
+    """Read and check the plan of a file. Raise FileError or PlanError, with the line of the fault."""
     text = read_text(path)
     # TOML requires a digit before the point.  An epsilon is also accepted as the thesis writes it, .001.
     for match in reversed(list(re.finditer(r"(?m)^\s*epsilon\s*=\s*[+-]?(?=\.\d)", _masked(text)))):

@@ -93,10 +93,9 @@ def processes() -> int:
 
 
 def in_processes(plan: Plan, chunks: Sequence[Chunk], workers: int) -> Generator[FinishedChunk]:
-    """Yield each chunk with its rows as it is finished, in any order.
+    """Yield each chunk with its rows as it is finished, in any order. Closing the generator ends the workers.
 
-    Closing the generator, as Ctrl-C does, terminates the workers at once.  Raise PlanError if a chunk cannot be carried
-    out or a worker dies.
+    Raise PlanError if a chunk cannot be carried out or a worker dies.
     """
     if workers == 1 or len(chunks) <= 1:
         for chunk in chunks:
@@ -158,10 +157,7 @@ def _begin_worker() -> None:
 
 
 def connect(address: str) -> Any:
-    """Return a client of the cluster whose scheduler is at ``tcp://HOST:PORT``.
-
-    Raise PlanError if dask.distributed is not installed or no scheduler answers.
-    """
+    """Return a client of the cluster at ``tcp://HOST:PORT``. Raise PlanError without dask.distributed or an answer."""
     try:
         distributed = import_module("distributed")
     except ImportError:
@@ -179,8 +175,7 @@ def connect(address: str) -> Any:
 def on_cluster(plan: Plan, chunks: Sequence[Chunk], client: Any) -> Generator[FinishedChunk]:
     """Yield each chunk with its rows as the cluster of ``client`` finishes it, in any order.
 
-    If a worker dies, the scheduler gives its chunk to another worker, up to its limit ``allowed-failures``.  Raise
-    PlanError if the cluster has no workers or disappears, or if the versions of a worker differ from those here.
+    The scheduler repeats the chunk of a dead worker. Raise PlanError if the cluster or its versions are wrong.
     """
     distributed = import_module("distributed")
     threads = sum(client.nthreads().values())

@@ -13,10 +13,7 @@ from modern.thesis.job import HullRun, Load, Step, punched_deck, second_program
 
 @dataclass
 class Runs:
-    """A cache of runs, because the routes of a study's cell often share program 1 or 2.
-
-    Keys hold the identity of a program, so ``programs`` keeps the programs alive.
-    """
+    """A cache of runs, because routes often share program 1 or 2. It keeps the programs alive, which are its keys."""
 
     done: dict[tuple[int, Options, Deck], Result | EmulatorError] = field(default_factory=dict)
     programs: dict[int, Program] = field(default_factory=dict)

@@ -87,10 +87,7 @@ def read_hull(cards: Sequence[str]) -> CardHull:
 
 
 def same_hull(first: CardHull, second: CardHull, oriented: bool) -> bool:
-    """Return True if two hulls on cards are equal except for order and scale.
-
-    The scale must be positive if ``oriented`` is true, because programs 2 and 3 turn planes and lines outward.
-    """
+    """Return True if two hulls are equal except for order and scale; ``oriented`` requires a positive scale."""
     return _canonical(first, oriented) == _canonical(second, oriented)
 
 
@@ -121,10 +118,7 @@ def scaled(equation: Point, oriented: bool) -> Point:
 
 @dataclass(frozen=True, slots=True)
 class IntermediateDeck:
-    """The cards that program 1 punches for the next program, with N and, for coplanar points, KPROJ in ``count``.
-
-    ``planes`` are pairs of A, B, C, D and the numbers of the points that the card names.
-    """
+    """The cards from program 1 for the next program: N, perhaps KPROJ, points, and planes with their points."""
 
     planes: tuple[tuple[Point, tuple[int, ...]], ...]
     count: tuple[str, ...]
@@ -141,10 +135,7 @@ def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
 
 
 def planes_hold(deck: IntermediateDeck) -> bool:
-    """Return True if every plane vanishes exactly at the points that its card names.
-
-    A plane whose card names no points must vanish at all points.
-    """
+    """Return True if every plane vanishes exactly at the points that its card names, by default at all points."""
     unprojected = _unprojected(deck)
     for plane, named in deck.planes:
         points = [unprojected[k - 1] for k in named if 1 <= k <= len(unprojected)] if named else unprojected

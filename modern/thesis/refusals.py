@@ -51,10 +51,7 @@ class Cause:
 
 
 def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tuple[HullRun, Cause | None]:
-    """Return a hull run and, if it found no hull, the cause.
-
-    ``run`` is ``run_hull`` with all its arguments except ``watch``.
-    """
+    """Return a hull run and, if it found no hull, the cause; ``run`` is ``run_hull`` without the argument ``watch``."""
     machines: list[Machine] = []
 
     def record(program: Program, machine: Machine) -> None:

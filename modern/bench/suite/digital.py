@@ -138,10 +138,7 @@ def growth(diameters: Sequence[int] = DIAMETERS) -> list[Curve]:
 
 
 def scikit_image(array: Any) -> Figure | None:
-    """Run scikit-image once on the same voxels and compare the results. Return None if it is not installed.
-
-    ``offset_coordinates=False`` selects the hull of the voxels' centres. One run takes long enough.
-    """
+    """Run scikit-image once on the same voxels and compare the results. Return None if it is not installed."""
     if not find_spec("skimage"):
         return None
     results: list[Any] = []

@@ -56,11 +56,7 @@ def cube(count: int) -> Any:
 
 
 def exact_in_doubles(points: Any) -> Any:
-    """Scale coordinates in [-1, 1] to integers up to 80,000, whose determinants are all exact in float64.
-
-    With arbitrary doubles the port, like the programs, ends at DATA NOT ACCEPTABLE, because the defining points do not
-    satisfy their rounded equations.
-    """
+    """Scale coordinates in [-1, 1] to integers up to 80,000, because the port needs determinants exact in float64."""
     return np.rint(points * 80_000)
 
 

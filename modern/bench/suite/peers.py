@@ -81,10 +81,7 @@ def qhull() -> Peer:
 
 
 def cgal(folder: Path) -> Peer:
-    """Return CGAL on the points as doubles, in a process that reads them and then times itself.
-
-    Raise Missing if there is no compiler or CGAL's headers are not installed.
-    """
+    """Return CGAL on the points as doubles, in a separate process. Raise Missing if it cannot be compiled."""
     command_of_cxx = shlex.split(os.environ.get("CXX", ""))
     command = command_of_cxx or next(([name] for name in COMPILERS if shutil.which(name)), [])
     if not command or not shutil.which(command[0]):

@@ -131,10 +131,9 @@ def has_signature(path: str) -> bool:
 
 
 def check_dicom(path: str) -> tuple[int, ...] | None:
-    """Return columns, rows and frames of an image, or None for a file without pixel data.
+    """Return columns, rows and frames, or None for a file without pixel data.
 
-    Raise VolumeError if an element is damaged or truncated, or if the length of the pixel data does not match the image
-    size. Raise Unverifiable if the pixel data are compressed.
+    Raise VolumeError if an element is damaged or truncated, and Unverifiable if the pixel data are compressed.
     """
     with open(path, "rb") as file:
         elements = _Elements(file, path, os.fstat(file.fileno()).st_size)

@@ -38,10 +38,7 @@ _LONGEST_HEADER = 1 << 20
 
 
 def check_metaimage(path: str) -> tuple[int, ...]:
-    """Return the number of voxels along each axis.
-
-    Raise VolumeError for an invalid header, and for data that are damaged, missing or of another length.
-    """
+    """Return the number of voxels along each axis. Raise VolumeError if the header or the data are damaged."""
     with open(path, "rb") as file:
         head = file.read(_LONGEST_HEADER)
     fields, local = _fields(head, path)

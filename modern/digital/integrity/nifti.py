@@ -52,11 +52,7 @@ Affine = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class NiftiHeader:
-    """The sizes and positions that a NIfTI header states.
-
-    ``forms`` has the positions called qform and sform, as far as the header states them. ``scaling`` is a note about
-    scaled values, or empty.
-    """
+    """The sizes of a NIfTI header, its positions by name (qform, sform), and a note about scaled values or ""."""
 
     sizes: tuple[int, ...]
     spacing: tuple[float, ...]

@@ -27,11 +27,7 @@ Tags = Mapping[int, tuple[int, ...] | bytes]
 
 
 def check_tiff(path: str) -> tuple[int, ...]:
-    """Return width and height, and the number of pages if there are several.
-
-    Raise VolumeError if directories, strips or tiles are damaged, truncated or compressed without a checksum, or if
-    pages differ in size or type.
-    """
+    """Return width, height and number of pages. Raise VolumeError for damaged data and for pages that differ."""
     with open(path, "rb") as file:
         reader = _Reader(file, path)
         pages = reader.pages()
@@ -159,10 +155,7 @@ def _one(page: Tags, tag: int, source: str, default: int = 0) -> int:
 
 
 def _images(page: Tags) -> int:
-    """Return the number of images in the description that ImageJ writes, or 0 if it is not stated.
-
-    ImageJ stores a stack of more than 4 GB as one page.
-    """
+    """Return the number of images that the description by ImageJ states (over 4 GB they are one page), or 0."""
     description = page.get(_DESCRIPTION, b"")
     if isinstance(description, bytes) and description.startswith(b"ImageJ="):
         for line in description.splitlines():

@@ -75,10 +75,7 @@ class Assembled:
 
     @property
     def fault(self) -> str:
-        """The reason why edges and loops are not a hull, or an empty string.
-
-        Only a method with rules as printed has faults.
-        """
+        """The reason why edges and loops are not a hull, which only rules as printed can cause, or an empty string."""
         v, e, f = len(self.vertices), len(self.edges), len(self.surfaces)
         if self.table.stopped:
             return self.table.stopped

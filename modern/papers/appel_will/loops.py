@@ -131,10 +131,7 @@ def surface(entries: Sequence[int], edges: Sequence[Pair]) -> tuple[int, ...]:
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """The state of the search: the reduced vertex list, the counts of the edges and the points of the loops so far.
-
-    ``uses`` and ``on_loops`` change during the search.
-    """
+    """The state of the search: the reduced vertex list, the uses of the edges and the points on loops."""
 
     points: Sequence[IntPoint]
     vertices: Sequence[int]

@@ -101,10 +101,7 @@ def as_mesh(hull: Assembled, points: Sequence[Point]) -> Mesh:
 
 
 def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = None) -> Record:
-    """Return the assembled hull as a record that can be drawn, with the given faces merged.
-
-    Raise PictureError if edges and loops are not a hull.
-    """
+    """Return the assembled hull as a record that can be drawn. Raise PictureError if edges and loops are not a hull."""
     if hull.fault:
         raise PictureError(f"there is no hull to draw: {hull.fault}")
     surfaces = hull.outward() if joined is None else joined_surfaces(hull, joined)
@@ -165,10 +162,7 @@ class Star:
 
 
 def star(hull: Assembled, pair: Pair) -> Star:
-    """Compute the star polygon of a pair of points.
-
-    Raise PictureError if a point does not exist or was deleted, or if both are the same.
-    """
+    """Compute the star polygon of two points. Raise PictureError if they are equal, deleted, or do not exist."""
     a, b = pair
     reason = {
         entry.point: f"it lies between {entry.between[0] + 1} and {entry.between[1] + 1}" for entry in hull.deleted
@@ -199,10 +193,7 @@ def star(hull: Assembled, pair: Pair) -> Star:
 
 
 def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = None) -> str:
-    """Draw the star polygon of a pair of points as seen along their line.
-
-    ``width`` is in pixels, by default 640. Raise ExportError for an invalid pair or width.
-    """
+    """Draw the star polygon of two points as seen along their line. Raise ExportError for an invalid pair or width."""
     width = WIDTH if width is None else checked_width(width)
     polygon = star(hull, pair)
     a, b = pair

@@ -42,8 +42,7 @@ def as_printed(images: Sequence[Image]) -> bool:
 def as_corrected(images: Sequence[Image]) -> bool:
     """Apply the corrected test: outside if a side turns clockwise, or if all images are on one ray.
 
-    A side that turns clockwise spans more than 180 degrees of the turn about C. A side of exactly 180 degrees
-    (possibility III of Fig. 12) contains C, so C is not a corner.
+    A side of exactly 180 degrees (possibility III of Fig. 12) contains C, so C is not a corner.
     """
     # Two images on one ray say nothing about the angle between the rays, so sides along a ray are skipped.
     sides = [(a, b) for a, b in _sides(star_polygon(images)) if not on_one_ray(a, b)]

@@ -133,10 +133,7 @@ def _one_sense(surfaces: Sequence[Surface], surfaces_at: dict[frozenset[int], li
 
 
 def _lies_in(points: Sequence[IntPoint], surface: Surface, face: Surface) -> bool:
-    """Return True if all points of a surface lie in the plane of a face of the hull.
-
-    Three points of the face define its plane, because the hull's faces have no points between their vertices.
-    """
+    """Return True if a surface lies in the plane of a face of the hull, which any three of the face's points define."""
     origin = points[face[0]]
     normal = cross(minus(points[face[1]], origin), minus(points[face[2]], origin))
     return not any(dot(normal, minus(points[index], origin)) for index in surface)

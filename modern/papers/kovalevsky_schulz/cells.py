@@ -30,10 +30,7 @@ class CellListError(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class Vertex:
-    """A 0-cell (Table 1).
-
-    ``edges`` lists the edges at the vertex in the order of their numbers: -e if edge e starts here, +e if it ends here.
-    """
+    """A 0-cell (Table 1). ``edges`` are those at the vertex by number: -e if edge e starts here, +e if it ends here."""
 
     point: IntPoint
     edges: tuple[int, ...]
@@ -69,20 +66,13 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class Economical:
-    """The economical encoding: the coordinates of the vertices, and the vertices of each face by number from 1.
-
-    The faces run counterclockwise as seen from outside.
-    """
+    """The economical encoding: the coordinates of vertices, and the vertices of each face, counterclockwise."""
 
     points: tuple[IntPoint, ...]
     faces: tuple[tuple[int, ...], ...]
 
     def integers(self) -> tuple[int, ...]:
-        """Return the encoding as a sequence of integers.
-
-        It consists of the numbers of vertices and faces, x, y, z of each vertex, and for each face the number of its
-        vertices and these vertices.
-        """
+        """Return the encoding as integers: the counts, the vertices, and the size and vertices of each face."""
         head = (len(self.points), len(self.faces))
         coordinates = (number for point in self.points for number in point)
         return (*head, *coordinates, *(number for face in self.faces for number in (len(face), *face)))
@@ -105,10 +95,7 @@ class CellList:
         return Economical(self.points, tuple(face.vertices for face in self.faces))
 
     def planes(self) -> tuple[Plane, ...]:
-        """Return the plane (a, b, c, d) of every face, in lowest terms.
-
-        H(x, y, z) = a x + b y + c z + d is at most 0 in the polyhedron.
-        """
+        """Return (a, b, c, d) of every face in lowest terms; a x + b y + c z + d is at most 0 in the polyhedron."""
         return tuple(planes_of(self.points, [face.vertices for face in self.faces]))
 
 
@@ -127,11 +114,7 @@ def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> li
 
 
 def _shifted(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Array]:
-    """Return the least coordinates and the points relative to them.
-
-    The array has 64-bit integers if the values of all planes of polygons with these ``sizes`` fit, otherwise Python's
-    integers.
-    """
+    """Return the least coordinates and the points relative to them, as int64 if the values of all planes fit."""
     x, y, z = (min(axis) for axis in zip(*points, strict=True))
     shifted = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
     extent = max(map(max, shifted))
@@ -200,10 +183,9 @@ def assembled(points: Sequence[IntPoint], starts: Numbers, ends: Numbers, sizes:
 
 
 def expanded(encoding: Economical) -> CellList:
-    """Compute the redundant cell list from the economical encoding.
+    """Compute the redundant cell list from the economical encoding; edges are numbered and directed as first used.
 
-    Edges are numbered in the order in which the faces first use them and directed as in that first use. Raise
-    CellListError for an encoding that is not the surface of a convex polyhedron.
+    Raise CellListError for an encoding that is not the surface of a convex polyhedron.
     """
     points, faces = encoding.points, encoding.faces
     try:
@@ -283,10 +265,7 @@ def coordinates(_: int, point: IntPoint) -> str:
 
 
 def vertex_rows(cells: CellList, label: Callable[[int, IntPoint], str] = coordinates) -> Iterator[str]:
-    """Yield the rows of Table 1.
-
-    ``label`` formats the coordinates of a vertex from its number and point. The paper's Table 1 prints symbols.
-    """
+    """Yield the rows of Table 1. ``label`` formats the coordinates of a vertex, for which the paper has symbols."""
     for number, vertex in enumerate(cells.vertices, 1):
         yield f"{number}\t{label(number, vertex.point)}\t{_listed(vertex.edges)}"
 

@@ -42,10 +42,7 @@ class Treated:
 
 
 def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> Treated:
-    """Compute the hull of points with integer coordinates by one of the two treatments, in the given order.
-
-    Raise ValueError for points in one plane and for an unknown treatment.
-    """
+    """Compute the hull of integer points by a treatment. Raise ValueError for points in one plane."""
     if treatment not in (QUADRANGLES, EXTENDED):
         raise ValueError(f"the treatment of coplanar faces is {QUADRANGLES} or {EXTENDED}, not {treatment!r}")
     distinct = list(dict.fromkeys((int(x), int(y), int(z)) for x, y, z in points))

@@ -123,10 +123,9 @@ def _in_raster_order(parts: list[NDArray[np.intp]], order: list[int], origin: tu
 
 
 def local_corners(volume: Volume, of: Of = VERTICES, neighbours: int = 26) -> Points:
-    """Return the paper's list L: the coordinates of the local corners, shape (n, 3), in raster order.
+    """Return the paper's list L, the local corners (n, 3) in raster order, by 6 or 26 neighbours.
 
-    ``neighbours`` is 6 or 26. Raise VolumeError for a volume of two dimensions, ValueError for another number of
-    neighbours.
+    Raise VolumeError for a volume of two dimensions, ValueError for another number of neighbours.
     """
     if neighbours not in NEIGHBOURS:
         raise ValueError(f"expected 6 or 26 neighbours, found {neighbours}")

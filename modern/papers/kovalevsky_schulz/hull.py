@@ -76,11 +76,7 @@ def _renumbered(cells: CellList, cycles: list[list[int]]) -> CellList:
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """The surface of a polyhedron as cell lists.
-
-    ``faces`` is the list with coplanar triangles merged. ``triangulation`` is the list of triangles if an order of
-    insertion was requested, otherwise None.
-    """
+    """The surface as a cell list with merged faces, and as triangles if an order of insertion was requested."""
 
     faces: CellList
     triangulation: CellList | None = None

@@ -20,10 +20,7 @@ from modern.papers.kovalevsky_schulz.polyhedron import Flat, flat_hull
 
 
 def hull_cells(points: Points) -> CellList | Flat:
-    """Compute the cell list of the hull of points, or ``Flat`` if they lie in one plane.
-
-    ``points`` are distinct, in raster order, of shape (n, 3), and at least one.
-    """
+    """Compute the cell list of distinct points (n, 3) in raster order, or ``Flat`` if they lie in one plane."""
     low = points.min(axis=0)
     candidates = column_ends_of(points - low)
     simplex = independent(candidates)

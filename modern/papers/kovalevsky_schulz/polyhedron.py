@@ -45,11 +45,7 @@ Triangle = tuple[int, int, int, int, int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Flat:
-    """The hull of points in one plane, which is not a polyhedron and has no cell list.
-
-    The dimension is 0, 1 or 2. The vertices are the point, the ends of the segment, or the vertices of the polygon in
-    cyclic order.
-    """
+    """The hull of points in one plane, which has no cell list: its dimension, and its vertices in cyclic order."""
 
     dimension: int
     vertices: tuple[IntPoint, ...]

@@ -25,10 +25,7 @@ class Clipped:
 
 
 def beyond_near(polyhedra: Sequence[Polyhedron], observer: Observer) -> Clipped:
-    """Return the parts of polyhedra beyond the near plane, or all of them if the observer has no near plane.
-
-    Raise SceneError if nothing remains.
-    """
+    """Return the parts of polyhedra beyond the near plane, if there is one. Raise SceneError if nothing remains."""
     if observer.near is None or observer.point is None:
         return Clipped(tuple(polyhedra))
     remaining, cut, behind = [], [], []

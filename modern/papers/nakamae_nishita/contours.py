@@ -44,10 +44,7 @@ def boxes(contours: Sequence[Sequence[Homogeneous]]) -> list[Box | None]:
 
 
 def overlapping(all_boxes: Sequence[Box | None]) -> Iterator[tuple[int, int]]:
-    """Yield the sorted pairs of indices, the smaller first, whose boxes overlap.
-
-    The grid has about one cell per box, so disjoint boxes of similar size take constant time each.
-    """
+    """Yield sorted pairs of indices whose boxes overlap, by a grid that has about one cell per box."""
     nonempty = [(index, box) for index, box in enumerate(all_boxes) if box is not None]
     if len(nonempty) < 2:
         return

@@ -76,10 +76,7 @@ def clipped(values: Values, first: int, last: int) -> Passage:
 def as_printed(
     values: Values, first: int, last: int, ends: tuple[Homogeneous, Homogeneous], contour: Sequence[Homogeneous]
 ) -> Passage:
-    """Return the passage as the paper prints it: only intersections with d = -4 of formula (3) count.
-
-    A segment that ends on the contour or runs through one of its vertices loses that intersection.
-    """
+    """Return the passage as printed, which loses an intersection at a vertex because only d = -4 of (3) counts."""
     a, b, c = line_through(_flat(ends[0]), _flat(ends[1]))
     sides = [sign(a * x + b * y + c * w) for x, y, _, w in contour]
     places = []

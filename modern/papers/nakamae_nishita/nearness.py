@@ -55,10 +55,9 @@ def crossing(solid: Solid, order: int, values: list[int]) -> Homogeneous:
 
 
 def by_plane(v: Solid, w: Solid) -> tuple[int, Plane | None]:
-    """Compare V and V' by a separating plane. Return 1 if V is nearer, -1 if V' is nearer, and the plane.
+    """Compare V and V' by a separating plane: return 1 if V is nearer, -1 if V' is nearer, and the plane.
 
-    The plane is None if the polyhedra intersect. The first number is 0 for two plates in one plane, neither of which
-    hides the other.
+    The plane is None if the polyhedra intersect. The first number is 0 for two plates in one plane.
     """
     # If any plane separates two convex polyhedra, then the plane of a face does, or a plane through an edge of one
     # and a vertex of the other. Upright planes (plane[2] == 0) do not order the two in depth.

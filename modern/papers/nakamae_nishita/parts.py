@@ -45,10 +45,7 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """The parts that a table of a scene file defines: one, or one for each connected component of a file.
-
-    ``file`` is the path of that file, or empty. ``notes`` are remarks on it for the user.
-    """
+    """The parts that a table of a scene defines, the path of their file (or empty), and notes on it for the user."""
 
     parts: tuple[Part, ...]
     file: str = ""

@@ -52,10 +52,9 @@ def outward(polyhedron: Polyhedron, face: tuple[int, ...]) -> Vector:
 
 
 def checked(polyhedron: Polyhedron) -> Polyhedron:
-    """Return the polyhedron after proving that it is closed and convex.
+    """Return the polyhedron, with its faces clockwise from outside, after proving that it is closed and convex.
 
-    If all faces run counterclockwise from outside, they are reversed. Raise SceneError with the name of the polyhedron
-    and the number, from 1, of an invalid face or of the vertices of an invalid edge.
+    Raise SceneError with the names of the polyhedron and of the invalid face or edge.
     """
     name, points, faces = polyhedron.name, polyhedron.vertices, polyhedron.faces
     if not faces:
@@ -140,8 +139,7 @@ def turns_once(points: Sequence[tuple[N, N, N]], normal: tuple[N, N, N]) -> bool
 def polyhedron_of_hull(hull: Hull, name: str = "hull", joined: Joined | None = None) -> Polyhedron:
     """Return the polyhedron of a hull, or the plate of a polygon, with the faces of ``joined`` merged.
 
-    Raise ExportError if there is no hull. Raise SceneError for a hull of less than two dimensions, and for one whose
-    faces are not plane or not convex, which rounded arithmetic can cause.
+    Raise ExportError without a hull, and SceneError for a hull that is a line or not convex.
     """
     surface = mesh(hull)
     if surface.dimension < 2:

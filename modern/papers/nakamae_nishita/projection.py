@@ -41,10 +41,7 @@ def parallel(direction: Sequence[Fraction | int]) -> Observer:
 
 
 def perspective(point: Vector, towards: Vector, near: Fraction | None = None) -> Observer:
-    """Return the observer at a point who looks towards another point, with a near plane if one is given.
-
-    Raise SceneError if the two points are the same.
-    """
+    """Return the observer at a point who looks towards another point. Raise SceneError if they are the same."""
     if point == towards:
         raise SceneError("the observation point is the point looked at")
     sight = parallel(minus(point, towards))

@@ -43,10 +43,7 @@ class Sight:
     near: Fraction | None = None
 
     def observer(self, make: Callable[[], Sequence[Polyhedron]]) -> Observer:
-        """Return the observer. ``make`` creates the polyhedra if the centre of the scene is needed.
-
-        Raise SceneError for the direction 0,0,0.
-        """
+        """Return the observer; ``make`` creates the polyhedra if their centre is needed. Raise SceneError for 0,0,0."""
         if self.projection == PARALLEL:
             return parallel(self.eye)
         return perspective(self.eye, self.towards or _middle(make()), self.near)
@@ -88,10 +85,7 @@ def scene(name: str) -> SceneFile:
 
 
 def read(path: str) -> SceneFile:
-    """Read a scene from a file. Paths of its parts are relative to the folder of the scene.
-
-    Raise FileError, or SceneError with line and column or with the part.
-    """
+    """Read a scene from a file; paths are relative to its folder. Raise FileError, or SceneError with the position."""
     return parse(read_text(path), source_name(path), os.path.dirname(path))
 
 

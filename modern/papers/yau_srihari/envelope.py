@@ -23,8 +23,7 @@ from modern.papers.yau_srihari.search import Candidates, Normal, Search, normal_
 def reduced_tree(tree: Quadtree) -> Quadtree:
     """Reduce a floor tree to the columns that can be vertices of the envelope (sections 4.6.1 and 5).
 
-    These are the vertices of the lower chain of every line x = const and, of these, the vertices of the lower chain of
-    every line y = const.
+    They are vertices of the lower chains of both lines through them, x = const and then y = const.
     """
     for axis in (0, 1):
         vertices = [(at, t, z) for at in range(tree.side) for t, z in lower_chain(trees.line(tree, axis, at))]
@@ -49,10 +48,7 @@ def outline(places: Iterable[Place]) -> list[Place]:
 
 
 def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
-    """Return the lower chain of the points above the segment from ``start`` to ``end``, both ends included.
-
-    ``points`` has the shape (n, 3) and at most one point above each place.
-    """
+    """Return the lower chain of points (n, 3), one above each place, from ``start`` to ``end`` inclusive."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     x, y = points[:, 0] - start[0], points[:, 1] - start[1]
     # The product with the direction of the segment measures the position along it, in units of its length.
@@ -81,10 +77,7 @@ Edge = tuple[Point, Point]
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A face of the envelope.
-
-    The vertices run counterclockwise as seen from outside, which is below. The normal points outward.
-    """
+    """A face of the envelope, counterclockwise seen from outside, which is below, with its outward normal."""
 
     vertices: tuple[Point, ...]
     normal: Normal
@@ -147,10 +140,7 @@ class Envelope:
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
-        """The construction edge by edge, with a search of the quadtree for each face.
-
-        It is computed on first access, because the faces are found without it.
-        """
+        """The construction edge by edge with searches of the quadtree, computed on first access."""
         return self.construction()
 
 

@@ -20,10 +20,7 @@ from modern.papers.yau_srihari.quadtree import Place, Quadtree, ceiling, floor, 
 
 
 def components(volume: NDArray[np.bool_]) -> int:
-    """Count the 6-connected components of the voxels of an array.
-
-    The runs of voxels along the last axis are the nodes of a graph, and touching runs are its edges.
-    """
+    """Count the 6-connected components of voxels: of the graph of touching runs along the last axis."""
     # An empty cell after every line separates the runs of neighbouring lines in the flat array.
     padded = np.zeros((volume.shape[0], *(length + 1 for length in volume.shape[1:])), dtype=np.bool_)
     padded[(slice(None), *(slice(-1) for _ in volume.shape[1:]))] = volume
@@ -112,10 +109,9 @@ class OctreeHull:
 
 
 def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = None) -> OctreeHull:
-    """Compute the digital hull of a volume, or of truth values with two or three axes, by octrees.
+    """Compute the digital hull of a volume, or of truth values, by octrees; ``printed`` selects printed statements.
 
-    ``printed`` selects statements of the paper to apply as printed. Raise VolumeError if the array has other values or
-    axes, no voxels, or needs a cube of more than ``MAX_CELLS`` voxels.
+    Raise VolumeError for other arrays, no voxels, or a cube of more than ``MAX_CELLS`` voxels.
     """
     volume = as_volume(volume)
     printed = printed or Printed()

@@ -15,10 +15,9 @@ _NO_END = frozenset({"input", "br", "img", "hr", "col"})
 
 
 def element(name: str, inner: str = "", /, **attributes: str | bool) -> str:
-    """Return an element.
+    """Return an element. ``_`` in the name of an attribute stands for ``-``, and ``cls`` for ``class``.
 
-    Attributes have their HTML names, with ``_`` for ``-`` and ``cls`` for ``class``.  An attribute that is False or
-    empty is omitted, except ``alt`` and ``value``.
+    An attribute that is False or empty is omitted, except ``alt`` and ``value``.
     """
     start = f"<{name}{''.join(_attribute(key, value) for key, value in attributes.items())}>"
     return start if name in _NO_END else f"{start}{inner}</{name}>"

@@ -57,10 +57,7 @@ def check_keywords(name: str, parameters: Mapping[str, object]) -> None:
 
 
 def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
-    """Draw the sample of a cell with that index; ``study`` is the seed of the study.
-
-    Raise PlanError if the family does not accept the parameters, FamilyError if no such points exist.
-    """
+    """Draw a sample of a cell. Raise PlanError for wrong parameters, and FamilyError if no points exist."""
     family = family_of(cell.family)
     draw = Draw(random_of(cell.seed(study, index)), index)
     try:

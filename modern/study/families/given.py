@@ -60,10 +60,7 @@ def file_family(draw: Draw, path: str, n: Count = 0, shuffle: bool = False, name
 
 
 def file_points(path: str) -> list[list[str]]:
-    """Return the points of a file (deck, CSV or OFF) for the parameter ``points``; a plan does not hold file names.
-
-    Raise EmulatorError with a one-line message if the file cannot be read.
-    """
+    """Return the points of a file for the parameter ``points``. Raise EmulatorError if it cannot be read."""
     return [list(point) for point in read_input(path).points]
 
 

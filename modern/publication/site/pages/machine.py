@@ -78,10 +78,7 @@ def _count(region: Region) -> str:
 
 
 def map_svg(storage: CoreMap) -> str:
-    """Draw a storage map as SVG with address 0 at the bottom and 50 positions for each pixel.
-
-    Every region is a rectangle with its lowest address in ``data-low`` and its size in ``data-positions``.
-    """
+    """Draw a storage map as SVG from address 0 up. ``data-low`` and ``data-positions`` are facts of each rectangle."""
     height = CORE // PER_PIXEL
 
     def y(address: int) -> int:

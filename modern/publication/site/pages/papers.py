@@ -113,10 +113,9 @@ def _loop(hull: Assembled, number: int, loop: Loop) -> str:
 
 
 def loop_svg(hull: Assembled, number: int) -> str:
-    """Draw the topological map at the moment when a loop was closed.
+    """Draw the topological map when a loop was closed: its surface in grey, and at each edge its uses so far.
 
-    The loop's surface is grey.  The line style and the number at each edge show its uses so far.  The largest surface
-    is the outside of the map, so its grey area surrounds the map.
+    The largest surface is the outside of the map, so its grey area surrounds the map.
     """
     loop, surfaces = hull.table.loops[number - 1], hull.surfaces
     outer = max(range(len(surfaces)), key=lambda k: (len(surfaces[k]), -k))
