@@ -100,6 +100,11 @@ def _listing(parser: ArgumentParser) -> None:
         help="count the digits lost against this arithmetic, or none to skip the comparison (default: %(default)s)",
     )
     parser.add_argument("--operator", metavar="=FILE", help="answer ACCEPT and PAUSE from a file or a log")
+    parser.add_argument(
+        "--commentary",
+        action="store_true",
+        help="explain the blocks of statements and the variables of a program of the thesis",
+    )
     output_argument(parser)
     compared_machine(parser)
 

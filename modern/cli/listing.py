@@ -1,12 +1,16 @@
-"""``hull1620 listing``: list a program with the run count, the time and the lost digits of each statement."""
+"""``hull1620 listing``: list a program with the run count, the time and the lost digits of each statement.
+
+``--commentary`` adds what each block of statements of a built-in program does, and what each variable holds.
+"""
 
 from __future__ import annotations
 
 import argparse
 import shutil
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from textwrap import wrap
 
 from emulator.errors import DeckError, Diagnostic
 from emulator.files import check_writable, read_text, source_name, write_text
@@ -25,6 +29,7 @@ from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.programs import machine_options, number_system, source_deck
 from modern.cli.shared.run_output import is_terminal, print_ending
 from modern.edition import programs
+from modern.publication.commentary import commentary
 
 _NARROWEST = 40
 
@@ -47,9 +52,10 @@ def main(args: argparse.Namespace) -> int:
     check_writable(args.output)
     options = machine_options(args)
     source = source_deck(args)
+    notes_above, glosses = _commentary(args) if args.commentary else ({}, [])
     program, messages = translate(source)
     if program is None or (args.deck is None and program.uses("READ", "ACCEPT")):
-        _write(args.output, _plain(source, messages))
+        _write(args.output, [*_plain(source, messages, notes_above), *glosses])
         return OK if program is not None else BAD_INPUT
     if args.program not in programs.NAMES:
         # Only the programs of the thesis require complete data sets.
@@ -58,7 +64,8 @@ def main(args: argparse.Namespace) -> int:
     answers = _answers(args.operator)
     result = Machine(program, deck, options).run(_operator(answers), output=lambda events: None)
     divergence = _compared(args, program, deck, options, answers)
-    _write(args.output, _with_statistics(source, messages, program, result, divergence))
+    lines = _with_statistics(source, messages, program, result, divergence, notes_above)
+    _write(args.output, [*lines, *glosses])
     print_notes(notes(program, result))
     print_ending(result)
     return OK if result.ending.normal else DIFFERS
@@ -91,17 +98,47 @@ def _compared(
         return None
 
 
-def _write(path: str, lines: Iterator[str]) -> None:
+def _commentary(args: argparse.Namespace) -> tuple[dict[int, list[str]], list[str]]:
+    """Return the lines above each card that begins a block, and the lines that explain the variables."""
+    if args.program not in programs.NAMES or args.layers:
+        raise UsageError(
+            f"--commentary: expected a program of the thesis without further layers: {', '.join(programs.NAMES)}"
+        )
+    remarks = commentary(args.program)
+    width = min(_width(args.output) or 100, 100)
+    above = {
+        block.cards.start: [
+            "",
+            block.title,
+            *wrap(block.text, width, initial_indent="    ", subsequent_indent="    "),
+            "",
+        ]
+        for block in remarks.blocks
+    }
+    glosses = ["", "Variables"]
+    for gloss in remarks.variables:
+        limits = f" ({gloss.limits[0]} to {gloss.limits[1]})" if gloss.limits else ""
+        glosses += wrap(f"    {gloss.name:5s} {gloss.text}{limits}", width, subsequent_indent=" " * 10)
+    return above, glosses
+
+
+def _write(path: str, lines: Iterable[str]) -> None:
     """Write lines to a file or to standard output; lines wider than a terminal are truncated there."""
-    width = None
-    if path == "-" and is_terminal(sys.stdout):
-        width = max(_NARROWEST, shutil.get_terminal_size((80, 24)).columns)
+    width = _width(path)
     write_text(path, "".join(line[:width].rstrip() + "\n" for line in lines))
 
 
-def _plain(source: Deck, messages: Sequence[Diagnostic]) -> Iterator[str]:
+def _width(path: str) -> int | None:
+    """Return the width of the terminal that the output goes to, or None."""
+    if path == "-" and is_terminal(sys.stdout):
+        return max(_NARROWEST, shutil.get_terminal_size((80, 24)).columns)
+    return None
+
+
+def _plain(source: Deck, messages: Sequence[Diagnostic], notes_above: Mapping[int, Sequence[str]]) -> Iterator[str]:
     yield f"{source.source}: {len(source.cards)} cards"
     for card in source.cards:
+        yield from notes_above.get(card.number, ())
         yield f"{card.number:5d}  {card.text}"
         yield from _messages_below(messages, card.number, " " * 7)
     for message in messages:
@@ -118,7 +155,12 @@ def _messages_below(messages: Sequence[Diagnostic], card: int, lead: str) -> Ite
 
 
 def _with_statistics(
-    source: Deck, messages: Sequence[Diagnostic], program: Program, result: Result, divergence: Divergence | None
+    source: Deck,
+    messages: Sequence[Diagnostic],
+    program: Program,
+    result: Result,
+    divergence: Divergence | None,
+    notes_above: Mapping[int, Sequence[str]],
 ) -> Iterator[str]:
     seconds = measure(program, result).processor_seconds
     yield f"{program.source}: {result.statements} statements in {seconds:.1f} s of processor time on a 1620"
@@ -127,6 +169,7 @@ def _with_statistics(
     rows = _rows(program, result, divergence)
     yield " card    count  time%  lost"
     for card in source.cards:
+        yield from notes_above.get(card.number, ())
         row = rows.get(card.number)
         statistics = ""
         if row is not None:

@@ -93,6 +93,16 @@ def chart(flow: Flow, height: int = 1100) -> Chart:
     return Chart(flow, tuple(_page(flow, first, last) for first, last in _breaks(flow, height)))
 
 
+def sheets_of(chart: Chart) -> dict[int, int]:
+    """Return the number of the page, counted from 1, on which each card is drawn."""
+    return {
+        card: number
+        for number, page in enumerate(chart.pages, 1)
+        for placed in page.boxes
+        for card in chart.flow.boxes[placed.box].cards
+    }
+
+
 def wrapped(line: str, width: int = WRAP) -> tuple[str, ...]:
     """Break a statement into lines of at most ``width`` characters, if possible after an operator, comma or blank."""
     rows = []

@@ -7,7 +7,10 @@ layers and the example whose figures appear in the margin with form controls, wh
 from collections.abc import Iterator
 
 from modern.edition import programs
+from modern.publication.chart import chart, sheets_of
+from modern.publication.commentary import Block, Gloss, commentary
 from modern.publication.facing import Card, Facing, Piece, Variant, facing
+from modern.publication.flow import flow
 from modern.publication.measured import DETECTED_BY, runs, weights
 from modern.publication.site.entries import column, entry, sign, witness_line
 from modern.publication.site.made import Made, Part, Target, one_of
@@ -26,6 +29,8 @@ from modern.publication.site.markup import (
 from modern.publication.tei import LAYERS
 from modern.publication.uses import Name, uses
 
+_CHARTS = dict(zip(programs.NAMES, ("chart1", "chart2", "chart3", "chart1_examples"), strict=True))
+
 # The kinds of difference between a card and the witness, each with its sign and meaning.
 SIGNS = {
     "changed": ("\u2260", "differs from the witness"),
@@ -42,13 +47,26 @@ def make(argument: str) -> Made:
     parts = [Part(html=_controls(listing))]
     titles = ("place", "witness: line and text", "deck", "executions, time")
     head = element("div", "".join(text("span", title) for title in titles), cls="card-head", aria_hidden="true")
+    sheets = sheets_of(chart(flow(programs.program(name))))
+    remarks = {block.cards.start: _remark(name, block, sheets) for block in commentary(name).blocks}
     if listing.everywhere or listing.dropped:
         parts.append(Part("Rows that concern most cards", "everywhere", html=_everywhere(listing)))
     for page, cards in listing.pages():
-        items = "".join(_card(listing, card, first_cards) for card in cards)
+        items = "".join(remarks.get(card.number, "") + _card(listing, card, first_cards) for card in cards)
         parts.append(Part(f"Page {page}", f"page-{page}", html=head + element("ol", items, cls="cards")))
     tables = _symbols(name)
     return Made((*parts, *tables.parts), (*_targets(listing), *tables.targets))
+
+
+def _remark(name: str, block: Block, sheet_of: dict[int, int]) -> str:
+    """Return the commentary on a block: what it does, its steps in chapter 3, and its sheets of the flow chart."""
+    place = facing(name).cards[block.cards.start - 1].place
+    where = "; ".join(map(escape, block.steps))
+    where = f"{link('reference/concordance', '', 'Chapter 3')}: {where}. " if where else ""
+    sheets = dict.fromkeys(sheet for card, sheet in sheet_of.items() if card in block.cards)
+    where += ", ".join(link(_CHARTS[name], f"sheet-{n}", f"flow chart, sheet {n}") for n in sheets)
+    inner = text("h3", block.title) + text("p", block.text) + element("p", where, cls="quiet")
+    return element("li", inner, cls="remark", id=f"about-{place}")
 
 
 def _targets(listing: Facing) -> Iterator[Target]:
@@ -191,7 +209,10 @@ def _facts(listing: Facing, card: Card) -> str:
         return ", ".join(to(jump.target, jump.taken) for jump in jumps)
 
     names = ", ".join(link(listing.program, f"name-{name}", name) for name in known.of(card.number))
+    block = commentary(listing.program).block_of(card.number)
+    first = listing.cards[block.cards.start - 1].place
     facts = (
+        ("purpose", link(listing.program, f"about-{first}", block.title)),
         ("card", f"{card.number} of {len(listing.cards)}; p. {card.page}"),
         ("reached from", come("jump")),
         ("goes to", go("jump")),
@@ -223,13 +244,15 @@ def _symbols(program: str) -> Made:
     def places(numbers: tuple[int, ...]) -> str:
         return ", ".join(link(program, cards[n].place, cards[n].place) for n in numbers)
 
+    gloss_of = {gloss.name: gloss for gloss in commentary(program).variables}
     rows, targets = [], []
     for name in known.names:
         code = text("code", name.name, id=f"name-{name.name}")
-        rows.append((code, _type_of(name), *map(places, (name.declared, name.set, name.used))))
+        meaning = _meaning(gloss_of[name.name]) if name.name in gloss_of else ""
+        rows.append((code, meaning, _type_of(name), *map(places, (name.declared, name.set, name.used))))
         index = f"{name.name}; {program}"
         targets.append(Target(f"name-{name.name}", f"name {program} {name.name}", name.name, index))
-    names = table(("name", "type", "declared", "set", "used"), rows, "Names")
+    names = table(("name", "meaning", "type", "declared", "set", "used"), rows, "Names")
     formats = []
     for card in cards.values():
         if card.kind == "format":
@@ -242,6 +265,10 @@ def _symbols(program: str) -> Made:
         Part("FORMATs", "formats", html=table(("FORMAT", "specification", "used by"), formats, "FORMATs")),
     )
     return Made(parts, tuple(targets))
+
+
+def _meaning(gloss: Gloss) -> str:
+    return escape(gloss.text) + (f" From {gloss.limits[0]} to {gloss.limits[1]}." if gloss.limits else "")
 
 
 def _type_of(name: Name) -> str:
