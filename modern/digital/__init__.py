@@ -12,6 +12,6 @@ To add a file format:
 2. Call it in ``_parsed`` in ``volumes.py`` after recognising the first bytes of the file. If SimpleITK reads the
    format, an entry for the file's ending in ``KINDS`` in ``itk.py`` is sufficient instead.
 3. To write the format, add its ending to ``ARRAYS`` and a case to ``write_array``, both in ``volumes.py``.
-4. Test it in ``tests/modern/digital/test_volumes.py`` and damage it in ``tests/modern/cli/test_fuzz_volumes.py``.
+4. Test it in ``tests/modern/digital/test_volumes.py``, and damage it in ``test_damaged_volumes.py`` next to it.
 5. Describe it in ``docs/reference/files.md`` and ``docs/how-to/voxels.md``.
 """

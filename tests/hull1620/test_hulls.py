@@ -31,7 +31,6 @@ from hull1620 import (
     load_program,
     read_hull,
     read_points,
-    reproduce,
     run_hull,
     save,
     voxel_hull,
@@ -221,12 +220,6 @@ def test_an_accepted_hull_of_very_large_or_small_numbers_can_be_used(hull_of: An
             hull.save(tmp_path / f"hull.{extension}", digits=9)
 
 
-def test_the_repr_of_a_hull_is_a_summary() -> None:
-    assert repr(exact_hull(CUBE)) == "<hull: polyhedron, 8 vertices, 6 faces; 8 points, exact>"
-    assert repr(convex_hull(SQUARE)) == "<hull: polygon, 4 vertices, 4 lines; 6 points, exact>"
-    assert repr(exact_hull([(0, 0, 0)])) == "<hull: point, 1 vertex; 1 points, exact>"
-
-
 def test_all_functions_draw_the_same_picture() -> None:
     hull = exact_hull(CUBE)
     assert hull._repr_svg_() == hull.draw() == draw(CUBE) == draw(hull)
@@ -326,11 +319,6 @@ def test_an_image_of_simpleitk_has_its_hull_in_its_coordinates() -> None:
     # The axis x has the direction (0, 1, 0), and y (-1, 0, 0).
     assert hull.points.min(axis=0).tolist() == [5, 19.75, 29.5]
     assert hull.points.max(axis=0).tolist() == [11, 21.75, 31.5]
-
-
-def test_an_example_is_reproduced(capsys: pytest.CaptureFixture[str]) -> None:
-    assert reproduce("1")
-    assert "example 1" in capsys.readouterr().out.lower()
 
 
 def test_the_solidity_of_voxels_is_a_fraction() -> None:

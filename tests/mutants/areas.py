@@ -1,4 +1,4 @@
-"""The two tables: which files make up an area and which tests judge it; which mutants are known to change nothing."""
+"""The two tables: the areas with their files and tests, and the mutants that no test can notice."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ ROOT = HERE.parent.parent
 
 
 class TableError(ValueError):
-    """A table that cannot be read or names a file that does not exist; one line."""
+    """A table that cannot be read or names a file that does not exist."""
 
 
 @dataclass(frozen=True, slots=True)
 class Area:
-    """Files to change and the tests that must notice; all paths from the root of the tree.
+    """Files to change and the tests that must notice, as paths from the root of the tree.
 
-    ``tests`` are pytest's arguments, files or single tests; ``select`` is its ``-k``.
+    ``tests`` are arguments of pytest, and ``select`` is its ``-k``.
     """
 
     name: str
@@ -31,10 +31,10 @@ class Area:
 
 @dataclass(frozen=True, slots=True)
 class Equivalent:
-    """Mutants of one line that change nothing a test could see; ``file`` is ``*`` for that line in any file.
+    """Mutants of one line that change nothing a test can observe; ``file`` is ``*`` for the line in any file.
 
-    ``line`` is the line without its indent, ``becomes`` the line of the mutant, empty for any mutant of that operator;
-    ``operator`` is a pattern as of a shell.
+    ``line`` is the line without its indentation. ``becomes`` is the line of the mutant, or empty for every mutant of
+    the operator. ``operator`` is a shell pattern.
     """
 
     file: str
@@ -44,39 +44,39 @@ class Equivalent:
     becomes: str = ""
 
     def fits(self, file: str, line: str, operator: str) -> bool:
-        """Whether it is about that line and operator; the caller compares what the line becomes."""
+        """Return True if the entry is about that line and operator. The caller compares ``becomes``."""
         return self.file in ("*", file) and self.line == line.strip() and fnmatchcase(operator, self.operator)
 
 
 def read_areas(path: Path = HERE / "areas.toml", root: Path = ROOT) -> tuple[tuple[Area, ...], tuple[str, ...]]:
-    """The areas, with their patterns of files resolved, and the patterns of the operators left out.
+    """Return the areas and the patterns of the operators that are left out.
 
-    Raises TableError for a pattern that matches no file and for a test whose file does not exist.
+    Raise TableError for a pattern without a file and for a test whose file does not exist.
     """
     table = _table(path)
     areas = []
-    for name, entry in table.pop("area").items():
+    for name, entry in table["area"].items():
         try:
             area = Area(name, _files(entry.pop("files"), root), tuple(entry.pop("tests")), **entry)
         except (KeyError, TypeError, TableError) as error:
             raise TableError(f"{path.name}: area {name}: {error}") from None
         for test in area.tests:
             if not (root / test.partition("::")[0]).exists():
-                raise TableError(f"{path.name}: area {name}: there is no {test}")
+                raise TableError(f"{path.name}: area {name}: {test} does not exist")
         areas.append(area)
-    return tuple(areas), tuple(operator["name"] for operator in table.pop("left_out"))
+    return tuple(areas), tuple(operator["name"] for operator in table["left_out"])
 
 
 def read_equivalents(path: Path = HERE / "equivalent.toml") -> tuple[Equivalent, ...]:
-    """The mutants known to be equivalent.  Raises TableError."""
+    """Return the mutants known to be equivalent. Raise TableError if an entry has no reason."""
     try:
-        found = tuple(Equivalent(**entry) for entry in _table(path)["equivalent"])
+        entries = tuple(Equivalent(**entry) for entry in _table(path)["equivalent"])
     except (KeyError, TypeError) as error:
         raise TableError(f"{path.name}: {error}") from None
-    for entry in found:
+    for entry in entries:
         if not entry.reason.strip():
             raise TableError(f"{path.name}: {entry.file}: {entry.line!r} has no reason")
-    return found
+    return entries
 
 
 def _table(path: Path) -> dict[str, Any]:
@@ -89,8 +89,8 @@ def _table(path: Path) -> dict[str, Any]:
 def _files(patterns: list[str], root: Path) -> tuple[str, ...]:
     files: dict[str, None] = {}
     for pattern in patterns:
-        found = sorted(path.relative_to(root).as_posix() for path in root.glob(pattern))
-        if not found:
-            raise TableError(f"no file is {pattern}")
-        files.update(dict.fromkeys(found))
+        matches = sorted(path.relative_to(root).as_posix() for path in root.glob(pattern))
+        if not matches:
+            raise TableError(f"no file matches {pattern}")
+        files.update(dict.fromkeys(matches))
     return tuple(files)

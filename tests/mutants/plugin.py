@@ -1,9 +1,9 @@
 """A plugin of pytest for runs on mutants: quick tests first, no search for smaller examples, limits.
 
-Loaded by ``-p tests.mutants.plugin`` and set up by the environment.  MUTANT_LOG names a file to write: the seconds of
-each test, the files of the modules loaded, the processor time of the run.  MUTANT_ORDER names such a file, by which the
-tests are ordered.  MUTANT_SECONDS limits the processor time and MUTANT_BYTES the memory, so that a mutant that loops or
-grows without end is stopped, and a busy machine stops none.
+``-p tests.mutants.plugin`` loads it, and the environment sets it up. MUTANT_LOG names a file for the seconds of each
+test, the files of the loaded modules and the processor time. MUTANT_ORDER names such a file, whose times order the
+tests. MUTANT_SECONDS limits the processor time and MUTANT_BYTES the memory, which stops a mutant that loops or grows
+without end but not one on a busy machine.
 """
 
 from __future__ import annotations
@@ -29,10 +29,9 @@ if _bytes := int(os.environ.get("MUTANT_BYTES", "0")):
 
 
 def pytest_configure() -> None:
-    """The profile of hypothesis that conftest.py has loaded, but ending at the first failure."""
-    settings.register_profile(
-        "mutants", settings(settings(), derandomize=True, database=None, phases=(Phase.explicit, Phase.generate))
-    )
+    """Change the profile of hypothesis so that it ends at the first failure."""
+    phases = (Phase.explicit, Phase.generate)
+    settings.register_profile("mutants", settings(settings(), derandomize=True, database=None, phases=phases))
     settings.load_profile("mutants")
 
 
@@ -49,5 +48,5 @@ def pytest_runtest_logreport(report: pytest.TestReport) -> None:
 def pytest_sessionfinish() -> None:
     if log := os.environ.get("MUTANT_LOG"):
         files = sorted({file for module in list(sys.modules.values()) if (file := getattr(module, "__file__", None))})
-        found = {"seconds": _seconds, "files": files, "processor": time.process_time()}
-        Path(log).write_text(json.dumps(found), encoding="utf-8")
+        document = {"seconds": _seconds, "files": files, "processor": time.process_time()}
+        Path(log).write_text(json.dumps(document), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The table of an area in ``build/mutants``: what an interrupted run goes on from, and what is said in the end."""
+"""The results in ``build/mutants``: the table of an area, from which a run continues, the diffs, and the summary."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ FIELDS = ("run", "area", "file", "line", "column", "operator", "occurrence", "ou
 
 
 def fingerprint(copy: Path) -> str:
-    """A short name for the state of the tree, without its documents and without this package."""
-    found = hashlib.sha256()
+    """Return a short hash of the tree without its documents and without this package."""
+    total = hashlib.sha256()
     for path in sorted(copy.rglob("*")):
         name = path.relative_to(copy).as_posix()
         if path.is_file() and not name.startswith("tests/mutants/") and path.suffix not in (".md", ".pyc"):
-            found.update(f"\0{name}\0".encode() + path.read_bytes())
-    return found.hexdigest()[:12]
+            total.update(f"\0{name}\0".encode() + path.read_bytes())
+    return total.hexdigest()[:12]
 
 
 def earlier(table: Path, run: str, drawn: Iterable[Mutant]) -> list[Verdict]:
-    """The verdicts that an earlier run of the same name has given on these mutants."""
+    """Return the verdicts of an earlier run of the same name on these mutants."""
     by_row = {(mutant.file, mutant.operator, str(mutant.occurrence)): mutant for mutant in drawn}
     if not table.exists():
         return []
@@ -40,8 +40,8 @@ def earlier(table: Path, run: str, drawn: Iterable[Mutant]) -> list[Verdict]:
         ]
 
 
-def write_table(table: Path, run: str, area: str, verdicts: Sequence[Verdict]) -> None:
-    """All verdicts so far, by file and line, written atomically."""
+def write_table(table: Path, run: str, area: str, verdicts: Iterable[Verdict]) -> None:
+    """Write the verdicts by file and line, atomically."""
     table.parent.mkdir(parents=True, exist_ok=True)
     with writing(str(table)) as file:
         writer = csv.writer(file)
@@ -52,25 +52,26 @@ def write_table(table: Path, run: str, area: str, verdicts: Sequence[Verdict]) -
             writer.writerow((run, area, *place, verdict.outcome, f"{verdict.seconds:.1f}"))
 
 
-def write_survivors(folder: Path, verdicts: Iterable[Verdict], sources: Mapping[str, str]) -> list[Path]:
-    """A diff for each mutant that survived; whatever was in the folder is deleted."""
+def write_survivors(folder: Path, verdicts: Sequence[Verdict], sources: Mapping[str, str]) -> list[Path]:
+    """Replace the content of the folder by a diff for each mutant that survived. Return the files."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    written = []
+    paths = []
     for mutant in (verdict.mutant for verdict in verdicts if verdict.outcome == SURVIVED):
         source = sources[mutant.file]
         name = re.sub(r"\W+", "-", f"{mutant.file.removesuffix('.py')} {mutant.line} {mutant.column}")
-        path = folder / f"{name}-{mutant.operator.rpartition('/')[2]}-{mutant.occurrence}.diff"
-        path.write_text(difference(mutant.file, source, mutated(source, mutant)), encoding="utf-8")
-        written.append(path)
-    return written
+        paths.append(folder / f"{name}-{mutant.operator.rpartition('/')[2]}-{mutant.occurrence}.diff")
+        paths[-1].write_text(difference(mutant.file, source, mutated(source, mutant)), encoding="utf-8")
+    return paths
 
 
 def summary(area: str, verdicts: Iterable[Verdict]) -> str:
-    """One line: how many were killed of those that are not equivalent."""
+    """Return one line: the number of mutants killed, of those that are not equivalent."""
     count = Counter(verdict.outcome for verdict in verdicts)
-    noticed = count[KILLED] + count[TIMEOUT]
-    of = noticed + count[SURVIVED]
-    share = f" ({noticed / of:.0%})" if of else ""
-    words = f"{area}: {noticed} of {of} mutants killed{share}, {count[TIMEOUT]} of them by time"
-    return f"{words}; {count[SURVIVED]} survived, {count[EQUIVALENT]} equivalent"
+    killed = count[KILLED] + count[TIMEOUT]
+    total = killed + count[SURVIVED]
+    share = f" ({killed / total:.0%})" if total else ""
+    return (
+        f"{area}: {killed} of {total} mutants killed{share}, {count[TIMEOUT]} of them by time; "
+        f"{count[SURVIVED]} survived, {count[EQUIVALENT]} equivalent"
+    )

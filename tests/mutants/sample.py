@@ -1,4 +1,4 @@
-"""All mutants of a file, by the operators of cosmic-ray, and a seeded sample of them."""
+"""All mutants of a file by the operators of cosmic-ray, and a seeded sample of them."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ _PARAMETER_MARK = re.compile(r"[*/]\s*[,)]")
 
 @dataclass(frozen=True, slots=True)
 class Mutant:
-    """One change: what the operator does at its ``occurrence``-th place in the file, counted from 0.
+    """One change, which the operator makes at its place number ``occurrence`` in the file, counted from 0.
 
-    ``line`` counts from 1, ``column`` from 0; ``text`` is the line before the change, ``nth`` the number of equal lines
-    above it.
+    ``line`` counts from 1 and ``column`` from 0. ``text`` is the line before the change, and ``nth`` is the number of
+    equal lines above it.
     """
 
     file: str
@@ -40,9 +40,9 @@ class Mutant:
 
 
 def mutants(file: str, source: str, left_out: Iterable[str] = ()) -> Iterator[Mutant]:
-    """All mutants of a file, without the operators left out (patterns) and without annotations, which never run.
+    """Yield the mutants of a file, without the operators left out (patterns) and without annotations, which never run.
 
-    cosmic-ray takes the bare ``*`` and ``/`` in a list of parameters for operators; these are left out too.
+    The bare ``*`` and ``/`` in a list of parameters, which cosmic-ray takes for operators, are left out too.
     """
     lines = source.splitlines()
     before: Counter[str] = Counter()
@@ -68,18 +68,18 @@ def mutants(file: str, source: str, left_out: Iterable[str] = ()) -> Iterator[Mu
 
 
 def mutated(source: str, mutant: Mutant) -> str:
-    """The source with the change made."""
-    found: str | None = mutate_code(source, get_operator(mutant.operator)(), mutant.occurrence)
-    if found is None:
+    """Return the source with the change."""
+    changed: str | None = mutate_code(source, get_operator(mutant.operator)(), mutant.occurrence)
+    if changed is None:
         raise ValueError(f"{mutant.file}:{mutant.line}: {mutant.operator} does not apply")
-    return found
+    return changed
 
 
 def sample(sources: Mapping[str, str], count: int, seed: int, left_out: Iterable[str] = ()) -> list[Mutant]:
-    """``count`` mutants of the files, at most one for each place, drawn by the seed.
+    """Return ``count`` mutants of the files, at most one for each place, drawn by the seed.
 
-    All places are equally likely, and so are the operators that apply at a place and give a valid program.  The draw
-    depends on the text of each line and not on its number: a change elsewhere leaves the rest of the sample as it was.
+    All places are equally likely, and so are the operators that apply at a place and give a valid program. The draw
+    depends on the text of each line and not on its number, so the rest of the sample survives a change elsewhere.
     """
     places: dict[tuple[str, int, int], list[Mutant]] = {}
     patterns = tuple(left_out)
@@ -87,54 +87,57 @@ def sample(sources: Mapping[str, str], count: int, seed: int, left_out: Iterable
         for mutant in mutants(file, source, patterns):
             places.setdefault(mutant.place, []).append(mutant)
     drawn: list[Mutant] = []
-    for there in sorted(places.values(), key=lambda found: _lot(seed, found[0], "")):
+    for at_place in sorted(places.values(), key=lambda group: _lot(seed, group[0], "")):
         if len(drawn) == count:
             break
         kinds: Counter[str] = Counter()
         lots = []
-        for mutant in there:
-            # An operator may apply twice at one place: a number becomes one more, or one less.
+        for mutant in at_place:
+            # An operator may apply twice at one place: a number is increased or decreased by one.
             lots.append((_lot(seed, mutant, f"{mutant.operator} {kinds[mutant.operator]}"), mutant))
             kinds[mutant.operator] += 1
         for _, mutant in sorted(lots, key=lambda pair: pair[0]):
-            if _is_another_program(sources[mutant.file], mutant):
+            if _is_different_program(sources[mutant.file], mutant):
                 drawn.append(mutant)
                 break
     return sorted(drawn, key=lambda mutant: (mutant.place, mutant.operator))
 
 
 def difference(file: str, source: str, changed: str) -> str:
-    """The change as a unified diff, as ``git apply`` takes it."""
+    """Return the change as a unified diff for ``git apply``."""
     before, after = source.splitlines(keepends=True), changed.splitlines(keepends=True)
     return "".join(difflib.unified_diff(before, after, f"a/{file}", f"b/{file}"))
 
 
 def _lot(seed: int, mutant: Mutant, operator: str) -> str:
-    words = f"{seed}\0{mutant.file}\0{mutant.text}\0{mutant.nth}\0{mutant.column}\0{operator}"
-    return hashlib.sha256(words.encode()).hexdigest()
+    text = f"{seed}\0{mutant.file}\0{mutant.text}\0{mutant.nth}\0{mutant.column}\0{operator}"
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _is_another_program(source: str, mutant: Mutant) -> bool:
+def _is_different_program(source: str, mutant: Mutant) -> bool:
     try:
         return ast.dump(ast.parse(mutated(source, mutant))) != ast.dump(ast.parse(source))
-    except (SyntaxError, AttributeError):  # the second: cosmic-ray 8.7 cannot replace an exception of a dotted name
+    except (
+        SyntaxError,
+        AttributeError,
+    ):  # AttributeError: cosmic-ray 8.7 cannot replace an exception with a dotted name
         return False
 
 
 def _annotations(source: str) -> list[tuple[tuple[int, int], tuple[int, int]]]:
-    """Where annotations begin and end; none in a file whose annotations are evaluated."""
+    """Return where annotations begin and end; none in a file whose annotations are evaluated."""
     tree = ast.parse(source)
     futures = [node for node in tree.body if isinstance(node, ast.ImportFrom) and node.module == "__future__"]
     if not any(alias.name == "annotations" for node in futures for alias in node.names):
         return []
-    found: list[ast.expr | None] = []
+    annotations: list[ast.expr | None] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.AnnAssign | ast.arg):
-            found.append(node.annotation)
+            annotations.append(node.annotation)
         elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-            found.append(node.returns)
+            annotations.append(node.returns)
     return [
         ((node.lineno, node.col_offset), (node.end_lineno or node.lineno, node.end_col_offset or 0))
-        for node in found
+        for node in annotations
         if node is not None
     ]

@@ -1,4 +1,4 @@
-"""Runs of an area's tests in copies of the tree: first as it is, then with one mutant after the other."""
+"""Runs of an area's tests in copies of the tree: first without a mutant, then with one mutant after another."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ from tests.mutants.areas import Area
 from tests.mutants.sample import Mutant, mutated
 
 TIMES = 4
-"""A mutant may use this many times the processor time of the unmutated tests, and two seconds more."""
+"""The limit of a mutant is this multiple of the processor time of the unmutated tests, plus two seconds."""
 WALL = 10
-"""The limit in elapsed time is this many times longer still: it stops mutants that wait for something."""
+"""The limit in elapsed time is this multiple of the other limit. It stops mutants that wait for something."""
 MEMORY = 4 * 1024**3
-"""Bytes a mutant may ask for."""
+"""The limit of memory in bytes."""
 
 KILLED, SURVIVED, TIMEOUT, EQUIVALENT = "killed", "survived", "timeout", "equivalent"
 _NOTHING_TO_RUN = 5
 
 
 class TrialError(Exception):
-    """The tests cannot judge mutants; what is wrong, and pytest's last lines where there are any."""
+    """The tests cannot judge mutants. The message contains the last lines of pytest, if any."""
 
 
 @dataclass(frozen=True, slots=True)
 class Unmutated:
-    """What the tests of an area take without a mutant: seconds of processor time, seconds elapsed.
+    """The tests of an area without a mutant: their number, seconds of processor time and seconds elapsed.
 
-    ``order`` is the file with the seconds of each test, by which the tests of a mutant are ordered.
+    ``order`` is the file with the seconds of each test, which order the tests of a mutant.
     """
 
     tests: int
@@ -53,16 +53,18 @@ class Unmutated:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
+    """The outcome of a mutant."""
+
     mutant: Mutant
     outcome: str
     seconds: float
 
 
 def copy_tree(root: Path, to: Path) -> Path:
-    """Copy the files of the working tree that git does not ignore, and compile them.
+    """Copy the files of the working tree that git does not ignore, and compile them. Return the copy.
 
-    Compiled files are checked by a hash of the source and not by its time, also those that Python writes in their place
-    later.  So a mutant is never taken for another of the same length and the same second.
+    Python checks the compiled files by a hash of the source and not by its time, so a mutant is never taken for another
+    one of the same length and the same second.
     """
     command = ["git", "-C", str(root), "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split("\0")
@@ -75,28 +77,28 @@ def copy_tree(root: Path, to: Path) -> Path:
 
 
 def unmutated(copy: Path, area: Area) -> Unmutated:
-    """Run the tests twice: for the time of each, then in the order of these times.
+    """Run the tests twice: to measure the time of each, then in the order of these times.
 
-    Raises TrialError where they fail, and where they do not load each file of the area from this copy.
+    Raise TrialError if they fail or do not load every file of the area from this copy.
     """
     log = copy / f"{area.name}.json"
-    for more in ({}, {"MUTANT_ORDER": str(log)}):
+    for order in ({}, {"MUTANT_ORDER": str(log)}):
         start = time.monotonic()
-        done = _start(copy, area, {"MUTANT_LOG": str(log), **more})
-        said, _ = done.communicate()
-        if done.returncode:
-            last = "\n".join(said.strip().splitlines()[-15:])
+        process = _start(copy, area, {"MUTANT_LOG": str(log), **order})
+        output, _ = process.communicate()
+        if process.returncode:
+            last = "\n".join(output.strip().splitlines()[-15:])
             raise TrialError(f"{area.name}: the tests fail without any mutant\n{last}")
     wall = time.monotonic() - start
-    found = json.loads(log.read_text(encoding="utf-8"))
+    measured = json.loads(log.read_text(encoding="utf-8"))
     for file in area.files:
-        if str(copy / file) not in found["files"]:
+        if str(copy / file) not in measured["files"]:
             raise TrialError(f"{area.name}: its tests never load {file}")
-    return Unmutated(len(found["seconds"]), found["processor"], wall, log)
+    return Unmutated(len(measured["seconds"]), measured["processor"], wall, log)
 
 
 def judged(copies: Sequence[Path], area: Area, drawn: Sequence[Mutant], usual: Unmutated) -> Iterator[Verdict]:
-    """The verdict on each mutant as it comes; as many run at a time as there are copies of the tree."""
+    """Yield the verdicts as they arrive. Each copy of the tree runs one mutant at a time."""
     waiting = list(reversed(drawn))
     free = list(copies)
     running: dict[Future[Verdict], Path] = {}
@@ -112,7 +114,7 @@ def judged(copies: Sequence[Path], area: Area, drawn: Sequence[Mutant], usual: U
 
 
 def trial(copy: Path, area: Area, mutant: Mutant, usual: Unmutated) -> Verdict:
-    """Change one file of the copy, run the tests until one fails, put the file back."""
+    """Change one file of the copy, run the tests until one fails, and restore the file."""
     path = copy / mutant.file
     source = path.read_text(encoding="utf-8")
     start = time.monotonic()
@@ -121,22 +123,22 @@ def trial(copy: Path, area: Area, mutant: Mutant, usual: Unmutated) -> Verdict:
         limits = {"MUTANT_SECONDS": str(usual.limit), "MUTANT_BYTES": str(MEMORY)}
         process = _start(copy, area, {"MUTANT_ORDER": str(usual.order), **limits})
         try:
-            said, _ = process.communicate(timeout=WALL * max(usual.limit, usual.wall))
+            output, _ = process.communicate(timeout=WALL * max(usual.limit, usual.wall))
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
-            said, _ = process.communicate()
+            output, _ = process.communicate()
     finally:
         path.write_text(source, encoding="utf-8")
     seconds = time.monotonic() - start
     if process.returncode == _NOTHING_TO_RUN:
-        raise TrialError(f"{area.name}: no test ran\n{said}")
+        raise TrialError(f"{area.name}: no test ran\n{output}")
     if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
         return Verdict(mutant, TIMEOUT, seconds)
     return Verdict(mutant, KILLED if process.returncode else SURVIVED, seconds)
 
 
 def _start(copy: Path, area: Area, settings: Mapping[str, str]) -> subprocess.Popen[str]:
-    """pytest in the copy, with modules from the copy; with CI set, hypothesis draws the same examples each time."""
+    """Start pytest with the modules of the copy. With CI set, hypothesis draws the same examples each time."""
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "-p", "_hypothesis_pytestplugin"]
     command += ["-p", "tests.mutants.plugin", f"--basetemp={copy / 'tmp'}", *area.tests]
     command += ["-k", area.select] if area.select else []

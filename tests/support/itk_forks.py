@@ -6,14 +6,13 @@ Loading the library takes longer than reading a small file. A fork behaves and e
 
 from __future__ import annotations
 
+import importlib.util
 import json
+import os
 import subprocess
 import sys
-from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-
-import pytest
 
 from modern.digital import itk
 
@@ -45,11 +44,15 @@ Run = Callable[[Sequence[str], str, float], int]
 """A replacement of ``itk._run``."""
 
 
+def fork_server_is_possible() -> bool:
+    return importlib.util.find_spec("SimpleITK") is not None and hasattr(os, "fork")
+
+
 @contextmanager
-def fork_server(seconds: int = 60) -> Iterator[tuple[Run, Counter[int]]]:
+def fork_server(seconds: int = 60) -> Iterator[Run]:
     """Start a process that loads the library once and forks for each file, with SIGALRM after ``seconds``.
 
-    Yield a replacement of ``itk._run``, and a count of the exit codes: 0, or a negative signal after a crash.
+    Yield a replacement of ``itk._run``. Its result is the exit code of a fork, which is negative after a crash.
     """
     command = [sys.executable, "-P", "-W", "ignore", "-c", _SERVER, itk._CHILD, str(seconds)]
     with subprocess.Popen(
@@ -59,22 +62,11 @@ def fork_server(seconds: int = 60) -> Iterator[tuple[Run, Counter[int]]]:
         assert server.stdout is not None
         requests, answers = server.stdin, server.stdout
         answers.readline()
-        endings: Counter[int] = Counter()
 
         def run(arguments: Sequence[str], _: str, __: float) -> int:
             requests.write(json.dumps(list(arguments)) + "\n")
             requests.flush()
-            code = int(answers.readline())
-            endings[code] += 1
-            return code
+            return int(answers.readline())
 
-        yield run, endings
+        yield run
         requests.close()
-
-
-@contextmanager
-def forks(monkeypatch: pytest.MonkeyPatch, seconds: int = 60) -> Iterator[Counter[int]]:
-    """Read volumes in forks of one server process. Yield the count of exit codes."""
-    with fork_server(seconds) as (run, endings), monkeypatch.context() as patched:
-        patched.setattr(itk, "_run", run)
-        yield endings

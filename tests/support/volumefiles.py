@@ -1,8 +1,11 @@
-"""Volumes as the bytes of files, written by hand from the definitions of the formats."""
+"""Volumes as the bytes of files, written by hand from the definitions of the formats, and DICOM series."""
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -48,3 +51,28 @@ def nifti(
         put(280 + 16 * row, "<f4", *(spacing[row] * (row == k) for k in range(3)), origin[row])
     header[344:348] = b"n+1\0"
     return bytes(header) + array.astype(array.dtype.newbyteorder("<")).tobytes("F")
+
+
+def saved(name: str, data: bytes) -> str:
+    Path(name).parent.mkdir(exist_ok=True)
+    Path(name).write_bytes(data)
+    return name
+
+
+def dicom_series(values: np.ndarray, folder: str, heights: Sequence[float], uid: str = "1.2.3") -> str:
+    """Write a slice at each height along z with SimpleITK, the last slice first. Return the folder."""
+    sitk: Any = importlib.import_module("SimpleITK")
+
+    Path(folder).mkdir(exist_ok=True)
+    writer = sitk.ImageFileWriter()
+    writer.KeepOriginalImageUIDOn()
+    for number, height in reversed(list(enumerate(heights))):
+        image = sitk.GetImageFromArray(values[:, :, number].T)
+        image.SetSpacing((0.5, 0.25))
+        position = {"0020|0032": f"-10\\20\\{height}", "0020|0037": "1\\0\\0\\0\\1\\0", "0020|0013": str(number)}
+        names = {"0008|0060": "CT", "0020|000e": uid, "0020|000d": "1.2", "0008|0018": f"{uid}.{number + 1}"}
+        for key, value in {**position, **names, "0028|1052": "0", "0028|1053": "1"}.items():
+            image.SetMetaData(key, value)
+        writer.SetFileName(f"{folder}/{uid}-{number}.dcm")
+        writer.Execute(image)
+    return folder

@@ -28,14 +28,6 @@ def test_theorem_is_tied_to_the_print_and_true(theorem: Theorem) -> None:
     assert theorem_faults(theorem, TEXT) == ()
 
 
-def test_sizes_of_the_tables() -> None:
-    assert [(t.id, len(t.points), len(t.planes), len(t.signs)) for t in THEOREMS.values()] == [
-        ("4.1", 8, 1, 0),
-        ("4.2", 6, 8, 6),
-        ("4.8", 9, 8, 6),
-    ]
-
-
 def test_p3_of_theorem_4_1_is_lost_and_not_invented() -> None:
     theorem = THEOREMS["4.1"]
     assert theorem.point("P3") is None

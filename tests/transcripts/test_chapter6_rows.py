@@ -5,13 +5,12 @@ from __future__ import annotations
 import dataclasses
 import re
 from collections import Counter
-from importlib.resources import files
 
 import pytest
 
-from modern.edition.apparatus import Change, Row, Text, load
+from modern.edition.apparatus import Change, Row, Text
 from modern.edition.chapter6_cards import E14, Card, Chapter, cards, device_files, load_chapter, rebuilt
-from modern.edition.chapter6_grounds import numbers, of_role, row_faults, well_formed
+from modern.edition.chapter6_grounds import numbers, row_faults, well_formed
 
 CHAPTER = load_chapter()
 KINDS = {"dropped-zero", "lost-sign", "lost-point", "lost", "fused", "displaced", "noise", "misread", "slip"}
@@ -177,43 +176,3 @@ def test_lost_points_of_example_4_line_by_line() -> None:
 def test_an_unknown_ground_is_a_fault() -> None:
     chapter = with_rows(extra({"kind": "opinion"}, Change("58", "CONVEX", " CONVEX")))
     assert faults(chapter, "X-1") == ("row X-1: unknown kind of ground 'opinion'",)
-
-
-def test_readme_counts_the_rows() -> None:
-    table = files("transcripts").joinpath("README.md").read_text(encoding="utf-8")
-    stated = {
-        (text, layer, kind): int(n)
-        for text, layer, kind, n in re.findall(r"^\| (chapter\d) \| ([\w-]+) \| ([\w-]+) \| (\d+) \|$", table, re.M)
-    }
-    counted: Counter[tuple[str, str, str]] = Counter()
-    for name in ("chapter6", "chapter4"):
-        for row in load(files("transcripts").joinpath(name), name).rows:
-            counted[name, row.layer, row.kind] += 1
-    assert stated == dict(counted)
-
-
-def test_readme_counts_the_cards() -> None:
-    words = " ".join(files("transcripts").joinpath("README.md").read_text(encoding="utf-8").split())
-    punched = [card for card in all_cards() if card.device != "typewriter"]
-    tokens = [t.text for card in punched for t in card.tokens]
-    fields = sum(bool(E14.fullmatch(t)) for t in tokens)
-    integers = sum(t.isdigit() for t in tokens)
-    printed = sum(bool(card.tokens) for card in punched)
-    assert f"{fields} numbers in E14.8 fields, {integers} integers and {len(tokens) - fields - integers} words" in words
-    assert f"on {printed} printed cards; the rest of the {len(punched)} cards are blank" in words
-
-
-def test_readme_counts_the_zeros() -> None:
-    output = [
-        t.text
-        for card in all_cards()
-        if card.device == "punch" and (card.program > 1 or card.example < 4 or card.role == "carrier")
-        for t in card.tokens
-        if E14.fullmatch(t.text) and t.text[-13:-3] == ".00000000E"
-    ]
-    words = " ".join(files("transcripts").joinpath("README.md").read_text(encoding="utf-8").split())
-    minus = [t for t in output if t.startswith("-")]
-    assert f"Of the {len(output)} zeros" in words
-    assert len(minus) == 8
-    assert "eight carry a minus: seven are printed with it" in words
-    assert of_role(CHAPTER, 4, 1, "carrier")

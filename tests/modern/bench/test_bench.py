@@ -17,10 +17,10 @@ from emulator.language.compiler import compile_deck
 from emulator.machine.machine import Machine
 from modern.bench import native
 from modern.bench.agreement import compare, data_sets, plain
-from modern.bench.decks import LAYERS, OPTIONS, PROGRAM, data_deck, middle_texts, random_points
+from modern.bench.decks import LAYERS, OPTIONS, PROGRAM, middle_texts, random_points
 from modern.bench.measure import COLD, COMPILED, NATIVE, PLAIN, PORT, WARM, Bench, Row, document, lines, measure
 from modern.bench.timing import Figure, side_by_side
-from modern.bench.translate import LINE, translated
+from modern.bench.translate import translated
 from modern.cli.main import main
 from modern.edition import programs
 
@@ -90,11 +90,6 @@ def test_accept_and_invalid_decks_are_refused() -> None:
         fortran("A=+*B", "END")
 
 
-@pytest.mark.parametrize("name", programs.NAMES)
-def test_translated_lines_are_within_the_limit(name: str) -> None:
-    assert max(map(len, translated(programs.deck(name)).splitlines())) <= LINE + 2
-
-
 LOOPS = ["K=0", "DO 5 I=8,5", "5 K=K+1", "DO 6 I=1,10,4", "6 K=K+1", "PUNCH 9,K,I", "9 FORMAT(2I4)", "END"]
 COPY = ["1 READ 9,A,I", "B=A**2/4.-SQRT(A)", "PUNCH 9,B,I", "GO TO 1", "9 FORMAT(E14.8,I4)", "END"]
 TEXTS = ["READ 8,A", "PUNCH 7", "IF(SENSE SWITCH 1)4,5", "4 STOP", "5 PUNCH 6,A,A", "6 FORMAT(2HA=,F7.2/)"]
@@ -138,15 +133,6 @@ def test_missing_compilers_are_reported(monkeypatch: pytest.MonkeyPatch) -> None
         native.compiler()
 
 
-def test_compiler_errors_are_reported(tmp_path: Path) -> None:
-    broken = tmp_path / "broken"
-    broken.write_text('#!/bin/sh\n[ "$1" = --version ] && echo Broken 1.0 && exit\necho "Error: no" >&2\nexit 1\n')
-    broken.chmod(0o755)
-    compiler = native.Compiler((str(broken),), "Broken 1.0")
-    with pytest.raises(native.NoCompiler, match=r"Broken 1\.0 cannot compile the translated program: Error: no"):
-        native.built(deck_from_lines("deck.f", ["STOP", "END"]), compiler, tmp_path)
-
-
 ONE = ["", "CONVEX HULL", "N=   4", "  1    .20000000E+01  -.30000000E+00"]
 
 
@@ -173,21 +159,6 @@ def test_differences_are_classified(card: str, kind: str) -> None:
     agreement = compare([ONE, ONE], [ONE, [*ONE[:3], card]])
     assert (agreement.same, agreement.digits, agreement.different) == (1, int(kind == "digits"), int(kind == "other"))
     assert agreement.first.startswith("deck 2 has '1 ")
-
-
-def test_missing_decks_and_cards_count_as_another_hull() -> None:
-    assert compare([ONE, ONE], [ONE]).different == 1
-    assert compare([ONE], [ONE[:3]]).different == 1
-    assert data_sets([*ONE, *ONE]) == [ONE, ONE]
-    assert data_sets([]) == []
-
-
-def test_random_decks_depend_only_on_the_seed() -> None:
-    points = random_points(51, 7)
-    assert points == random_points(51, 7)
-    assert points != random_points(51, 8)
-    assert len(set(points)) == 51
-    assert len(data_deck(points).cards) == 52
 
 
 def test_works_are_timed_in_turn(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -46,11 +46,6 @@ def test_cgal_program_times_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert side_by_side({"CGAL": work})[0].seconds == (0.25, 0.25)
 
 
-def test_missing_libraries_are_omitted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    compiler(tmp_path, monkeypatch, f'case "$*" in *-l*) exit 1;; esac\n{PROGRAM}')
-    assert cgal(tmp_path)(POINTS)() == 0.25
-
-
 @pytest.mark.parametrize(
     ("script", "message"),
     [

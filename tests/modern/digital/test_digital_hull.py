@@ -101,13 +101,6 @@ def test_hull_of_a_picture_is_a_polygon() -> None:
     assert np.array_equal(hull.filled, judged(picture)[1])
 
 
-@given(VOLUMES, st.permutations(range(3)))
-def test_order_of_axes_does_not_change_the_hull(array: np.ndarray, order: list[int]) -> None:
-    axes = order if array.ndim == 3 else [axis for axis in order if axis < 2]
-    turned = digital_hull(array.transpose(axes)[..., ::-1])
-    assert np.array_equal(turned.filled[..., ::-1].transpose(np.argsort(axes)), digital_hull(array).filled)
-
-
 @pytest.mark.parametrize("axes", list(itertools.permutations(range(3))))
 def test_result_has_the_axes_of_the_volume_in_any_memory_order(axes: tuple[int, int, int]) -> None:
     array = np.zeros((3, 5, 7), dtype=np.bool_)
@@ -128,13 +121,6 @@ def test_the_hull_holds_its_volume_and_is_its_own_hull(array: np.ndarray) -> Non
 def test_ball_is_its_own_hull(diameter: int) -> None:
     volume = ball(diameter, VERTEX)
     assert np.array_equal(digital_hull(volume).filled, volume.array)
-
-
-def test_hull_of_a_ball_surface_has_the_grid_points_of_the_judge() -> None:
-    array = ball(18).array
-    surface = array.copy()
-    surface[1:-1, 1:-1, 1:-1] &= ~(array[:-2, 1:-1, 1:-1] & array[2:, 1:-1, 1:-1])
-    assert agrees(surface)
 
 
 def test_batch_size_does_not_change_the_hull(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -206,15 +192,6 @@ def test_hull_agrees_with_scikit_image(array: np.ndarray) -> None:
     if hull.dimension == array.ndim:
         reference = morphology.convex_hull_image(array, offset_coordinates=False)
         assert np.array_equal(reference, hull.filled)
-
-
-@pytest.mark.filterwarnings("ignore:Failed to get convex hull image")
-def test_scikit_image_has_no_hull_of_a_flat_volume() -> None:
-    morphology = pytest.importorskip("skimage.morphology")
-    flat = np.zeros((4, 4, 4), dtype=np.bool_)
-    flat[:, :, 1] = True
-    assert not morphology.convex_hull_image(flat, offset_coordinates=False).any()
-    assert digital_hull(flat).voxels == 16
 
 
 def test_numba_is_not_imported_for_a_small_volume() -> None:

@@ -22,9 +22,8 @@ from modern.digital.scans import Scan
 from modern.digital.solids import VolumeError
 from modern.digital.volumes import Stated, read_scan, read_volume, write_array
 from modern.digital.world import LPS, RAS
-from tests.support.itk_forks import Run, fork_server
 from tests.support.paths import ROOT
-from tests.support.volumefiles import nifti
+from tests.support.volumefiles import dicom_series, nifti, saved
 
 sitk: Any = pytest.importorskip("SimpleITK")
 REAL_RUN = itk._run
@@ -32,22 +31,6 @@ REAL_RUN = itk._run
 VALUES = (np.arange(24).reshape(2, 3, 4) % 5).astype(np.int16)
 """Values indexed [x, y, z] that change under every exchange of axes."""
 TURNED = (math.cos(0.3), -math.sin(0.3), 0, math.sin(0.3), math.cos(0.3), 0, 0, 0, -1)
-
-
-@pytest.fixture(autouse=True)
-def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[Run]:
-    with fork_server() as (run, _):
-        yield run
-
-
-@pytest.fixture(autouse=True)
-def _forks(server: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(itk, "_run", server)
 
 
 @pytest.fixture
@@ -75,29 +58,7 @@ def written(name: str, direction: Any = (1, 0, 0, 0, -1, 0, 0, 0, 1), values: np
 
 
 def series(folder: str, heights: tuple[float, ...] = (0.0, 1.5, 3.0, 4.5), uid: str = "1.2.3") -> str:
-    """Write a DICOM series of slices along z, the last slice first."""
-    Path(folder).mkdir(exist_ok=True)
-    writer = sitk.ImageFileWriter()
-    writer.KeepOriginalImageUIDOn()
-    for number, height in reversed(list(enumerate(heights))):
-        image = sitk.GetImageFromArray(VALUES[:, :, number].T)
-        image.SetSpacing((0.5, 0.25))
-        metadata = {
-            "0020|0032": f"-10\\20\\{height}",
-            "0020|0037": "1\\0\\0\\0\\1\\0",
-            "0020|0013": str(number),
-            "0008|0060": "CT",
-            "0020|000e": uid,
-            "0020|000d": "1.2",
-            "0008|0018": f"{uid}.{number + 1}",
-            "0028|1052": "0",
-            "0028|1053": "1",
-        }
-        for key, value in metadata.items():
-            image.SetMetaData(key, value)
-        writer.SetFileName(f"{folder}/{uid}-{9 - number}.dcm")
-        writer.Execute(image)
-    return folder
+    return dicom_series(VALUES, folder, heights, uid)
 
 
 @pytest.mark.parametrize("name", ["a.nii", "a.nii.gz", "A.NII.GZ", "a.mha", "a.mhd"])
@@ -190,7 +151,7 @@ def test_a_dicom_series_is_read_in_the_order_of_its_slices() -> None:
     assert scan.world.steps == ((Fraction(1, 2), 0, 0), (0, Fraction(1, 4), 0), (0, 0, Fraction(3, 2)))
     assert (scan.world.origin, scan.world.space, scan.world.unit) == ((-10, 20, 0), LPS, "mm")
     assert scan.notes == ()
-    assert read_scan("ct/1.2.3-9.dcm").values.shape[:2] == (2, 3)
+    assert read_scan("ct/1.2.3-0.dcm").values.shape[:2] == (2, 3)
 
 
 def test_uneven_slices_are_noted() -> None:
@@ -243,11 +204,6 @@ def test_invalid_files_are_reported_in_one_line(make: Callable[[], str], message
 def made_folder(name: str) -> str:
     Path(name).mkdir()
     Path(name, "notes.txt").write_text("no slice", encoding="utf-8")
-    return name
-
-
-def saved(name: str, data: bytes) -> str:
-    Path(name).write_bytes(data)
     return name
 
 

@@ -81,10 +81,6 @@ def test_coordinates_are_in_raster_order_and_count_from_the_origin() -> None:
     assert volume.notes == ()
 
 
-def test_repeated_voxels_are_noted() -> None:
-    assert parse_volume(b"1,1\n1,2\n1,1\n", "list").notes == ("list: 1 of 3 voxels are repetitions",)
-
-
 @pytest.mark.parametrize("kind", [np.bool_, np.uint8, np.int8, np.int64, np.float32, ">i2"])
 def test_npy_files_are_read(kind: str) -> None:
     array = STEPS.astype(kind)
@@ -159,10 +155,6 @@ def test_raw_data_are_read_with_x_fastest(nx: int, ny: int, nz: int, data: st.Da
         for y in range(ny):
             for x in range(nx):
                 assert volume.array[x, y, z] == (values[x + nx * (y + ny * z)] != 0)
-
-
-def test_raw_data_are_uint8_by_default() -> None:
-    assert parse_volume(bytes([0, 1, 2, 0]), "raw", (2, 2)).array.tolist() == [[False, True], [True, False]]
 
 
 def test_balls_are_read_by_name() -> None:

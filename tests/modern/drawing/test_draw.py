@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import os
-import subprocess
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -20,7 +17,6 @@ from modern.drawing.draw import draw_svg
 from modern.geometry.mesh import ExportError
 from modern.port import convex_hull
 from tests.support.drawn import BOX, CUBE, EXAMPLE_6, SQUARE, Picture, Plane, Whole, draw
-from tests.support.paths import ROOT
 
 
 def seen_from(picture: Picture) -> Whole:
@@ -297,18 +293,6 @@ def test_edges_of_a_sliver_are_hidden_as_those_of_a_solid() -> None:
     from_above, from_below = draw(sliver, (1, -2, 5))[1], draw(sliver, (1, -2, -5))[1]
     assert (len(from_above.edges("seen")), len(from_above.edges("hidden"))) == (6, 0)
     assert (len(from_below.edges("seen")), len(from_below.edges("hidden"))) == (3, 3)
-
-
-def test_text_does_not_depend_on_the_hash_seed_of_the_process() -> None:
-    program = (
-        "from modern.drawing.draw import draw_svg; from modern.port import convex_hull; import sys;"
-        f"sys.stdout.write(draw_svg(convex_hull({EXAMPLE_6!r})))"
-    )
-    environment = {**os.environ, "PYTHONHASHSEED": "1", "PYTHONPATH": str(ROOT)}
-    text = subprocess.run(
-        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True
-    ).stdout
-    assert text == draw_svg(convex_hull(EXAMPLE_6))
 
 
 def test_invalid_directions_widths_and_hulls_are_refused() -> None:

@@ -9,7 +9,6 @@ from emulator.language.objectcode import Program
 from emulator.machine.result import Options
 from modern.edition import chapter6, programs
 from modern.thesis.job import run_hull
-from tests.support.arms import arms, taken
 from tests.support.paths import MACHINE_RUNS
 
 RUNS = MACHINE_RUNS
@@ -51,15 +50,3 @@ def test_their_statement_numbers_are_listed(never_run: dict[str, list[tuple[int,
 def test_characters_of_the_witness() -> None:
     count = sum(len("".join(line.text.split())) for name in programs.TEXTS for line in programs.text(name).witness)
     assert f"The witness has {count:,} characters that are not blank" in README
-
-
-def test_the_number_of_branches_that_no_checked_deck_takes() -> None:
-    examples = [chapter6.input_deck(example) for example in chapter6.EXAMPLES]
-    machine = [read_deck(str(folder / "deck.cards")) for folder in sorted(RUNS.iterdir()) if folder.is_dir()]
-    states = ("program1", "program1_examples")
-    listed = arms(programs.TEXTS, programs.program)
-    prints = set().union(*(taken(examples, programs.program, first) for first in states))
-    checked = prints.union(*(taken(machine, programs.program, first) for first in states))
-    assert f"The IFs and computed GO TOs have {len(listed)} branches." in README
-    assert f"No checked deck takes {len(listed - checked)} of them" in README
-    assert f"no printed example takes {len(listed - prints)} of them" in README

@@ -24,8 +24,6 @@ from tests.support.corrupted import (
     ball,
     exchanged,
     mutations,
-    one_vertex_short,
-    promoted,
     refused,
 )
 
@@ -161,13 +159,6 @@ def test_two_surfaces_are_refused() -> None:
     refused(points, replace(one, scaled=tuple(points), vertices=tuple(range(12)), facets=tuple(facets)), "Euler")
 
 
-def test_a_pentagram_is_refused() -> None:
-    hull = exact_hull(PRISM)
-    number = next(k for k, facet in enumerate(hull.facets) if facet.plane == (0, 0, 1, -3))
-    a, b, c, d, e = hull.facets[number].polygon
-    refused(PRISM, exchanged(hull, number, Facet((0, 0, 1, -3), (a, c, e, b, d))), "has only one facet")
-
-
 def test_polygons_of_invalid_indices_are_refused() -> None:
     hull = exact_hull(OCTAHEDRON)
     polygon = hull.facets[0].polygon
@@ -177,15 +168,6 @@ def test_polygons_of_invalid_indices_are_refused() -> None:
             exchanged(hull, 0, Facet(hull.facets[0].plane, wrong)),
             "not an index|not a vertex|fewer than three",
         )
-
-
-def test_an_interior_point_is_refused_as_a_vertex() -> None:
-    refused(GRID, promoted(exact_hull(GRID), 13), "point 13 is called a vertex, but no facet has it")
-
-
-def test_the_hull_of_all_points_except_one_vertex_is_refused() -> None:
-    for points, hull in one_vertex_short():
-        refused(points, hull, "point 4 is outside of facet")
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import subprocess
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -193,34 +192,6 @@ def test_numpy_runs_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
             convex_hull(points, "float64", fast=True)
     finally:
         fast.load.cache_clear()
-
-
-def test_kernels_are_compiled_once_for_the_types_of_their_calls() -> None:
-    """Errors of compilation appear when the steps are chosen, and nothing is compiled twice."""
-    pytest.importorskip("numba")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(fast, "with_kernels", lambda *functions: functions)
-        compiled: Any = fast.load.__wrapped__("float64")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(fast, "load", lambda _: fast.with_kernels(*compiled))
-        for translate in (False, True):
-            same(whole_ball(np.random.default_rng(1), 30), "float64", epsilon="rel:1e-9", translate=translate)
-    assert [len(function.signatures) for function in compiled] == [1, 1]
-
-
-def test_damaged_cache_of_a_kernel_is_compiled_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("numba")
-    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path))
-    function: Any = Compiled(kernels.satisfied).function
-    function._cache.flush()
-    (index,) = tmp_path.rglob("*.nbi")
-    index.write_bytes(b"")
-    slots = workspace.Slots(np.zeros((4, 1)), np.zeros((3, 1), np.int64), np.zeros(1), np.array([True]))
-    counts, indices = np.zeros(1, np.int64), np.full(2, -1)
-    arguments = slots, np.zeros((3, 2)), counts, indices
-    assert Compiled(kernels.satisfied).ready(*arguments)(*arguments) == 2
-    assert (counts.tolist(), indices.tolist()) == ([2], [0, 1])
-    assert not index.exists()
 
 
 def test_few_points_do_not_load_numba() -> None:

@@ -18,7 +18,6 @@ from emulator.numbers.fields import FALLBACK, read_floating, write_floating
 from modern.geometry.hull import LazyTuple, as_tuple
 from modern.geometry.numbers import exact_text
 from modern.port import PointsError, convex_hull
-from modern.port.outcome import Faces
 from modern.port.points import NAMES, fixed_arithmetic
 from tests.support.punched import e_field
 
@@ -175,20 +174,3 @@ def test_later_behaves_like_the_tuple_it_becomes_and_is_built_once() -> None:
     with pytest.raises(IndexError):
         later[3]
     assert made == [1, 1]
-
-
-def test_faces_are_built_on_first_access(monkeypatch: pytest.MonkeyPatch) -> None:
-    points = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)] + [(1, 1, 1)]
-    calls: list[int] = []
-    make = Faces._polyhedral
-    monkeypatch.setattr(Faces, "_polyhedral", lambda *arguments: calls.append(1) or make(*arguments))
-    for arithmetic in ("exact", "float64"):
-        calls.clear()
-        hull = convex_hull(points, arithmetic, history=True)
-        assert len(hull.faces) == 6
-        assert len(hull.history) == 5
-        assert not calls
-        assert sorted(len(face.polygon) for face in hull.faces) == [4] * 6
-        assert len(hull.history[0].equations) == 4
-        assert hull == pickle.loads(pickle.dumps(hull))
-        assert calls == [1]

@@ -14,7 +14,7 @@ from modern.claims.apparatus_checks import texts
 from modern.claims.register import DOCUMENTS, statements_of
 from modern.edition import programs
 from modern.publication.book import build as book
-from modern.publication.book.markup import Markdown, columns_of, label, places, say, string, table
+from modern.publication.book.markup import Markdown, columns_of, label, say, string, table
 from modern.publication.book.parts import fitted, listings, statements
 from modern.publication.facing import facing
 
@@ -175,8 +175,3 @@ def test_without_typst_the_message_names_the_package(
     assert book.main([str(tmp_path / "x.pdf")]) == 2
     assert capsys.readouterr().err == f"book: {book.MISSING_TYPST}\n"
     assert not (tmp_path / "x.pdf").exists()
-
-
-def test_places_returns_the_labels_of_a_document() -> None:
-    labels = places("x.md", "# A\n\n## B c\n\n## B c\n\nTerm\n: words\n")
-    assert set(labels) >= {label("x.md"), label("x.md", "a"), label("x.md", "b-c"), label("x.md", "b-c-1")}

@@ -14,7 +14,7 @@ import pytest
 from modern.publication import deposit
 from modern.publication.building import BuildError, citation
 from modern.publication.deposit import Parts, described, gather, source_files, swhid, write
-from modern.publication.metadata import codemeta, data_package, work
+from modern.publication.metadata import data_package, work
 from tests.support.paths import ROOT
 
 bagit = pytest.importorskip("bagit", reason="a bag is checked by bagit")
@@ -110,14 +110,6 @@ def test_a_citation_of_another_version_is_rejected() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     with pytest.raises(ValueError, match=r"CITATION\.cff has version 0\.1\.0, pyproject\.toml 9"):
         work(citation(), project | {"version": "9"}, ())
-
-
-def test_codemeta_uses_terms_of_its_context() -> None:
-    known = set(
-        "@context type name identifier description version dateModified license author keywords "
-        "programmingLanguage runtimePlatform softwareRequirements".split()
-    )
-    assert set(json.loads(codemeta(described()))) == known
 
 
 def test_two_deposits_are_identical(tmp_path: Path, made: tuple[Path, Path]) -> None:

@@ -15,7 +15,6 @@ from modern.publication.examples import differing, example, homes, rest
 from modern.publication.numbered import numbered
 from modern.publication.site.made import make
 from modern.publication.site.pages.texts import FILES
-from tests.support.paths import ROOT
 
 
 def parsed(html: str) -> None:
@@ -149,10 +148,3 @@ def test_the_page_of_the_wrong_hull_names_the_card() -> None:
     parsed(html)
     assert "missed: point 1, point 2, point 3" in html
     assert re.search(r'href="@/program3\.html#\S+">program 3, ', html)
-
-
-def test_every_document_and_witness_is_listed_as_a_source() -> None:
-    html = "".join(part.html for part in make("texts", "sources").parts)
-    parsed(html)
-    for name in ("program1.txt", "chapter6/witness.txt", "butler-1963"):
-        assert name in html or (ROOT / name).exists()

@@ -11,7 +11,7 @@ import pytest
 from modern.edition import programs
 from modern.edition.apparatus import build
 from modern.publication.facing import Card, facing
-from modern.publication.measured import TABLE, runs, weights
+from modern.publication.measured import runs
 from modern.publication.uses import uses
 
 
@@ -61,10 +61,6 @@ def test_counting_may_continue_past_the_next_number(name: str) -> None:
         for also in card.also:
             label, _, steps = also.partition("+")
             assert first[int(label)] + int(steps) == at
-
-
-def test_147_plus_2_is_two_cards_after_147() -> None:
-    assert [card.place for card in facing("program3").cards if "147+2" in (card.place, *card.also)] == ["148+1"]
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
@@ -133,11 +129,6 @@ def test_a_line_with_several_cards_is_divided_at_their_starts() -> None:
     assert parts[-1] == ("133+2", "NUMB1=NUMB1+2")
 
 
-def test_an_inserted_card_has_no_witness() -> None:
-    assert card("program1", "131+1").witness == ()
-    assert card("program1", "131+1").rows == ("P1-039",)
-
-
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_variants_of_a_layer_give_the_deck_of_that_layer(name: str) -> None:
     listing = facing(name)
@@ -175,9 +166,3 @@ def test_executions_add_up_to_the_statements_of_a_run(name: str) -> None:
         assert run.executions.keys() <= {card.number for card in facing(name).cards if card.kind == "statement"}
         assert abs(sum(run.times.values()) - run.seconds) < 1e-6
     assert [run.example for run in runs("program3")] == [5, 6]
-
-
-def test_weights_are_those_of_the_table() -> None:
-    rows = TABLE.read_text(encoding="utf-8").splitlines()[1:]
-    assert sum(len(weights(name)) for name in programs.TEXTS) == len(rows)
-    assert weights("program1")[4].detected == (9, 2, 0, 0, 0, 0)

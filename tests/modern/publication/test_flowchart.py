@@ -109,10 +109,6 @@ def test_a_computed_go_to_names_the_values_of_each_statement() -> None:
     assert control_flow.boxes[1].lines == ("I",)
 
 
-def test_a_statement_that_goes_to_itself() -> None:
-    assert faults(chart(flow(program(*LOOP)))) == []
-
-
 def _shifted(drawn: Chart, x: int) -> Chart:
     """Return the chart with the vertical part of every rail moved."""
     page = drawn.pages[0]

@@ -67,16 +67,6 @@ def test_a_map_is_drawn_to_scale(name: str) -> None:
     assert [(bases[0] - base) * PER_PIXEL for base in bases] == pytest.approx([r.low for r in storage.regions])
 
 
-def test_program_3_is_the_fullest() -> None:
-    """The 51 points of the thesis fit into 40,000 positions.  No program fits into half of them."""
-    maps = {name: core_map(name) for name in programs.NAMES}
-    assert min(maps.values(), key=lambda storage: storage.positions(FREE)).program == "program3"
-    for storage in maps.values():
-        points = dict(storage.points)
-        assert points[20_000] == 0
-        assert points[40_000] >= 51
-
-
 def test_bars_of_time_are_complete_and_to_scale() -> None:
     all_runs = example_runs()
     assert [(run.example, run.program) for run in all_runs] == [
@@ -101,13 +91,6 @@ def test_bars_of_time_are_complete_and_to_scale() -> None:
     assert [wide / scales[0] for wide in bars.values()] == pytest.approx([run.total for run in all_runs], rel=0.005)
 
 
-def test_the_page_describes_the_longest_part_correctly() -> None:
-    for run in example_runs():
-        parts = dict(zip(PARTS, seconds_of(run), strict=True))
-        longest = max(parts, key=lambda name: parts[name])
-        assert longest in (("floating point",) if run.program == "program3" else ("card punch", "number conversion"))
-
-
 def test_the_table_agrees_with_the_bars() -> None:
     rows = _html("time").findall(".//tbody/tr")
     cells_of_rows = [[float(str(cell.text)) for cell in row.findall("td")] for row in rows]
@@ -126,14 +109,3 @@ def test_pictures_have_descriptions_and_unique_ids(argument: str) -> None:
         assert picture.findtext(f"{SVG}title")
         assert picture.findtext(f"{SVG}desc")
         assert {picture.get("aria-labelledby"), picture.get("aria-describedby")} <= set(ids)
-
-
-def test_a_description_is_not_inserted_twice() -> None:
-    once = described(map_svg(core_map("program2")), "words & more")
-    assert '<desc id="desc">words &amp; more</desc>' in once
-    assert described(once, "others") == once
-
-
-def test_an_unknown_argument_is_rejected() -> None:
-    with pytest.raises(ValueError, match="'drum' is not one of storage, time"):
-        make("machine", "drum")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from fractions import Fraction
 from itertools import combinations
 
@@ -43,11 +42,6 @@ def test_pictures_have_descriptions_and_unique_ids(html: etree._Element) -> None
         assert picture.findtext(f"{SVG}desc")
         assert {picture.get("aria-labelledby"), picture.get("aria-describedby")} <= set(ids)
         assert int(picture.get("width", "")) <= 340
-
-
-def test_an_unknown_paper_is_rejected() -> None:
-    with pytest.raises(ValueError, match="'bentley' is not one of appel-will, kovalevsky-schulz, yau-srihari"):
-        make("papers", "bentley")
 
 
 def test_line_widths_of_a_loop_show_the_uses() -> None:
@@ -148,21 +142,3 @@ def test_quadrants_are_drawn_to_scale() -> None:
         assert len(units) == 1
         heights = [int(each.text or "") for each in picture.iter(f"{SVG}text")]
         assert sorted(heights) == sorted(q.height for q in level.quadrants if q.height is not None)
-
-
-def test_strips_share_direction_and_scale() -> None:
-    found = steps.cells()
-    pictures = papers.plates_svg(found.plates, steps.EYE, ("a", "b", "c", "d"))
-    sizes = {re.search(r'viewBox="([^"]+)"', picture)[1] for picture in pictures}  # type: ignore[index]
-    assert len(sizes) == 1
-    dots = [
-        (float(c.get("cx", "")), float(c.get("cy", ""))) for c in etree.fromstring(pictures[1]).iter(f"{SVG}circle")
-    ]
-    lines = [
-        tuple(float(line.get(name, "")) for name in ("x1", "y1", "x2", "y2"))
-        for line in etree.fromstring(pictures[2]).iter(f"{SVG}line")
-    ]
-    # An edge is drawn for its middle three quarters; drawn out by a sixth at both ends it meets two vertices.
-    for x1, y1, x2, y2 in lines:
-        for x, y in ((x1 - (x2 - x1) / 6, y1 - (y2 - y1) / 6), (x2 + (x2 - x1) / 6, y2 + (y2 - y1) / 6)):
-            assert min(math.dist((x, y), dot) for dot in dots) < 0.1

@@ -14,7 +14,7 @@ from modern.edition.chapter6 import input_deck
 from modern.edition.sources import read
 from modern.exact_hull import exact_hull
 from modern.formats.points import parse_bytes
-from modern.publication.parting import MOST, parted, scaled, true_hull
+from modern.publication.parting import MOST, parted, true_hull
 from tests.support.paths import ROOT
 
 SMALL = st.tuples(*[st.integers(-3, 3)] * 3)
@@ -94,12 +94,6 @@ def test_invalid_points_are_rejected_with_one_line(text: str, message: str) -> N
     assert list(answer) == ["refused"]
     assert message in answer["refused"]
     assert "\n" not in answer["refused"]
-
-
-def test_points_are_scaled_by_the_common_denominator() -> None:
-    from fractions import Fraction
-
-    assert scaled([(Fraction(1, 2), Fraction(1, 3), Fraction(0))]) == [(3, 2, 0)]
 
 
 def test_the_module_does_not_import_numpy() -> None:

@@ -37,10 +37,6 @@ def root(name: str) -> Element:
     return reading.parsed(name, written(name))
 
 
-def test_every_text_has_a_document() -> None:
-    assert set(NAMES) == set(texts())
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_every_document_is_valid(name: str) -> None:
     own().assertValid(etree.fromstring(written(name).encode()))

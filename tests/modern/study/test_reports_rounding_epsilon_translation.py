@@ -16,7 +16,6 @@ from modern.study.builtin import epsilon, rounding, translation
 from modern.study.outcomes import DETERMINED, OUTCOMES
 from modern.study.plan import Chunk, Plan
 from modern.study.report import Bars, Report, Table, listed, powers, share_of
-from modern.study.run import check_plan
 from modern.study.store import Store
 from modern.study.summary import cells, summary
 from modern.study.workers import chunk_text
@@ -91,19 +90,6 @@ def check_form(report: Report) -> None:
     for paragraph in report.conclusions:
         assert paragraph.endswith(".")
         assert not MISTAKES.search(paragraph), MISTAKES.search(paragraph)
-
-
-@pytest.mark.parametrize("name", STUDIES)
-def test_plans_are_valid_and_reproducible(name: str) -> None:
-    module = STUDIES[name]
-    plan = module.plan(module.SAMPLES, 1963)
-    check_plan(plan)
-    assert plan.name == name
-    assert len({cell.name for cell in plan.cells}) == len(plan.cells)
-    assert all(len({route.name for route in cell.routes}) == len(cell.routes) for cell in plan.cells)
-    assert plan.document() == module.plan(module.SAMPLES, 1963).document() != module.plan(module.SAMPLES, 1).document()
-    assert module.plan(3, 1963).samples * module.SAMPLES == plan.samples * 3
-    assert plan.notes
 
 
 def small(name: str) -> Plan:

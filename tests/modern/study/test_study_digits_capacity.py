@@ -23,7 +23,6 @@ from modern.study.plan import Cell, Plan
 from modern.study.report import Lines, Report
 from modern.study.run import run_study
 from modern.study.sample import Sample, judge
-from modern.study.statistics import exact
 from modern.study.store import Store
 from modern.study.summary import cells, summary, values
 from modern.thesis.job import HullRun, run_hull
@@ -142,11 +141,6 @@ def test_capacity_reports_the_greatest_number_of_entries_of_its_rows(tmp_path: P
     assert report.tables[2].rows[0][1:] == ("98", str(capacity.positions(98)), "40000")
 
 
-def test_each_table_entry_takes_eighty_positions_of_core() -> None:
-    """An entry takes ten positions in each of the eight arrays with one number per plane (thesis p. 88)."""
-    assert capacity.positions(99) - capacity.positions(98) == 8 * 10
-
-
 def test_machine_time_is_the_sum_of_its_parts(tmp_path: Path) -> None:
     whole = machine_time.plan(2, 3)
     selected = [cell for cell in whole.cells if cell.key["n"] in (4, 12)]
@@ -198,24 +192,11 @@ def test_divergence_report_follows_changed_rows(tmp_path: Path) -> None:
     assert after.conclusions[1].endswith("because of faults of the programs: 0 of 0.")
 
 
-@pytest.mark.parametrize("module", [digits, capacity, machine_time, divergence])
-def test_plans_have_distinct_cells_and_are_reproducible(module: object) -> None:
-    plan = module.plan(module.SAMPLES, 1963)  # type: ignore[attr-defined]
-    assert len({cell.name for cell in plan.cells}) == len(plan.cells)
-    assert plan.document() == module.plan(module.SAMPLES, 1963).document()  # type: ignore[attr-defined]
-    assert plan.document() != module.plan(module.SAMPLES, 1964).document()  # type: ignore[attr-defined]
-
-
 def test_cells_are_selected_by_their_keys() -> None:
     plan = capacity.plan(1, 1)
     assert values(plan, "sets") == ("ball", "cube, solid", "cube, surface", "prism", "sphere")
     assert [cell.key["n"] for _, cell in cells(plan, sets="prism")] == [n for n in capacity.POINTS if n % 2 == 0]
     assert cells(plan, sets="nothing") == ()
-
-
-def test_absence_of_failures_bounds_their_share() -> None:
-    """0 in n leaves about 3.7/n at 95 % with two tails (Clopper and Pearson 1934)."""
-    assert exact(0, 300).high == pytest.approx(1 - 0.025 ** (1 / 300), rel=1e-9)
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])

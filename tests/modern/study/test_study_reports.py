@@ -22,6 +22,7 @@ from modern.study.measures import MEASURES
 from modern.study.outcomes import DETERMINED, OUTCOMES
 from modern.study.parquet import column_types
 from modern.study.report import Table, percent, with_interval
+from modern.study.run import check_plan
 from modern.study.statistics import Interval, exact, mean
 from modern.study.tomlplan import read_plan
 
@@ -147,9 +148,12 @@ def test_every_built_in_study_has_a_plan_of_its_name() -> None:
     for entry in entries():
         module = study(entry.name)
         plan = module.plan(module.SAMPLES, 1)
+        check_plan(plan)
         assert plan.name == entry.name, "the name of a plan is that of its file with - for _"
         assert plan.seed == 1
-        assert plan.document() == json.loads(json.dumps(plan.document()))
+        assert len({cell.name for cell in plan.cells}) == len(plan.cells)
+        assert plan.document() == module.plan(module.SAMPLES, 1).document() == json.loads(json.dumps(plan.document()))
+        assert plan.document() != module.plan(module.SAMPLES, 2).document()
     with pytest.raises(KeyError):
         study("nothing")
 

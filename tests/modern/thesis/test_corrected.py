@@ -123,14 +123,6 @@ def test_every_combination_of_layers_compiles_from_72_columns() -> None:
             assert max(len(card.text.rstrip()) for card in deck.cards) <= 72
 
 
-def test_the_readme_counts_the_rows() -> None:
-    rows = [row for name in programs.TEXTS for row in programs.text(name).rows]
-    table = programs.sources().joinpath("README.md").read_text(encoding="utf-8")
-    for layer in ("epsilon", "translation", "corrected"):
-        (line,) = (line for line in table.splitlines() if line.startswith(f"| `{layer}` |"))
-        assert line.endswith(f"; {sum(row.layer == layer for row in rows)} rows |")
-
-
 def test_the_comparison_detects_every_kind_of_difference() -> None:
     points: list[Point] = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1), (2, 2, 0)]
     hull_run = run(points, "corrected")
