@@ -20,84 +20,26 @@ SQUARE = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 PROGRAM = hull1620.load_program("program1")
 DECK = hull1620.data_deck(SQUARE)
 BAD_NUMBERS = [
-    *(
-        None,
-        True,
-        1j,
-        float("nan"),
-        float("inf"),
-        -float("inf"),
-        np.nan,
-        np.bool_(True),
-        np.datetime64("2020"),
-        object(),
-    ),
+    *(None, True, 1j, np.nan, np.inf, -np.inf, np.bool_(True), np.datetime64("2020"), object()),
     *(Decimal("1e99999999"), Decimal("-1e-99999999"), Decimal("nan"), Decimal("sNaN"), Decimal("inf"), 10**20_000),
     *(Fraction(1, 10**20_000), "", "x", "1/0", "1//2", "1e99999999", "9" * 5000, "1/" + "9" * 5000, "0x10", "1_000"),
     *("nan", "١", "1 2", b"1", bytearray(b"1"), [], [1], (), {}, {1}, range(3), np.array([1.0]), np.array(1.0), len),
-]
-NUMBERS = [
-    *BAD_NUMBERS,
-    0,
-    -0.0,
-    2**1023,
-    2.0**1023,
-    5e-324,
-    np.longdouble(10) ** 4900,
-    np.float16(1),
-    np.uint64(2**63),
-]
+]  # fmt: skip
+LARGE = np.longdouble(10) ** 4900
+NUMBERS = [*BAD_NUMBERS, 0, -0.0, 2**1023, 2.0**1023, 5e-324, LARGE, np.float16(1), np.uint64(2**63)]
 BAD_POINTS = [
-    *(
-        None,
-        5,
-        1.5,
-        True,
-        "",
-        "abc",
-        b"",
-        b"abc",
-        bytearray(b"abc"),
-        memoryview(b"abcabcabc"),
-        object(),
-        len,
-        [],
-        (),
-        {},
-    ),
-    *(
-        {(0, 0, 0)},
-        frozenset({(1, 2, 3)}),
-        {(0, 0, 0): 1},
-        {1: (0, 0, 0)},
-        iter([]),
-        range(3),
-        [[]],
-        [[], []],
-        [1, 2, 3],
-    ),
+    *(None, 5, 1.5, True, "", "abc", b"", b"abc", bytearray(b"abc"), memoryview(b"abcabcabc"), len, [], (), {}),
+    *({(0, 0, 0)}, frozenset({(1, 2, 3)}), {(0, 0, 0): 1}, {1: (0, 0, 0)}, iter([]), range(3), [[]], [[], []], [1, 2]),
     *([(1, 2)], [(1, 2, 3, 4)], [(1, 2, 3), (1, 2)], ["abc"], [b"abc"], [{1, 2, 3}], [{1: 1, 2: 2, 3: 3}], [None]),
     *([(0, 0, 0), 5], [(0, 0, (1,))], np.zeros(3), np.zeros((2, 2)), np.zeros((2, 3, 3)), np.zeros((2, 3), complex)),
-    *(
-        np.zeros((2, 3), bool),
-        np.zeros((2, 3), "M8[s]"),
-        np.array("abc"),
-        np.array(5),
-        np.array(None),
-        np.empty((0, 3)),
-    ),
-    *(
-        np.array([[1, 2, 3], [4, 5]], object),
-        np.full((4, 3), np.nan),
-        np.full((4, 3), np.inf),
-        np.array([["a"] * 3] * 4),
-    ),
-    *(np.ma.masked_array(np.eye(3), np.eye(3)), np.ma.masked_all((4, 3)), np.zeros(2, "i,i,i")),
-]
+    *(np.zeros((2, 3), bool), np.zeros((2, 3), "M8[s]"), np.array("abc"), np.array(5), np.empty((0, 3))),
+    *(np.array([[1, 2, 3], [4, 5]], object), np.full((4, 3), np.nan), np.full((4, 3), np.inf)),
+    *(np.array([["a"] * 3] * 4), np.ma.masked_array(np.eye(3), np.eye(3)), np.ma.masked_all((4, 3)), np.zeros(2, "i,i,i")),
+]  # fmt: skip
 POINTS = [
     *BAD_POINTS,
     *([*SQUARE[1:], (number, 0, 0)] for number in NUMBERS),
-    *(np.ma.masked_array(np.eye(3)), np.zeros((4, 3)), np.eye(3, dtype=np.longdouble) * np.longdouble(10) ** 4900),
+    *(np.ma.masked_array(np.eye(3)), np.zeros((4, 3)), np.eye(3, dtype=np.longdouble) * LARGE),
     *(np.eye(4, 3) * 2.0**1023, np.eye(4, 3) * 5e-324, (row for row in SQUARE), map(iter, SQUARE), SQUARE * 50),
 ]
 ODD = [*BAD_POINTS, *BAD_NUMBERS, hull1620.exact_hull(SQUARE), DECK, PROGRAM, Path("absent"), "absent\0", "a" * 5000]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -46,16 +45,6 @@ def test_the_chapter_has_no_fault() -> None:
     assert check_chapter(CHAPTER) == ()
 
 
-def test_witness_pages_run_from_103_to_115() -> None:
-    pages = list(dict.fromkeys(line.page for line in CHAPTER.text.witness))
-    assert pages == [str(n) for n in range(103, 116)]
-
-
-def test_witness_has_its_stray_page_number_on_its_page() -> None:
-    (line,) = [w for w in CHAPTER.text.witness if w.text.strip() == "114"]
-    assert (line.id, line.page) == ("450", "114")
-
-
 @pytest.mark.parametrize(("example", "program", "device", "name"), device_files(CHAPTER), ids=NAMES)
 def test_committed_file_equals_its_build(example: int, program: int, device: str, name: str) -> None:
     committed = chapter6_folder().joinpath(*name.split("/")).read_bytes()
@@ -87,32 +76,6 @@ def test_printed_columns_are_the_nonblank_columns() -> None:
             printed = {column for token in card.tokens for column in range(token.first, token.last + 1)}
             assert printed == {i for i, c in enumerate(card.image, start=1) if c != " "}
             assert (not card.tokens) == (card.image == "")
-
-
-def test_a_card_knows_its_printed_line() -> None:
-    """Example 6, equation 4: the four numbers the OCR scattered, and the restored number 4 (p. 115)."""
-    (card,) = [c for c in cards(CHAPTER, 6, 3, "punch") if c.role == "equation" and c.tokens[0].text == "4"]
-    assert card.image == "  4    .40000000E+01   .35000000E+02  -.60000000E+01  -.10400000E+03"
-    assert [t.line for t in card.tokens] == ["464", "464", "464", "464", "466"]
-    assert (card.tokens[1].first, card.tokens[1].last) == (8, 20)
-
-
-@pytest.mark.parametrize(
-    ("example", "program", "image"),
-    [
-        (1, 1, "  4  -.54000000E+02   .00000000E-99  -.23000000E+03  -.70000000E+03"),
-        (2, 1, "  2    -.60000000E+03   .38000000E+02  -.16000000E+02"),
-        (3, 1, "        .10000000E+01   .20000000E+01   .30000000E+01"),
-        (4, 1, "   8 2"),
-        (4, 2, "      -.00000000E-99  -.45000000E+02  -.00000000E-99   .90000000E+02"),
-        (4, 2, "   2   .50000000E+01   .00000000E-99  -.00000000E-99  -.20000000E+02"),
-        (5, 1, "-.16000000E+02-.34000000E+02 .45000000E+02 .15500000E+03   2   3   4"),
-        (5, 3, "  3,  4,  5                 6"),
-        (6, 3, "  2   -.35000000E+02  -.35000000E+02   .15000000E+02  -.00000000E-99"),
-    ],
-)
-def test_card_of_the_print(example: int, program: int, image: str) -> None:
-    assert image in card_images(CHAPTER, example, program, "punch")
 
 
 @pytest.mark.parametrize(
@@ -160,36 +123,16 @@ def test_guard_one_altered_digit_is_caught(line: str, old: str, new: str) -> Non
 @pytest.mark.parametrize(
     ("line", "old", "new", "fault"),
     [
-        (
-            "67",
-            ".65020000",
-            ".65030000",
-            "example2/program1.punch: an endpoint is not a point of the input deck",
-        ),
-        (
-            "31",
-            ".15880000",
-            ".15890000",
-            "example1/program1.punch: equation 3 does not vanish at its vertices",
-        ),
-        (
-            "213",
-            ".19000000",
-            ".18000000",
-            "example5/program1.punch: its points differ from those of the input deck",
-        ),
-        (
-            "320",
-            ".17100000",
-            ".17200000",
-            "example5/program3.punch: equation 4 does not vanish at its vertices",
-        ),
-        ("178", "15", "16", "example5/program1.deck: card 1 says N is not 15"),
-        ("385", "N=10", "N=11", "example6/program3.punch: card 3 says N is not 10"),
+        ("67", ".65020000", ".65030000", "2/program1.punch: an endpoint is not a point of the input deck"),
+        ("31", ".15880000", ".15890000", "1/program1.punch: equation 3 does not vanish at its vertices"),
+        ("213", ".19000000", ".18000000", "5/program1.punch: its points differ from those of the input deck"),
+        ("320", ".17100000", ".17200000", "5/program3.punch: equation 4 does not vanish at its vertices"),
+        ("178", "15", "16", "5/program1.deck: card 1 says N is not 15"),
+        ("385", "N=10", "N=11", "6/program3.punch: card 3 says N is not 10"),
     ],
 )
 def test_guard_arithmetic_of_the_print(line: str, old: str, new: str, fault: str) -> None:
-    assert fault in check_arithmetic(altered(line, old, new))
+    assert f"example{fault}" in check_arithmetic(altered(line, old, new))
 
 
 def test_guard_a_reversed_plane_is_caught() -> None:
@@ -240,12 +183,7 @@ def test_written_files_are_the_built_ones(tmp_path: Path) -> None:
     [
         ("67", ".65020000E+04", ".6502E+04", r"columns 8 to 21: line 67: expected a number of 14 columns"),
         ("66", "1", "1234", r"line 66: 1234 is wider than its field$"),
-        (
-            "60",
-            "POINTS ARE COLLINEAR",
-            "POINTS ARE COLL",
-            r"line 60: expected 9 characters of words, found 'COLL'$",
-        ),
+        ("60", "ARE COLLINEAR", "ARE COLL", r"line 60: expected 9 characters of words, found 'COLL'$"),
         ("90", "DETERMINED", "DETERMINED 5", r"line 90: '5' remains after the last field$"),
     ],
 )
@@ -266,9 +204,3 @@ def test_the_command_line_checks_and_rejects_wrong_options(capsys: pytest.Captur
     assert capsys.readouterr().out == ""
     assert main(["--run"]) == 2
     assert capsys.readouterr().err.startswith("usage: ")
-
-
-def test_emendations_use_only_card_characters() -> None:
-    """All lines of the corrected print are ASCII, including the headings of the thesis."""
-    assert all(line.text.isascii() for line in CHAPTER.print)
-    assert not files("transcripts").joinpath("chapter6", "witness.txt").read_text(encoding="utf-8").isascii()

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-import re
 from importlib.resources import files
 
 import pytest
 
 from emulator.errors import Refused
-from modern.edition.chapter6 import CardShape, Format
+from modern.edition.chapter6 import Format
 from modern.edition.chapter6_cards import Chapter, TranscriptError, load_chapter, rebuilt
 from modern.edition.chapter6_checks import check_layout, records
 
@@ -51,47 +50,6 @@ def test_a_format_that_cannot_be_read_is_one_line(text: str, values: int, messag
     assert "\n" not in str(caught.value)
 
 
-_ITEM = re.compile(r"(\d+)X|(\d+)H|(/)|(\d*)(?:E(\d+)\.\d+|I(\d+))|,| ")
-
-
-def on_paper(text: str, values: int) -> list[str]:
-    """Draw the cards with an independent reader: # for the columns of numbers, literals as they are, blanks."""
-    picture, at, left = [""], 1, values
-    while text[at] != ")" or at < len(text) - 1:
-        found = _ITEM.match(text, at)
-        assert found is not None
-        at = found.end()
-        blanks, letters, slash, repeat, *widths = found.groups()
-        if slash:
-            picture.append("")
-        elif blanks:
-            picture[-1] += " " * int(blanks)
-        elif letters:
-            picture[-1] += text[at : at + int(letters)]
-            at += int(letters)
-        elif any(widths):
-            taken = min(left, int(repeat or 1))
-            picture[-1] += "".join("#" * int(next(filter(None, widths))) for _ in range(taken))
-            left -= taken
-            if taken < int(repeat or 1):
-                break
-    return [card.rstrip() for card in picture]
-
-
-@pytest.mark.parametrize("entry", CHAPTER.layout.formats, ids=lambda f: f"p{f.program}-{f.number}")
-def test_columns_are_those_of_a_second_reader(entry: Format) -> None:
-    """The compiler's reader and the reader of this test agree for every list that the FORMAT can serve."""
-    most = sum(int(found[4] or 1) for found in _ITEM.finditer(entry.text) if found[5] or found[6])
-    for values in range(most + 1):
-        drawn = []
-        for card in records(entry.text, values):
-            line = ""
-            for field, words in card:
-                line = line.ljust(field.first - 1) + (words or "#" * (field.last - field.first + 1))
-            drawn.append(line)
-        assert drawn == on_paper(entry.text, values)
-
-
 def test_layout_agrees_with_its_formats() -> None:
     assert check_layout(CHAPTER) == ()
 
@@ -110,16 +68,6 @@ def test_listed_format_is_on_its_page() -> None:
         witness = files("fortran_src").joinpath("witness", f"program{entry.program}.txt").read_text(encoding="utf-8")
         page = next(p for p in witness.split("## page ") if p.startswith(f"{entry.page}\n"))
         assert f"{entry.number}FORMAT{entry.listed}".replace(" ", "") in page.replace(" ", "")
-
-
-def test_layout_holds_no_sign_or_digit_of_a_card() -> None:
-    """Except for typed lines, a card of the layout consists of columns only."""
-    names = {field.name for field in dataclasses.fields(CardShape)}
-    assert names == {"id", "program", "format", "record", "values", "fields", "source"}
-    for device in CHAPTER.layout.devices:
-        assert bool(device.typed) <= (device.device == "typewriter")
-        assert (device.layer == "stated") == (device.device == "typewriter")
-        assert device.source or device.layer == "layout"
 
 
 def with_card(card_id: str, **changes: object) -> Chapter:

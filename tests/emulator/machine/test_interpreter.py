@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-from dataclasses import dataclass, field
-from fractions import Fraction
 
 import pytest
 from hypothesis import given, settings
@@ -20,9 +18,7 @@ from emulator.machine.operator import Operator
 from emulator.machine.result import Options, Result
 from emulator.machine.trace import Tracer
 from emulator.numbers import numbers
-from emulator.numbers.arithmetic import profile as digit_profile
 from emulator.numbers.base import Numbers
-from emulator.numbers.decimal import DecimalNumbers, Pair
 from tests.support.decks_at_random import ALL_FUNCTIONS, DATA, programs
 from tests.support.deckwork import plain, program, source, until, within
 
@@ -98,93 +94,6 @@ def test_python_floats_and_mpmath_with_53_bits_agree(cards: list[str], data: lis
 def without_zero_signs(card: str) -> str:
     """Return a card without the signs of its zeros."""
     return re.sub(r"-(?=\.0*(E-99)?(?!\d))", " ", card)
-
-
-@dataclass(frozen=True)
-class RecordingNumbers(DecimalNumbers):
-    """Decimal numbers that record each inexact result."""
-
-    cuts: list[str] = field(default_factory=list, compare=False)
-
-    def _recorded(self, what: str, result: Pair, same: bool) -> Pair:
-        if not same:
-            self.cuts.append(what)
-        return result
-
-    def add(self, first: Pair, second: Pair) -> Pair:
-        result = super().add(first, second)
-        return self._recorded("sum", result, self._of(result) == self._of(first) + self._of(second))
-
-    def subtract(self, first: Pair, second: Pair) -> Pair:
-        result = super().subtract(first, second)
-        return self._recorded("difference", result, self._of(result) == self._of(first) - self._of(second))
-
-    def subtract_reversed(self, first: Pair, second: Pair) -> Pair:
-        result = super().subtract_reversed(first, second)
-        return self._recorded("difference", result, self._of(result) == self._of(second) - self._of(first))
-
-    def multiply(self, first: Pair, second: Pair) -> Pair:
-        result = super().multiply(first, second)
-        return self._recorded("product", result, self._of(result) == self._of(first) * self._of(second))
-
-    def function(self, name: str, value: Pair) -> tuple[Pair, str]:
-        result, code = super().function(name, value)
-        return self._recorded(name, result, name == "SQRT" and self._of(result) ** 2 == self._of(value)), code
-
-    def integer_power(self, base: Pair, count: int) -> tuple[Pair, str]:
-        result, code = super().integer_power(base, count)
-        same = 0 <= count <= 30 and self._of(result) == self._of(base) ** count
-        return self._recorded("power", result, same), code
-
-    def power(self, base: Pair, exponent: Pair) -> tuple[Pair, str]:
-        result, code = super().power(base, exponent)
-        return self._recorded("power", result, False), code
-
-    def _of(self, value: Pair) -> Fraction:
-        return Fraction(self.exact(value, 0))
-
-
-def test_every_inexact_result_is_recorded() -> None:
-    for line, cut in (("A=1.E60+3.", True), ("A=1.E20+3.", False), ("A=SQRT(2.)", True), ("A=SQRT(4.)", False)):
-        watched = RecordingNumbers(digit_profile("truncating:28"))
-        Machine(program(line, "END"), deck_from_lines("d", []), Options(numbers=watched)).run()
-        assert bool(watched.cuts) == cut
-
-
-@settings(max_examples=60)
-@given(programs(), DATA)
-def test_28_digits_agree_with_exact_numbers_while_results_are_exact(cards: list[str], data: list[str]) -> None:
-    whole = [card for card in cards if "/" not in card or "FORMAT" in card]
-    statements = statements_before_truncation(whole, data, 200)
-    (first, _), (second, _) = both_outcomes(whole, data, (numbers("exact"), numbers("truncating:28")), statements)
-    if (
-        isinstance(first, Result)
-        and isinstance(second, Result)
-        and first.ending.kind != "undecided"
-        and not second.errors
-    ):
-        assert first.punched == second.punched
-        assert first.counts == second.counts
-
-
-def statements_before_truncation(lines: list[str], data: list[str], statements: int) -> int:
-    """Return the number of statements before the first whose result needs more than 28 digits."""
-    watched = RecordingNumbers(digit_profile("truncating:28"))
-    made, _ = translate(source(*lines))
-    if made is None:
-        return statements
-    operator = Operator(KEYED)
-    machine = Machine(made, deck_from_lines("data", data), Options(numbers=watched, limit=FAR * statements))
-    for done in range(statements):
-        try:
-            ended = until(machine, done + 1, operator)
-        except EmulatorError:
-            return statements
-        if watched.cuts:
-            return done
-        if ended is not None:
-            return statements
-    return statements
 
 
 @pytest.mark.parametrize("name", ["float64", "float32", "mp:24", "exact", "truncating"])
