@@ -33,8 +33,8 @@ BAD_POINTS = [
     *([(1, 2)], [(1, 2, 3, 4)], [(1, 2, 3), (1, 2)], ["abc"], [b"abc"], [{1, 2, 3}], [{1: 1, 2: 2, 3: 3}], [None]),
     *([(0, 0, 0), 5], [(0, 0, (1,))], np.zeros(3), np.zeros((2, 2)), np.zeros((2, 3, 3)), np.zeros((2, 3), complex)),
     *(np.zeros((2, 3), bool), np.zeros((2, 3), "M8[s]"), np.array("abc"), np.array(5), np.empty((0, 3))),
-    *(np.array([[1, 2, 3], [4, 5]], object), np.full((4, 3), np.nan), np.full((4, 3), np.inf)),
-    *(np.array([["a"] * 3] * 4), np.ma.masked_array(np.eye(3), np.eye(3)), np.ma.masked_all((4, 3)), np.zeros(2, "i,i,i")),
+    *(np.array([[1, 2, 3], [4, 5]], object), np.full((4, 3), np.nan), np.array([["a"] * 3] * 4)),
+    *(np.full((4, 3), np.inf), np.ma.masked_array(np.eye(3), np.eye(3)), np.ma.masked_all((4, 3)), np.zeros(2, "i,i")),
 ]  # fmt: skip
 POINTS = [
     *BAD_POINTS,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections import Counter
 
 import pytest
@@ -98,25 +97,6 @@ def test_every_error_code_occurs_in_the_vectors() -> None:
             assert vector.operation == name
             codes.add(vector.code)
     assert codes == {"", *(f"E{n}" for n in range(1, 9)), "F8", "INVALID", "RANGE"}
-
-
-def test_readme_states_the_numbers_of_lines() -> None:
-    text = README.read_text(encoding="utf-8")
-    counts = table()
-    rows = dict(re.findall(r"^\| `(\w+)` \|.*\| ([\d,]+) \|$", text, re.M))
-    by_operation = Counter(dict.fromkeys(names(), 0))
-    for (operation, _, _), count in counts.items():
-        by_operation[operation] += count
-    assert {name: int(count.replace(",", "")) for name, count in rows.items() if name in by_operation} == by_operation
-    by_profile: Counter[str] = Counter()
-    for (_, name, _), count in counts.items():
-        by_profile[name] += count
-    stated = re.findall(r"^\| `([\w:]+)` \| ([\d,]+) \|", text, re.M)
-    assert {name: int(count.replace(",", "")) for name, count in stated} == by_profile
-    assert f"{counts.total():,} lines" in text
-    for operation in OPERATIONS:
-        for kind in operation.classes:
-            assert kind in " ".join(text.split()), f"the README does not say what {kind!r} is"
 
 
 @pytest.mark.parametrize(

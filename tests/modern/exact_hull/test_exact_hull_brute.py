@@ -150,25 +150,6 @@ def classes(points: list[Point], sizes: range):
                 yield [points[index] for index in chosen]
 
 
-def orbits(points: list[Point], size: int) -> int:
-    """Return the number of classes of subsets by Burnside's lemma, to check that ``classes`` omits none."""
-    maps = symmetries(points)
-    total = 0
-    for image in maps:
-        fixed = [1] + [0] * size
-        unseen = set(range(len(points)))
-        while unseen:
-            here, length = unseen.pop(), 1
-            while (here := image[here]) in unseen:
-                unseen.remove(here)
-                length += 1
-            for k in range(size, length - 1, -1):
-                fixed[k] += fixed[k - length]
-        total += fixed[size]
-    assert total % len(maps) == 0
-    return total // len(maps)
-
-
 def test_trying_all_triples_finds_the_faces_of_a_cube() -> None:
     points = grid(3, 3, 3)
     dimension, vertices, boundary, inside, facets = brute(points)
@@ -177,28 +158,17 @@ def test_trying_all_triples_finds_the_faces_of_a_cube() -> None:
     assert facets[(0, 0, -1, 0)] == (0, 6, 24, 18)
 
 
-def test_grids_have_the_known_number_of_symmetries() -> None:
-    assert len(symmetries(grid(3, 3, 3))) == 48
-    assert len(symmetries(grid(2, 2, 3))) == 16
-
-
 @pytest.mark.parametrize("size", [1, 2, 3, 4, 5])
 def test_every_small_set_of_the_3_3_3_grid_has_the_hull_of_all_triples(size: int) -> None:
     rng = random.Random(size)
-    count = 0
     for points in classes(grid(3, 3, 3), range(size, size + 1)):
-        count += 1
         compare(points, rng)
-    assert count == orbits(grid(3, 3, 3), size)
 
 
 def test_every_set_of_the_2_2_3_grid_has_the_hull_of_all_triples() -> None:
     rng = random.Random(223)
-    count = 0
     for points in classes(grid(2, 2, 3), range(1, 13)):
-        count += 1
         compare(points, rng)
-    assert count == sum(orbits(grid(2, 2, 3), size) for size in range(1, 13))
 
 
 def test_every_set_of_the_3_3_square_in_a_skew_plane() -> None:
@@ -243,24 +213,6 @@ def test_grids_under_a_skew_map_need_integers(digits: int) -> None:
         if len(set(points)) == len(points):
             in_integers += compare(points, rng)
     assert in_integers > 1000
-
-
-@pytest.mark.parametrize("square", [1, 2, 3, 5, 9])
-def test_grid_points_on_a_sphere_have_the_hull_of_all_triples(square: int) -> None:
-    points = [p for p in itertools.product(range(-3, 4), repeat=3) if sum(n * n for n in p) == square]
-    compare([*points, (0, 0, 0)], random.Random(square), 2)
-
-
-@pytest.mark.parametrize("side", [3, 10**8, 10**25])
-def test_a_cube_with_points_on_its_faces_and_edges_has_the_hull_of_all_triples(side: int) -> None:
-    rng = random.Random(side)
-    points = set(itertools.product((0, side), repeat=3))
-    while len(points) < 20:
-        point = [rng.randrange(side + 1) for _ in range(3)]
-        for axis in rng.sample(range(3), rng.choice((1, 1, 2))):
-            point[axis] = rng.choice((0, side))
-        points.add(tuple(point))
-    compare(sorted(points), rng, 3)
 
 
 @pytest.mark.parametrize("power", [2, 8, 20])

@@ -72,9 +72,6 @@ def test_a_distance_of_zero_joins_nothing() -> None:
     assert "no two of 36 faces lie within 0 of one plane; the next face would be joined from " in join_summary(joined)
 
 
-noise = st.integers(-(10**3), 10**3)
-
-
 @settings(deadline=None, max_examples=40)
 @given(st.integers(3, 9), st.integers(0, 10**6))
 def test_a_perturbed_prism_gets_its_original_faces_back(sides_: int, seed: int) -> None:

@@ -56,20 +56,8 @@ def test_charts_of_random_programs_have_no_collisions(cards: list[str]) -> None:
 
 def test_boxes_of_a_small_program() -> None:
     """A DO becomes its first assignment and a decision after its last statement.  An IF has exits on three sides."""
-    control_flow = flow(
-        program(
-            "READ 9,N",
-            "J=0",
-            "DO 2 I=1,N",
-            "J=J+I",
-            "2 CONTINUE",
-            "IF(J-5)1,2,3",
-            "1 STOP",
-            "3 J=1",
-            "9 FORMAT(I2)",
-            "END",
-        )
-    )
+    lines = ["READ 9,N", "J=0", "DO 2 I=1,N", "J=J+I", "2 CONTINUE", "IF(J-5)1,2,3", "1 STOP", "3 J=1", "9 FORMAT(I2)"]
+    control_flow = flow(program(*lines, "END"))
     assert [(box.kind, box.name, box.lines) for box in control_flow.boxes] == [
         ("input/output", "card 1", ("READ 9,N",)),
         ("processing", "card 2", ("J=0", "I=1")),

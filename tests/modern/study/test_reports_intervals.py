@@ -89,18 +89,6 @@ def seventies(folder: Path, failures: Sequence[int], slabs: int = 0, mended: int
         ([3, 3, 4, 4], "not significantly different from the two of the thesis"),
         ([3, 4, 4, 4], "more than the two of the thesis"),
     ],
-    ids=[
-        "to 1.83",
-        "to 1.956",
-        "to 2.08",
-        "to 1.79",
-        "to 2.17",
-        "2",
-        "from 1.954",
-        "from 2.04",
-        "from 1.93",
-        "from 2.12",
-    ],
 )
 def test_seventy_differs_from_the_thesis_only_if_the_whole_interval_does(
     tmp_path: Path, failures: list[int], claim: str
@@ -125,17 +113,6 @@ UNDECIDED = "possibly unusual; there are too few groups to decide"
         ([3, 3, 0, 0], USUAL),
         ([2, 2, 0, 0, 0], USUAL),
         ([2, 2, 0, 0, 0, 0], UNDECIDED),
-    ],
-    ids=[
-        "to .0493",
-        "to .04994",
-        "one failure each",
-        "to .0506",
-        "from .006",
-        "from .068",
-        "three",
-        "from .053",
-        "from .043",
     ],
 )
 def test_seventy_calls_two_unusual_only_if_the_whole_interval_is_below_a_twentieth(
