@@ -21,7 +21,7 @@ SKIPPED = {
 }
 """The number of blocks of a document that are not run; a comment before each states the reason."""
 
-IN_SHELL = ("README.md", "docs/tutorial/first-hull.md")
+IN_SHELL = ("README.md",)
 """Documents whose commands all run in a shell, as a reader runs them."""
 
 BY_HAND = [
