@@ -13,7 +13,6 @@ from modern.cli.map import map_lines
 from modern.edition import programs
 from modern.publication.core import ARRAY, CORE, FREE, NAMES, PROGRAM, SINGLE, SYSTEM, core_map
 from modern.publication.site.made import make
-from modern.publication.site.markup import described
 from modern.publication.site.pages.machine import PARTS, PER_PIXEL, example_runs, map_svg, seconds_of, time_svg
 
 SVG = "{http://www.w3.org/2000/svg}"
