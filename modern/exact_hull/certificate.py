@@ -13,14 +13,6 @@
    every directed edge occurs once and so does its reverse; V - E + F = 2.  In a plane, the edges are those of the
    polygon, which satisfies the same conditions.  On a line, there are two ends with planes at right angles to it.
 
-Why this is a proof.  By 2 the hull of the points is inside all planes, and each listed plane supports it.  Suppose that
-two facets meet in an edge and that a point in the plane of the first one lay beyond that edge.  The point would be
-outside the plane of the second facet, because the other vertices of the first polygon are strictly inside it.
-Therefore, by 2 and 4, every listed polygon is the whole face of the hull in its plane.  Thus the listed faces are whole
-facets, and beyond each edge of a listed facet there is another listed one.  Since the facets of a polytope are
-connected through their edges, all facets are listed.  The classes follow from 2 and 3.  Euler's relation is not needed;
-it is an additional check of the counts.
-
 Evaluating every plane at every point takes too long for many points and facets.  From MANY pairs on, the convexity of a
 polyhedron is proved from its edges, and every point is evaluated in the plane of one facet only.  This establishes the
 same facts by other means (:mod:`modern.exact_hull.convexity`).
@@ -40,6 +32,13 @@ from modern.exact_hull.polygons import check_convex, difference, dot, product
 from modern.exact_hull.result import Certificate, CertificateError, ExactHull, require
 from modern.geometry.points import Points
 
+# Why this is a proof.  By 2 the hull of the points is inside all planes, and each listed plane supports it.  Suppose
+# that two facets meet in an edge and that a point in the plane of the first one lay beyond that edge.  The point would
+# be outside the plane of the second facet, because the other vertices of the first polygon are strictly inside it.
+# Therefore, by 2 and 4, every listed polygon is the whole face of the hull in its plane.  Thus the listed faces are
+# whole facets, and beyond each edge of a listed facet there is another listed one.  Since the facets of a polytope are
+# connected through their edges, all facets are listed.  The classes follow from 2 and 3.  Euler's relation is not
+# needed; it is an additional check of the counts.
 # The number of points times facets from which a polyhedron is proved by its convexity.
 MANY = 1 << 18
 

@@ -12,55 +12,6 @@ e. Every polygon is split into triangles from its first corner.  The ray from o 
 f. For every other point, a triangle has been found whose cone from o contains the point, and the point is inside the
    plane of that facet, or in it if and only if its class is boundary.  A point for which no cone was found has been
    evaluated in every plane.
-
-Why this is a proof.  (Mehlhorn, Naeher, Seel, Seidel, Schilz, Schirra and Uhrig, Checking geometric programs or
-verification of geometric structures, Computational Geometry 12 (1999), 85-103, prove that c, d and e suffice for closed
-simplicial surfaces of any dimension.  For polygons in space the argument is as follows.)
-
-1. Look at the facets from o.  By a and c every facet is seen from behind, with its corners in the same sense of
-   rotation, and covers a convex spherical polygon.  By b two facets at an edge traverse it in opposite directions, so
-   they lie on different sides of it as seen from o.  Therefore the surface covers the sphere of directions without
-   folds except, perhaps, at the finitely many corners: a direction that is not a corner's has a neighbourhood that
-   every sheet over it covers once.  The number of sheets is thus constant over the sphere without those directions,
-   which is connected.  By e it is 1 somewhere, because the ray passes through the interior of one triangle and misses
-   all others and their borders.  So the cones over the facets fill space, and no two have interior points in common.  A
-   corner at which the surface touched itself would be surrounded by two sheets.
-2. For a facet f let L(f) be the linear function that is 0 at o and 1 on its plane.  If v(x) is the plane's value at x,
-   L(f)(x) = 1 - v(x) / v(o), and v(o) < 0 by c.  Let g be the function that equals L(f) in the cone over f.  It is
-   defined everywhere by 1, and continuous, since two facets at an edge both have the value 1 on it and 0 at o.  At the
-   wall between the cones of f and of its neighbour h, g bends upwards: by d a corner q of h has L(f)(q) < 1 = L(h)(q).
-   On a line that crosses walls only where two cones meet, g is piecewise linear with increasing slopes, so it is convex
-   there.  Every segment is a limit of such segments, so g is convex, and it is the maximum of all L(f).
-3. So the body K of all x with g(x) <= 1 is convex, it consists of the points at which no plane has a positive value,
-   and the polygons are its surface.  As g bends strictly at every edge, the face of K in the plane of f is exactly the
-   polygon f, and by a its corners are corners of K, which lie between no two other points of K.
-4. A point x in the cone over f has g(x) = L(f)(x): it is in K if and only if v(x) <= 0, and on the surface if and
-   only if v(x) = 0.  By f every point is in K, and K is the hull of its corners, which are points.
-
-The proof does not depend on how a cone is found.  The search walks from cone to cone across planes through o that the
-point is beyond, in float64, and in integers if the sign is in doubt.  Points on an edge of the hull are always in
-doubt: they lie in the plane through o and the edge, and so in the cones of both sides.
-
-Signs are computed in float64 first.  Let c be the corner of the bounding box of the points, and s for each axis a power
-of two not less than the side of the box.  The image of x is (x - c) / s, from 0 to 1.  A normal's image is (A sx, B sy,
-C sz) / w, where w is the power of two that makes the largest of them at most 1.  With e = 2**-54 all images have an
-error of at most e (the nearest float64 of the exact quotient; dividing by a power of two is exact).  o is given by its
-image, exactly.  A difference d of images is below 1 in absolute value and has an error of at most 3e: e for each image
-and e for rounding.
-
-The value of a plane, N . (x - p) with a corner p, has products with errors of 3e + e + e = 5e, together 15e.  The
-additions, of sums below 2 and below 4, round by 2e and 4e.  The total is 21e.  The wall of a cone, the plane through o
-and the edge a b, has the normal m = (a - o) x (b - o).  Its products have errors of 3e + 3e + e = 7e, two of them 14e,
-and the subtraction rounds by 2e, so m has an error of 16e and is at most 2 in absolute value.  In m . (x - o) a product
-has an error of 16e + 2 * 3e + 2e = 24e, three of them 72e.  The additions, of sums below 4 and below 8, round by 4e and
-8e.  The total is 84e.  Products of two errors and underflow add less than e.  All of this is below BOUND = 2**-47 =
-128e, also with fused products, which round less often.  A value beyond the bound has the true sign.  All others, and
-NaN, are computed in integers.
-
-Most points of a large set are closer to o than any plane, which one distance shows for all planes.  Let r be the least
-of -N . (o - p) / |N| over all planes.  A point whose image is within r of o has N . (x - p) = N . (o - p) + N . (x - o)
-< -|N| r + |N| r = 0 for every plane.  The computed r and distance have errors below 128e each, |N| being at least 1/2.
-Points within r - 2**-40 are accepted in this way.
 """
 
 from dataclasses import dataclass
@@ -85,7 +36,53 @@ from modern.exact_hull.polygons import (
 )
 from modern.exact_hull.result import CertificateError, ExactHull
 
+# Why this is a proof.  (Mehlhorn, Naeher, Seel, Seidel, Schilz, Schirra and Uhrig, Checking geometric programs or
+# verification of geometric structures, Computational Geometry 12 (1999), 85-103, prove that c, d and e suffice for
+# closed simplicial surfaces of any dimension.  For polygons in space the argument is as follows.)
+#
+# 1. Look at the facets from o.  By a and c every facet is seen from behind, with its corners in the same sense of
+#    rotation, and covers a convex spherical polygon.  By b two facets at an edge traverse it in opposite directions, so
+#    they lie on different sides of it as seen from o.  Therefore the surface covers the sphere of directions without
+#    folds except, perhaps, at the finitely many corners: a direction that is not a corner's has a neighbourhood that
+#    every sheet over it covers once.  The number of sheets is thus constant over the sphere without those directions,
+#    which is connected.  By e it is 1 somewhere, because the ray passes through the interior of one triangle and misses
+#    all others and their borders.  So the cones over the facets fill space, and no two have interior points in common.
+#    A corner at which the surface touched itself would be surrounded by two sheets.
+# 2. For a facet f let L(f) be the linear function that is 0 at o and 1 on its plane.  If v(x) is the plane's value at
+#    x, L(f)(x) = 1 - v(x) / v(o), and v(o) < 0 by c.  Let g be the function that equals L(f) in the cone over f.  It is
+#    defined everywhere by 1, and continuous, since two facets at an edge both have the value 1 on it and 0 at o.  At
+#    the wall between the cones of f and of its neighbour h, g bends upwards: by d a corner q of h has L(f)(q) < 1 =
+#    L(h)(q). On a line that crosses walls only where two cones meet, g is piecewise linear with increasing slopes, so
+#    it is convex there.  Every segment is a limit of such segments, so g is convex, and it is the maximum of all L(f).
+# 3. So the body K of all x with g(x) <= 1 is convex, it consists of the points at which no plane has a positive value,
+#    and the polygons are its surface.  As g bends strictly at every edge, the face of K in the plane of f is exactly
+#    the polygon f, and by a its corners are corners of K, which lie between no two other points of K.
+# 4. A point x in the cone over f has g(x) = L(f)(x): it is in K if and only if v(x) <= 0, and on the surface if and
+#    only if v(x) = 0.  By f every point is in K, and K is the hull of its corners, which are points.
+#
+# The proof does not depend on how a cone is found.  The search walks from cone to cone across planes through o that the
+# point is beyond, in float64, and in integers if the sign is in doubt.  Points on an edge of the hull are always in
+# doubt: they lie in the plane through o and the edge, and so in the cones of both sides.
 _BLOCK = 1 << 12
+# Signs are computed in float64 first.  Let c be the corner of the bounding box of the points, and s for each axis a
+# power of two not less than the side of the box.  The image of x is (x - c) / s, from 0 to 1.  A normal's image is (A
+# sx, B sy, C sz) / w, where w is the power of two that makes the largest of them at most 1.  With e = 2**-54 all images
+# have an error of at most e (the nearest float64 of the exact quotient; dividing by a power of two is exact).  o is
+# given by its image, exactly.  A difference d of images is below 1 in absolute value and has an error of at most 3e: e
+# for each image and e for rounding.
+#
+# The value of a plane, N . (x - p) with a corner p, has products with errors of 3e + e + e = 5e, together 15e.  The
+# additions, of sums below 2 and below 4, round by 2e and 4e.  The total is 21e.  The wall of a cone, the plane through
+# o and the edge a b, has the normal m = (a - o) x (b - o).  Its products have errors of 3e + 3e + e = 7e, two of them
+# 14e, and the subtraction rounds by 2e, so m has an error of 16e and is at most 2 in absolute value.  In m . (x - o) a
+# product has an error of 16e + 2 * 3e + 2e = 24e, three of them 72e.  The additions, of sums below 4 and below 8, round
+# by 4e and 8e.  The total is 84e.  Products of two errors and underflow add less than e.  All of this is below BOUND =
+# 2**-47 = 128e, also with fused products, which round less often.  A value beyond the bound has the true sign.  All
+# others, and NaN, are computed in integers.
+# Most points of a large set are closer to o than any plane, which one distance shows for all planes.  Let r be the
+# least of -N . (o - p) / |N| over all planes.  A point whose image is within r of o has N . (x - p) = N . (o - p) + N .
+# (x - o) < -|N| r + |N| r = 0 for every plane.  The computed r and distance have errors below 128e each, |N| being at
+# least 1/2. Points within r - 2**-40 are accepted in this way.
 _BALL = 2.0**-40
 # The number of triangles among which the first one of a walk is chosen.
 _STARTS = 256

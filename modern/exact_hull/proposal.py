@@ -8,11 +8,6 @@ has two triangles that would also be adjacent if only one of these points had be
 again.  For the same reason a point that waits at a removed triangle is compared only with the triangles of the point
 that removed it.  "Sees" is strict, as in :mod:`modern.exact_hull.surface`.
 
-Signs on the grid are exact: in float64 if a value is clearly not 0, otherwise in two int64.  A normal is a vector
-product of differences below 2**30, so below 2**61.  With N = 2**31 H + L its value at a difference d is 2**31 (H.d) +
-L.d, and both scalar products are below 2**63.  A computed value, divided by |A| + |B| + |C|, has an error of at most 16
-* 2**30 * 2**-53 = 2**-19.
-
 With numba (extra ``fast``) the same hull grows one point at a time (:mod:`modern.exact_hull.kernels`).
 
 Errors in this module cannot cause a wrong result, because every proposal is proved afterwards.
@@ -33,6 +28,10 @@ from modern.exact_hull.kernels import DOUBT, LOW, NEAR
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+# Signs on the grid are exact: in float64 if a value is clearly not 0, otherwise in two int64.  A normal is a vector
+# product of differences below 2**30, so below 2**61.  With N = 2**31 H + L its value at a difference d is 2**31 (H.d) +
+# L.d, and both scalar products are below 2**63.  A computed value, divided by |A| + |B| + |C|, has an error of at most
+# 16 * 2**30 * 2**-53 = 2**-19.
 GRID_BITS = 30
 # The number of points from which loading the kernel costs less time than it saves.
 _VERY_MANY = 500_000

@@ -10,25 +10,7 @@ the horizon is in line with the new point, since otherwise the seen triangle at 
 plane, so no triangle without area arises.  Triangles may share a plane, and a former corner may end up inside a face or
 an edge; ``facets.faces`` merges such triangles at the end.
 
-Why one triangle for each waiting point is enough: let q see the triangle f, which point p sees and removes, and let m
-be a point inside f.  The segment q m is outside the old hull up to m, and m is interior to the new hull.  The segment
-therefore enters the new hull through a new triangle, which q sees.  So a waiting point needs to be compared only with
-the new triangles, and if it sees none of them it belongs to the hull.
-
 Signs are first computed in floating point, from images of points and planes, with a bound on their errors.
-
-Points are moved by an integer vector so that the origin is their middle.  Each axis is then divided by a power of two
-such that every image has |x| <= 1.  A plane A x + B y + C z + D through one of the points is divided by the power of
-two that brings the largest of |A| 2^k, |B| 2^l, |C| 2^m (2^k, 2^l, 2^m being the divisors of the axes) to at most 1;
-then |D| <= 3.  All images are the nearest float64 (Python's int / int rounds correctly at any length).
-
-The bound: with e = 2**-54 the images of x and A have errors of at most e each, that of D 4e.  A product of images has
-an error of 2e, and e more once it is rounded; three of them have 9e.  The three additions, in any order and with or
-without fused products, have partial sums below 8 and round by at most 8e each, together 24e.  The sum has an error of
-at most 9e + 4e + 24e = 37e < 64e = 2**-48.  Underflow adds at most about 2**-1070.  So a computed value beyond 2**-48
-has the true sign, and any value closer to zero is computed in integers.
-
-If the points are small enough, all of this arithmetic is exact and the bound is 0; see ``Frame.bound``.
 """
 
 from collections.abc import Sequence
@@ -41,6 +23,18 @@ from modern.exact_hull.coordinates import IntPoint
 from modern.exact_hull.facets import Triangle, plane_through, value
 from modern.exact_hull.result import Plane
 
+# Points are moved by an integer vector so that the origin is their middle.  Each axis is then divided by a power of two
+# such that every image has |x| <= 1.  A plane A x + B y + C z + D through one of the points is divided by the power of
+# two that brings the largest of |A| 2^k, |B| 2^l, |C| 2^m (2^k, 2^l, 2^m being the divisors of the axes) to at most 1;
+# then |D| <= 3.  All images are the nearest float64 (Python's int / int rounds correctly at any length).
+#
+# The bound: with e = 2**-54 the images of x and A have errors of at most e each, that of D 4e.  A product of images has
+# an error of 2e, and e more once it is rounded; three of them have 9e.  The three additions, in any order and with or
+# without fused products, have partial sums below 8 and round by at most 8e each, together 24e.  The sum has an error of
+# at most 9e + 4e + 24e = 37e < 64e = 2**-48.  Underflow adds at most about 2**-1070.  So a computed value beyond 2**-48
+# has the true sign, and any value closer to zero is computed in integers.
+#
+# If the points are small enough, all of this arithmetic is exact and the bound is 0; see ``Frame.bound``.
 BOUND = 2.0**-48
 
 
@@ -99,6 +93,10 @@ def plane_image(plane: Plane, shifts: IntPoint) -> tuple[float, float, float, fl
     )
 
 
+# Why one triangle for each waiting point is enough: let q see the triangle f, which point p sees and removes, and let m
+# be a point inside f.  The segment q m is outside the old hull up to m, and m is interior to the new hull.  The segment
+# therefore enters the new hull through a new triangle, which q sees.  So a waiting point needs to be compared only with
+# the new triangles, and if it sees none of them it belongs to the hull.
 _Horizon = list[tuple[int, int, int]]
 
 

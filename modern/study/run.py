@@ -24,7 +24,6 @@ from modern.study.chartfile import write_charts
 from modern.study.families import draw_sample
 from modern.study.manifest import NAME, first_difference, manifest, read_manifest, versions, write_manifest
 from modern.study.measures import MEASURES, OF_PORT, measure_of
-from modern.study.parquet import write_parquet
 from modern.study.plan import Cell, Plan, PlanError, Port, Programs, Route, StudyFileError
 from modern.study.plots import can_plot, draw
 from modern.study.report import Report, outcome_report, write_report
@@ -110,7 +109,6 @@ def run_study(
         for chart in () if no_plots else finished_report.charts:
             draw(chart, folder)
         write_report(folder, plan, finished_report, not no_plots)
-        write_parquet(folder, plan, store)
         write_manifest(folder, {**document, "decks_sha256": store.decks_sha256(), "complete": True})
     return finished_report
 

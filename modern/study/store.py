@@ -11,11 +11,10 @@ import hashlib
 import json
 import sqlite3
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 from emulator.errors import FileError
 from emulator.files import UNFINISHED, writing_bytes
@@ -26,20 +25,13 @@ ROWS = "rows"
 _CHECKSUM_FIELD = b',"checksum":"'
 
 
-@contextmanager
-def placing(path: Path) -> Iterator[BinaryIO]:
-    """Open a temporary file, and rename it to ``path`` when it is on disk.  Raise StudyFileError if that fails."""
-    try:
-        with writing_bytes(str(path), durable=True) as file:
-            yield file
-    except FileError as error:
-        raise StudyFileError(str(error)) from None
-
-
 def put(path: Path, data: bytes | str) -> None:
     """Write a complete file.  On failure write no file and raise StudyFileError."""
-    with placing(path) as file:
-        file.write(data.encode("utf-8") if isinstance(data, str) else data)
+    try:
+        with writing_bytes(str(path), durable=True) as file:
+            file.write(data.encode("utf-8") if isinstance(data, str) else data)
+    except FileError as error:
+        raise StudyFileError(str(error)) from None
 
 
 def sweep(folder: Path) -> None:

@@ -2,22 +2,6 @@
 
 Every edge stores its two faces, so the faces visible from a point and their boundary are found by walking from one
 visible face, without a search of all faces. All arithmetic is in integers of any length.
-
-Finding the first visible face. The faces visible from a point are connected through edges. This is true even if a face
-whose plane contains the point counts as visible: that face or another face of its plane has a neighbour that faces the
-point, or the point lies in the face itself.
-
-1. Points in raster order: a point later in that order than all vertices sees a face at the last vertex, V. Otherwise
-   the point would be in the cone of the faces at V, and V + t (P - V) for a small t would be a point of the polyhedron
-   later than V. The faces at V are those created last. Only points in the plane of the first points, before a fourth
-   point gives a tetrahedron, may need a search of all faces.
-2. Points in another order: every remaining point stores one face that it sees, and every face a list of such points.
-   When faces are removed, the points in their lists are tested against the new faces only. This is enough. Let P see a
-   removed face, let m be a point within that face, and let P still see some face. The segment from P to m first meets
-   the new surface at a point x of a face that P sees. If that face is not new, x was in the old polyhedron. But the
-   segment, in or above the plane of m's face, meets only faces of this plane in the old polyhedron, and all of them are
-   removed together. So x lies on an edge between them and the remaining face. This is a boundary edge, x lies in a new
-   face at this edge, and P sees that face too.
 """
 
 from collections.abc import Iterable, Sequence
@@ -32,6 +16,21 @@ from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
 
+# Finding the first visible face. The faces visible from a point are connected through edges. This is true even if a
+# face whose plane contains the point counts as visible: that face or another face of its plane has a neighbour that
+# faces the point, or the point lies in the face itself.
+#
+# 1. Points in raster order: a point later in that order than all vertices sees a face at the last vertex, V. Otherwise
+#    the point would be in the cone of the faces at V, and V + t (P - V) for a small t would be a point of the
+#    polyhedron later than V. The faces at V are those created last. Only points in the plane of the first points,
+#    before a fourth point gives a tetrahedron, may need a search of all faces.
+# 2. Points in another order: every remaining point stores one face that it sees, and every face a list of such points.
+#    When faces are removed, the points in their lists are tested against the new faces only. This is enough. Let P see
+#    a removed face, let m be a point within that face, and let P still see some face. The segment from P to m first
+#    meets the new surface at a point x of a face that P sees. If that face is not new, x was in the old polyhedron. But
+#    the segment, in or above the plane of m's face, meets only faces of this plane in the old polyhedron, and all of
+#    them are removed together. So x lies on an edge between them and the remaining face. This is a boundary edge, x
+#    lies in a new face at this edge, and P sees that face too.
 # The treatment of a face whose plane contains the new point.
 Coplanar = Literal["visible", "invisible"]
 VISIBLE: Final = "visible"

@@ -17,10 +17,8 @@ from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.study import Plan, PlanError, Port, Programs, refusals, run_study
 from modern.study.builtin import entries, names, seventy, study
 from modern.study.families import FAMILIES
-from modern.study.index import JUDGE, Row
 from modern.study.measures import MEASURES
 from modern.study.outcomes import DETERMINED, OUTCOMES
-from modern.study.parquet import column_types
 from modern.study.report import Table, percent, with_interval
 from modern.study.run import check_plan
 from modern.study.statistics import Interval, exact, mean
@@ -275,43 +273,6 @@ def test_invalid_input_gives_a_one_line_error(
     out, err = capsys.readouterr()
     assert message in err
     assert (out, err.count("\n")) == ("", 1)
-
-
-def test_parquet_file_is_a_flat_table_with_types(plan_file: Path, tmp_path: Path) -> None:
-    parquet = pytest.importorskip("pyarrow.parquet")
-    plan = read_plan(str(plan_file))
-    run_study(plan, tmp_path / "out", workers=1, quiet=True)
-    table = parquet.read_table(tmp_path / "out/rows.parquet")
-    found = table.to_pylist()
-    assert len(found) == 6 * 2 + 2
-    assert {row["route"] for row in found} == {"listed", "float64"}
-    types = {field.name: str(field.type) for field in table.schema}
-    assert types["key_n"] == types["figure_statements"] == types["vertices"] == "int64"
-    assert types["figure_coefficient_error"] == "double"
-    assert types["key_family"] == types["outcome"] == "string"
-    texts = [path.read_text() for path in sorted((tmp_path / "out/rows").iterdir())]
-    lines = [json.loads(line) for text in texts for line in text.splitlines()]
-    answers = [(row, name, run) for row in lines for name, run in row["runs"].items()]
-    for (row, name, run), flat in zip(answers, found, strict=True):
-        cell = plan.cells[row["cell"]]
-        assert (flat["cell"], flat["index"], flat["route"]) == (row["cell"], row["index"], name)
-        assert flat["key_n"] == cell.key.get("n")
-        assert flat["key_family"] == cell.key.get("family")
-        assert flat["figure_statements"] == run["figures"].get("statements")
-        error = run["figures"].get("coefficient_error")
-        assert flat["figure_coefficient_error"] == (None if error is None else float(error))
-
-
-@pytest.mark.parametrize(
-    ("values", "kind"),
-    [((1, 2), "whole"), ((1, "2.5"), "double"), (("1E-7",), "double"), (("a", 1), "text"), ((2**63,), "text")],
-)
-def test_column_type_is_wide_enough_for_all_values(values: tuple[int | str, ...], kind: str) -> None:
-    plan = Plan("p", "", "", ())
-    judged: Row = {"cell": 0, "index": 0, "seed": "", "deck": [], "judge": dict.fromkeys(JUDGE, 1)}
-    runs = ({"r": {"outcome": "right", "detail": "", "figures": {"f": value}}} for value in values)
-    rows: list[Row] = [{**judged, "runs": run} for run in runs]
-    assert column_types(plan, lambda: iter(rows))["figure_f"] == kind
 
 
 def test_families_and_measures_are_listed_with_parameters(capsys: pytest.CaptureFixture[str]) -> None:
