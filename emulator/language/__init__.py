@@ -21,8 +21,8 @@ To add a kind of statement:
    or ``NOT_HERE`` in ``emulator/compiled/deck.py``, and its time in ``emulator/machine/timing.py``.  An operation that
    branches needs an entry in ``emulator/machine/postdominators.py`` and in ``_DECISIONS`` of ``divergence.py`` as well.
 9. Tests: ``tests/emulator/language/`` (``test_statements.py``, ``test_parser.py``, ``test_compiler_code.py``,
-   ``test_compiler_messages.py``), ``tests/emulator/machine/test_programs.py``, where the fixture ``engines`` runs a
-   program on both engines, and ``tests/support/decks_at_random.py``.
+   ``test_compiler_messages.py``), ``tests/emulator/test_period.py``, which runs programs on both engines, and
+   ``tests/support/decks_at_random.py``.
 
 To add a FORMAT code that transfers a number:
 

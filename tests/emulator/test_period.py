@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
 from emulator.language import tree
-from emulator.language.cards import Deck, deck_from_text, read_deck
+from emulator.language.cards import Deck, read_deck
 from emulator.language.compiler import compile_deck, translate
 from emulator.language.formats import Literal, Slash, parse_format
 from emulator.language.parser import parse
@@ -98,17 +97,6 @@ def test_all_programs_compile_without_a_message() -> None:
         assert translate(deck_of(path.stem))[1] == ()
 
 
-def test_only_pi_is_in_lower_case() -> None:
-    """pi.f is read with --upcase.  The others are in capitals."""
-    small = [path.stem for path in PROGRAMS if any(map(str.islower, path.read_text(encoding="ascii")))]
-    assert small == ["pi"]
-    text = (PERIOD / "pi.f").read_text(encoding="ascii")
-    assert (
-        deck_from_text("pi.f", capitals(text)).cards[0].text
-        == "C     pi = 16 atan(1/5) - 4 atan(1/239), each by its series"
-    )
-
-
 def test_programs_cover_every_statement_and_specification() -> None:
     bodies = list(statements())
     assert {type(body) for body in bodies} == set(tree.Body.__args__)
@@ -126,17 +114,3 @@ def test_programs_cover_every_statement_and_specification() -> None:
 def test_every_program_is_described() -> None:
     text = (PERIOD / "README.md").read_text(encoding="utf-8")
     assert [path.name for path in PROGRAMS if f"| `{path.name}` |" not in text] == []
-
-
-def names() -> set[str]:
-    return {Path(path).name for path in PERIOD.iterdir()}
-
-
-def test_programs_that_accept_lines_have_an_operator_file() -> None:
-    for path in PROGRAMS:
-        asks = any(
-            body.verb == "ACCEPT"
-            for s in parse(deck_of(path.stem)).statements
-            if isinstance(body := s.body, tree.InputOutput)
-        )
-        assert (f"{path.stem}.operator" in names()) >= asks

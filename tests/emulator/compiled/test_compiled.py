@@ -9,7 +9,6 @@ import linecache
 import os
 import subprocess
 import sys
-from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -72,12 +71,6 @@ def test_a_disabled_numba_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "turned off by NUMBA_DISABLE_JIT" in note_without_engine(monkeypatch)
 
 
-def test_a_numba_without_an_option_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("numba")
-    monkeypatch.setattr(runner, "Compiled", partial(Compiled, unheard_of=1))
-    assert "numba cannot compile the code: KeyError: " in note_without_engine(monkeypatch)
-
-
 @pytest.mark.parametrize(
     ("options", "reason"),
     [
@@ -90,13 +83,6 @@ def test_unsupported_options_are_reported(options: Options, reason: str) -> None
     (result,) = run_batch(program(*LINES), [DECK], options, notes.append)
     assert result == Machine(program(*LINES), DECK, options).run()
     assert notes == [f"the compiled engine {reason}: using the interpreter instead"]
-
-
-def test_with_numba_there_is_no_note() -> None:
-    pytest.importorskip("numba")
-    notes: list[str] = []
-    assert run_batch(program(*LINES), [DECK], None, notes.append)[0].punched == ("  42",)
-    assert notes == []
 
 
 def test_a_single_run_does_not_import_numba() -> None:
@@ -211,14 +197,6 @@ def test_compiling_is_reported_on_a_terminal_but_loading_is_not(
         line, _, wiped = file.getvalue().partition("\r")
         assert bool(line) == written
         assert (line, wiped) in (("", ""), ("compiling entry, once: some seconds", " " * len(line) + "\r"))
-
-
-def test_compiled_functions_still_run_as_python(tmp_path: Path, cache_folder: Path) -> None:
-    code = imported(tmp_path)
-    code.ready(5)
-    module = sys.modules["entered"]
-    assert module.entry(5.5) == 12.0
-    assert type(module.twice) is type(imported)
 
 
 def test_functions_below_an_entry_are_compiled_only_with_it(

@@ -7,7 +7,6 @@ import json
 from fractions import Fraction
 from importlib import resources
 from pathlib import Path
-from xml.etree import ElementTree
 
 import pytest
 
@@ -205,16 +204,6 @@ def test_export_writes_every_format(room: Path, capsys: pytest.CaptureFixture[st
     # What was written is an input again.
     assert call(capsys, "export", "t.off", "-o", "again.off") == (0, "", "")
     assert set(parse_off(Path("again.off").read_text(encoding="utf-8"), "").points) == set(read.points)
-
-
-def test_draw_writes_an_svg_file(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = call(capsys, "draw", "t.csv", "-o", "t.svg", "--eye=-1,2,-3.5")
-    assert (code, out, err) == (0, "", "note: t.csv: line 6 repeats the point of line 1\n")
-    root = ElementTree.parse("t.svg").getroot()
-    assert root.tag == "{http://www.w3.org/2000/svg}svg"
-    assert "seen from -2,4,-7" in "".join(root.itertext())
-    assert root[0].text == "t.csv"
-    assert ElementTree.fromstring(call(capsys, "draw", "t.csv", "--title", "<&>")[1])[0].text == "<&>"
 
 
 # arguments, words of the message

@@ -143,6 +143,7 @@ def test_a_hull_of_two_or_three_dimensions_is_a_polyhedron() -> None:
 # --- scene files
 
 HEAD = "[[part]]\nshape = "
+BOX = HEAD + "'cuboid'\nsize = [1, 1, 1]\n"
 
 
 @pytest.mark.parametrize(
@@ -151,23 +152,23 @@ HEAD = "[[part]]\nshape = "
         ("", "s: there are no parts"),
         ("a = = 1", "s: line 1, column 5: invalid value"),
         ("[[part]]\nshape = 'cuboid", "s: line 2, column 16"),
-        ("a = 1\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "s: 'a' is not a field of this table"),
+        ("a = 1\n" + BOX, "s: 'a' is not a field of this table"),
         (HEAD + "'ball'", "s: part 1: shape: 'ball' is not one of cuboid, parallelepiped, column, plate, polyhedron"),
         (HEAD + "'cuboid'", "s: part 1: size: a cuboid needs the lengths of its sides"),
         (HEAD + "'cuboid'\nsize = [1, 1]", "s: part 1: size: expected a point, three numbers in brackets"),
         (HEAD + "'cuboid'\nsize = [1, 1, true]", "s: part 1: size: expected a number"),
         (HEAD + "'cuboid'\nsize = [1, 1, inf]", "s: 'inf' is not a decimal number"),
         (HEAD + "'cuboid'\nsize = [1, 1, '1/0']", "s: part 1: size: '1/0' has the denominator 0"),
-        (HEAD + "'cuboid'\nsize = [1, 1, 1]\ncount = [2, 1, 1]", "s: part 1: step: copies need the distance"),
-        (HEAD + "'cuboid'\nsize = [1, 1, 1]\ncount = [200, 200, 1]\nstep = [2, 2, 2]", "at most 20,000 in all"),
-        (HEAD + "'cuboid'\nsize = [1, 1, 1]\nname = 3", "s: part 1: name: expected a string"),
+        (BOX + "count = [2, 1, 1]", "s: part 1: step: copies need the distance"),
+        (BOX + "count = [200, 200, 1]\nstep = [2, 2, 2]", "at most 20,000 in all"),
+        (BOX + "name = 3", "s: part 1: name: expected a string"),
         (HEAD + "'column'\nsides = 5\nheight = 2", "s: part 1: base: a column needs either a base, or"),
         (HEAD + "'column'\nsides = 5\nradius = 1", "s: part 1: height: a column needs either a height, or"),
         (HEAD + "'polyhedron'\nvertices = [[0, 0, 0]]\nfaces = [[0]]", "faces: the vertices have the numbers 1 to 1"),
-        ("view = 3\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "s: view: expected a table"),
-        ("[view]\nprojection = 'flat'\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "'flat' is neither parallel nor"),
+        ("view = 3\n" + BOX, "s: view: expected a table"),
+        ("[view]\nprojection = 'flat'\n" + BOX, "'flat' is neither parallel nor"),
         (
-            "[view]\neye = [0, 0, 0]\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]",
+            "[view]\neye = [0, 0, 0]\n" + BOX,
             "view: eye: the direction of view is 0,0,0",
         ),
         (
@@ -176,17 +177,17 @@ HEAD = "[[part]]\nshape = "
             + "'cuboid'\nsize = [1, 1, 1]",
             "view: towards: it is the observation point",
         ),
-        ("[view]\ntowards = [1, 1, 1]\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "has a direction only, eye"),
+        ("[view]\ntowards = [1, 1, 1]\n" + BOX, "has a direction only, eye"),
         (
-            HEAD + "'cuboid'\nsize = [1, 1, 1]\nfigures = [[[0, 0, 0], [1, 1, 1], [0, 1, 0]]]",
+            BOX + "figures = [[[0, 0, 0], [1, 1, 1], [0, 1, 0]]]",
             "no face contains all corners",
         ),
         (
-            HEAD + "'cuboid'\nsize = [1, 1, 1]\nfigures = [[[0, 0, 0], [2, 0, 0], [0, 1, 0]]]",
+            BOX + "figures = [[[0, 0, 0], [2, 0, 0], [0, 1, 0]]]",
             "no face contains all corners",
         ),
         (
-            HEAD + "'cuboid'\nsize = [1, 1, 1]\nfigures = [[[0, 0, 0], [1, 0, 0]]]",
+            BOX + "figures = [[[0, 0, 0], [1, 0, 0]]]",
             "expected at least 3 corners, found 2",
         ),
     ],

@@ -100,7 +100,7 @@ def test_lost_cluster_gives_a_one_line_error(tmp_path: Path) -> None:
     assert "\n" not in str(lost.value)
 
 
-@pytest.mark.parametrize("address", ["nonsense", "tcp://", "tcp://127.0.0.1:1"])
+@pytest.mark.parametrize("address", ["nonsense", "tcp://127.0.0.1:1"])
 def test_address_without_a_cluster_is_rejected(address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(study_workers, "TIMEOUT", 1)
     with pytest.raises(PlanError) as rejection:

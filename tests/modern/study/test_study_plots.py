@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from itertools import combinations, pairwise
+from itertools import combinations
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -144,25 +144,6 @@ def test_numbers_at_the_axes_are_typeset() -> None:
 )
 def test_text_is_typeset(text: str, printed: str) -> None:
     assert layout.typeset(text) == printed
-
-
-def lightness(colour: str) -> float:
-    """CIE L* of an sRGB colour, 0 to 100 (CIE 15:2004)."""
-    parts = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
-    red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts)
-    y = 0.2126 * red + 0.7152 * green + 0.0722 * blue
-    return 116 * y ** (1 / 3) - 16 if y > (6 / 29) ** 3 else y * (29 / 3) ** 3
-
-
-def test_series_differ_without_hue() -> None:
-    """Lines differ in lightness, marker and pattern, bars in lightness or hatching, neighbours most."""
-    dark = [lightness(colour) for colour in plots.COLOURS]
-    assert min(abs(a - b) for a, b in combinations(dark, 2)) > 8
-    assert min(abs(a - b) for a, b in pairwise(dark)) > 20
-    assert len(set(plots.MARKERS)) == len(set(plots.LINES)) == len(plots.COLOURS)
-    light = list(zip(map(lightness, plots.FILLS), plots.HATCHES, strict=True))
-    assert all(abs(a - b) > 10 or h != i for (a, h), (b, i) in combinations(light, 2))
-    assert min(map(lightness, plots.FILLS)) > 55, "an interval in black shows on every bar"
 
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False)

@@ -19,8 +19,9 @@ from emulator.language.compiler import compile_deck
 from emulator.machine.result import Options
 from modern.edition import programs
 from modern.edition.grounds import ground_deck
+from modern.thesis.batch import run_hulls
 from modern.thesis.cards import number
-from modern.thesis.job import HullRun, run_hull
+from modern.thesis.job import HullRun
 from tests.support.judged import Point, differences, faults, faulty_sets, run, run_all, sets
 from tests.support.paths import MACHINE_RUNS
 
@@ -50,7 +51,9 @@ def ground(name: str) -> Deck:
 
 
 def through(deck: Deck, *layers: str) -> HullRun:
-    return run_hull(deck, programs.loader(layers), LARGE)
+    (hull_run,) = run_hulls([deck], programs.loader(layers), LARGE)
+    assert isinstance(hull_run, HullRun)
+    return hull_run
 
 
 def test_a_cube_is_right_in_sixty_orders_of_its_corners() -> None:

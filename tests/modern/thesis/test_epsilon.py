@@ -14,8 +14,9 @@ from modern.edition import chapter6, programs
 from modern.edition.grounds import ground_deck
 from modern.exact_hull import exact_hull
 from modern.formats import deck as hulldeck
+from modern.thesis.batch import run_hulls
 from modern.thesis.cards import read_hull
-from modern.thesis.job import HullRun, run_hull
+from modern.thesis.job import HullRun
 from tests.support.judged import OPTIONS, deck_of, differences, run, run_all, sets
 from tests.support.paths import MACHINE_RUNS
 
@@ -31,7 +32,9 @@ def deck_named(name: str) -> Deck:
 
 
 def through(deck: Deck, *layers: str, first: str = "program1", options: Options = OPTIONS) -> HullRun:
-    return run_hull(deck, programs.loader(layers), options, first)
+    (hull_run,) = run_hulls([deck], programs.loader(layers), options, first)
+    assert isinstance(hull_run, HullRun)
+    return hull_run
 
 
 @pytest.mark.parametrize("name", DECKS)
