@@ -10,14 +10,7 @@ import pytest
 
 from modern.claims.apparatus_checks import chapter4_faults
 from modern.edition.apparatus import Row, build
-from modern.edition.chapter4 import (
-    Theorem,
-    load_text,
-    load_theorems,
-    printed_plane,
-    printed_point,
-    theorem_faults,
-)
+from modern.edition.chapter4 import Theorem, load_text, load_theorems, printed_plane, printed_point, theorem_faults
 
 TEXT = load_text()
 THEOREMS = {theorem.id: theorem for theorem in load_theorems()}

@@ -23,12 +23,7 @@ from modern.edition.chapter6_cards import (
     rebuilt,
     write_files,
 )
-from modern.edition.chapter6_checks import (
-    check_arithmetic,
-    check_chapter,
-    check_files,
-    check_tie,
-)
+from modern.edition.chapter6_checks import check_arithmetic, check_chapter, check_files, check_tie
 
 CHAPTER = load_chapter()
 NAMES = [name for *_, name in device_files(CHAPTER)]

@@ -98,8 +98,7 @@ TEXTS += ["7 FORMAT(/5HNO. 1/)", "8 FORMAT(3HABC,F4.1)", "END"]
 
 @needs_compiler
 @pytest.mark.parametrize(
-    ("cards", "data"),
-    [(LOOPS, []), (COPY, ["4.               3", "9.              12"]), (TEXTS, ["XYZ12.5"])],
+    ("cards", "data"), [(LOOPS, []), (COPY, ["4.               3", "9.              12"]), (TEXTS, ["XYZ12.5"])]
 )
 def test_native_programs_punch_the_emulated_cards(cards: list[str], data: list[str], tmp_path: Path) -> None:
     deck = deck_from_lines("deck.f", cards)

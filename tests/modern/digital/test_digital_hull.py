@@ -24,10 +24,7 @@ from tests.support.digital_judge import judged, random_solid, solid_of
 VOLUMES = st.one_of(
     arrays.arrays(np.bool_, arrays.array_shapes(min_dims=2, max_dims=3, max_side=8)),
     arrays.arrays(
-        np.bool_,
-        arrays.array_shapes(min_dims=2, max_dims=3, max_side=12),
-        elements=st.just(True),
-        fill=st.just(False),
+        np.bool_, arrays.array_shapes(min_dims=2, max_dims=3, max_side=12), elements=st.just(True), fill=st.just(False)
     ),
 ).filter(np.any)
 

@@ -16,16 +16,7 @@ from modern.exact_hull import certificate as checks
 from modern.exact_hull.facets import lowest_terms, plane_through
 from modern.exact_hull.incidences import BOUND
 from modern.exact_hull.polygons import images_of, normal_images, polygons
-from tests.support.corrupted import (
-    BIG,
-    GRID,
-    OCTAHEDRON,
-    PRISM,
-    ball,
-    exchanged,
-    mutations,
-    refused,
-)
+from tests.support.corrupted import BIG, GRID, OCTAHEDRON, PRISM, ball, exchanged, mutations, refused
 
 NEEDLE = [(x, y * 10**6, z) for x in range(3) for y in (0, 1, 5) for z in range(2)] + [(1, 5 * 10**6 + 1, 1)]
 SETS = {

@@ -96,22 +96,10 @@ def test_numpy_integers_do_not_overflow() -> None:
         (["123"], "point 0: expected 3 coordinates, found str"),
         ([(1, 2, float("nan"))], "point 0, coordinate z: nan is not finite"),
         ([(1, float("-inf"), 0)], "point 0, coordinate y: -inf is not finite"),
-        (
-            [(1, True, 0)],
-            "point 0, coordinate y: expected an int, .*; found bool",
-        ),
-        (
-            [(None, 0, 0)],
-            "point 0, coordinate x: expected an int, .*; found NoneType",
-        ),
-        (
-            [(1, 2, np.bool_(1))],
-            "point 0, coordinate z: expected an int, .*; found bool",
-        ),
-        (
-            [(1, 2, 1j)],
-            "point 0, coordinate z: expected an int, .*; found complex",
-        ),
+        ([(1, True, 0)], "point 0, coordinate y: expected an int, .*; found bool"),
+        ([(None, 0, 0)], "point 0, coordinate x: expected an int, .*; found NoneType"),
+        ([(1, 2, np.bool_(1))], "point 0, coordinate z: expected an int, .*; found bool"),
+        ([(1, 2, 1j)], "point 0, coordinate z: expected an int, .*; found complex"),
         ([(1, 2, Decimal("inf"))], "point 0, coordinate z: Infinity is not finite"),
         (np.array([(0.0, 0, float("nan"))]), "point 0, coordinate z: nan is not finite"),
         (np.zeros((4, 3), dtype=bool), "expected an array of real numbers, found bool"),

@@ -52,11 +52,7 @@ BAD_OFF = [
     ("too-few", "OFF\n3 1 3\n0 0 0\n", "line 4, column 1: the file ends after 1 of 3 vertices"),
     ("no-face", GOOD.replace("3 0 1 2\n", ""), "line 6, column 1: the file ends after 0 of 1 faces"),
     ("short-face", GOOD.replace("3 0 1 2", "4 0 1 2"), "line 6, column 7: the face ends after 3 of 4 vertices"),
-    (
-        "no-vertex",
-        GOOD.replace("3 0 1 2", "3 0 1 3"),
-        "line 6, column 7: there is no vertex 3; they are numbered",
-    ),
+    ("no-vertex", GOOD.replace("3 0 1 2", "3 0 1 3"), "line 6, column 7: there is no vertex 3; they are numbered"),
     ("empty-face", GOOD.replace("3 0 1 2", "0"), "line 6, column 1: a face has at least one vertex"),
     ("bad-colour", GOOD.replace("3 0 1 2", "3 0 1 2 red"), "line 6, column 9: 'red' is not a decimal number"),
     ("more", GOOD + " 1\n", "line 7, column 2: expected the end of the file"),

@@ -38,18 +38,11 @@ def numbers(found: Input) -> list[tuple[Fraction, ...]]:
 
 @pytest.mark.parametrize(
     ("text", "kind", "places"),
-    [
-        (DECK, "deck", ("card 2", "card 3")),
-        (CSV, "csv", ("line 2", "line 4")),
-        (OFF, "off", ("line 3", "line 4")),
-    ],
+    [(DECK, "deck", ("card 2", "card 3")), (CSV, "csv", ("line 2", "line 4")), (OFF, "off", ("line 3", "line 4"))],
 )
 def test_a_deck_a_list_and_an_off_file_have_the_same_points(text: str, kind: str, places: tuple[str, ...]) -> None:
     found = parse_input(text, "points")
-    assert numbers(found) == [
-        (1, Fraction(-5, 2), Fraction(3, 10**6)),
-        (Fraction("12.345678"), 0, 9 * 10**90),
-    ]
+    assert numbers(found) == [(1, Fraction(-5, 2), Fraction(3, 10**6)), (Fraction("12.345678"), 0, 9 * 10**90)]
     assert (found.kind, found.places, found.notes) == (kind, places, ())
 
 

@@ -158,11 +158,7 @@ CROOKED = [(8, 1, -9), (-7, 7, 0), (3, -6, 7), (-6, 4, 5), (-9, 9, -3), (-3, 2, 
         (OCTAHEDRON, -1, "the distance within which faces are coplanar must be >= 0, not -1"),
         (OCTAHEDRON, "wide", "the distance within which faces are coplanar: 'wide' is not a decimal number"),
         (OCTAHEDRON, math.inf, "the distance within which faces are coplanar: inf is not finite"),
-        (
-            OCTAHEDRON,
-            None,
-            "the distance within which faces are coplanar: expected an int, a float",
-        ),
+        (OCTAHEDRON, None, "the distance within which faces are coplanar: expected an int, a float"),
     ],
 )
 def test_unsuitable_distances_are_rejected(points: Points, within: object, message: str) -> None:
@@ -201,7 +197,7 @@ def test_a_root_is_rounded_up_to_three_digits(value: Fraction) -> None:
 
 def test_distances_are_read_and_written() -> None:
     assert [distance_text(Fraction(value)) for value in (0.001, 1e-9, "1/3", "0.25", 5, "1/1000003")] == [
-        *("0.001", "1e-9", "1/3", "0.25", "5", "1/1000003"),
+        *("0.001", "1e-9", "1/3", "0.25", "5", "1/1000003")
     ]
     assert distance_text(Fraction(1, 10**20 + 7)) == "1e-20"
     assert parse_distance("1e-9") == Fraction(1, 10**9)

@@ -4,11 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from modern.claims.published import (
-    PAPERS,
-    printed_lines,
-    results_of,
-)
+from modern.claims.published import PAPERS, printed_lines, results_of
 from modern.papers.appel_will.results import found_solid, printed_solid
 
 PAPER = next(paper for paper in PAPERS if paper.name == "appel-will")

@@ -7,15 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modern.claims.published import (
-    CANNOT,
-    CORRECTED,
-    EXPLAINED,
-    PAPERS,
-    findings,
-    produced_by,
-    results_of,
-)
+from modern.claims.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, findings, produced_by, results_of
 from modern.cli.main import main
 from modern.digital.solids import half_ball
 from modern.edition.reproduce import EXACT

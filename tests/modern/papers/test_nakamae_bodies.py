@@ -296,10 +296,7 @@ def test_a_plate_is_accepted_and_an_open_surface_is_replaced_by_its_hull() -> No
             b"solid a\nfacet\nvertex 0 0 0\nendfacet\n",
             "a.obj: line 4, column 1: expected a triangle of 3 vertices, found 1",
         ),
-        (
-            b"solid a\nfacet\nvertex 0 0 0\n",
-            "a.obj: line 3, column 1: the file ends after 1 of 3",
-        ),
+        (b"solid a\nfacet\nvertex 0 0 0\n", "a.obj: line 3, column 1: the file ends after 1 of 3"),
         (b"ply\n", "a.obj: line 1, column 1"),
     ],
 )

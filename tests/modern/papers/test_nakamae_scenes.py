@@ -16,12 +16,7 @@ from modern.geometry.vectors import Vector, plus
 from modern.papers.nakamae_nishita.bodies import Reading, bodies
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.picture import DASHED, PLOT_HEIGHT, PLOT_WIDTH, SOLID, as_hpgl, as_svg, ends, plot
-from modern.papers.nakamae_nishita.polyhedron import (
-    Polyhedron,
-    SceneError,
-    checked,
-    polyhedron_of_hull,
-)
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, checked, polyhedron_of_hull
 from modern.papers.nakamae_nishita.projection import image, parallel
 from modern.papers.nakamae_nishita.scenes import names, parse, scene
 from modern.papers.nakamae_nishita.shapes import column, cuboid, parallelepiped, plate, rotation, round_base
@@ -167,10 +162,7 @@ BOX = HEAD + "'cuboid'\nsize = [1, 1, 1]\n"
         (HEAD + "'polyhedron'\nvertices = [[0, 0, 0]]\nfaces = [[0]]", "faces: the vertices have the numbers 1 to 1"),
         ("view = 3\n" + BOX, "s: view: expected a table"),
         ("[view]\nprojection = 'flat'\n" + BOX, "'flat' is neither parallel nor"),
-        (
-            "[view]\neye = [0, 0, 0]\n" + BOX,
-            "view: eye: the direction of view is 0,0,0",
-        ),
+        ("[view]\neye = [0, 0, 0]\n" + BOX, "view: eye: the direction of view is 0,0,0"),
         (
             "[view]\nprojection = 'perspective'\neye = [3, 2, 1]\ntowards = [3, 2, 1]\n"
             + HEAD
@@ -178,18 +170,9 @@ BOX = HEAD + "'cuboid'\nsize = [1, 1, 1]\n"
             "view: towards: it is the observation point",
         ),
         ("[view]\ntowards = [1, 1, 1]\n" + BOX, "has a direction only, eye"),
-        (
-            BOX + "figures = [[[0, 0, 0], [1, 1, 1], [0, 1, 0]]]",
-            "no face contains all corners",
-        ),
-        (
-            BOX + "figures = [[[0, 0, 0], [2, 0, 0], [0, 1, 0]]]",
-            "no face contains all corners",
-        ),
-        (
-            BOX + "figures = [[[0, 0, 0], [1, 0, 0]]]",
-            "expected at least 3 corners, found 2",
-        ),
+        (BOX + "figures = [[[0, 0, 0], [1, 1, 1], [0, 1, 0]]]", "no face contains all corners"),
+        (BOX + "figures = [[[0, 0, 0], [2, 0, 0], [0, 1, 0]]]", "no face contains all corners"),
+        (BOX + "figures = [[[0, 0, 0], [1, 0, 0]]]", "expected at least 3 corners, found 2"),
     ],
 )
 def test_an_invalid_scene_is_rejected_with_one_line(text: str, message: str) -> None:

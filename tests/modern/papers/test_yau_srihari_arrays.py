@@ -15,11 +15,7 @@ from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull, search
 from modern.papers.yau_srihari import octree as trees
 from modern.papers.yau_srihari.envelope import Envelope, _leaves, reduced_tree
 from modern.papers.yau_srihari.octree import Octree, octree
-from modern.papers.yau_srihari.quadtree import (
-    Quadtree,
-    mirrored,
-    written,
-)
+from modern.papers.yau_srihari.quadtree import Quadtree, mirrored, written
 from modern.papers.yau_srihari.search import Candidates, Search
 from tests.support.digital_judge import random_solid
 

@@ -31,10 +31,7 @@ def test_every_link_and_every_id_resolves(site: Path) -> None:
 
 def test_a_dead_link_is_reported(tmp_path: Path) -> None:
     (tmp_path / "a.html").write_text('<p id="x"><a href="b.html">b</a><a href="#y">y</a><a href="#x">x</a></p>')
-    assert list(editions.dead(tmp_path)) == [
-        "a.html: b.html: there is no such file",
-        "a.html: #y: there is no such id",
-    ]
+    assert list(editions.dead(tmp_path)) == ["a.html: b.html: there is no such file", "a.html: #y: there is no such id"]
 
 
 @pytest.mark.parametrize("name", programs.NAMES)

@@ -60,8 +60,7 @@ def test_an_e_of_zero_with_the_corrections_changes_no_card() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "counts"),
-    [("epscube", (0, 2, 8, 6)), ("epsplane", (0, 2, 4, 4)), ("epsedge", (0, 1, 5, 5))],
+    ("name", "counts"), [("epscube", (0, 2, 8, 6)), ("epsplane", (0, 2, 4, 4)), ("epsedge", (0, 1, 5, 5))]
 )
 def test_an_e_classifies_points_of_rotated_solids(name: str, counts: tuple[int, int, int, int]) -> None:
     """A cube, a square and a pentagon, rotated and rounded, with points on faces and edges.
