@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from modern.cli.main import main
 from modern.formats.off import parse_off
+from tests.support.commands import call
 
 FIG_4 = """OFF
 10 7 15
@@ -52,12 +52,6 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    code = main(["appel-will", *arguments])
-    out, err = capsys.readouterr()
-    return code, out, err
-
-
 def section(out: str, head: str) -> list[str]:
     """Return the lines below a heading, up to the next empty line."""
     lines = out.split("\n")
@@ -66,7 +60,7 @@ def section(out: str, head: str) -> list[str]:
 
 
 def test_tables_of_fig_4(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = call(capsys, "fig4.off")
+    code, out, err = call(capsys, "appel-will", "fig4.off")
     assert (code, err) == (0, "")
     assert "deleted as lying between two others: 4 (1-9), 3 (2-10)" in out
     assert "31 projections; a polyhedron of 8 points" in out
@@ -82,7 +76,7 @@ def test_trace_fits_the_use_counts_to_the_width_of_the_terminal(
 ) -> None:
     for columns in ("40", "100"):
         monkeypatch.setenv("COLUMNS", columns)
-        code, out, _ = call(capsys, "fig4.off", "--trace")
+        code, out, _ = call(capsys, "appel-will", "fig4.off", "--trace")
         assert code == 0
         table = section(out, "Loop table")
         assert max(map(len, table)) <= int(columns)
@@ -93,52 +87,52 @@ def test_trace_fits_the_use_counts_to_the_width_of_the_terminal(
 
 
 def test_literal_lists_the_false_edges_of_the_star_test(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, _ = call(capsys, "fig4.off", "--literal")
+    code, out, _ = call(capsys, "appel-will", "fig4.off", "--literal")
     assert code == 1
     assert "lines are not edges of the hull, by images on one ray" in out
     assert out.splitlines()[-1].startswith("no hull: ")
     assert "Input surfaces" not in out
-    code, out, err = call(capsys, "fig4.off", "--literal", "--star", "corrected")
+    code, out, err = call(capsys, "appel-will", "fig4.off", "--literal", "--star", "corrected")
     assert (code, err) == (1, "note: used as printed: star, step3, step5, step7, step9, step10\n")
     assert "lines are not edges of the hull" not in out
     assert out.splitlines()[-1] == "no hull: the loop begun with lines 3 and 1 does not return to its start"
-    code, out, _ = call(capsys, "fig4.off", "--star", "printed")
+    code, out, _ = call(capsys, "appel-will", "fig4.off", "--star", "printed")
     assert code == 1
     assert "lines are not edges of the hull" in out
 
 
 def test_step_3_as_printed_reverses_a_loop(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("fig14.csv").write_text("0,0,4\n8,0,4\n4,8,4\n1,-2,0\n9,14,0\n17,-2,0\n", encoding="utf-8")
-    _, preferred, _ = call(capsys, "fig14.csv")
-    code, as_printed, err = call(capsys, "fig14.csv", "--printed", "step3")
+    _, preferred, _ = call(capsys, "appel-will", "fig14.csv")
+    code, as_printed, err = call(capsys, "appel-will", "fig14.csv", "--printed", "step3")
     assert (code, err) == (0, "note: used as printed: step3\n")
     assert "LUP(3,N)  2 6 -7 -3" in preferred
     assert "LUP(3,N)  -2 3 7 -6" in as_printed
 
 
 def test_rule_any_reports_whether_its_condition_is_met(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    _, out, _ = call(capsys, "fig4.off", "--inside-corners", "any")
+    _, out, _ = call(capsys, "appel-will", "fig4.off", "--inside-corners", "any")
     assert "deleted by rule any before any projection: 3 4" in out
     assert "28 projections" in out
     assert "valid for the input surfaces" in out
-    _, out, _ = call(capsys, "crown.off", "--inside-corners", "any")
+    _, out, _ = call(capsys, "appel-will", "crown.off", "--inside-corners", "any")
     assert "NOT valid at 9: the hull may be wrong" in out
-    _, out, _ = call(capsys, "crown.off", "--inside-corners", "two")
+    _, out, _ = call(capsys, "appel-will", "crown.off", "--inside-corners", "two")
     assert "NOT" not in out
     assert "a polyhedron of 5 points" in out
 
 
 def test_the_output_is_an_off_file_of_the_hull(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert call(capsys, "fig4.off", "-o", "hull.off")[0] == 0
+    assert call(capsys, "appel-will", "fig4.off", "-o", "hull.off")[0] == 0
     mesh = parse_off(Path("hull.off").read_text(encoding="utf-8"), "hull.off")
     assert (len(mesh.points), len(mesh.faces)) == (8, 6)
-    code, out, _ = call(capsys, "hull.off")
+    code, out, _ = call(capsys, "appel-will", "hull.off")
     assert code == 0
     assert out.count("kept as") == 6
-    code, out, err = call(capsys, "fig4.off", "-o", "-")
+    code, out, err = call(capsys, "appel-will", "fig4.off", "-o", "-")
     assert out == Path("hull.off").read_text(encoding="utf-8")
     assert "Loop table" in err
-    assert call(capsys, "fig4.off", "--literal", "-o", "wrong.off")[0] == 1
+    assert call(capsys, "appel-will", "fig4.off", "--literal", "-o", "wrong.off")[0] == 1
     assert not Path("wrong.off").exists()
 
 
@@ -152,7 +146,7 @@ def test_the_output_is_an_off_file_of_the_hull(folder: Path, capsys: pytest.Capt
 )
 def test_flat_input_has_a_summary(folder: Path, capsys: pytest.CaptureFixture[str], text: str, summary: str) -> None:
     Path("flat.csv").write_text(text, encoding="utf-8")
-    code, out, err = call(capsys, "flat.csv")
+    code, out, err = call(capsys, "appel-will", "flat.csv")
     assert code == 0
     assert summary in out
     assert err == ("note: flat.csv: line 2 repeats the point of line 1\n" if text.count("1,2,3") == 2 else "")
@@ -184,10 +178,6 @@ def test_an_error_is_one_line(
     Path("twice.off").write_text(triangle + "3 0 1 1\n", encoding="utf-8")
     Path("open.off").write_text(triangle + "3 0 1 2\n", encoding="utf-8")
     Path("points.csv").write_text("0,0,0\n1,0,0\n", encoding="utf-8")
-    try:
-        code = main(["appel-will", *arguments])
-    except SystemExit as stop:
-        code = int(stop.code or 0)
-    out, err = capsys.readouterr()
+    code, out, err = call(capsys, "appel-will", *arguments)
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert message in err

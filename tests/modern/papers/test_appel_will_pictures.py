@@ -286,16 +286,6 @@ def test_more_than_50_points_are_summarised(folder: Path, capsys: pytest.Capture
     start = everything.splitlines().index("Convex edge list")
     assert everything.splitlines()[start + 1 + edges].split()[0] == str(edges)
     assert "IUC(L)" in call(capsys, "appel-will", "many.csv", "--trace")[1]
-    assert call(capsys, "export", "many.csv", "-o", "hull.off")[0] == 0
-    vertices, faces, _ = Path("hull.off").read_text(encoding="utf-8").splitlines()[1].split()
-    inner = "".join(f"0 0 {k}\n" for k in range(30))
-    more = Path("hull.off").read_text(encoding="utf-8").split("\n", 2 + int(vertices))
-    text = "\n".join(["OFF", f"{int(vertices) + 30} {faces} 0", *more[2:-1], inner + more[-1]])
-    Path("more.off").write_text(text, encoding="utf-8")
-    out = call(capsys, "appel-will", "more.off", "--inside-corners", "two")[1]
-    assert f"of {faces} input surfaces {faces} kept, 0 respecified, 0 deleted; 0 added\n" in out
-    assert "0 points deleted by rule two before any projection\n" in out
-    assert "28 points deleted as lying between two others\n" in out
 
 
 def test_merged_faces_match_the_faces_of_the_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

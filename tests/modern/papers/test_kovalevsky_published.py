@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from modern.claims.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, findings, produced_by, results_of
-from modern.cli.main import main
 from modern.digital.solids import half_ball
 from modern.edition.reproduce import EXACT
 from modern.formats.off import parse_off
+from tests.support.commands import call
 
 PAPER = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
 KINDS = {
@@ -53,15 +53,6 @@ def test_no_half_ball_has_the_triangles_printed_in_table_5() -> None:
         assert int(printed) != 2 * squares - 4
 
 
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    try:
-        code = main(["voxel-hull", *arguments])
-    except SystemExit as stop:
-        code = int(stop.code or 0)
-    captured = capsys.readouterr()
-    return code, captured.out, captured.err
-
-
 @pytest.fixture(autouse=True)
 def _empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
@@ -77,18 +68,20 @@ WAYS = (
 
 
 def test_the_command_prints_the_numbers_of_the_paper(capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = run(capsys, "ball:32", "--corners", "6", "--coplanar", "invisible", "-o", "ball.off")
+    code, out, err = call(
+        capsys, "voxel-hull", "ball:32", "--corners", "6", "--coplanar", "invisible", "-o", "ball.off"
+    )
     assert (code, err) == (0, "coordinates: voxel indices; voxel (x, y, z) extends from (x, y, z) to (x+1, y+1, z+1)\n")
     for number in ("17077", "776", "360", "1404", "266"):
         assert number in out.replace(",", "").split()
     mesh = parse_off(Path("ball.off").read_text(encoding="utf-8"), "ball.off")
     assert len(mesh.faces) == 266
-    code, out, err = run(capsys, "ball:32", "--centres")
+    code, out, err = call(capsys, "voxel-hull", "ball:32", "--centres")
     assert "260 faces, 342 vertices, 600 edges" in out
 
 
 def test_triangles_are_reported_only_if_an_order_is_requested(capsys: pytest.CaptureFixture[str]) -> None:
-    output = {options: run(capsys, "ball:32", *options.split())[1].splitlines() for options in WAYS}
+    output = {options: call(capsys, "voxel-hull", "ball:32", *options.split())[1].splitlines() for options in WAYS}
     assert output[""][2:4] == [
         "hull of 360 local corners: 266 faces, 360 vertices, 624 edges",
         "integers to save: 2410 for the cell list by (6), 2328 counted",
@@ -106,8 +99,8 @@ def test_triangles_are_reported_only_if_an_order_is_requested(capsys: pytest.Cap
 
 def test_straight_merges_edges_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     options = ("half-ball:8", "--corners", "6", "--coplanar", "invisible", "-o")
-    run(capsys, *options, "kept.off")
-    run(capsys, *options, "straight.off", "--straight")
+    call(capsys, "voxel-hull", *options, "kept.off")
+    call(capsys, "voxel-hull", *options, "straight.off", "--straight")
     sizes = [
         len(parse_off(Path(f"{name}.off").read_text(encoding="utf-8"), name).points) for name in ("kept", "straight")
     ]
@@ -116,7 +109,7 @@ def test_straight_merges_edges_in_one_line(capsys: pytest.CaptureFixture[str]) -
 
 def test_cells_are_printed_as_tables(capsys: pytest.CaptureFixture[str]) -> None:
     Path("one.csv").write_text("0,0,0\n", encoding="utf-8")
-    code, out, _ = run(capsys, "one.csv", "--cells", "--order", "raster")
+    code, out, _ = call(capsys, "voxel-hull", "one.csv", "--cells", "--order", "raster")
     assert code == 0
     table = [line.split("\t") for line in out.splitlines() if "\t" in line]
     assert [row[0] for row in table] == ["Vertex", *"12345678", "Edge", *map(str, range(1, 13)), "Face", *"123456"]
@@ -135,7 +128,7 @@ def test_cells_are_printed_as_tables(capsys: pytest.CaptureFixture[str]) -> None
 )
 def test_flat_hulls_are_reported(capsys: pytest.CaptureFixture[str], voxels: str, message: str, off: str) -> None:
     Path("flat.csv").write_text(voxels, encoding="utf-8")
-    code, out, _ = run(capsys, "flat.csv", "--centres", "-o", "flat.off")
+    code, out, _ = call(capsys, "voxel-hull", "flat.csv", "--centres", "-o", "flat.off")
     assert code == 0
     assert message in out
     assert Path("flat.off").read_text(encoding="utf-8").splitlines()[1] == off
@@ -143,7 +136,7 @@ def test_flat_hulls_are_reported(capsys: pytest.CaptureFixture[str], voxels: str
 
 def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None:
     Path("two.csv").write_text("3,0,0\n5,0,0\n3,0,0\n", encoding="utf-8")
-    code, out, err = run(capsys, "two.csv", "--fill", "-o", "filled.npy")
+    code, out, err = call(capsys, "voxel-hull", "two.csv", "--fill", "-o", "filled.npy")
     assert code == 0
     assert "two.csv: 1 of 3 voxels are repetitions" in err
     assert "(segment): 3 voxels" in out
@@ -169,7 +162,7 @@ def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None
 )
 def test_an_error_is_one_line(capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], message: str) -> None:
     np.save("flat.npy", np.ones((3, 3), dtype=np.uint8))
-    code, _, err = run(capsys, *arguments)
+    code, _, err = call(capsys, "voxel-hull", *arguments)
     assert code == 2
     assert message in err
     assert err.count("\n") == 1
@@ -181,5 +174,5 @@ def test_too_little_memory_is_one_line(monkeypatch: pytest.MonkeyPatch, capsys: 
         raise MemoryError
 
     monkeypatch.setattr("modern.cli.voxel_hull.voxel_hull", too_much)
-    code, _, err = run(capsys, "ball:4")
+    code, _, err = call(capsys, "voxel-hull", "ball:4")
     assert (code, err) == (2, "hull1620: not enough memory\n")
