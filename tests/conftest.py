@@ -1,7 +1,5 @@
 """Profiles of hypothesis: ``ci`` always draws the same examples, ``dev`` new ones each time; chosen by ``CI``."""
 
-from __future__ import annotations
-
 import os
 
 from hypothesis import HealthCheck, settings

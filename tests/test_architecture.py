@@ -1,7 +1,5 @@
 """The order of the packages and the length of the modules match ``pyproject.toml``, and each check can fail."""
 
-from __future__ import annotations
-
 import shutil
 from dataclasses import replace
 from pathlib import Path

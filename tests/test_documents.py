@@ -1,7 +1,5 @@
 """Every code block of README, CONTRIBUTING and docs runs, except the counted ones that a comment skips."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

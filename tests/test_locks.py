@@ -1,7 +1,5 @@
 """The lock files pin every dependency of ``pyproject.toml`` at an allowed version, with hashes and without a host."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from collections.abc import Iterable

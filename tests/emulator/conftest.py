@@ -1,7 +1,5 @@
 """The fixture that runs a test once for each engine."""
 
-from __future__ import annotations
-
 import pytest
 
 from tests.support.deckwork import ENGINES, MakeMachine

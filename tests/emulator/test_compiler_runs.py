@@ -5,8 +5,6 @@ emulator from the manual, that of II-D from the rule it follows, so that no othe
 fields in each class is stated for each program.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from decimal import ROUND_DOWN, Decimal

@@ -1,7 +1,5 @@
 """Reading and writing of files: one-line errors, and no partly written file."""
 
-from __future__ import annotations
-
 import os
 from contextlib import AbstractContextManager
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Programs in the style of the time (tests/data/period), compared with tests/support/reckoned.py."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 

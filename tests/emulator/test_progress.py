@@ -1,7 +1,5 @@
 """The display of progress, and the distribution of a study's work."""
 
-from __future__ import annotations
-
 import io
 import threading
 from collections.abc import Iterator

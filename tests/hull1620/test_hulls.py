@@ -1,7 +1,5 @@
 """The hulls of the public interface: arrays, exact measures, drawings and files."""
 
-from __future__ import annotations
-
 import json
 import pickle
 import sys

@@ -1,7 +1,5 @@
 """The public names of ``hull1620``: lazy imports, types and help."""
 
-from __future__ import annotations
-
 import os
 import pydoc
 import shutil

@@ -1,7 +1,5 @@
 """Public functions reject odd arguments with a documented error, within a second."""
 
-from __future__ import annotations
-
 import time
 import warnings
 from collections.abc import Callable, Iterator

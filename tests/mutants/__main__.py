@@ -1,7 +1,5 @@
 """``python -m tests.mutants``: the command behind ``make mutants``."""
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import shutil

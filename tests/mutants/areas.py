@@ -1,7 +1,5 @@
 """The two tables: the areas with their files and tests, and the mutants that no test can notice."""
 
-from __future__ import annotations
-
 import tomllib
 from dataclasses import dataclass
 from fnmatch import fnmatchcase

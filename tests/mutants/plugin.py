@@ -6,8 +6,6 @@ tests. MUTANT_SECONDS limits the processor time and MUTANT_BYTES the memory, whi
 without end but not one on a busy machine.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import resource

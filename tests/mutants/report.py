@@ -1,7 +1,5 @@
 """The results in ``build/mutants``: the table of an area, from which a run continues, the diffs, and the summary."""
 
-from __future__ import annotations
-
 import csv
 import hashlib
 import re

@@ -1,7 +1,5 @@
 """All mutants of a file by the operators of cosmic-ray, and a seeded sample of them."""
 
-from __future__ import annotations
-
 import ast
 import difflib
 import hashlib
@@ -40,7 +38,7 @@ class Mutant:
 
 
 def mutants(file: str, source: str, left_out: Iterable[str] = ()) -> Iterator[Mutant]:
-    """Yield the mutants of a file, without the operators left out (patterns) and without annotations, which never run.
+    """Yield the mutants of a file, without the operators left out (patterns) and without those of annotations.
 
     The bare ``*`` and ``/`` in a list of parameters, which cosmic-ray takes for operators, are left out too.
     """
@@ -117,19 +115,13 @@ def _lot(seed: int, mutant: Mutant, operator: str) -> str:
 def _is_different_program(source: str, mutant: Mutant) -> bool:
     try:
         return ast.dump(ast.parse(mutated(source, mutant))) != ast.dump(ast.parse(source))
-    except (
-        SyntaxError,
-        AttributeError,
-    ):  # AttributeError: cosmic-ray 8.7 cannot replace an exception with a dotted name
+    except (SyntaxError, AttributeError):  # cosmic-ray 8.7 cannot replace an exception with a dotted name
         return False
 
 
 def _annotations(source: str) -> list[tuple[tuple[int, int], tuple[int, int]]]:
-    """Return where annotations begin and end; none in a file whose annotations are evaluated."""
+    """Return where annotations begin and end."""
     tree = ast.parse(source)
-    futures = [node for node in tree.body if isinstance(node, ast.ImportFrom) and node.module == "__future__"]
-    if not any(alias.name == "annotations" for node in futures for alias in node.names):
-        return []
     annotations: list[ast.expr | None] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.AnnAssign | ast.arg):

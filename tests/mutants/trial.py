@@ -1,7 +1,5 @@
 """Runs of an area's tests in copies of the tree: first without a mutant, then with one mutant after another."""
 
-from __future__ import annotations
-
 import compileall
 import json
 import os

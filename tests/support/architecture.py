@@ -4,8 +4,6 @@ The order of the packages is stated by the import-linter contracts of ``pyprojec
 ``[tool.architecture]``.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

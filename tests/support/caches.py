@@ -1,7 +1,5 @@
 """Cached functions of modules, cleared before and after a test."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import ModuleType

@@ -1,7 +1,5 @@
 """Check flow charts: every branch is drawn once, lines avoid boxes and one another, and connectors do not overlap."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import combinations, pairwise

@@ -1,7 +1,5 @@
 """The command line called in this process, as the tests of commands do it."""
 
-from __future__ import annotations
-
 import pytest
 
 from modern.cli.main import main

@@ -1,7 +1,5 @@
 """The programs of tests/data/compiler_runs: the cards of two compilers of the time, and those of the emulator."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """Corrupted hulls, which the certificate must refuse: single changes, exchanged faces, an extra vertex."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterator
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Hypothesis strategies for source decks: mostly valid programs, and programs with a few columns changed."""
 
-from __future__ import annotations
-
 from hypothesis import strategies as st
 
 from emulator.language.cards import CHARACTERS

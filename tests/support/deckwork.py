@@ -1,7 +1,5 @@
 """Helpers for the tests of the emulator: make, compile and run decks from lines, and read fields of core."""
 
-from __future__ import annotations
-
 import signal
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager

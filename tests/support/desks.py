@@ -1,7 +1,5 @@
 """Programs and decks for tests of the console: inputs for its page, its desk and the command, and their output."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any

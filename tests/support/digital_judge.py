@@ -1,7 +1,5 @@
 """Helpers for tests of digital hulls: random solids, and the grid points of a hull by the exact judge."""
 
-from __future__ import annotations
-
 import random
 from typing import Any
 

@@ -14,8 +14,6 @@ The language of a block decides how it is run:
 the files of ``INPUTS`` at the start.
 """
 
-from __future__ import annotations
-
 import gzip
 import io
 import os

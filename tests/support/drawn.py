@@ -1,7 +1,5 @@
 """Hulls to be drawn, and a parsed picture for tests."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from xml.etree import ElementTree

@@ -3,8 +3,6 @@
 Set ``HULL1620_SITE`` to the folder of a site that is already built to skip the build.
 """
 
-from __future__ import annotations
-
 import fcntl
 import os
 import re

@@ -4,8 +4,6 @@ fork.
 Loading the library takes longer than reading a small file. A fork behaves and ends like a new process.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import os

@@ -1,7 +1,5 @@
 """Sets of points, runs of the programs, and their comparison with the exact hull, for the tests of the later layers."""
 
-from __future__ import annotations
-
 import math
 import random
 from collections import Counter

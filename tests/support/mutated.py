@@ -3,8 +3,6 @@
 ``codes_of`` runs a command on many such files and checks that it ends with a result or with one line and exit code 2.
 """
 
-from __future__ import annotations
-
 import io
 import os
 import random

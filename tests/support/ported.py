@@ -1,7 +1,5 @@
 """The port's ``convex_hull`` with refusals returned as results, for tests of statuses."""
 
-from __future__ import annotations
-
 from functools import partial
 
 from modern import port

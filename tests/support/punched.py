@@ -4,8 +4,6 @@ Numbers are compared as they appear on cards, in E14.8, including the sign of ze
 order.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from fractions import Fraction

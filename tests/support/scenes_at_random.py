@@ -1,7 +1,5 @@
 """Random scenes for tests of hidden lines: disjoint polyhedra in the cells of a grid, and solids cut into parts."""
 
-from __future__ import annotations
-
 import random
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Solids in doubles and as triangles, and a simple exact implementation of the rule that merges coplanar faces."""
 
-from __future__ import annotations
-
 import math
 import struct
 from collections.abc import Sequence

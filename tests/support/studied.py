@@ -1,7 +1,5 @@
 """A small study for tests that run it, some of them in other processes."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 They are taken from the emulator's own lists, so that every test also covers a new arithmetic.
 """
 
-from __future__ import annotations
-
 from emulator.compiled.runner import MAX_DIGITS as COMPILED_DIGITS
 from emulator.numbers import HOSTED
 from emulator.numbers.arithmetic import FAMILIES, MAX_DIGITS, MIN_DIGITS, PROFILES

@@ -4,8 +4,6 @@ The columns are separated by tabs.  A seventh column names an error of the emula
 fail.  ``#`` begins a comment line, ``_`` is a blank, and ``|`` is the end of a card.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -5,8 +5,6 @@ A point of an edge is visible if the edge has a face turned to the eye, the ray 
 interior of no polyhedron (for a plate, of no polygon), and the point is no ghost.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,5 @@
 """Volumes as the bytes of files, written by hand from the definitions of the formats, and DICOM series."""
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Sequence
 from pathlib import Path

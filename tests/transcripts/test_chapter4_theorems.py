@@ -1,7 +1,5 @@
 """The worked examples of theorems 4.1, 4.2 (Table 1) and 4.8, checked by exact arithmetic."""
 
-from __future__ import annotations
-
 import dataclasses
 from dataclasses import replace
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The printed examples of chapter 6 as card images: agreement with the print, committed files, altered data."""
 
-from __future__ import annotations
-
 import dataclasses
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The card layout against the FORMAT statements of chapter 5."""
 
-from __future__ import annotations
-
 import dataclasses
 from importlib.resources import files
 

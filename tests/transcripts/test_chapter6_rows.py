@@ -1,7 +1,5 @@
 """The ground of every row of the chapter 6 apparatus holds; a superfluous or wrong row is detected."""
 
-from __future__ import annotations
-
 import dataclasses
 import re
 from collections import Counter

@@ -1,7 +1,5 @@
 """Batches: the compiled engine and the interpreter give the same results for every deck."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """The compiled engine: conditions for its use, messages, and the cache of machine code."""
 
-from __future__ import annotations
-
 import importlib.util
 import io
 import json

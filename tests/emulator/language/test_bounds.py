@@ -4,8 +4,6 @@ Every shape is compiled at two sizes and its function calls are counted, which d
 shapes are also compiled at full size (9,999 cards) in a separate process with limited processor time.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Cards: the code of the reference card X26-5743-2 p. 4, and decks read from and written to files."""
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 

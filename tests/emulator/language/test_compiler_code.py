@@ -1,7 +1,5 @@
 """Object code: the patterns disassembled from a compiler of the time, and the DO of IBM's compiler."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.language import objectcode as op

@@ -1,7 +1,5 @@
 """The compiler's messages, each with card, column and IBM's error type (C26-5619 p. 56)."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.errors import CompileError, DeckError

@@ -1,7 +1,5 @@
 """Warnings of the compiler about branches, unreachable statements and columns that are easily mistaken."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.language.compiler import translate

@@ -1,7 +1,5 @@
 """Statements, functions and fields of other FORTRANs are reported once, and the rest of the deck is checked."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.errors import Diagnostic

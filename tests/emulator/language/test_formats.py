@@ -1,7 +1,5 @@
 """FORMAT specifications (C26-5619 p. 35-43, p. 56 for the error types)."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.language.formats import Literal, Slash, Spec

@@ -1,7 +1,5 @@
 """The limits of the compiler: nesting of lists, groups and parentheses, and constant factors of subscripts."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.language.formats import MAX_LITERAL, MAX_RECORD

@@ -1,7 +1,5 @@
 """docs/reference/fortran.md, the manual of the dialect, lists the errors and foreign statements of the compiler."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -1,7 +1,5 @@
 """Every valid form of statement, and every rejected form with its card and column."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.language import tree

@@ -1,7 +1,5 @@
 """Cards become statements: columns, comments and continuation (C26-5619 p. 12; OPEN-QUESTIONS 1 and 2)."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.errors import CardError

@@ -1,7 +1,5 @@
 """Storage: addresses, contiguous arrays, and subscripts with and without a check."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.errors import DeckError

@@ -1,7 +1,5 @@
 """The commands of the console of a halted machine, and their output."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.language.cards import deck_from_lines

@@ -1,7 +1,5 @@
 """Two arithmetics compared: the first value and decision that differ, where runs join again, and digits lost."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """References that round: differences that their own rounding may explain are not counted."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """FORMAT over several records: repetition, slashes, H and X fields on input (C26-5619 p. 35-43)."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.errors import CardError, DeckError

@@ -1,7 +1,5 @@
 """Random decks: every input produces a result within the limit, or an error of the emulator."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from hypothesis import given, settings

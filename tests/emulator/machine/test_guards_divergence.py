@@ -1,7 +1,5 @@
 """The digits lost are those of the less precise arithmetic, whichever is the reference (docs/reference/machine.md)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import log10
 

@@ -1,7 +1,5 @@
 """Object code run in every arithmetic: agreement between arithmetics, and the options of a user."""
 
-from __future__ import annotations
-
 import io
 import re
 

@@ -1,7 +1,5 @@
 """The machine: endings, limit, switches, loops, jumps and devices (references "part ..." are to tests/data/vectors)."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

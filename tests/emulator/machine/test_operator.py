@@ -1,7 +1,5 @@
 """The operator who reads a file of actions, and logs that are such files."""
 
-from __future__ import annotations
-
 import io
 
 import pytest

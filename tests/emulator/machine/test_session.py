@@ -1,7 +1,5 @@
 """Runs in slices: halts, actions, and the memory they use."""
 
-from __future__ import annotations
-
 import gc
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """A run says how it ended: the empty hopper, both runs of a comparison, and what exact arithmetic cannot hold."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.errors import DeckError

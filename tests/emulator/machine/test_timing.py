@@ -1,7 +1,5 @@
 """The time table: counts follow from the object code, seconds from counts and measured times."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.language import objectcode as op

@@ -1,7 +1,5 @@
 """The trace: each statement with its card, number, text, and the value that it stored or tested."""
 
-from __future__ import annotations
-
 import io
 
 from emulator.machine.trace import Tracer

@@ -1,7 +1,5 @@
 """Work counted against the limit: a unit for a plain statement, more for operations that take longer."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import time

@@ -1,7 +1,5 @@
 """Laws of the decimal arithmetic for any number of digits, tested with exact fractions and :mod:`decimal`."""
 
-from __future__ import annotations
-
 from decimal import ROUND_DOWN, Context, Decimal
 from fractions import Fraction
 

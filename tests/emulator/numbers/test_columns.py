@@ -4,8 +4,6 @@ Reading is compared with regular expressions, and writing with Python's own conv
 C26-5619 p. 14 and 35-40, and for blanks OPEN-QUESTIONS 6.
 """
 
-from __future__ import annotations
-
 import re
 from decimal import Decimal
 

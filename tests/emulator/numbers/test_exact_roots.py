@@ -1,7 +1,5 @@
 """Exact sums of square roots: signs, quotients and integer parts."""
 
-from __future__ import annotations
-
 import math
 import random
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Conversion of numbers to the columns of a field and back (C26-5619 p. 14, 35-40; blanks: OPEN-QUESTIONS 6)."""
 
-from __future__ import annotations
-
 from decimal import Decimal
 
 import pytest

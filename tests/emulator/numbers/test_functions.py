@@ -1,7 +1,5 @@
 """Library functions and powers compared with exact integers and with a second, precise computation."""
 
-from __future__ import annotations
-
 from decimal import ROUND_DOWN, Context, Decimal
 from fractions import Fraction
 from math import isqrt

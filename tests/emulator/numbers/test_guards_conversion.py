@@ -3,8 +3,6 @@
 Each expectation is worked out by hand from C26-5619 p. 38 and fortran_src/OPEN-QUESTIONS.md 6 and 7.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.numbers import columns as conversion

@@ -4,8 +4,6 @@ IEEE 754-2008, 6.1: operations on infinite operands are exact and signal nothing
 give NaN.  Only finite operands overflow (7.4), which is reported with the machine's code.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import inf, isnan, nan
 

@@ -1,7 +1,5 @@
 """The number systems: single precision, exact sums of roots, and the operations that each one rejects."""
 
-from __future__ import annotations
-
 import math
 import random
 from fractions import Fraction

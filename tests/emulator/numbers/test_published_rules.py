@@ -1,7 +1,5 @@
 """The published vectors compared with the rules that generate them, their README, and changed rules."""
 
-from __future__ import annotations
-
 import ast
 from collections import Counter
 

@@ -4,8 +4,6 @@ Every line is a run: the program reads the operands from a card and performs the
 test compares the result in core or on the punched card.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cache
 

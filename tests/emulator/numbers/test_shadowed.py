@@ -1,7 +1,5 @@
 """The error bounds of shadowed numbers, compared with exact fractions, or with mpmath for functions."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Any
 

@@ -1,7 +1,5 @@
 """SQRT with every number of digits, compared with :mod:`decimal`: the exact root, truncated or rounded half up."""
 
-from __future__ import annotations
-
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, localcontext
 
 from hypothesis import given

@@ -1,7 +1,5 @@
 """Published and measured results as FORTRAN programs: the lines of ``vectors/*.tsv``, each with its source."""
 
-from __future__ import annotations
-
 import re
 from decimal import Decimal
 

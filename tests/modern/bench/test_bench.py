@@ -1,7 +1,5 @@
 """The bench: translation to modern Fortran, agreement of cards, and the table, with a compiler if one is installed."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

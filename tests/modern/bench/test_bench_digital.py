@@ -1,7 +1,5 @@
 """The benchmarks of solids: octree hulls compared with their peers, and the growth of their times."""
 
-from __future__ import annotations
-
 import sys
 from dataclasses import replace
 from pathlib import Path

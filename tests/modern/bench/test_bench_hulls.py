@@ -1,7 +1,5 @@
 """The benchmarks of hulls: installed and missing peers, tables and slopes."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The comparison of routes with the exact hull, and ``hull1620 diff``."""
 
-from __future__ import annotations
-
 import json
 from fractions import Fraction
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Tests of this folder run in an empty folder and read volumes in forks of one process that has loaded SimpleITK."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -5,8 +5,6 @@ tries 20 truncations and 200 changed bytes for each file instead of a sample. Fi
 in the ways of ``tests/support/mutated.py``, after which they are rejected in one line or read.
 """
 
-from __future__ import annotations
-
 import gzip
 import importlib
 import importlib.util

@@ -1,7 +1,5 @@
 """The digital hull compared with the exact judge, with scikit-image, and between its own implementations."""
 
-from __future__ import annotations
-
 import itertools
 import random
 import subprocess

@@ -1,7 +1,5 @@
 """NIfTI, MetaImage, TIFF and DICOM read by SimpleITK, which also writes the samples. Every failure is one line."""
 
-from __future__ import annotations
-
 import locale
 import math
 import os

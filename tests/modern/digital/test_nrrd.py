@@ -1,7 +1,5 @@
 """The position of voxels in an NRRD file: read exactly and restored after writing."""
 
-from __future__ import annotations
-
 import gzip
 from fractions import Fraction
 from pathlib import Path

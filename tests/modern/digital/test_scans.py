@@ -1,7 +1,5 @@
 """The selection of a scan's voxels: thresholds and labels, compared exactly in every type of number."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Volumes from files and names: correct reading, and one line for every error."""
 
-from __future__ import annotations
-
 import gzip
 import io
 import tracemalloc

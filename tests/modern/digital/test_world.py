@@ -1,7 +1,5 @@
 """Positions of voxels: the hull in physical coordinates is the exact image of the hull of indices for any axes."""
 
-from __future__ import annotations
-
 import random
 from fractions import Fraction
 from itertools import product

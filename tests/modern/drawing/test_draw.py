@@ -1,7 +1,5 @@
 """Drawings of hulls. Visibility is judged by rays through the solid, without the program's faces."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Sequence

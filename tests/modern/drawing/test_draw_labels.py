@@ -1,7 +1,5 @@
 """The placement of numbers, and the text of the file: its size, its characters, directions as text."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Options of a picture: numbers, hidden parts, differences from a punched result, the construction."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Sequence

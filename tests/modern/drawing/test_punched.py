@@ -1,7 +1,5 @@
 """Decks drawn as punched cards: holes compared with a list of the 026's code, sizes with the standard, text, errors."""
 
-from __future__ import annotations
-
 import re
 from fractions import Fraction
 from pathlib import Path

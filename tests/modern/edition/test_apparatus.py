@@ -1,7 +1,5 @@
 """Witness and rows build the committed decks, and every row is needed."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The worked examples of theorems 4.1, 4.2 (Table 1) and 4.8 (thesis p. 37-41, 56-57), and that a claim can fail."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 

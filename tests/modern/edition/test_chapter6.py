@@ -1,7 +1,5 @@
 """The printed examples of chapter 6 (thesis p. 103-115) card by card, and verdicts that can fail."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Callable
 from importlib.resources import files

@@ -1,7 +1,5 @@
 """The fields of an apparatus row are checked when the row is read (fortran_src/README.md)."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """KNOWN-FAULTS.md, entry by entry: a deck shows the fault, its row alone corrects it, and no other row does."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Sequence
 from fractions import Fraction

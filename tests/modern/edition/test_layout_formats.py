@@ -1,7 +1,5 @@
 """The FORMATs the transcripts' layout rests on are those of the restored decks."""
 
-from __future__ import annotations
-
 import tomllib
 from importlib.resources import files
 from typing import Any

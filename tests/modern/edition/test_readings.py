@@ -3,8 +3,6 @@
 Run the full count with ``HULL1620_ALTERATIONS=200 pytest -s tests/modern/edition/test_readings.py``.
 """
 
-from __future__ import annotations
-
 import os
 import random
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """The figures of fortran_src/README.md, counted again."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.language.cards import read_deck

@@ -1,7 +1,5 @@
 """The tree of readings contains every state of a text that ``build`` returns, and every row."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations

@@ -1,7 +1,5 @@
 """SOURCES.toml: every witness is a stated excerpt with a hash, and every row leads to a page and a line."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from itertools import pairwise

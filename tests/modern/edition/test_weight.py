@@ -1,7 +1,5 @@
 """The weight of evidence: variants are generated, judged, stored and reported."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

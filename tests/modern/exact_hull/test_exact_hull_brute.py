@@ -1,7 +1,5 @@
 """Compare the exact hull with one that tries every triple of points, on highly degenerate sets of a small grid."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import random

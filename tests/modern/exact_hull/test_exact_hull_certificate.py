@@ -1,7 +1,5 @@
 """The certificate refuses every corruption of a true hull, and the results of a faulty construction."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """The proof by local convexity refuses the same corruptions as the proof by all planes, and some special ones."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import random

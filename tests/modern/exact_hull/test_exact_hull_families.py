@@ -1,7 +1,5 @@
 """Families of points that are difficult in floating point, mostly those of Qhull's rbox, with known hulls."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import random

@@ -1,7 +1,5 @@
 """Valid and invalid points, small hulls, and the error bounds of the floating-point filters."""
 
-from __future__ import annotations
-
 from decimal import Decimal
 from fractions import Fraction
 

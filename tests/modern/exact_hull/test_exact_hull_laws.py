@@ -1,7 +1,5 @@
 """Laws of the exact hull: what reordering, moving, scaling and shearing the points changes."""
 
-from __future__ import annotations
-
 import math
 import random
 from fractions import Fraction

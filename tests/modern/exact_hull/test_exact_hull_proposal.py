@@ -1,7 +1,5 @@
 """The hull that is proposed for points rounded to a grid, and the treatment of a wrong proposal."""
 
-from __future__ import annotations
-
 import contextlib
 import itertools
 import math

@@ -1,7 +1,5 @@
 """Hulls written as OFF, OBJ, PLY, STL and JSON, and read back by small separate readers."""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Sequence

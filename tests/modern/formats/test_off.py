@@ -1,7 +1,5 @@
 """Valid variants of OFF files, and one file for each way in which they can be invalid."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.errors import FileError

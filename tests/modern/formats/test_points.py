@@ -1,7 +1,5 @@
 """Points read from decks, CSV and OFF files, invalid files, and the commands ``export`` and ``draw``."""
 
-from __future__ import annotations
-
 import io
 import json
 from fractions import Fraction

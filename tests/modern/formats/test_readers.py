@@ -1,7 +1,5 @@
 """Points read from lists, OBJ, PLY, STL, JSON and NPY files, and invalid files."""
 
-from __future__ import annotations
-
 import io
 import struct
 from fractions import Fraction

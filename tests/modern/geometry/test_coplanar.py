@@ -1,7 +1,5 @@
 """Joining faces that are coplanar to within a distance."""
 
-from __future__ import annotations
-
 import json
 import math
 import random

@@ -1,7 +1,5 @@
 """The command ``hull1620 appel-will``: its tables, its options and its error messages."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

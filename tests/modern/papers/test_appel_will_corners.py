@@ -1,7 +1,5 @@
 """Inside corners (Figs. 15, 16 and 18): the rules on suitable objects, and the rejection of invalid maps."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """The complete method compared with the exact hull on general and degenerate input, and every kind of result."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The appendix, steps 1 to 10: types of intersection, steps as printed, and use counts (Figs. 20 to 23)."""
 
-from __future__ import annotations
-
 from itertools import product
 
 import pytest

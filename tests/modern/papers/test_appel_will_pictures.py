@@ -1,7 +1,5 @@
 """Pictures of Appel and Will's method: the solid, the star polygon of a line, and the planar topological map."""
 
-from __future__ import annotations
-
 import math
 import random
 from collections import Counter

@@ -1,7 +1,5 @@
 """The print of Appel & Will: the source of Fig. 4, and the agreement of the loops and the map of Fig. 23."""
 
-from __future__ import annotations
-
 import pytest
 
 from modern.claims.published import PAPERS, printed_lines, results_of

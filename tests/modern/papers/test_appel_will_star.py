@@ -1,7 +1,5 @@
 """The star polygon test as printed, as corrected and in one pass without sorting (Appel & Will, Figs. 8 to 12)."""
 
-from __future__ import annotations
-
 import random
 from itertools import product
 

@@ -1,7 +1,5 @@
 """Slow checks of statements on running time and size. Rows of transcripts/statements name these tests."""
 
-from __future__ import annotations
-
 import csv
 import math
 import random

@@ -1,7 +1,5 @@
 """Kovalevsky and Schulz: local corners, the incremental polyhedron and reconstruction compared with the exact hull."""
 
-from __future__ import annotations
-
 import random
 from itertools import pairwise, permutations, product
 from unittest.mock import patch

@@ -1,7 +1,5 @@
 """The cell list: its conventions (Tables 1 to 3), merging, and the conversion to and from the economical encoding."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import replace
 from unittest.mock import patch

@@ -1,7 +1,5 @@
 """The two alternative treatments of coplanar faces (Figs. 7 and 8) compared with the exact hull."""
 
-from __future__ import annotations
-
 import random
 from itertools import product
 

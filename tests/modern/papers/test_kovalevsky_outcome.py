@@ -1,7 +1,5 @@
 """The cell list computed from the digital polytope, compared with the paper's procedure and with the exact hull."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, settings

@@ -1,7 +1,5 @@
 """Every published result of Kovalevsky and Schulz compared with the computed one, and the command voxel-hull."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

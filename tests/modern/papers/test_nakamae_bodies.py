@@ -1,7 +1,5 @@
 """Tests of reading solids from files: connected components, proofs of convexity, hulls, and merged faces."""
 
-from __future__ import annotations
-
 import random
 import struct
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Tests of the command ``hull1620 hidden-line``: its inputs, viewpoints, tables and error messages."""
 
-from __future__ import annotations
-
 import shutil
 from importlib.resources import files
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Tests of scenes whose parts are files, and of files with faces drawn without a scene."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from pathlib import Path
 from xml.etree import ElementTree

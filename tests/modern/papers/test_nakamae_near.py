@@ -1,7 +1,5 @@
 """Tests of the near plane of a perspective: polyhedra are clipped exactly, and those behind it are reported."""
 
-from __future__ import annotations
-
 import random
 from fractions import Fraction
 from pathlib import Path

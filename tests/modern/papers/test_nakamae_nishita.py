@@ -1,7 +1,5 @@
 """Tests of formulas (1) to (6) of Nakamae and Nishita, each against an independent computation."""
 
-from __future__ import annotations
-
 import itertools
 import random
 from collections import Counter

@@ -1,7 +1,5 @@
 """Tests of drawings against an independent judge: the refinements, random scenes, and invariances of the pieces."""
 
-from __future__ import annotations
-
 import random
 from collections import Counter
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """The recorded reason why row d of Nakamae and Nishita's Table 1 cannot be computed."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 from modern.claims.published import PAPERS, results_of

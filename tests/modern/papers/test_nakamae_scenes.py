@@ -1,7 +1,5 @@
 """Tests of standard shapes, scene files, polyhedra from files and hulls, and pictures."""
 
-from __future__ import annotations
-
 import math
 import re
 from fractions import Fraction

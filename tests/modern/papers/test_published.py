@@ -1,7 +1,5 @@
 """The verdicts on published results of all papers, and ``hull1620 reproduce PAPER``."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from dataclasses import replace

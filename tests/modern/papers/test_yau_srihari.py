@@ -1,7 +1,5 @@
 """Yau and Srihari: Theorem 1 and its consequence on random solids, and a case for each correction."""
 
-from __future__ import annotations
-
 import math
 import random
 from typing import Any

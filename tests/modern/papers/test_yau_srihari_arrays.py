@@ -1,7 +1,5 @@
 """Yau and Srihari's trees in arrays, and faces compared with the search step by step."""
 
-from __future__ import annotations
-
 import random
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The command ``hull1620 octree-hull``, and the filled hull of ``hull1620 voxel-hull --fill``."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Digital convexity (3.2.1 to 3.2.3), half-cell expansion and convex deficiency."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterable
 from itertools import product

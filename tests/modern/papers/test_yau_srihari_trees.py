@@ -1,7 +1,5 @@
 """Yau and Srihari: octrees, the quadtrees of floor and ceiling, and the search with its bounds."""
 
-from __future__ import annotations
-
 import random
 from collections import Counter
 from collections.abc import Iterator

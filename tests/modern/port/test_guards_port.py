@@ -1,7 +1,5 @@
 """Input on which a product may overflow is left to numpy, because compiled code continues with an infinity."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any

@@ -4,8 +4,6 @@ zeros.
 HULL1620_SETS sets the number of random decks of a test.
 """
 
-from __future__ import annotations
-
 import os
 import random
 from collections.abc import Callable, Iterable

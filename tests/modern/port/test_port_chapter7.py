@@ -1,7 +1,5 @@
 """The two modifications of chapter 7 (thesis p. 117-119), and the history of a construction (p. 8-9)."""
 
-from __future__ import annotations
-
 import random
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """The compiled kernels (extra ``fast``) equal numpy bit for bit, and numpy runs if numba is missing."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """docs/reference/concordance.md: labels and functions exist. The two rules of the text as a variant of the port."""
 
-from __future__ import annotations
-
 import random
 import re
 from importlib import import_module

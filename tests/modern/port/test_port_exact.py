@@ -3,8 +3,6 @@
 HULL1620_SETS sets the number of random sets.
 """
 
-from __future__ import annotations
-
 import os
 import random
 from collections.abc import Callable

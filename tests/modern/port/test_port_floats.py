@@ -1,7 +1,5 @@
 """The port in binary arithmetics: floats in vectors, and multiprecision."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Input and output of the port: points, names of arithmetics, exact text."""
 
-from __future__ import annotations
-
 import pickle
 from collections.abc import Iterator
 from decimal import Decimal

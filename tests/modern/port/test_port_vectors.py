@@ -1,7 +1,5 @@
 """The numbers of the port (modern/port/decimal.py) checked against the published vectors."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """The book: text is never interpreted as markup, references resolve, and every card, row and statement occurs once."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

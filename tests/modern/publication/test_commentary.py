@@ -1,7 +1,5 @@
 """The commentary: every card in one block, every variable explained, every name, number and range true."""
 
-from __future__ import annotations
-
 import re
 from contextlib import suppress
 

@@ -1,7 +1,5 @@
 """The deposit is valid for the packages of each standard, reproducible, and detects changes."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess

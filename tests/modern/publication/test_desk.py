@@ -1,7 +1,5 @@
 """The desk behind the emulator page gives the same cards, lines and messages as the command."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

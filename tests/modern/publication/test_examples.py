@@ -1,7 +1,5 @@
 """The data behind the pages of examples, statements, faults and questions."""
 
-from __future__ import annotations
-
 import re
 from xml.etree.ElementTree import fromstring
 

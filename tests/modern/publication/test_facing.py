@@ -1,7 +1,5 @@
 """The facing text: complete decks, every line of the witness and every row once, and permanent places."""
 
-from __future__ import annotations
-
 import hashlib
 import re
 from collections import Counter

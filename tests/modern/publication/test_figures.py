@@ -1,7 +1,5 @@
 """Figures by name: all exist in the committed results, and the article quotes no result as a number."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

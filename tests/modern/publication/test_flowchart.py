@@ -1,7 +1,5 @@
 """Flow charts: every transition of the compiled program is drawn once, and no line crosses a box."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from collections import Counter
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Storage maps compared with ``hull1620 map``, and pictures of times compared with the table of times."""
 
-from __future__ import annotations
-
 import re
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """The pictures of the papers: their counts and lengths compared with the results of the papers."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 from itertools import combinations

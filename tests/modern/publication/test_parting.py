@@ -1,7 +1,5 @@
 """The comparison with exact arithmetic: its hull against the exact hull, and its messages for known sets."""
 
-from __future__ import annotations
-
 import random
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The reference pages that Sphinx generates: all commands with all options, and all public names."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

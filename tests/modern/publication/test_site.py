@@ -1,7 +1,5 @@
 """The files of the site: links, ids, decks, rows and HTML; and the functions that generate pages."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import re

@@ -1,7 +1,5 @@
 """The TEI documents are valid and complete: witness, decks and cards can be restored byte for byte."""
 
-from __future__ import annotations
-
 import random
 import re
 from functools import cache

@@ -1,7 +1,5 @@
 """A small finished study, shared by the tests of its folder."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 

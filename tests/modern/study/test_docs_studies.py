@@ -1,7 +1,5 @@
 """The committed results of the built-in studies belong to their current plans, at the default size."""
 
-from __future__ import annotations
-
 import csv
 import json
 import re

@@ -1,7 +1,5 @@
 """Machine time agrees, within a factor of two, with another compiler's code in a simulator."""
 
-from __future__ import annotations
-
 import pytest
 
 from emulator.language.cards import deck_from_lines

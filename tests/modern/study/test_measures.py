@@ -1,7 +1,5 @@
 """Every measure returns the figures of a run."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path

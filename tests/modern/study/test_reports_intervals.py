@@ -3,8 +3,6 @@
 All intervals are Clopper and Pearson's.  That of 0 in n ends at 1 - .025**(1/n), that of n in n begins at .025**(1/n).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The reports of the studies rounding, epsilon and translation agree with their rows."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """Damage in the folder of a study: rows are compared with their checksums, and the index is made again."""
 
-from __future__ import annotations
-
 import random
 import re
 import sqlite3

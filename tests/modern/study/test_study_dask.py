@@ -1,7 +1,5 @@
 """A study on a dask.distributed cluster writes the same files, even if a worker is killed."""
 
-from __future__ import annotations
-
 import os
 import signal
 import threading

@@ -1,7 +1,5 @@
 """The studies digits, capacity, machine-time and divergence, and the agreement of their reports with the rows."""
 
-from __future__ import annotations
-
 import random
 import re
 from contextlib import closing

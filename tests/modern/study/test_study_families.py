@@ -1,7 +1,5 @@
 """Families return distinct points that fit a card, reproducibly, with the properties of each family."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Every outcome has a deck, from KNOWN-FAULTS and its grounds, and batches agree with single runs."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Sequence
 from dataclasses import replace

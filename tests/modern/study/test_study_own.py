@@ -1,7 +1,5 @@
 """User-defined families and measures, and arithmetics with more digits than a card."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Charts are legible: no overlaps, no hidden series, typographic signs, and a style that works in grey."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from itertools import combinations

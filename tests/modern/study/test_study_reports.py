@@ -1,7 +1,5 @@
 """Tables, charts, the report of the study seventy, plan files and the command line."""
 
-from __future__ import annotations
-
 import csv
 import json
 import re

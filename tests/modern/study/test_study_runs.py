@@ -1,7 +1,5 @@
 """A study in its folder gives the same rows whatever the workers, interruptions and failures."""
 
-from __future__ import annotations
-
 import errno
 import json
 import os

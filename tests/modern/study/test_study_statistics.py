@@ -1,7 +1,5 @@
 """The confidence intervals agree with published values and with scipy."""
 
-from __future__ import annotations
-
 import math
 import statistics as plain
 

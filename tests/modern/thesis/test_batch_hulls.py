@@ -3,8 +3,6 @@
 A larger run: ``HULL1620_SETS=3000 pytest tests/modern/thesis/test_batch_hulls.py``.
 """
 
-from __future__ import annotations
-
 import os
 from collections import Counter
 from collections.abc import Sequence

@@ -3,8 +3,6 @@
 A larger run: ``HULL1620_SETS=5000 pytest tests/modern/thesis/test_corrected.py``.
 """
 
-from __future__ import annotations
-
 import os
 import random
 from itertools import product

@@ -1,7 +1,5 @@
 """The layer ``epsilon``: the interval from -e to +e of chapter 7 (thesis p. 117-118)."""
 
-from __future__ import annotations
-
 import random
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Random decks for ``hull1620 hull``, which never end in a traceback."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import tempfile

@@ -1,7 +1,5 @@
 """The hull programs in exact, binary and multiple-precision numbers, compared with eight digits and the exact hull."""
 
-from __future__ import annotations
-
 import random
 from dataclasses import replace
 from fractions import Fraction

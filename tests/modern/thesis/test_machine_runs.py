@@ -1,7 +1,5 @@
 """The decks that two compilers of the time ran (tests/data/machine_runs/README.md), compared card for card."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The causes of runs without a hull: known faults, and points that do not satisfy their own plane."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial

@@ -1,7 +1,5 @@
 """The layer ``translation`` moves the origin to the point C (thesis p. 118-119)."""
 
-from __future__ import annotations
-
 import random
 from collections import Counter
 from functools import cache

@@ -1,7 +1,5 @@
 """Write the published vectors into a folder."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Lines of the published vectors for card fields: E, F and I fields, read and written."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import product
 

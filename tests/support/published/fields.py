@@ -3,8 +3,6 @@
 Sources and conventions are those of :mod:`tests.support.published.specification`.
 """
 
-from __future__ import annotations
-
 import re
 from fractions import Fraction
 

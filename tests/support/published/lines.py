@@ -1,7 +1,5 @@
 """A reader of the published vectors, written from the description of their format in the README alone."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass

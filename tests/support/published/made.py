@@ -3,8 +3,6 @@
 ``python -m tests.support.published FOLDER`` writes the files.  No test does.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial

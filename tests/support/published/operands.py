@@ -1,7 +1,5 @@
 """Operands for the published vectors: the boundary cases of each operation, and a fixed sequence of numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import product

@@ -3,8 +3,6 @@
 The class depends on the exact result, not on the way in which the operands were chosen.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from fractions import Fraction
 
