@@ -26,7 +26,7 @@ from modern.study.sample import Sample, judge
 from modern.thesis.batch import Runs
 from modern.thesis.cards import read_hull
 from modern.thesis.job import HullRun, run_hull
-from tests.support.judged import Point, distinct, faults
+from tests.support.judged import Point, distinct, faults, faulty_sets, run_all
 from tests.support.paths import MACHINE_RUNS
 
 TEXT = programs.sources().joinpath("KNOWN-FAULTS.md").read_text(encoding="utf-8")
@@ -285,7 +285,8 @@ def thirds(flat: bool) -> list[list[Point]]:
 
 @pytest.mark.parametrize(("flat", "refused", "errors"), [(True, 54, 0), (False, 1, 6)])
 def test_18_translation_costs_digits(flat: bool, refused: int, errors: int) -> None:
-    refusals = [run(deck(points), "translation", "corrected").refusal for points in thirds(flat)]
+    runs = run_all(thirds(flat), "translation", "corrected")
+    refusals = [hull_run.refusal for hull_run in runs if isinstance(hull_run, HullRun)]
     assert refusals.count("DATA NOT ACCEPTABLE") == refused
     assert refusals.count("ERROR IN PROGRAM") == errors
     entry = " ".join(ENTRIES[18].split())
@@ -293,7 +294,7 @@ def test_18_translation_costs_digits(flat: bool, refused: int, errors: int) -> N
         f"reject {refused} of 60 coplanar sets" if flat else f"{refused} of 60 sets in space, and {errors} more end"
     )
     assert expected in entry
-    assert not any(faults(points, "corrected") for points in thirds(flat))
+    assert not faulty_sets([(str(k), points) for k, points in enumerate(thirds(flat))], "corrected")
 
 
 def test_19_points_nearly_in_a_plane_of_constant_z_are_projected_onto_a_line() -> None:

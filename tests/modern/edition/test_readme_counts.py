@@ -6,7 +6,8 @@ from emulator.language.cards import read_deck
 from emulator.language.objectcode import Program
 from emulator.machine.result import Options
 from modern.edition import chapter6, programs
-from modern.thesis.job import run_hull
+from modern.thesis.batch import run_hulls
+from modern.thesis.job import HullRun
 from tests.support.paths import MACHINE_RUNS
 
 RUNS = MACHINE_RUNS
@@ -19,9 +20,10 @@ def never_run() -> dict[str, list[tuple[int, str]]]:
     ran: dict[str, set[int]] = {name: set() for name in programs.TEXTS}
     data = [chapter6.input_deck(example) for example in chapter6.EXAMPLES]
     data += [read_deck(str(folder / "deck.cards")) for folder in sorted(RUNS.iterdir()) if folder.is_dir()]
-    for deck in data:
-        for first in ("program1", "program1_examples"):
-            for step in run_hull(deck, programs.program, Options(limit=200_000), first).steps:
+    for first in ("program1", "program1_examples"):
+        for hull_run in run_hulls(data, programs.program, Options(limit=200_000), first):
+            assert isinstance(hull_run, HullRun)
+            for step in hull_run.steps:
                 if step.name in ran:
                     counted = zip(step.program.counters, step.result.counts, strict=True)
                     ran[step.name] |= {counter.statement for counter, n in counted if n}

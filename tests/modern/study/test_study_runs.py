@@ -29,7 +29,7 @@ from tests.support.studied import PLAN, ROUTES, contents
 
 PLAN_FILE = """
 name = "long"
-samples = 1000
+samples = 500
 [[route]]
 name = "exact"
 kind = "port"
@@ -37,7 +37,7 @@ kind = "port"
 key = { n = 4 }
 family = "integers"
 parameters = { digits = 1, n = 4 }
-chunk = 20
+chunk = 10
 """
 WORKER = """
 import multiprocessing
