@@ -32,11 +32,7 @@ def test_the_seed_and_the_text_of_the_lines_determine_the_sample() -> None:
 
 
 def test_annotations_marks_of_parameters_and_operators_can_be_left_out() -> None:
-    lines = [
-        "from __future__ import annotations",
-        "def f(a: int | None, *, b: int | str = 3) -> int | None:",
-        "    pass",
-    ]
+    lines = ["def f(a: int | None, *, b: int | str = 3) -> int | None:", "    pass"]
     places = {(mutant.line, lines[mutant.line - 1][mutant.column]) for mutant in mutants("f.py", "\n".join(lines))}
     assert places == {(1, "3")}
     names = {mutant.operator for mutant in mutants("f.py", "def f(a):\n    return a == 1\n", ["core/*_[!I]*_Is*"])}
