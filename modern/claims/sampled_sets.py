@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from importlib.resources import files
 from random import Random
 
+from modern.claims.evidence import Generator
 from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.csv import points as csv_points
 from modern.geometry.hull import Hull
@@ -20,9 +21,33 @@ Plane = tuple[int, int, int, int]
 # The number of sets of each dimension that ``reproduce`` samples; the tests sample more.
 CASES = 2
 _COORDINATE_LIMIT, _FEWEST_POINTS, _MOST_POINTS = 5, 7, 11
-# The first two sets of each dimension contain the special cases that the claims need: points inside the hull, a point
-# on its boundary and, in space, a face with four corners.
-_SEEDS = {2: 1965, 3: 313}
+
+
+def _draw_set(random: Random, dimension: int) -> tuple[Point, ...]:
+    size = random.randint(_FEWEST_POINTS, _MOST_POINTS)
+    distinct: dict[Point, None] = {}
+    while len(distinct) < size:
+        x, y, z = (random.randint(-_COORDINATE_LIMIT, _COORDINATE_LIMIT) for _ in range(3))
+        distinct[(x, y, z) if dimension == 3 else (x, y, x - 2 * y + 3)] = None
+    return tuple(distinct)
+
+
+def _has_dimension(points: tuple[Point, ...], dimension: int) -> bool:
+    return exact_hull(points).dimension == dimension
+
+
+# Sets in an oblique plane (2) or in space (3). The first two sets of each dimension contain the special cases that the
+# claims need: points inside the hull, a point on its boundary and, in space, a face with four corners. The few samples
+# that have another dimension, for example coplanar points in space, are skipped.
+SETS = {
+    dimension: Generator(
+        f"sets of 7 to 11 points in {place}, coordinates from -5 to 5",
+        seed,
+        partial(_draw_set, dimension=dimension),
+        partial(_has_dimension, dimension=dimension),
+    )
+    for dimension, seed, place in ((2, 1965, "a plane"), (3, 313, "space"))
+}
 
 
 def counterexample(name: str) -> str:
@@ -104,17 +129,11 @@ def _normal(points: tuple[Point, ...], start: tuple[int, ...]) -> Point:
 @cache
 def sampled_sets(dimension: int, count: int) -> tuple[SampledSet, ...]:
     """Return sets in space (3) or in an oblique plane (2); some have three collinear points."""
-    random = Random(_SEEDS[dimension])
+    generator, random = SETS[dimension], Random(SETS[dimension].seed)
     sets: list[SampledSet] = []
     while len(sets) < count:
-        size = random.randint(_FEWEST_POINTS, _MOST_POINTS)
-        distinct: dict[Point, None] = {}
-        while len(distinct) < size:
-            x, y, z = (random.randint(-_COORDINATE_LIMIT, _COORDINATE_LIMIT) for _ in range(3))
-            distinct[(x, y, z) if dimension == 3 else (x, y, x - 2 * y + 3)] = None
-        points = tuple(distinct)
+        points = generator.draw(random)
         judge = exact_hull(points)
-        # Skip the few samples that have another dimension, for example coplanar points in space.
         if judge.dimension == dimension:
             sets.append(SampledSet(points, convex_hull(points, history=True), judge))
     return tuple(sets)

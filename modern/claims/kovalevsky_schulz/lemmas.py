@@ -7,125 +7,148 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations, product
 
-from modern.claims.evidence import Check, claim, holds_if, refuted
-from modern.claims.kovalevsky_schulz.polyhedra import random_solid, sampled_hulls
-from modern.claims.sampled_sets import Plane, Point, counterexample_points, plane_through, plane_value
-from modern.exact_hull import exact_hull
+from modern.claims.evidence import Check, claim, exhibited, refuted, search, searched
+from modern.claims.kovalevsky_schulz.polyhedra import hulls
+from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels
+from modern.claims.sampled_sets import CASES, SETS, Plane, Point, counterexample_points, plane_through, plane_value
+from modern.digital.solids import listed
+from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus, plus
 from modern.papers.kovalevsky_schulz import CENTRES, convex_polyhedron, local_corners
 from modern.papers.kovalevsky_schulz.cells import CellList
 
+DIRECTIONS: tuple[Point, ...] = ((1, 0, 0), (1, -2, 1), (0, 3, -1))
+# The corners of a triangle and a point inside it that lies on no line through two of them.
+TRIANGLE: tuple[Point, ...] = ((0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0))
 
-@claim("kovalevsky-schulz.65")
-@claim("kovalevsky-schulz.66", "kovalevsky-schulz.68", kind="proof")
-def lemma_lz(kind: str = "") -> Check:
-    """Check that each part of a hull cut off by a plane contains a vertex."""
-    checks = []
-    for points, judge in sampled_hulls():
-        for a, b, c in ((1, 0, 0), (1, -2, 1), (0, 3, -1)):
-            heights = [dot((a, b, c), p) for p in points]
-            for cut in sorted(set(heights)):
-                checks.append(any(heights[k] >= cut for k in judge.vertices))
-            most = [k for k, h in enumerate(heights) if h == max(heights)]
-            checks.append(max(most, key=lambda k: points[k]) in judge.vertices)
-    return holds_if(all(checks), f"{len(checks)} parts cut off by planes contain a vertex", conditional=not kind)
+
+def has_vertex_above(points: Sequence[Point], judge: ExactHull, direction: Point, height: int) -> bool:
+    return any(dot(direction, points[k]) >= height for k in judge.vertices)
+
+
+@claim("kovalevsky-schulz.65", full=400)
+def lemma_lz(cases: int = CASES) -> Check:
+    """Check that each part of a set cut off by a plane contains a vertex; an empty part contains none."""
+    outcomes = [
+        has_vertex_above(points, judge, direction, dot(direction, point))
+        for points, judge in hulls(cases)
+        for direction in DIRECTIONS
+        for point in points
+    ]
+    points, judge = hulls(1)[0]
+    empty = has_vertex_above(points, judge, (1, 0, 0), 1 + max(p[0] for p in points))
+    check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} parts cut off by planes contain a vertex")
+    return check.unless(not empty, "an empty part, beyond the largest x")
+
+
+@claim("kovalevsky-schulz.66", "kovalevsky-schulz.68", full=400)
+def last_maximum(cases: int = CASES) -> Check:
+    """Check that the vector that is largest by the inequality and then by x, y and z is one vector, and a vertex."""
+    outcomes = []
+    for points, judge in hulls(cases):
+        for direction in DIRECTIONS:
+            most = max(dot(direction, p) for p in points)
+            largest = [k for k, p in enumerate(points) if dot(direction, p) == most]
+            outcomes.append(max(largest, key=lambda k: points[k]) in judge.vertices)
+    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} last maxima are vertices")
 
 
 @claim("kovalevsky-schulz.67")
 def combination_of_three() -> Check:
-    """Check that (1, 1) in the triangle (0, 0), (3, 0), (0, 3) is a combination of three points and not of two."""
-    points: list[Point] = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0)]
-    two = [1 for p, q in combinations(points[:3], 2) if not any(cross(minus(q, p), minus(points[3], p)))]
-    passed = not two and 3 not in exact_hull(points).vertices
-    message = "(1, 1) in the triangle (0, 0), (3, 0), (0, 3) is a combination of three points and not of two"
-    return holds_if(passed, message, conditional=True)
+    """Check that a point between two others is a combination of two, and (1, 1) in a triangle only of three."""
+    middle = 2 not in exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0)]).vertices
+    corners, inner = TRIANGLE[:3], TRIANGLE[3]
+    two = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]
+    message = "the middle of three collinear points is a combination of two"
+    return exhibited(middle, message).unless(
+        not two and 3 not in exact_hull(TRIANGLE).vertices,
+        "(1, 1) in the triangle (0, 0), (3, 0), (0, 3), a combination of three points and of no two",
+    )
 
 
-@claim("kovalevsky-schulz.149", "kovalevsky-schulz.69")
-def lemma_ch() -> Check:
+@claim("kovalevsky-schulz.69", full=20_000)
+def lemma_ch(cases: int = 10) -> Check:
     """Check that a polyhedron with corners among the local corners that contains all of these contains all voxels."""
-    volume = random_solid(3)
-    corners = [*map(tuple, local_corners(volume, CENTRES).tolist())]
-    judge = exact_hull(corners)
-    checks = [
-        max(plane_value(f.plane, p) for f in judge.facets) <= 0 for p in map(tuple, volume.coordinates().tolist())
-    ]
-    return holds_if(all(checks), f"{len(checks)} voxels are in the hull of the local corners")
+
+    def contains_all(solid: Voxels) -> bool:
+        judge = exact_hull([*map(tuple, local_corners(listed(solid), CENTRES).tolist())])
+        return judge.dimension < 3 or all(plane_value(f.plane, p) <= 0 for f in judge.facets for p in solid)
+
+    return search(SOLIDS, contains_all, cases, "all voxels are in the hull of the local corners")
 
 
-@claim("kovalevsky-schulz.150", "kovalevsky-schulz.121")
-def hull_without_a_vertex() -> Check:
+@claim("kovalevsky-schulz.121", full=400)
+def hull_without_a_vertex(cases: int = CASES) -> Check:
     """Check that a vertex is outside the hull of the other vertices."""
-    checks = []
-    for points, judge in sampled_hulls():
-        for k in judge.vertices[:4]:
+    outcomes = []
+    for points, judge in hulls(cases):
+        for k in judge.vertices:
             rest = exact_hull([points[i] for i in judge.vertices if i != k])
-            checks.append(rest.dimension < 3 or max(plane_value(f.plane, points[k]) for f in rest.facets) > 0)
-    return holds_if(all(checks), f"{len(checks)} vertices are outside the hull of the others")
+            outcomes.append(rest.dimension < 3 or max(plane_value(f.plane, points[k]) for f in rest.facets) > 0)
+    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} vertices are outside the hull of the others")
 
 
-@claim("kovalevsky-schulz.120")
-@claim("kovalevsky-schulz.70", kind="moved")
-def smaller_polyhedron(kind: str = "") -> Check:
+@claim("kovalevsky-schulz.120", vertices="interior")
+@claim("kovalevsky-schulz.70", vertices="moved")
+def smaller_polyhedron(vertices: str) -> Check:
     """Check the counterexample: a tetrahedron that contains another one, whose apex is moved down an edge.
 
-    No vertex of the smaller one is in the interior of the larger, contrary to the proof. ``moved``: one of them is
-    neither a vertex of the larger one nor in its interior, so that vertices moved into the interior never give it.
+    vertices: ``interior``, no vertex of the smaller one is in the interior of the larger, like those of four alternate
+    corners of a cube; ``moved``, one of them is neither a vertex of the larger one nor in its interior.
     """
     *corners, lower = counterexample_points("shortened.csv")
     larger, smaller = exact_hull(corners), exact_hull([*corners[:-1], lower])
     within = [max(plane_value(f.plane, p) for f in larger.facets) for p in (*corners[:-1], lower)]
     wrong = smaller.dimension == 3 and smaller.vertices == (0, 1, 2, 3) and max(within) == min(within) == 0
     message = f"{lower} is a vertex of the smaller tetrahedron and on the boundary of the larger"
-    if kind:
-        return holds_if(not (wrong and lower not in corners), f"{message}, but not one of its vertices")
-    cube = [*product((0, 1), repeat=3)]
-    four = [p for p in cube if sum(p) % 2 == 0]
-    wrong &= exact_hull(four).dimension == 3
-    return holds_if(not wrong, f"{message}, like all of four alternate corners of a cube")
+    if vertices == "moved":
+        return refuted(wrong and lower not in corners, f"{message}, but not one of its vertices")
+    four = [p for p in product((0, 1), repeat=3) if sum(p) % 2 == 0]
+    return refuted(
+        wrong and exact_hull(four).dimension == 3, f"{message}, like all of four alternate corners of a cube"
+    )
 
 
-@claim("kovalevsky-schulz.172", "kovalevsky-schulz.151", "kovalevsky-schulz.126")
-def third_condition() -> Check:
-    """Check that the vertices of the constructed polyhedron are local corners."""
-    volume = random_solid(2)
-    corners = local_corners(volume, CENTRES)
-    cells = convex_polyhedron(corners)
-    assert isinstance(cells, CellList)
-    hull_vertices = {v.point for v in cells.vertices}
-    message = f"all {len(hull_vertices)} vertices are among {len(corners)} local corners"
-    return holds_if(hull_vertices <= {*map(tuple, corners.tolist())}, message)
+@claim("kovalevsky-schulz.151", "kovalevsky-schulz.126", full=5_000)
+def vertices_are_local_corners(cases: int = 10) -> Check:
+    """Check that the polyhedron constructed from the local corners has the vertices of the hull of all voxels."""
+
+    def agrees(solid: Voxels) -> bool:
+        cells = convex_polyhedron(local_corners(listed(solid), CENTRES))
+        hull_vertices = {solid[k] for k in exact_hull(solid).vertices}
+        return not isinstance(cells, CellList) or hull_vertices <= {v.point for v in cells.vertices} <= {*solid}
+
+    return search(SOLIDS, agrees, cases, "the constructed polyhedra have the vertices of the hulls of all voxels")
 
 
 @claim("kovalevsky-schulz.129")
 def complex_of_polyhedron() -> Check:
     """Check that bounding is a partial order of the vertices, edges, faces and body of a hull; dimensions rise."""
-    _, judge = sampled_hulls()[0]
+    _, judge = hulls(1)[0]
     cells = [(0, frozenset([k])) for k in judge.vertices] + [(1, frozenset(e)) for e in judge.edges()]
     cells += [(2, frozenset(f.polygon)) for f in judge.facets] + [(3, frozenset(judge.vertices))]
     pairs = {(a, b) for a in cells for b in cells if a[1] < b[1]}
     passed = all(a[0] < b[0] for a, b in pairs) and not any((b, a) in pairs for a, b in pairs)
     passed &= all((a, c) in pairs for a, b in pairs for c in cells if (b, c) in pairs)
-    return holds_if(passed, f"{len(cells)} cells have {len(pairs)} bounding pairs")
+    return exhibited(passed, f"{len(cells)} cells have {len(pairs)} bounding pairs")
 
 
-@claim("kovalevsky-schulz.124")
-def maximum_of_combinations() -> Check:
+@claim("kovalevsky-schulz.124", full=400)
+def maximum_of_combinations(cases: int = CASES) -> Check:
     """Check that a midpoint has the largest value if and only if both of its ends have it."""
-    checks = []
-    for points, _ in sampled_hulls():
-        for direction in ((1, 0, 0), (1, -2, 1), (0, 3, -1)):
+    outcomes = []
+    for points, _ in hulls(cases):
+        for direction in DIRECTIONS:
             most = max(dot(direction, p) for p in points)
             for p, q in combinations(points, 2):
-                if most in (dot(direction, p), dot(direction, q)):
-                    both_highest = dot(direction, p) == dot(direction, q)
-                    checks.append((dot(direction, plus(p, q)) == 2 * most) == both_highest)
-    return holds_if(all(checks), f"{len(checks)} midpoints agree")
+                both_highest = dot(direction, p) == most == dot(direction, q)
+                outcomes.append((dot(direction, plus(p, q)) == 2 * most) == both_highest)
+    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} midpoints agree")
 
 
-def _horizons() -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:
+def _horizons(cases: int = CASES) -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:
     """Yield new points with the visible, invisible and new plane, the vertices and the edge at sampled horizons."""
-    for points, judge in sampled_hulls():
+    for points, judge in hulls(cases):
         for new in ((9, 1, 0), (-8, 3, 7)):
             for edge in judge.edges():
                 first_plane, second_plane = (f.plane for f in judge.facets if {*edge} <= {*f.polygon})
@@ -138,37 +161,44 @@ def _horizons() -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple
                     yield new, visible, hidden, plane_through(*ends, new), [points[k] for k in judge.vertices], ends
 
 
-@claim("kovalevsky-schulz.71")
-@claim("kovalevsky-schulz.72", kind="normals")
-def lemma_be(kind: str = "") -> Check:
-    """Check that the new plane supports and, with ``kind``, that its normal is a positive combination."""
-    checks = []
-    for _, visible, hidden, plane, vertices, _ in _horizons():
+@claim("kovalevsky-schulz.71", full=400)
+def lemma_be(cases: int = CASES) -> Check:
+    """Check that the new plane supports; for a point on the line of the edge no plane is determined."""
+    outcomes = []
+    for _, _, _, plane, vertices, _ in _horizons(cases):
         values = [plane_value(plane, p) for p in vertices]
-        sign = -1 if max(values) > 0 else 1
-        checks.append(max(sign * v for v in values) <= 0)
-        if kind:
-            normal = tuple(sign * n for n in plane[:3])
-            a, b = _coefficients(visible[:3], hidden[:3], normal)  # type: ignore[arg-type]
-            checks.append(a > 0 and b > 0)
-    if kind:
-        new, apex = (4, -1, 0), (0, 0, 2)
-        coplanar = plane_through((0, 0, 0), (2, 0, 0), new)
-        checks.append(_coefficients(plane_through((0, 0, 0), (2, 0, 0), apex)[:3], (0, 0, 1), coplanar[:3])[0] == 0)
-    return holds_if(all(checks) and checks, f"{len(checks)} conditions at edges hold", conditional=True)
+        outcomes.append(max(values) <= 0 or min(values) >= 0)
+    on_line = plane_through((0, 0, 0), (2, 0, 0), (4, 0, 0))
+    check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} planes through edges of horizons support")
+    return check.unless(not any(on_line), "a point on the line of the edge, for which no plane is determined")
 
 
-@claim("kovalevsky-schulz.76")
-def closed_boundary() -> Check:
+@claim("kovalevsky-schulz.72", full=400)
+def positive_combination(cases: int = CASES) -> Check:
+    """Check that the normal is a positive combination of the two normals, and that a is 0 for a coplanar F_n."""
+    outcomes = []
+    for _, visible, hidden, plane, vertices, _ in _horizons(cases):
+        sign = -1 if max(plane_value(plane, p) for p in vertices) > 0 else 1
+        normal = tuple(sign * n for n in plane[:3])
+        outcomes.append(min(_coefficients(visible[:3], hidden[:3], normal)) > 0)  # type: ignore[arg-type]
+    side, new = plane_through((0, 0, 0), (2, 0, 0), (0, 0, 2)), plane_through((0, 0, 0), (2, 0, 0), (4, -1, 0))
+    check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} normals have positive coefficients")
+    return check.unless(
+        _coefficients(side[:3], (0, 0, 1), new[:3])[0] == 0, "(4, -1, 0), in the plane of a square: a is 0"
+    )
+
+
+@claim("kovalevsky-schulz.76", full=400)
+def closed_boundary(cases: int = CASES) -> Check:
     """Check that the edges that bound one visible and one invisible face form closed boundaries."""
     checks = []
-    for _, judge in sampled_hulls():
+    for _, judge in hulls(cases):
         for new in ((9, 1, 0), (-8, 3, 7)):
             visible = [f for f in judge.facets if plane_value(f.plane, new) > 0]
             rim = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in visible) == 1]
             ends = Counter(end for edge in rim for end in edge)
             checks.append(bool(rim) and {*ends.values()} == {2})
-    return holds_if(all(checks), f"the boundary is closed for {len(checks)} points outside a hull")
+    return searched(SETS[3], cases, checks, f"the boundary is closed for {len(checks)} points outside a hull")
 
 
 @claim("kovalevsky-schulz.73")
@@ -190,12 +220,8 @@ def section_angles() -> Check:
             line = [p - c for p, c in zip(new, q, strict=True)]
             for normal in (visible[:3], hidden[:3]):
                 sums.append(_cosine(normal, line) + _cosine(normal, outward) == 1)
-    passed = all(right) and right and not all(elsewhere)
-    message = (
-        f"{sum(right)} of {len(right)} angles agree with Q at the foot of the perpendicular, and "
-        f"{sum(elsewhere)} with Q at an end of the edge"
-    )
-    return holds_if(passed, message, conditional=True)
+    check = searched(SETS[3], CASES, right, f"{len(right)} angles agree with Q at the foot of the perpendicular")
+    return check.unless(not all(elsewhere), f"Q at an end of the edge, where {sum(elsewhere)} angles agree")
 
 
 def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fraction:
@@ -236,23 +262,23 @@ def _coefficients(u: Point, v: Point, w: Point) -> tuple[Fraction, Fraction]:
     return Fraction(uw * vv - vw * uv, determinant), Fraction(vw * uu - uw * uv, determinant)
 
 
-@claim("kovalevsky-schulz.169", "kovalevsky-schulz.77")
-def hulls_of_more_points() -> Check:
+@claim("kovalevsky-schulz.169", "kovalevsky-schulz.77", full=400)
+def hulls_of_more_points(cases: int = CASES) -> Check:
     """Check that the vertices of a hull lie in the hull of more points."""
     checks = []
-    for points, _ in sampled_hulls():
+    for points, _ in hulls(cases):
         for n in range(5, len(points)):
             few, more = exact_hull(points[:n]), exact_hull(points[: n + 1])
             if few.dimension == more.dimension == 3:
                 checks.append(all(plane_value(f.plane, points[k]) <= 0 for f in more.facets for k in few.vertices))
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} hulls lie in the next one")
+    return searched(SETS[3], cases, checks, f"{len(checks)} hulls lie in the next one")
 
 
-@claim("kovalevsky-schulz.167")
-def moved_vertex() -> Check:
+@claim("kovalevsky-schulz.167", full=400)
+def moved_vertex(cases: int = CASES) -> Check:
     """Check that a vertex is outside the hull after it is moved to the mean of all vertices."""
     checks = []
-    for points, judge in sampled_hulls():
+    for points, judge in hulls(cases):
         count = len(judge.vertices)
         x, y, z = (sum(points[k][axis] for k in judge.vertices) for axis in range(3))
         for k in judge.vertices:
@@ -260,28 +286,28 @@ def moved_vertex() -> Check:
             moved = exact_hull([*rest, (x, y, z)])
             old = tuple(count * moved.scale * c for c in points[k])
             checks.append(max(plane_value(f.plane, old) for f in moved.facets) > 0)  # type: ignore[arg-type]
-    return holds_if(all(checks), f"{len(checks)} vertices are lost when they are moved")
+    return searched(SETS[3], cases, checks, f"{len(checks)} vertices are lost when they are moved")
 
 
-@claim("kovalevsky-schulz.168")
-def inner_side() -> Check:
+@claim("kovalevsky-schulz.168", full=400)
+def inner_side(cases: int = CASES) -> Check:
     """Check that no vertex lies on the outer side of the two faces or of the new plane."""
     checks = []
-    for _, visible, hidden, plane, vertices, edge in _horizons():
+    for _, visible, hidden, plane, vertices, edge in _horizons(cases):
         ways = [minus(p, edge[0]) for p in vertices]
         sign = -1 if max(plane_value(plane, p) for p in vertices) > 0 else 1
         for normal in (visible[:3], hidden[:3], tuple(sign * n for n in plane[:3])):
             checks.append(max(dot(normal, way) for way in ways) == 0)  # type: ignore[arg-type]
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} normals point away from all vertices")
+    return searched(SETS[3], cases, checks, f"{len(checks)} normals point away from all vertices")
 
 
-@claim("kovalevsky-schulz.173")
-def angles_at_edge() -> Check:
+@claim("kovalevsky-schulz.173", full=400)
+def angles_at_edge(cases: int = CASES) -> Check:
     """Check the signs of the products of both normals with the direction to the new point, from points of each edge."""
     checks = []
-    for new, visible, hidden, _, _, (start, end) in _horizons():
+    for new, visible, hidden, _, _, (start, end) in _horizons(cases):
         for share in (0, 1, 2):
             way = [2 * p - (2 - share) * a - share * b for p, a, b in zip(new, start, end, strict=True)]
             of_visible, of_hidden = (sum(n * w for n, w in zip(p[:3], way, strict=True)) for p in (visible, hidden))
             checks.append(of_visible > 0 > of_hidden)
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} points of edges have an acute and an obtuse angle")
+    return searched(SETS[3], cases, checks, f"{len(checks)} points of edges have an acute and an obtuse angle")

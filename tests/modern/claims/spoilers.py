@@ -1,41 +1,53 @@
-"""Changes that break what a claim relies on, and the check that its verdict then changes.
+"""Changes that break what a check relies on, and the test that its verdict then changes.
 
-A spoiler is a function that receives the original attribute of a module and returns its replacement.
+A spoiler is a function that receives the original attribute of a module and returns its replacement. Each document has
+a table of spoilers with one line for each check: the id of a statement that the check decides, the attribute of the
+module of the check, and the spoiler.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
 import pytest
 
-from modern.claims.evidence import Check, exhibited
+from modern.claims.evidence import Check, Decision, exhibited
+from modern.claims.register import decisions
 from tests.support.caches import cleared
 
 Original = Any
 Spoiler = Callable[[Original], object]
+Table = list[tuple[str, str, Spoiler]]
 
 
-def assert_verdict_changes(claim: str, attribute: str, spoiler: Spoiler) -> None:
-    """Assert that a claim that holds fails with the spoiled attribute, and the other way round."""
-    module = import_module("modern.claims." + claim.split()[0].rpartition(".")[0])
-    expected = run_claim(claim).holds
-    with cleared(module), pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, attribute, spoiler(getattr(module, attribute)))
-        spoiled = run_claim(claim).holds
-    assert spoiled != expected
+def verdict(check: Check) -> tuple[bool, bool, bool]:
+    """Return whether a check holds, whether it needs a condition, and whether it is a slip."""
+    return check.holds, bool(check.evidence.violation), bool(check.evidence.correction)
 
 
-def run_claim(claim: str) -> Check:
-    """Run a check, named by module and function below modern.claims, with the given positional arguments."""
-    name, *arguments = claim.split()
-    module, _, function_name = name.rpartition(".")
-    function = getattr(import_module(f"modern.claims.{module}"), function_name)
-    check: Check = function(*arguments)
-    return check
+def assert_verdict_changes(name: str, attribute: str, spoiler: Spoiler) -> None:
+    """Assert that the verdict on a statement changes if an attribute of the module of a check of it is spoiled."""
+    changed = False
+    for decision in decisions()[name]:
+        module = import_module(decision.function.__module__)
+        if hasattr(module, attribute):
+            expected = verdict(decision.function(**dict(decision.subject)))
+            with cleared(module), pytest.MonkeyPatch.context() as patch:
+                patch.setattr(module, attribute, spoiler(getattr(module, attribute)))
+                changed |= verdict(decision.function(**dict(decision.subject))) != expected
+    assert changed
+
+
+def unspoiled(package: str, tables: Iterable[Table]) -> list[str]:
+    """Return the names of the checks of a package that no line of the tables spoils."""
+    spoiled = {decision.function for table in tables for name, *_ in table for decision in decisions()[name]}
+    checks = [decision for of_statement in decisions().values() for decision in of_statement]
+    return sorted({_name(check) for check in checks if check.function not in spoiled and package in _name(check)})
+
+
+def _name(decision: Decision) -> str:
+    return f"{decision.function.__module__}.{decision.function.__name__}"
 
 
 def always(value: object) -> Spoiler:
@@ -46,8 +58,13 @@ check_holds = always(exhibited(True, ""))
 check_fails = always(exhibited(False, ""))
 
 
+def value(replacement: object) -> Spoiler:
+    """Replace a constant."""
+    return lambda _: replacement
+
+
 def identity(_: Original) -> object:
-    return lambda argument: argument
+    return lambda argument, *_: argument
 
 
 def negated(original: Original) -> object:

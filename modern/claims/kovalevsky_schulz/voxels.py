@@ -1,0 +1,284 @@
+"""Checks of Kovalevsky and Schulz on voxels: local corners, corners of voxels, and the cells of rasters."""
+
+from fractions import Fraction
+from functools import cache
+from itertools import product
+from random import Random
+
+import numpy as np
+
+from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search
+from modern.claims.sampled_sets import Point, counterexample_points, plane_value
+from modern.digital.solids import ball, listed
+from modern.exact_hull import exact_hull
+from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners, voxel_hull
+from modern.papers.kovalevsky_schulz.corners import Of, places
+from modern.papers.kovalevsky_schulz.polyhedron import Coplanar
+
+Voxels = tuple[Point, ...]
+STEPS: Voxels = tuple((x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1))
+DIRECTIONS = [step for step in product((-1, 0, 1), repeat=3) if any(step)]
+
+
+def _draw_solid(random: Random) -> Voxels:
+    return tuple((x, y, z) for x, y, z in product(range(4), repeat=3) if random.random() < 0.4)
+
+
+SOLIDS: Generator[Voxels] = Generator("sets of about 26 voxels of a block of 64", 1, _draw_solid, lambda s: len(s) > 3)
+
+
+def _placed(solid: Voxels, of: Of) -> set[Point]:
+    """Return the voxels, or the elements that the program labels for their corners."""
+    volume = listed(solid)
+    x, y, z = volume.origin
+    return {(i + x, j + y, k + z) for i, j, k in np.argwhere(places(volume, of)).tolist()}
+
+
+def _local(solid: Voxels, of: Of = CENTRES, neighbours: int = 26) -> set[Point]:
+    return {(x, y, z) for x, y, z in local_corners(listed(solid), of, neighbours).tolist()}
+
+
+@claim("kovalevsky-schulz.7", "kovalevsky-schulz.11", "kovalevsky-schulz.125", full=20_000)
+def vertices_among_local_corners(cases: int = 10) -> Check:
+    """Check that the vertices of the hull of voxels are among their local corners."""
+    return search(
+        SOLIDS,
+        lambda solid: {solid[k] for k in exact_hull(solid).vertices} <= _local(solid),
+        cases,
+        "the vertices of all solids are local corners",
+    )
+
+
+@claim("kovalevsky-schulz.6")
+def fewer_candidates() -> Check:
+    """Count the points whose visibility is tested: the voxels of the ball of diameter 32, and its local corners."""
+    solid = ball(32)
+    corners = len(local_corners(solid, CENTRES))
+    message = f"{corners} local corners of {solid.count} voxels are left; each is tested against the faces"
+    return exhibited(20 * corners < solid.count, message)
+
+
+@claim("kovalevsky-schulz.19")
+def local_corner_inside_hull() -> Check:
+    """Check a voxel that has both voxels of none of its 13 opposite pairs and yet lies within three neighbours."""
+    *around, middle = points = tuple(counterexample_points("tripod.csv"))
+    near = all(max(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in around)
+    wrong = middle in _local(points) and near and len(around) not in exact_hull(points).vertices
+    return refuted(wrong, f"{middle} is a local corner and a convex combination of its {len(around)} neighbours")
+
+
+@claim("kovalevsky-schulz.18", full=20_000)
+def fewer_corners_with_more_neighbours(cases: int = 10) -> Check:
+    """Check that a test of 26 neighbours keeps a part of the corners that a test of 6 keeps."""
+    message = "26 neighbours leave a part of the corners that 6 neighbours leave"
+    return search(SOLIDS, lambda solid: _local(solid) <= _local(solid, CENTRES, 6), cases, message)
+
+
+@claim("kovalevsky-schulz.23", of=CENTRES, full=20_000)
+@claim("kovalevsky-schulz.34", of=VERTICES, full=20_000)
+def local_corners_by_definition(of: Of, cases: int = 5) -> Check:
+    """Compare the program's local corners of voxels, or of their corners, with the definition by 13 pairs."""
+
+    def agrees(solid: Voxels) -> bool:
+        points = {*solid} if of == CENTRES else _corners(solid)
+        between = {
+            (x, y, z)
+            for x, y, z in points
+            if any({(x + i, y + j, z + k), (x - i, y - j, z - k)} <= points for i, j, k in DIRECTIONS)
+        }
+        return _local(solid, of) == points - between
+
+    return search(SOLIDS, agrees, cases, "the corners are those that lie between no two opposite neighbours")
+
+
+def _corners(solid: Voxels) -> set[Point]:
+    return {(x + i, y + j, z + k) for x, y, z in solid for i, j, k in STEPS}
+
+
+@cache
+def triangles_of_ball(neighbours: int, coplanar: Coplanar) -> int:
+    """Return the number of triangles of the hull of the ball of diameter 32."""
+    return len(voxel_hull(ball(32), neighbours=neighbours, coplanar=coplanar).polyhedron.triangles.faces)
+
+
+@claim("kovalevsky-schulz.21")
+def numbers_of_local_corners() -> Check:
+    """Check 776 and 360, which count the corners of voxels; the voxels themselves have fewer local corners."""
+    corners, voxels = ([len(local_corners(ball(32), of, n)) for n in (6, 26)] for of in (VERTICES, CENTRES))
+    message = f"among the corners of voxels there are {corners[0]} and {corners[1]}"
+    other = f"the local corners among the voxels, {voxels[0]} and {voxels[1]}"
+    return exhibited(corners == [776, 360], message).unless(voxels == [758, 342], other)
+
+
+@claim("kovalevsky-schulz.22", neighbours=26, coplanar=INVISIBLE)
+@claim("kovalevsky-schulz.62", neighbours=6, coplanar=VISIBLE)
+def printed_triangles(neighbours: int, coplanar: Coplanar) -> Check:
+    """Check whether the choice of the text gives the printed 1404 triangles, which 6 and invisible faces give."""
+    number = triangles_of_ball(neighbours, coplanar)
+    message = f"with {neighbours} neighbours and {coplanar} coplanar faces the ball has {number} triangles, not 1404"
+    return refuted(number != 1404 == triangles_of_ball(6, INVISIBLE), message)
+
+
+@claim("kovalevsky-schulz.64")
+def printed_faces() -> Check:
+    """Check 1404 triangles and 266 faces for invisible coplanar faces; visible ones give other triangles."""
+    hull = voxel_hull(ball(32), neighbours=6, coplanar=INVISIBLE).polyhedron
+    passed = (len(hull.triangles.faces), len(hull.faces.faces)) == (1404, 266)
+    visible = triangles_of_ball(6, VISIBLE)
+    return exhibited(passed, "1404 triangles and 266 faces").unless(
+        visible != 1404, f"visible coplanar faces, which give {visible} triangles"
+    )
+
+
+@claim("kovalevsky-schulz.24", "kovalevsky-schulz.25", full=20_000)
+def corners_of_voxels(cases: int = 10) -> Check:
+    """Check that the elements labelled for the corners are the corners of the voxels, and no others."""
+    message = "the labelled corners are exactly those of the voxels"
+    return search(SOLIDS, lambda solid: _placed(solid, VERTICES) == _corners(solid), cases, message)
+
+
+@claim("kovalevsky-schulz.12", "kovalevsky-schulz.13", full=10_000)
+def corners_against_centres(cases: int = 5) -> Check:
+    """Check that the hull of the corners contains the centres, and is that of cubes about the outermost voxels."""
+
+    def agrees(solid: Voxels) -> bool:
+        outer = exact_hull(sorted(_corners(solid)))
+        vertices = [solid[k] for k in exact_hull(solid).vertices]
+        grown = exact_hull(sorted(_corners(tuple(vertices))))
+        centres = [(2 * x + 1, 2 * y + 1, 2 * z + 1) for x, y, z in solid]
+        within = all(plane_value((*f.plane[:3], 2 * f.plane[3]), c) < 0 for f in outer.facets for c in centres)
+        return within and {f.plane for f in outer.facets} == {f.plane for f in grown.facets}
+
+    return search(SOLIDS, agrees, cases, "the hull of the corners is that of the centres with a cube about each")
+
+
+@claim("kovalevsky-schulz.28")
+def corner_of_single_voxel() -> Check:
+    """Check corners of the counterexample that bound a single voxel but are not local corners by 6 neighbours."""
+    voxels = tuple(counterexample_points("two_voxels.csv"))
+    corners = _local(voxels, VERTICES, 6)
+    single = {c for c in _corners(voxels) if sum(c in _corners((v,)) for v in voxels) == 1}
+    wrong = sorted(single - corners)
+    message = f"corners that bound one voxel and are not local: {', '.join(map(str, wrong))}"
+    return refuted(wrong and corners <= single, message)
+
+
+@claim("kovalevsky-schulz.155", statement="more")
+@claim("kovalevsky-schulz.154", statement="edge")
+def corners_of_eight_voxels(statement: str) -> Check:
+    """Check a corner for all subsets of its eight voxels.
+
+    statement: ``more``, two or more voxels give a pair of opposite neighbours; ``edge``, such a pair needs two voxels.
+    """
+    outcomes = []
+    for present in product((False, True), repeat=8):
+        voxels = [v for v, here in zip(STEPS, present, strict=True) if here]
+        near = {cell for voxel in voxels for cell in _neighbours(voxel)}
+        sides = [[tuple(side if k == axis else 2 for k in range(3)) for side in (0, 1)] for axis in range(3)]
+        opposite = any({*pair} <= near for pair in sides)
+        outcomes.append(opposite or len(voxels) < 2 if statement == "more" else not opposite or len(voxels) > 1)
+    return exhausted("subsets of the eight voxels at a corner", outcomes, f"true for {sum(outcomes)} subsets")
+
+
+def _neighbours(voxel: tuple[int, ...]) -> list[tuple[int, ...]]:
+    """Return the neighbours of the corner among the corners of a voxel: 0 or 1 on one axis and 2 on the others."""
+    return [tuple(voxel[k] if k == axis else 2 for k in range(3)) for axis in range(3)]
+
+
+@claim("kovalevsky-schulz.27")
+def topological_raster() -> Check:
+    """Count the (2n + 1)^3 cells of a cube of n voxels on each side, which are eight times as many in the limit."""
+    ratios = {n: Fraction(cells_of(n), n**3) for n in (10, 1000)}
+    message = f"for n = 1000 there are {float(ratios[1000]):.2f} times as many cells as voxels"
+    return exhibited(8 < ratios[1000] < Fraction(805, 100), message).unless(
+        ratios[10] > 9, f"n = 10 with {float(ratios[10]):.2f} times"
+    )
+
+
+def cells_of(n: int) -> int:
+    """Return the number of cells of a cube of n voxels on each side, including its border."""
+    return len(range(2 * n + 1)) ** 3
+
+
+@claim("kovalevsky-schulz.175")
+def edges_at_corner() -> Check:
+    """Count the 1-cells at a 0-cell of a Cartesian complex: at most four in the plane, and six in space."""
+    most = {}
+    for dimensions in (2, 3):
+        cells = [*product(range(5), repeat=dimensions)]
+        corners = [c for c in cells if not any(x % 2 for x in c)]
+        most[dimensions] = [sum(ends_at(edge, corner) for edge in cells) for corner in corners]
+    message = f"at most {max(most[2])} edges in the plane"
+    check = exhausted("corners of a block of four pixels", [n <= 4 for n in most[2]], message)
+    return check.unless(max(most[3]) > 4, f"a corner in space with {max(most[3])} edges")
+
+
+def ends_at(edge: tuple[int, ...], corner: tuple[int, ...]) -> bool:
+    """Return True if a cell has one odd coordinate and is next to a 0-cell."""
+    return sum(x % 2 for x in edge) == 1 == sum(abs(a - b) for a, b in zip(edge, corner, strict=True))
+
+
+@claim("kovalevsky-schulz.32")
+@claim("kovalevsky-schulz.33", dimensions=2)
+def farthest_voxel_of_corner(dimensions: int = 3) -> Check:
+    """Check that the voxel farthest from the origin names each corner of a raster, or pixel of Fig. 3, once."""
+    size = 3
+    raster = tuple((x, y, z) for x, y, z in product(range(size), repeat=3) if dimensions == 3 or not z)
+    named = {}
+    for x, y, z in _placed(raster, VERTICES):
+        if dimensions == 3 or not z:
+            beside = {(x - i, y - j, z - k) for i, j, k in STEPS} & {*raster}
+            named[x, y, z] = max(beside, key=lambda c: c[0] ** 2 + c[1] ** 2 + c[2] ** 2)
+    within = [corner == voxel for corner, voxel in named.items() if size not in corner]
+    message = f"{len(within)} corners have their own voxels; {len(named) - len(within)} are at the border of the space"
+    return exhausted(f"corners of a raster of {len(raster)} cells", [*within, len(within) == len(raster)], message)
+
+
+@claim("kovalevsky-schulz.174", full=20_000)
+def additional_labels(cases: int = 5) -> Check:
+    """Check that exactly the elements behind a voxel, seen from the origin, become labelled in addition."""
+
+    def agrees(solid: Voxels) -> bool:
+        behind = {(x + i, y + j, z + k) for x, y, z in solid for i, j, k in STEPS} - {*solid}
+        return _placed(solid, VERTICES) - {*solid} == behind
+
+    return search(SOLIDS, agrees, cases, "the elements labelled in addition are those behind a voxel")
+
+
+@claim("kovalevsky-schulz.152", "kovalevsky-schulz.140", statement="incident")
+@claim("kovalevsky-schulz.178", statement="common")
+@claim("kovalevsky-schulz.137", "kovalevsky-schulz.138", statement="farthest")
+def cells_as_boxes(statement: str) -> Check:
+    """Compare the topological coordinates of the cells of eight voxels with the closed boxes that the cells are.
+
+    statement: ``incident``, one box contains the other if and only if the coordinates are incident, and the dimension
+    is the number of odd coordinates; ``common``, two boxes have common points; ``farthest``, halved coordinates are
+    those of the farthest voxel that the cell bounds.
+    """
+    cells = [*product(range(5), repeat=3)]
+    boxes = {c: tuple((x - x % 2, x + x % 2) for x in c) for c in cells}
+    pairs = [(a, b) for a in cells for b in cells if a != b]
+    if statement == "common":
+        meets = [
+            all(max(p[0], q[0]) <= min(p[1], q[1]) for p, q in zip(boxes[a], boxes[b], strict=True)) for a, b in pairs
+        ]
+        return exhibited(any(meets), f"{sum(meets)} of {len(pairs)} ordered pairs of closed cells have common points")
+    if statement == "farthest":
+        voxels = [c for c in cells if all(x % 2 for x in c)]
+        outcomes = []
+        for cell in (c for c in cells if max(c) < 4):
+            bounded = [v for v in voxels if cell == v or incident(cell, v)]
+            outcomes.append(tuple(x // 2 for x in cell) == tuple(x // 2 for x in max(bounded)))
+        message = "eight cells of all dimensions have the coordinates of one voxel"
+        return exhausted("cells of eight voxels, without the border", outcomes, message)
+    outcomes = [sum(p[0] < p[1] for p in boxes[c]) == sum(x % 2 for x in c) for c in cells]
+    outcomes += [
+        all(q[0] <= p[0] and p[1] <= q[1] for p, q in zip(boxes[a], boxes[b], strict=True)) == incident(a, b)
+        for a, b in pairs
+    ]
+    return exhausted("pairs of the 125 cells of eight voxels", outcomes, "coordinates tell which boxes contain others")
+
+
+def incident(a: tuple[int, ...], b: tuple[int, ...]) -> bool:
+    """Return True if a cell bounds another, by topological coordinates."""
+    return a != b and all(x == y or (y % 2 == 1 and abs(x - y) == 1) for x, y in zip(a, b, strict=True))
