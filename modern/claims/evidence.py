@@ -9,10 +9,13 @@ decides.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from random import Random
 from typing import Any, Final, Generic, Literal, TypeVar, get_args
+
+from emulator.errors import EmulatorError
 
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., "Check"])
@@ -89,6 +92,17 @@ def proved(argument: str, steps: Iterable[object], message: str) -> Check:
     return _all("proved", argument, steps, message)
 
 
+def identity(difference: Callable[..., int], degrees: Sequence[int], message: str) -> Check:
+    """Return the check of an identity of polynomials; ``degrees`` bounds the degree of each variable.
+
+    A polynomial of degree d in a variable that vanishes at d + 1 values vanishes for all; so it is 0 if it is 0 on the
+    grid of these values.
+    """
+    values = [difference(*point) == 0 for point in product(*(range(-(d // 2), d - d // 2 + 1) for d in degrees))]
+    argument = f"a polynomial in {len(degrees)} variables that is 0 on a grid of one value more than each degree is 0"
+    return proved(argument, values, message)
+
+
 def exhausted(domain: str, outcomes: Iterable[object], message: str) -> Check:
     """Return the check of a whole domain, with one truth value for each of its configurations."""
     return _all("exhausted", domain, outcomes, message)
@@ -146,7 +160,7 @@ def _fails(case: T, fails: Callable[[T], bool]) -> bool:
     # A smaller case may be one to which the statement does not apply, for example too few points.
     try:
         return fails(case)
-    except (ValueError, IndexError, ZeroDivisionError, AssertionError):
+    except (ArithmeticError, AssertionError, EmulatorError, LookupError, ValueError):
         return False
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import combinations, permutations, product
+from functools import cache
+from itertools import combinations, product
 from random import Random
 
-from modern.claims.evidence import Check, claim, exhibited, holds_if
-from modern.claims.sampled_sets import Point, sampled_sets
+from modern.claims.evidence import Check, Generator, claim, exhibited, identity, searched
+from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
@@ -44,19 +45,22 @@ def tables_of(v: tuple[Place, ...], w: tuple[Place, ...]) -> tuple[list[list[int
     return pl, lp
 
 
-def _polygons() -> Iterator[tuple[Place, ...]]:
-    """Yield convex polygons, clockwise: the squares above and a few random ones."""
-    yield from (SQUARE, WITHIN, ACROSS, BESIDE, AGAINST)
-    random = Random(32)
-    for _ in range(4):
-        points = [(random.randint(-2, 6), random.randint(-2, 6), 0) for _ in range(6)]
-        ring = exact_hull(points).polygon
-        if ring:
-            yield tuple(points[k][:2] for k in ring[::-1])
+def _draw_polygon(random: Random) -> tuple[Place, ...]:
+    points = [(random.randint(-2, 6), random.randint(-2, 6), 0) for _ in range(6)]
+    return tuple(points[k][:2] for k in exact_hull(points).polygon[::-1])
 
 
-def pairs() -> Iterator[tuple[tuple[Place, ...], tuple[Place, ...]]]:
-    for v, w in combinations([*_polygons()], 2):
+POLYGONS = Generator("convex polygons with coordinates from -2 to 6", 32, _draw_polygon, bool)
+
+
+@cache
+def polygons(count: int = CASES) -> tuple[tuple[Place, ...], ...]:
+    """Return convex polygons, clockwise: the squares above and random ones."""
+    return (SQUARE, WITHIN, ACROSS, BESIDE, AGAINST, *POLYGONS.cases(2 * count))
+
+
+def pairs(count: int = CASES) -> Iterator[tuple[tuple[Place, ...], tuple[Place, ...]]]:
+    for v, w in combinations(polygons(count), 2):
         yield v, w
         yield w, v
 
@@ -73,8 +77,8 @@ def _apart(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
 ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2), (2, 5, 1))
 
 
-@claim("nakamae-nishita.5", "nakamae-nishita.12")
-def convex_contour() -> Check:
+@claim("nakamae-nishita.5", "nakamae-nishita.12", full=400)
+def convex_contour(cases: int = CASES) -> Check:
     """Check that the edges of exactly one front face form one ring that turns clockwise.
 
     The hulls are seen from oblique directions, and one along a face. The corners of the ring are those of the hull of
@@ -82,7 +86,7 @@ def convex_contour() -> Check:
     """
     checks, straight = [], 0
     for points, judge, (u, v) in (
-        *((sampled.points, sampled.judge, (31, 17)) for sampled in sampled_sets(3, 3)),
+        *((sampled.points, sampled.judge, (31, 17)) for sampled in sampled_sets(3, 1 + cases)),
         _roof(),
     ):
         images = [(x + u * z, y + v * z) for x, y, z in points]
@@ -102,22 +106,20 @@ def convex_contour() -> Check:
         checks.append({contour[k - 1] for k, turn in enumerate(turns) if turn} == corners)
         straight += turns.count(0)
     message = f"the contours of {len(checks) // 2} hulls turn only clockwise"
-    return holds_if(all(checks) and straight > 0, f"{message}; one is straight at a corner of a face seen edge-on")
+    message += "; one is straight at a corner of a face seen edge-on"
+    return searched(SETS[3], 1 + cases, [*checks, straight], message)
 
 
 def _roof() -> tuple[tuple[Point, ...], ExactHull, tuple[int, int]]:
     return ROOF, exact_hull(ROOF), (0, 0)
 
 
-@claim("nakamae-nishita.13")
-@claim("nakamae-nishita.14", kind="figure")
-def correlations(kind: str = "") -> Check:
-    """Classify pairs of polygons independently: exactly one relation applies unless they touch, and then sometimes
-    none.
-    """
+@claim("nakamae-nishita.13", full=25)
+def correlations(cases: int = CASES) -> Check:
+    """Check that exactly one of three relations applies to two polygons, unless they touch."""
     counts: dict[str, int] = dict.fromkeys(("apart", "encloses", "partly", "touching"), 0)
     checks, some_unrelated = [], False
-    for v, w in pairs():
+    for v, w in pairs(cases):
         both = (v, w), (w, v)
         relations = {
             "apart": any(all(value(line, p) < 0 for p in flat(b)) for a, b in both for line in lines_of(a)),
@@ -131,54 +133,67 @@ def correlations(kind: str = "") -> Check:
         else:
             checks.append(sum(relations.values()) == 1)
             counts = {name: n + relations.get(name, False) for name, n in counts.items()}
-    passed = all(checks) and some_unrelated and all(counts.values())
     message = "pairs: " + ", ".join(f"{name} {number}" for name, number in counts.items())
-    return holds_if(passed, message, conditional=not kind)
+    check = searched(POLYGONS, 2 * cases, [*checks, *counts.values()], message)
+    return check.unless(some_unrelated, "two polygons that touch, to which no relation applies")
 
 
-@claim("nakamae-nishita.21", number="1")
-@claim("nakamae-nishita.22", number="2")
-@claim("nakamae-nishita.29", number="3", kind="in_line")
-@claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", number="3")
-@claim("nakamae-nishita.60", "nakamae-nishita.37", number="5")
-def formula(number: str, kind: str = "") -> Check:
-    """Compare a formula with an independent computation; (1) for points at known distances to the right of a line.
-
-    (3) ``in_line``: with sides that overlap on one line, about which d says nothing.
-    """
-    checks: list[bool] = []
-    if number == "1":
-        for (x1, y1), (x2, y2) in permutations(((0, 0), (0, 4), (3, -2), (5, 1)), 2):
-            line, (x, y) = line_through((x1, y1, 1), (x2, y2, 1)), (x2 - x1, y2 - y1)
-            for along, right in product((-1, 0, 2), (-3, 0, 1)):
-                p = (x1 + along * x + right * y, y1 + along * y - right * x, 1)
-                checks.append(value(line, p) == right * (x * x + y * y))
-    elif number == "2":
-        pl, lp = tables_of(SQUARE, ACROSS)
-        program_tables = contour_tables(SQUARE, ACROSS)
-        checks = [program_tables.pl == tuple(map(tuple, pl)), program_tables.lp == tuple(map(tuple, lp))]
-    elif number == "3":
-        meetings = [pair for v, w in pairs() for pair in numbers_of_meetings(v, w)]
-        checks = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {d for d, _ in meetings}]
-    elif number == "5":
-        return _formula_5()
-    if kind:
-        overlap = overlap_in_line()
-        passed = all(checks) and overlap.holds
-        return holds_if(passed, f"{len(checks)} cases agree; {overlap.message}", conditional=True)
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} cases agree")
+@claim("nakamae-nishita.14")
+def three_correlations() -> Check:
+    """Check that contours can lie apart, enclose one another, and overlap partly."""
+    partly = any(crosses(SQUARE, i, ACROSS, j) for i in range(4) for j in range(4))
+    passed = _apart(SQUARE, BESIDE) and all(inside(p, SQUARE) for p in WITHIN) and partly
+    return exhibited(passed, "three pairs of squares lie apart, enclose one another, and overlap partly")
 
 
-def _formula_5() -> Check:
-    """Compare the determinant of (5) and the program with the side of the eye, for a face z = 0 seen from above."""
+@claim("nakamae-nishita.21")
+def formula_1() -> Check:
+    """Check that (1) is the distance to the right times the squared length, for a point at shares along and right."""
+
+    def difference(x1: int, y1: int, x: int, y: int, along: int, right: int) -> int:
+        line = line_through((x1, y1, 1), (x1 + x, y1 + y, 1))
+        return value(line, (x1 + along * x + right * y, y1 + along * y - right * x, 1)) - right * (x * x + y * y)
+
+    return identity(difference, (2, 2, 2, 2, 1, 1), "the value is the distance to the right times the squared length")
+
+
+@claim("nakamae-nishita.22")
+def formula_2() -> Check:
+    """Compare the program's tables of two squares with formula (2)."""
+    pl, lp = tables_of(SQUARE, ACROSS)
+    program_tables = contour_tables(SQUARE, ACROSS)
+    agrees = program_tables.pl == tuple(map(tuple, pl)) and program_tables.lp == tuple(map(tuple, lp))
+    return exhibited(agrees, "PL and LP of two squares agree")
+
+
+@claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", full=25)
+def formula_3(cases: int = CASES) -> Check:
+    """Compare d of (3) with how two segments meet, and check that all four values occur."""
+    meetings = [pair for v, w in pairs(cases) for pair in numbers_of_meetings(v, w)]
+    outcomes = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {d for d, _ in meetings}]
+    return searched(POLYGONS, 2 * cases, outcomes, f"{len(meetings)} pairs of segments agree")
+
+
+@claim("nakamae-nishita.29", "nakamae-nishita.33", full=25)
+def formula_3_in_line(cases: int = CASES) -> Check:
+    """Check that d tells how segments meet that are not collinear; for two sides that overlap in a line it is 0."""
+    pl, lp = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2)))
+    d = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp))).crossing_number(1, 1)
+    return formula_3(cases).unless(d == 0, "the sides (0, 4) (4, 4) and (2, 4) (6, 4), which overlap, and d is 0")
+
+
+@claim("nakamae-nishita.60", "nakamae-nishita.37")
+def formula_5() -> Check:
+    """Compare the determinant of (5) and the program with the side of a face on which a vertex lies."""
     corners = [(0, 0, 0), (0, 4, 0), (4, 4, 0)]
     plane, signs = plane_through(*((*corner, 1) for corner in corners)), {}
     for z in (-2, 0, 3):
         rows = [(1, 2, z), *corners]
         (a, b, c) = (minus(row, rows[0]) for row in rows[1:])
         signs[z] = (sign(dot(a, cross(b, c))), sign(height(plane, (1, 2, z, 1))))
-    passed = all(by_determinant == by_program == sign(z) for z, (by_determinant, by_program) in signs.items())
-    return holds_if(passed, "the value is positive above the face, negative below it, and 0 in it", conditional=True)
+    passed = signs[3] == (1, 1) and signs[-2] == (-1, -1)
+    check = exhibited(passed, "the value is positive outside the face, and negative on its other side")
+    return check.unless(signs[0] == (0, 0), "a vertex in the face, for which the value is 0")
 
 
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[tuple[int, int]]:
@@ -209,15 +224,15 @@ def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
     return side(a, b, c) * side(a, b, d) == -1 == side(c, d, a) * side(c, d, b)
 
 
-@claim("nakamae-nishita.23", number="1")
-@claim("nakamae-nishita.24", number="2")
-@claim("nakamae-nishita.25", number="3")
-@claim("nakamae-nishita.26", number="4")
-@claim("nakamae-nishita.27", number="LP")
-def table_properties(number: str) -> Check:
+@claim("nakamae-nishita.23", number="1", full=25)
+@claim("nakamae-nishita.24", number="2", full=25)
+@claim("nakamae-nishita.25", number="3", full=25)
+@claim("nakamae-nishita.26", number="4", full=25)
+@claim("nakamae-nishita.27", number="LP", full=25)
+def table_properties(number: str, cases: int = CASES) -> Check:
     """Check a property of the tables on pairs of convex polygons; ``LP`` checks all four, with rows for columns."""
     checks, touching = [], False
-    for v, w in pairs():
+    for v, w in pairs(cases):
         pl, lp = tables_of(v, w)
         tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
         if number != "LP":
@@ -231,9 +246,8 @@ def table_properties(number: str) -> Check:
             property_checks, touches = _property(property_number, w, v, [(*row,) for row in lp], met)
             checks += property_checks
             touching |= touches
-    if not all(checks) or not checks:
-        return exhibited(False, f"true for {sum(checks)} of {len(checks)} pairs of polygons and lines")
-    return holds_if(True, f"true for {len(checks)} pairs of polygons and lines", conditional=touching)
+    check = searched(POLYGONS, 2 * cases, checks, f"true for {len(checks)} pairs of polygons and lines")
+    return check.unless(touching, "a side without -1 that touches the other polygon, where d is -2 or -1")
 
 
 def _property(
@@ -254,19 +268,11 @@ def _property(
     return [not has_crossing for has_crossing in crossed], any(any(met[i]) for i in clear)
 
 
-@claim("nakamae-nishita.33")
-def overlap_in_line() -> Check:
-    """Check d for two squares whose upper sides overlap on one line."""
-    pl, lp = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2)))
-    d = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp))).crossing_number(1, 1)
-    return holds_if(d == 0, f"d is {d} for two sides that overlap", conditional=True)
-
-
-@claim("nakamae-nishita.41")
-def intersection_counts() -> Check:
+@claim("nakamae-nishita.41", full=25)
+def intersection_counts(cases: int = CASES) -> Check:
     """Check that segments meet contours in at most two points, and that d of (3) is not 0 twice at a corner."""
     counts, along, over_two = set(), 0, 0
-    for v in _polygons():
+    for v in polygons(cases):
         for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):
             places, by_3 = set(), 0
             for i, line in enumerate(lines_of(v)):
@@ -284,8 +290,6 @@ def intersection_counts() -> Check:
             else:
                 counts.add(len(places))
                 over_two += by_3 > 2
-    message = (
-        f"segments meet a contour in {', '.join(map(str, sorted(counts)))} points; {along} run along a side, "
-        f"and {over_two} meet more than two"
-    )
-    return holds_if(counts == {0, 1, 2} and along and over_two, f"{message} sides", conditional=True)
+    check = searched(POLYGONS, 2 * cases, [counts == {0, 1, 2}], "segments meet a contour in 0, 1 or 2 points")
+    case = f"segments along a side ({along}), and those through corners that (3) counts twice ({over_two})"
+    return check.unless(along and over_two, case)

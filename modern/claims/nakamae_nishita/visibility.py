@@ -6,9 +6,9 @@ from fractions import Fraction
 from functools import cache
 from itertools import combinations, permutations, product
 
-from modern.claims.evidence import Check, claim, holds_if, refuted
-from modern.claims.nakamae_nishita.tables import SQUARE, crosses, inside, lines_of, pairs, side, tables_of
-from modern.claims.sampled_sets import counterexample, counterexample_points, sampled_sets
+from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched
+from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, crosses, inside, lines_of, pairs, side, tables_of
+from modern.claims.sampled_sets import CASES, SETS, counterexample, counterexample_points, sampled_sets
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.nakamae_nishita.contours import values
@@ -25,39 +25,39 @@ def _cuboid(way: tuple[int, int, int] = (3, -5, 2)) -> Drawing:
     return draw(lambda: [cuboid("box", Fraction(2), Fraction(3), Fraction(4))], parallel(way))
 
 
-@claim("nakamae-nishita.10", kind="condition")
 @claim("nakamae-nishita.20")
-def faces_and_edges(kind: str = "") -> Check:
-    """Check that a cuboid has three front faces, three inner edges and six contour edges.
-
-    With ``kind``, view it along an axis, so that four faces are neither front nor back.
-    """
+def faces_and_edges() -> Check:
+    """Check that a cuboid has three front faces, three inner edges and six contour edges."""
     (solid,) = _cuboid().solids
     kinds = [edge.kind for edge in solid.edges]
     passed = (sum(s > 0 for s in solid.signs), kinds.count(INNER), kinds.count(CONTOUR)) == (3, 3, 6)
     message = f"a cuboid has {kinds.count(INNER)} inner and {kinds.count(CONTOUR)} contour edges"
-    if not kind:
-        return holds_if(passed, message)
+    return exhibited(passed, message)
+
+
+@claim("nakamae-nishita.10")
+def face_seen_edge_on() -> Check:
+    """Check the same, and a cuboid viewed along an axis, on which no edge is between a front and a back face."""
     (along,) = _cuboid((0, 0, 1)).solids
     pairs_ = combinations(zip(along.polyhedron.faces, along.signs, strict=True), 2)
-    edges_as_printed = sum(
-        first_sign * second_sign == -1 and len({*a} & {*b}) == 2 for (a, first_sign), (b, second_sign) in pairs_
-    )
+    as_printed = sum(first * second == -1 and len({*a} & {*b}) == 2 for (a, first), (b, second) in pairs_)
     contour = sum(edge.kind == CONTOUR for edge in along.edges)
-    passed &= along.signs.count(0) == 4 == contour and not edges_as_printed
-    return holds_if(
-        passed,
-        f"{message}; along an axis it has {contour} contour edges, and {edges_as_printed} by the printed definition",
-        conditional=True,
-    )
+    case = f"a cuboid seen along an axis: {contour} contour edges, and {as_printed} by the printed definition"
+    return faces_and_edges().unless(along.signs.count(0) == 4 == contour and not as_printed, case)
 
 
 @claim("nakamae-nishita.16")
 def hidden_contour_edges() -> Check:
-    """Check that parts of the contour edges of the farther of two boxes are hidden."""
-    drawing = _scene("enclosed.toml")
-    hidden = {kind for kind in (INNER, CONTOUR) if _hidden(drawing, kind)}
-    return holds_if(CONTOUR in hidden, "contour edges of the box are hidden as well as inner edges", conditional=True)
+    """Check that the nearer of two boxes hides inner edges of the other one, and contour edges as well."""
+    drawing = _two_boxes((1, 3, 1))
+    check = exhibited(_hidden(drawing, INNER), "the contour of the nearer box hides inner edges of the other box")
+    return check.unless(_hidden(drawing, CONTOUR), "the contour edges of that box, which are hidden as well")
+
+
+def _two_boxes(at: tuple[int, int, int]) -> Drawing:
+    boxes = [cuboid("box", *map(Fraction, (2, 2, 2)))] * 2
+    second = placed(boxes[1], moved((Fraction(at[0]), Fraction(at[1]), Fraction(at[2]))), "second box")
+    return draw([boxes[0], second], parallel((2, -3, 1)), hidden=True)
 
 
 @cache
@@ -77,17 +77,24 @@ def _hidden(drawing: Drawing, kind: str) -> int:
 
 
 @claim("nakamae-nishita.19")
-def three_collinear_points() -> Check:
-    message = "the formula gives 0 for three collinear points"
-    return holds_if(value(line_through((0, 0, 1), (1, 1, 1)), (2, 2, 1)) == 0, message, conditional=True)
+def first_three_corners() -> Check:
+    """Check that (1) has the sign of the face for three corners of it, and is 0 for collinear ones."""
+    (solid,) = _cuboid().solids
+    outcomes = []
+    for face, front in zip(solid.polyhedron.faces, solid.signs, strict=True):
+        a, b, c = ((solid.points[k][0], solid.points[k][1], solid.points[k][3]) for k in face[:3])
+        outcomes.append(sign(value(line_through(a, b), c)) == front != 0)
+    check = exhausted("faces of a cuboid", outcomes, "the sign decides for all faces")
+    collinear = value(line_through((0, 0, 1), (1, 1, 1)), (2, 2, 1))
+    return check.unless(collinear == 0, "three collinear corners, for which the value is 0")
 
 
 @claim("nakamae-nishita.45")
-@claim("nakamae-nishita.59", kind="k")
-def indices(kind: str = "") -> Check:
+@claim("nakamae-nishita.59", index=-1)
+def indices(index: int = 0) -> Check:
     """Compare the indices of the program with those of (6) for segments in general position.
 
-    ``k``: the index -1 occurs only if there is one intersection.
+    index: -1, that index occurs only if there is one intersection.
     """
     checks, alone = [], set()
     ways = set()
@@ -109,12 +116,12 @@ def indices(kind: str = "") -> Check:
         ways.add(tuple(index for _, index in passage.marks))
     expected = {(), (1,), (-1,), (2, -2)}
     message = f"{len(checks)} segments have the index 1 if they enter, -1 if they leave, and 2 and -2 if they do both"
-    return holds_if(all(checks) and ways == expected and (not kind or alone == {1}), message)
+    domain = "segments between 16 points of a grid that pass no corner"
+    return exhausted(domain, [*checks, ways == expected, not index or alone == {1}], message)
 
 
-@claim("nakamae-nishita.36", kind="fails")
 @claim("nakamae-nishita.35")
-def touching_solids(kind: str = "") -> Check:
+def touching_solids() -> Check:
     """Check which rule decides the nearer of two touching boxes, and what is hidden without that rule."""
     (relation,) = _scene("stacked.toml").relations
     without = _scene("stacked.toml", "touching")
@@ -122,8 +129,9 @@ def touching_solids(kind: str = "") -> Check:
         _scene("stacked.toml"), CONTOUR
     )
     passed = relation.by == "plane" and less
-    message = "a separating plane decides; without this rule nothing is hidden"
-    return holds_if(not passed, message) if kind else holds_if(passed, message, conditional=True)
+    crossing = _two_boxes((1, 3, 0)).relations[0]
+    check = exhibited((crossing.by, crossing.nearer) == ("(4)", 1), "the sign decides for two boxes that are apart")
+    return check.unless(passed, "two boxes that touch: the value is 0, and only a separating plane decides")
 
 
 @claim("nakamae-nishita.43", "nakamae-nishita.42")
@@ -139,9 +147,9 @@ def three_conditions() -> Check:
             touching += met and passage == CLEAR
             if passage.marks:
                 index_patterns.add(tuple(index for _, index in passage.marks))
-    passed = index_patterns == {(1,), (-1,), (2, -2)} and touching > 0
-    message = f"segments enter, leave, or enter and leave; {touching} only touch a corner"
-    return holds_if(passed, message, conditional=True)
+    outcomes = [index_patterns == {(1,), (-1,), (2, -2)}]
+    check = exhausted("segments between 16 points of a grid", outcomes, "segments enter, leave, or do both")
+    return check.unless(touching, f"segments that only touch a corner ({touching})")
 
 
 @claim("nakamae-nishita.44")
@@ -181,29 +189,26 @@ def overlap_by_neighbours() -> Check:
                 zeros.append(overlap)
                 apart = any(row[k] <= 0 >= next_row[k] for k in ((i - 1) % 4, (i + 1) % 4))
                 beside.append(overlap != apart)
-    message = (
-        f"{len(zeros)} pairs of sides are collinear and {zeros.count(False)} do not overlap; the adjacent "
-        "columns tell which"
+    message = f"the adjacent columns tell which of {len(zeros)} pairs of collinear sides overlap"
+    return exhausted("78 rectangles beside a square", beside, message).unless(
+        False in zeros, f"zeros alone, which {zeros.count(False)} pairs have that do not overlap"
     )
-    return holds_if(all(beside) and False in zeros, message, conditional=True)
 
 
-@claim("nakamae-nishita.64")
-def segments_within() -> Check:
+@claim("nakamae-nishita.64", full=25)
+def segments_within(cases: int = CASES) -> Check:
     """Check that every side of V that crosses a diagonal of V' has a part inside V', but is not always inside."""
     checks, partly_inside = [], 0
-    for v, w in pairs():
+    for v, w in pairs(cases):
         for i, (p, q) in product(range(len(v)), combinations(range(len(w)), 2)):
             if crosses(v, i, (w[p], w[q]), 0):
                 a, b = v[i], v[(i + 1) % len(v)]
                 values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
                 checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)
                 partly_inside += not (inside(a, w) and inside(b, w))
-    message = (
-        f"in {len(checks)} crossings of inner edges a part of the segment is inside, "
-        f"in {partly_inside} of them not all of it"
-    )
-    return holds_if(all(checks) and partly_inside, message, conditional=True)
+    message = f"in {len(checks)} crossings of inner edges a part of the segment is inside"
+    check = searched(POLYGONS, 2 * cases, checks, message)
+    return check.unless(partly_inside, f"the whole segment, which is not inside in {partly_inside} crossings")
 
 
 @claim("nakamae-nishita.65")
@@ -234,11 +239,10 @@ def nearer_contour_inside() -> Check:
         passage for edge_passages in drawing.passages if edge_passages.solid == 0 for _, passage in edge_passages.behind
     ]
     whole, met = passages.count(ENCLOSED), sum(bool(passage.marks) for passage in passages)
-    passed = whole > 0 < met and _hidden(drawing, INNER) > 0 == _hidden(drawing, CONTOUR)
-    message = (
-        f"{met} inner edges of the frustum meet the contour of the box; {whole} others are hidden without meeting it"
-    )
-    return holds_if(passed, message, conditional=True)
+    message = f"{met} inner edges of the frustum meet the contour of the box"
+    check = exhibited(met and _hidden(drawing, INNER) > 0, message)
+    without = whole and _hidden(drawing, CONTOUR) == 0
+    return check.unless(without, f"{whole} other inner edges, which are hidden without meeting it")
 
 
 def _ring(low: int, high: int) -> tuple[tuple[int, int], ...]:
@@ -256,21 +260,18 @@ def counts_of_table_1d() -> Check:
     # 25 prisms, 23 on quadrangles and 2 on triangles, and five plates with four corners and two faces.
     bases = [4] * 23 + [3] * 2
     plates = (len(bases) + 5, 2 * sum(bases) + 5 * 4, sum(bases) + 2 * len(bases) + 5 * 2)
-    passed = all(most[name] == COUNTS[name][1] for name in "ac")
-    passed &= most["d"] < COUNTS["d"][1] and plates == COUNTS["d"]
-    message = (
-        f"30 solids with 158 faces have at most {most['d']} vertices; 25 prisms and five plates have the printed counts"
-    )
-    return holds_if(passed, message, conditional=True)
+    check = exhibited(plates == COUNTS["d"], "25 prisms and five plates have the printed counts")
+    solids = all(most[name] == COUNTS[name][1] for name in "ac") and most["d"] < COUNTS["d"][1]
+    return check.unless(solids, f"solids only, which have at most {most['d']} vertices with 158 faces")
 
 
-@claim("nakamae-nishita.63")
-def convex_faces() -> Check:
+@claim("nakamae-nishita.63", full=400)
+def convex_faces(cases: int = CASES) -> Check:
     """Check that any three consecutive corners of a face turn in the same direction about its outward normal."""
     checks = []
-    for sampled in sampled_sets(3, 2):
+    for sampled in sampled_sets(3, cases):
         for facet in sampled.judge.facets:
             ring = [sampled.points[k] for k in facet.polygon]
             turns = [cross(minus(ring[k - 1], ring[k - 2]), minus(ring[k], ring[k - 1])) for k in range(len(ring))]
             checks.append(all(dot(turn, facet.plane[:3]) > 0 for turn in turns))
-    return holds_if(all(checks), f"{len(checks)} faces are convex")
+    return searched(SETS[3], cases, checks, f"{len(checks)} faces are convex")

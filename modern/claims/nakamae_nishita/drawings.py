@@ -1,0 +1,142 @@
+"""Checks of Nakamae and Nishita on whole drawings: scenes of boxes, compared with rays that meet the boxes or not."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations
+from random import Random
+
+from modern.claims.evidence import Check, Generator, claim, exhibited, search, searched
+from modern.claims.nakamae_nishita.tables import side
+from modern.claims.sampled_sets import CASES, SETS, sampled_sets
+from modern.geometry.vectors import dot
+from modern.papers.nakamae_nishita.hidden import Drawing, draw
+from modern.papers.nakamae_nishita.nearness import BY_FACE, BY_PLANE
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron
+from modern.papers.nakamae_nishita.projection import parallel
+from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
+
+# The lowest and the highest corner of a box.
+Box = tuple[tuple[int, int, int], tuple[int, int, int]]
+EYE = (101, -203, 157)
+
+
+def _draw_boxes(random: Random) -> tuple[Box, ...]:
+    corners = [tuple(random.randint(0, 9) for _ in range(3)) for _ in range(3)]
+    sizes = [tuple(random.randint(1, 5) for _ in range(3)) for _ in range(3)]
+    ends = (tuple(a + b for a, b in zip(c, s, strict=True)) for c, s in zip(corners, sizes, strict=True))
+    return tuple(zip(corners, ends, strict=True))  # type: ignore[arg-type]
+
+
+def _apart(boxes: tuple[Box, ...]) -> bool:
+    """Return True for boxes of positive size no two of which touch; shrinking can leave other tuples."""
+    if any(min(b - a for a, b in zip(*box, strict=True)) < 1 for box in boxes):
+        return False
+    return all(any(p[1][k] < q[0][k] or q[1][k] < p[0][k] for k in range(3)) for p, q in combinations(boxes, 2))
+
+
+SCENES: Generator[tuple[Box, ...]] = Generator("scenes of three boxes in a cube of 15", 71, _draw_boxes, _apart)
+
+
+def _polyhedra(boxes: tuple[Box, ...], thing: str = "") -> list[Polyhedron]:
+    made = []
+    for low, high in boxes:
+        size = [Fraction(b - a) for a, b in zip(low, high, strict=True)]
+        place = moved(tuple(map(Fraction, low)))  # type: ignore[arg-type]
+        made.append(replace(placed(cuboid(f"box {low}", *size), place, f"box at {low}"), thing=thing))
+    return made
+
+
+def _behind(point: list[Fraction], box: Box) -> bool:
+    """Return True if the ray from a point towards the eye runs through the interior of a box."""
+    first, last = Fraction(0), None
+    for p, low, high, step in zip(point, *box, EYE, strict=True):
+        near, far = sorted(((low - p) / step, (high - p) / step))
+        first, last = max(first, near), far if last is None else min(last, far)
+    return last is not None and first < last
+
+
+def _samples(drawing: Drawing) -> Iterator[tuple[bool, list[Fraction]]]:
+    """Yield, for each piece, whether it is visible, and its middle in space."""
+    for piece in drawing.pieces:
+        vertices = drawing.solids[piece.solid].polyhedron.vertices
+        share = (piece.first + piece.last) / 2
+        yield (
+            piece.visible,
+            [a + share * (b - a) for a, b in zip(vertices[piece.start], vertices[piece.end], strict=True)],
+        )
+
+
+def _agrees(boxes: tuple[Box, ...]) -> bool:
+    drawing = draw(_polyhedra(boxes), parallel(EYE), hidden=True)
+    return all(visible != any(_behind(at, box) for box in boxes) for visible, at in _samples(drawing))
+
+
+@claim("nakamae-nishita.11", "nakamae-nishita.49", full=3_000)
+def pieces_against_rays(cases: int = 3) -> Check:
+    """Check that exactly those pieces of edges are visible whose middle no box hides."""
+    return search(SCENES, _agrees, cases, "the pieces that are visible are those that no box hides")
+
+
+@claim("nakamae-nishita.3", "nakamae-nishita.15", full=3_000)
+def unrelated_polyhedra(cases: int = 3) -> Check:
+    """Check that boxes whose contours do not overlap, and which are not compared, hide nothing of each other."""
+
+    def hide_nothing(boxes: tuple[Box, ...]) -> bool:
+        drawing = draw(_polyhedra(boxes), parallel(EYE), hidden=True)
+        related = {(r.v, r.w) for r in drawing.relations}
+        return not any(
+            _behind(at, box)
+            for piece, (_, at) in zip(drawing.pieces, _samples(drawing), strict=True)
+            for other, box in enumerate(boxes)
+            if other != piece.solid and not {(other, piece.solid), (piece.solid, other)} & related
+        )
+
+    return search(SCENES, hide_nothing, cases, "boxes whose contours do not overlap hide nothing of each other")
+
+
+@claim("nakamae-nishita.39", "nakamae-nishita.40")
+def divided_box() -> Check:
+    """Check that two halves of a box, as parts of one thing, have the length of visible lines of the whole box."""
+    halves: tuple[Box, ...] = (((0, 0, 0), (2, 3, 4)), ((2, 0, 0), (5, 3, 4)))
+    together, apart, whole = (
+        _visible_length(draw(_polyhedra(boxes, thing), parallel(EYE)))
+        for boxes, thing in ((halves, "box"), (halves, ""), ((((0, 0, 0), (5, 3, 4)),), ""))
+    )
+    message = f"visible lines of length {together} as for the whole box, and {apart} if no lines are removed"
+    return exhibited(together == whole < apart, message)
+
+
+def _visible_length(drawing: Drawing) -> Fraction:
+    total = Fraction(0)
+    for piece in drawing.pieces:
+        vertices = drawing.solids[piece.solid].polyhedron.vertices
+        length = sum(abs(b - a) for a, b in zip(vertices[piece.start], vertices[piece.end], strict=True))
+        total += piece.visible * (piece.last - piece.first) * length
+    return total
+
+
+@claim("nakamae-nishita.17")
+def nearer_by_face() -> Check:
+    """Check that a face decides which of two boxes is nearer if one encloses the other, and not if they touch."""
+
+    def by(*boxes: Box) -> str:
+        (relation,) = draw(_polyhedra(boxes), parallel((2, -3, 1))).relations
+        return relation.by
+
+    decided = by(((0, 0, 0), (8, 1, 8)), ((3, 2, 3), (4, 3, 4)))
+    touching = by(((0, 0, 0), (1, 1, 1)), ((0, 0, 1), (1, 1, 2)))
+    check = exhibited(decided == BY_FACE, "the face around a vertex decides for a box behind a wall")
+    return check.unless(touching == BY_PLANE, "a box on another one: a separating plane decides")
+
+
+@claim("nakamae-nishita.18", full=400)
+def front_faces_turn_clockwise(cases: int = CASES) -> Check:
+    """Check that a face of a hull is in front if and only if its images turn like its corners seen from outside."""
+    outcomes = []
+    for sampled in sampled_sets(3, cases):
+        images = [(x + 31 * z, y + 17 * z) for x, y, z in sampled.points]
+        for face in sampled.judge.facets:
+            a, b, c = (images[k] for k in face.polygon[:3])
+            outcomes.append(side(a, b, c) * dot(face.plane[:3], (-31, -17, 1)) > 0)
+    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} faces agree")
