@@ -1,4 +1,4 @@
-"""Programs in the style of the time (tests/data/period), compared with tests/support/reckoned.py."""
+"""Programs in the style of the time (tests/data/period), compared with tests/support/period_outputs.py."""
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
@@ -16,7 +16,7 @@ from emulator.machine.operator import FromFile
 from emulator.machine.result import Options, Result
 from tests.support.deckwork import ComparedMachine, agreed
 from tests.support.paths import DATA
-from tests.support.reckoned import PERIOD, Eight, Lines, e_field, f_field, fibon, job, pi, stats, table, tictac
+from tests.support.period_outputs import PERIOD, Eight, Lines, e_field, f_field, fibon, job, pi, stats, table, tictac
 
 PROGRAMS = sorted(PERIOD.glob("*.f"))
 EMPTY = Deck("no deck", ())

@@ -1,1 +1,1 @@
-"""What the tests share: decks and sets at random, judges of their own, calls of the command line, paths."""
+"""Helpers that tests share: random decks and sets, independent judges, calls of commands, and paths."""

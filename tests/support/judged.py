@@ -64,9 +64,9 @@ def faulty_sets(named_sets: Iterable[tuple[str, list[Point]]], *layers: str) -> 
     names, point_sets = zip(*named_sets, strict=True)
     faulty = {}
     for name, points, hull_run in zip(names, point_sets, run_all(point_sets, *layers), strict=True):
-        found = [str(hull_run)] if isinstance(hull_run, EmulatorError) else differences(points, hull_run)
-        if found:
-            faulty[name] = found
+        faults_of_run = [str(hull_run)] if isinstance(hull_run, EmulatorError) else differences(points, hull_run)
+        if faults_of_run:
+            faulty[name] = faults_of_run
     return faulty
 
 

@@ -77,18 +77,18 @@ def _piece(data: bytes, draw: random.Random) -> bytes:
 
 
 def _word(data: bytes, draw: random.Random) -> bytes:
-    found = list(re.finditer(rb"[^\s,;]+", data))
-    if not found:
+    matches = list(re.finditer(rb"[^\s,;]+", data))
+    if not matches:
         return draw.choice(_WORDS)
-    match = draw.choice(found)
+    match = draw.choice(matches)
     return data[: match.start()] + draw.choice(_WORDS) + data[match.end() :]
 
 
 def _number(data: bytes, draw: random.Random) -> bytes:
-    found = list(re.finditer(rb"\d+", data))
-    if not found:
+    matches = list(re.finditer(rb"\d+", data))
+    if not matches:
         return data + b"7"
-    match = draw.choice(found)
+    match = draw.choice(matches)
     value = draw.choice((int(match[0][:50]) + 1, max(0, int(match[0][:50]) - 1), 10**9, 2**31, 2**63, 0, 7))
     return data[: match.start()] + str(value).encode() + data[match.end() :]
 
@@ -96,10 +96,10 @@ def _number(data: bytes, draw: random.Random) -> bytes:
 def _line(data: bytes, draw: random.Random) -> bytes:
     lines = data.split(b"\n")
     at, other = draw.randrange(len(lines)), draw.randrange(len(lines))
-    what = draw.randrange(3)
-    if what == 0:
+    change = draw.randrange(3)
+    if change == 0:
         del lines[at]
-    elif what == 1:
+    elif change == 1:
         lines.insert(at, lines[other])
     else:
         lines[at], lines[other] = lines[other], lines[at]

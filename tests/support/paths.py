@@ -1,4 +1,4 @@
-"""Where the tests' data lie."""
+"""The paths of the data of the tests."""
 
 from pathlib import Path
 
