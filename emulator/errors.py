@@ -6,6 +6,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 
+_SHOWN = 40
+
+
+def quoted(value: object) -> str:
+    """Return a text or another value of the input in quotation marks for a message, truncated to 40 characters."""
+    text = value if isinstance(value, str) else repr(value)
+    short = text if len(text) <= _SHOWN else text[:_SHOWN] + "..."
+    return repr(short) if isinstance(value, str) else short
+
 
 class EmulatorError(Exception):
     """The base class of all errors raised for bad input.  ``str`` is a one-line message for the user."""

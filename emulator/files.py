@@ -1,21 +1,29 @@
 """Reading and writing of files.  Every failure is a ``FileError`` with a one-line message.
 
 All input files and results of the project pass through here.  Results are written atomically: the old file stays until
-the new one is complete.  The path ``-`` is standard input or output.
+the new one is complete.  The path ``-`` is standard input or output.  A pipe or device, which may never end, is read up
+to a limit, which depends on its expected contents.
 """
 
 from __future__ import annotations
 
 import os
+import re
+import stat
 import sys
 import tempfile
 from codecs import BOM_UTF8
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any, BinaryIO, TextIO
 
-from emulator.errors import FileError
+from emulator.errors import FileError, quoted
+
+# The most bytes that are read from a pipe or a device: programs, plans and other text; points and decks; volumes.
+TEXT_LIMIT, POINTS_LIMIT, VOLUME_LIMIT = 16 << 20, 256 << 20, 1 << 30
+_CHUNK = 1 << 20
+_MANY_DIGITS = 4000
 
 
 def source_name(path: str) -> str:
@@ -23,18 +31,37 @@ def source_name(path: str) -> str:
     return "standard input" if path == "-" else path
 
 
-def read_bytes(path: str, name: str = "") -> bytes:
-    """Return the contents of a file.  ``name`` replaces its path in messages.  Raise FileError if it cannot be read."""
+def read_bytes(path: str, name: str = "", limit: int = TEXT_LIMIT) -> bytes:
+    """Return the contents of a file, or of a pipe or device with at most ``limit`` bytes.
+
+    ``name`` replaces the path in messages.  Raise FileError if the file cannot be read.
+    """
     if path == "-" and (sys.stdin is None or sys.stdin.closed):
         raise FileError("standard input is closed")
     if not path:
         raise FileError("a file without a name cannot be read")
     try:
-        return sys.stdin.buffer.read() if path == "-" else Path(path).read_bytes()
+        with nullcontext(sys.stdin.buffer) if path == "-" else open(path, "rb") as file:
+            if _is_regular(file):
+                return file.read()
+            data = bytearray()
+            while chunk := file.read(_CHUNK):
+                data += chunk
+                if len(data) > limit:
+                    most = f"at most {limit >> 20} MiB are read from a pipe or device"
+                    raise FileError(f"{name or source_name(path)}: {most}; write the data to a file")
+            return bytes(data)
     except OSError as error:
         raise FileError(f"{name or source_name(path)}: {reason(error)}") from None
     except ValueError:
-        raise FileError(f"{name or repr(path)}: not a file name") from None
+        raise FileError(f"{name or quoted(path)}: not a file name") from None
+
+
+def _is_regular(file: BinaryIO) -> bool:
+    try:
+        return stat.S_ISREG(os.fstat(file.fileno()).st_mode)
+    except (OSError, ValueError):
+        return False
 
 
 def read_text(path: str) -> str:
@@ -53,6 +80,25 @@ def decoded(data: bytes, source: str) -> str:
         raise FileError(f"{source}: line {line}, column {column}: not a text file in UTF-8") from None
 
 
+def parse_toml(text: str, parse_float: Callable[[str], Any] = float) -> dict[str, Any]:
+    """Return the data of a TOML text.  Raise ValueError with a one-line message that usually ends with the position."""
+    import tomllib  # imported here because few commands read TOML
+
+    try:
+        return tomllib.loads(text, parse_float=parse_float)
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(str(error).splitlines()[0]) from None
+    except ValueError as error:
+        # Python's int() and ``parse_float`` reject numbers with thousands of digits.
+        number = max(re.finditer(r"[0-9_]+", text), key=lambda match: len(match[0]))
+        if len(number[0]) < _MANY_DIGITS:
+            raise ValueError(str(error)) from None
+        line, column = text.count("\n", 0, number.start()) + 1, number.start() - text.rfind("\n", 0, number.start())
+        raise ValueError(f"a number has {len(number[0])} digits (at line {line}, column {column})") from None
+
+
 def reason(error: OSError) -> str:
     """Return the operating system's explanation of an error, which is appended to a message."""
     return (error.strerror or str(error)).lower()
@@ -67,19 +113,35 @@ def write_text(path: str, text: str) -> None:
 def check_writable(*paths: str | None) -> None:
     """Check before a long run that all outputs can be written and that no two are the same file.  Raise FileError."""
     named = [path for path in paths if path is not None and path != "-"]
+    real = [os.path.realpath(path) for path in named if path and (os.path.isfile(path) or not os.path.exists(path))]
     for path in named:
         if not path:
             raise FileError("a file without a name cannot be written")
-        folder = os.path.dirname(os.path.realpath(path))
         if os.path.isdir(path):
             raise FileError(f"{path}: is a directory")
-        if not os.path.isdir(folder):
-            raise FileError(f"{path}: no such file or directory")
-        if not os.access(path if os.path.exists(path) else folder, os.W_OK):
+        if os.path.exists(path) and not os.access(path, os.W_OK):
             raise FileError(f"{path}: permission denied")
-    real = [os.path.realpath(path) for path in named if os.path.isfile(path) or not os.path.exists(path)]
+        if os.path.realpath(path) in real:
+            try:
+                # The file is written next to its final place, so that its folder must be writable too.
+                tempfile.TemporaryFile(dir=os.path.dirname(os.path.realpath(path))).close()
+            except OSError as error:
+                raise FileError(f"{path}: {reason(error)}") from None
     if len(set(real)) < len(real):
         raise FileError("two outputs have the same file name")
+
+
+def check_folder(path: str | None) -> None:
+    """Check before a long run that files can be written to a folder, which need not exist.  Raise FileError."""
+    if not path:
+        return
+    folder = os.path.realpath(path)
+    while not os.path.lexists(folder):
+        folder = os.path.dirname(folder)
+    try:
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        raise FileError(f"{path}: {reason(error)}") from None
 
 
 # The beginning of the names of files that are still being written.

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from emulator.errors import ArgumentError, EmulatorError, expect
+from emulator.errors import ArgumentError, EmulatorError, expect, quoted
 from emulator.language.cards import Deck
 from emulator.language.objectcode import Program
 from emulator.machine.result import Options
@@ -22,7 +22,7 @@ from modern.exact_hull.coordinates import read_points as exact_points
 from modern.formats import deck as decks
 from modern.formats.points import read_input
 from modern.geometry.hull import NOT_CLOSED, HullRefused
-from modern.geometry.numbers import exact_text, quoted
+from modern.geometry.numbers import exact_text
 from modern.geometry.points import Points
 from modern.port.procedure import Epsilon, OnRefusal
 from modern.thesis import job

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
-from emulator.errors import explanations
+from emulator.errors import explanations, quoted
 from emulator.language.objectcode import Line, Program
 from emulator.machine.result import Result
 from emulator.machine.session import Action, Halt
@@ -65,7 +65,7 @@ def action(word: str, operands: list[str]) -> Action:
             return Action("CLEAR")
     if word in _FORMS:
         raise ValueError(f"expected {_FORMS[word]}")
-    raise ValueError(f"{word!r} is not an action; the actions are {', '.join(WORDS)}, AT, LOAD")
+    raise ValueError(f"{quoted(word)} is not an action; the actions are {', '.join(WORDS)}, AT, LOAD")
 
 
 def _number(text: str) -> int | None:

@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from emulator.errors import ArgumentError, expect
+from emulator.errors import ArgumentError, expect, quoted
 
 ZERO = -99
 MINUS_ZERO = -100
@@ -365,7 +365,9 @@ def profile(name: str) -> Profile:
         return PROFILES[name]
     family, colon, count = name.partition(":")
     if not (colon and family in _FAMILIES and count.isdecimal() and count.isascii()):
-        raise ArgumentError(f"no arithmetic is called {name[:40]!r}; the names are {', '.join((*PROFILES, *FAMILIES))}")
+        raise ArgumentError(
+            f"no arithmetic is called {quoted(name)}; the names are {', '.join((*PROFILES, *FAMILIES))}"
+        )
     if len(count) > 9 or not MIN_DIGITS <= int(count) <= MAX_DIGITS:
         raise ArgumentError(f"{name[:40]}: the number of digits must be {MIN_DIGITS} to {MAX_DIGITS}")
     return _FAMILIES[family](name, int(count))

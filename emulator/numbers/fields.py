@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from emulator.errors import quoted
 from emulator.numbers import columns
 from emulator.numbers.arithmetic import UNDEFINED, Rules
 
@@ -104,9 +105,9 @@ def read_floating(field: Field, text: str, rules: Rules) -> FieldNumber:
     codes = bytearray(text.encode("ascii", "replace"))
     mantissa, exponent, status = columns.read_floating(codes, len(codes), field.decimals, rules)
     if status == columns.NO_NUMBER:
-        raise FieldError(f"{text.strip()!r} is not a number")
+        raise FieldError(f"{quoted(text.strip())} is not a number")
     if status == columns.OUT_OF_RANGE:
-        raise FieldError(f"{text.strip()[:40]!r} is out of range: the exponent must be -99 to 99")
+        raise FieldError(f"{quoted(text.strip())} is out of range: the exponent must be -99 to 99")
     if status >= columns.CUT:
         return FieldNumber(mantissa, exponent, Remark(columns.CUT, status - columns.CUT, rules.digits))
     return FieldNumber(mantissa, exponent, _remark(status))
@@ -117,7 +118,7 @@ def read_fixed(text: str) -> FieldNumber:
     codes = bytearray(text.encode("ascii", "replace"))
     value, status = columns.read_fixed(codes, len(codes))
     if status == columns.NO_NUMBER:
-        raise FieldError(f"{text.strip()!r} is not an integer")
+        raise FieldError(f"{quoted(text.strip())} is not an integer")
     if status == columns.FOUR_KEPT:
         return FieldNumber(value, 0, Remark(status, text=codes.decode("ascii").rstrip(" ")))
     return FieldNumber(value, 0, _remark(status))

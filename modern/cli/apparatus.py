@@ -9,6 +9,7 @@ import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
+from emulator.errors import quoted
 from emulator.files import read_text
 from modern.claims.apparatus_checks import check_everything
 from modern.cli.shared.console import DIFFERS, OK, UsageError
@@ -83,12 +84,12 @@ def _rows(args: argparse.Namespace) -> list[Row]:
     if args.program is not None:
         number = args.program.removeprefix("program")
         if number not in ("1", "2", "3"):
-            raise UsageError(f"--program: {args.program!r} is not one of the programs 1, 2 and 3")
+            raise UsageError(f"--program: {quoted(args.program)} is not one of the programs 1, 2 and 3")
         names = (f"program{number}",)
     rows = [row for name in names for row in programs.text(name).rows]
     if args.layer is not None:
         known = programs.text("program1").layers
         if args.layer not in known:
-            raise UsageError(f"--layer: unknown layer {args.layer!r}; expected one of {', '.join(known)}")
+            raise UsageError(f"--layer: unknown layer {quoted(args.layer)}; expected one of {', '.join(known)}")
         rows = [row for row in rows if row.layer == args.layer]
     return rows

@@ -6,14 +6,14 @@ import argparse
 import os
 import re
 import shutil
-import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from emulator.files import check_writable, decoded, source_name, write_text
-from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, print_notes
+from emulator.errors import quoted
+from emulator.files import decoded, source_name, write_text
+from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, print_notes, print_report
 from modern.cli.shared.inputs import read_input
 from modern.drawing.scene import eye_of
 from modern.formats import off
@@ -53,7 +53,6 @@ MOST_POINTS = 50
 
 def main(args: argparse.Namespace) -> int:
     _check_options(args)
-    check_writable(args.output)
     eye = None if args.eye is None else eye_of(args.eye.split(","))
     within = None if args.coplanar_within is None else parse_distance(args.coplanar_within)
     data, name = read_input(args.points), source_name(args.points)
@@ -81,21 +80,12 @@ def main(args: argparse.Namespace) -> int:
     )
     if within is not None and mesh is not None:
         print_notes([f"note: {source.source}: {FLAT if joined is None else join_summary(joined)}"])
-    # If the output file goes to standard output, the tables go to standard error.
-    out = sys.stderr if args.output == "-" else sys.stdout
     is_brief = len(source.points) > MOST_POINTS and not (args.all or args.trace)
     columns = shutil.get_terminal_size((100, 24)).columns
-    for line in (
-        _summary(source, surfaces, hull, joined)
-        if is_brief
-        else _report(source, surfaces, hull, joined, args.trace, columns)
-    ):
-        print(line, file=out)
-    if method.star is as_printed:
-        for line in _false_edges(source, hull):
-            print(line, file=out)
-    if hull.fault:
-        print(f"no hull: {hull.fault}", file=out)
+    report = _report(source, surfaces, hull, joined, args.trace, columns)
+    print_report(args, _summary(source, surfaces, hull, joined) if is_brief else report)
+    print_report(args, _false_edges(source, hull) if method.star is as_printed else ())
+    print_report(args, [f"no hull: {hull.fault}"] if hull.fault else ())
     return DIFFERS if hull.fault else OK
 
 
@@ -137,7 +127,7 @@ def _pair(text: str) -> tuple[int, int]:
     """Return the two points, counted from 0, of a text such as ``3-7``, which counts from 1.  Raise UsageError."""
     match = re.fullmatch(r"([0-9]{1,9})[-,]([0-9]{1,9})", text.strip())
     if not match:
-        raise UsageError(f"--star-of: expected a line I-J by the numbers of its points, found {text!r}")
+        raise UsageError(f"--star-of: expected a line I-J by the numbers of its points, found {quoted(text)}")
     return int(match[1]) - 1, int(match[2]) - 1
 
 

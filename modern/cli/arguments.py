@@ -14,9 +14,11 @@ from modern.cli.shared import point_arguments, volume_arguments
 from modern.cli.shared.arguments import (
     compared_machine,
     core_argument,
-    epsilon_text,
+    epsilon_argument,
+    json_argument,
     layers_argument,
     output_argument,
+    program_argument,
     result_arguments,
     upcase_argument,
 )
@@ -31,11 +33,11 @@ def _reproduce(parser: ArgumentParser) -> None:
         "(default: everything)",
     )
     parser.add_argument("--show", action="store_true", help="show each print next to the result and mark differences")
-    parser.add_argument("--json", metavar="FILE", help="write the verdicts to FILE as JSON")
+    json_argument(parser, "verdicts")
 
 
 def _run(parser: ArgumentParser) -> None:
-    parser.add_argument("program", metavar="PROGRAM.f", help="the program to run")
+    program_argument(parser, "run")
     parser.add_argument("deck", metavar="DECK", nargs="?", help="a file of data cards, one card per line")
     result_arguments(parser)
     upcase_argument(parser)
@@ -59,18 +61,13 @@ def _hull(parser: ArgumentParser) -> None:
         help="pass numbers from program 1 to the next program with all their digits instead of the eight that a card "
         "holds",
     )
-    parser.add_argument(
-        "--epsilon",
-        metavar="E",
-        type=epsilon_text,
-        help="punch the tolerance e of chapter 7 after N, and add the layer epsilon, which reads it",
-    )
+    epsilon_argument(parser, "punch", "after N, and add the layer epsilon, which reads it")
     parser.add_argument("--explain", action="store_true", help="if a run gives no hull, explain the reason at length")
     result_arguments(parser)
 
 
 def _diverge(parser: ArgumentParser) -> None:
-    parser.add_argument("program", metavar="PROGRAM.f", help="the program to run")
+    program_argument(parser, "run")
     parser.add_argument(
         "deck",
         metavar="DECK",
@@ -86,12 +83,12 @@ def _diverge(parser: ArgumentParser) -> None:
         "(default: %(default)s)",
     )
     parser.add_argument("--first", action="store_true", help="stop at the first different decision; compare no values")
-    parser.add_argument("--json", metavar="FILE", help="write the comparison to FILE as JSON")
+    json_argument(parser, "comparison")
     compared_machine(parser)
 
 
 def _listing(parser: ArgumentParser) -> None:
-    parser.add_argument("program", metavar="PROGRAM.f", help="the program to list")
+    program_argument(parser, "list")
     parser.add_argument("deck", metavar="DECK", nargs="?", help="run the program with these data cards")
     parser.add_argument(
         "--against",
@@ -157,13 +154,13 @@ def _apparatus(parser: ArgumentParser) -> None:
 
 
 def _program(parser: ArgumentParser) -> None:
-    parser.add_argument("program", metavar="PROGRAM.f", help="the program to read")
+    program_argument(parser, "read")
     layers_argument(parser)
     upcase_argument(parser)
 
 
 def _check(parser: ArgumentParser) -> None:
-    parser.add_argument("program", metavar="PROGRAM.f", nargs="?", help="the program to check")
+    program_argument(parser, "check", "?")
     parser.add_argument(
         "--explain", metavar="N", help="explain an error number, such as 5 or E3, or all error numbers (all)"
     )
@@ -220,7 +217,7 @@ def _punched(parser: ArgumentParser) -> None:
 
 
 def _map(parser: ArgumentParser) -> None:
-    parser.add_argument("program", metavar="PROGRAM.f", help="the program to map")
+    program_argument(parser, "map")
     core_argument(parser)
     layers_argument(parser)
     upcase_argument(parser)
@@ -230,7 +227,7 @@ def _bench(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--decks", metavar="N", type=int, default=1000, help="run N decks of 51 points (default: %(default)s)"
     )
-    parser.add_argument("--json", metavar="FILE", help="write the figures to FILE as JSON")
+    json_argument(parser, "figures")
 
 
 COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {

@@ -13,7 +13,7 @@ from pathlib import PurePath
 from emulator.files import write_text
 from emulator.language.cards import Deck
 from emulator.machine.result import Options
-from modern.cli.shared.console import DIFFERS, OK, UsageError, print_notes
+from modern.cli.shared.console import DIFFERS, OK, UsageError, print_notes, print_report
 from modern.cli.shared.inputs import points_of
 from modern.cli.shared.programs import layers_of
 from modern.cli.shared.refusals import Request, refusal_lines
@@ -64,8 +64,7 @@ def main(args: argparse.Namespace) -> int:
         replace(route, difference=disagreement(route.outcome, exact, points)) if route.outcome.determined else route
         for route in _routes(args, source, points)
     ]
-    for line in _table(routes, exact, source):
-        print(line)
+    print_report(args, _table(routes, exact, source))
     print_notes(source.notes)
     explained_kinds = set()
     for route in routes:

@@ -9,12 +9,12 @@ import textwrap
 from collections.abc import Iterator
 from dataclasses import replace
 
-from emulator.files import check_writable, write_text
+from emulator.files import write_text
 from emulator.language.objectcode import Line
 from emulator.machine.comparison import Loss
 from emulator.machine.devices import no_deck
 from emulator.machine.divergence import Divergence, diverge
-from modern.cli.shared.console import DIFFERS, OK, check_one_standard_input, counted
+from modern.cli.shared.console import DIFFERS, OK, check_one_standard_input, counted, print_report
 from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.programs import load_program, machine_options, number_system
 from modern.edition import programs
@@ -24,7 +24,6 @@ _NARROWEST, _WIDEST = 40, 120
 
 def main(args: argparse.Namespace) -> int:
     check_one_standard_input(args)
-    check_writable(args.json)
     studied = number_system(args.arithmetic, "--arithmetic")
     reference = number_system(args.against, "--against")
     options = machine_options(args)
@@ -35,8 +34,7 @@ def main(args: argparse.Namespace) -> int:
     deck = deck_for(args.program, args.deck) if args.deck else no_deck(program)
     divergence = diverge(program, deck, studied, reference, options, values=not args.first)
     width = max(_NARROWEST, min(shutil.get_terminal_size((100, 24)).columns, _WIDEST))
-    for line in _report(divergence, width, values=not args.first):
-        print(line)
+    print_report(args, _report(divergence, width, values=not args.first))
     if args.json:
         write_text(args.json, json.dumps(_document(divergence), indent=1) + "\n")
     return DIFFERS if divergence.decisions or divergence.apart or _limit_message(divergence) else OK

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import PurePath
 
-from emulator.files import write_text
 from emulator.language.cards import read_deck
 from modern.cli.shared.console import DIFFERS, OK, UsageError, print_notes
 from modern.cli.shared.inputs import exact_hull_of
@@ -14,10 +13,14 @@ from modern.drawing.against import draw_against
 from modern.drawing.draw import Show, draw_svg
 from modern.drawing.scene import eye_of
 from modern.drawing.stages import frames, played, strip
+from modern.drawing.svg import check_picture, write_picture
 from modern.thesis.cards import read_hull
 
 
 def main(args: argparse.Namespace) -> int:
+    check_picture(args.output)
+    if args.animate and args.output != "-" and not args.output.lower().endswith(".svg"):
+        raise UsageError(f"{args.output}: only an SVG file can be animated; --stages draws the stages in a row")
     eye = None if args.eye is None else eye_of(args.eye.split(","))
     shows_stages = args.stages or args.animate
     if shows_stages and (args.width is not None or args.labels != "programs" or args.no_hidden or args.no_points):
@@ -41,6 +44,6 @@ def main(args: argparse.Namespace) -> int:
         picture = draw_against(hull, differences, eye, title, args.width, show)
     else:
         picture = draw_svg(hull, eye, title, args.width, show)
-    write_text(args.output, picture)
+    write_picture(args.output, picture)
     print_notes(f"note: {note}" for note in notes)
     return OK

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import PurePath
 
-from emulator.files import check_writable, source_name, write_text
-from modern.cli.shared.console import OK, UsageError, counted, print_notes
+from emulator.errors import quoted
+from emulator.files import source_name, write_text
+from modern.cli.shared.console import OK, UsageError, counted, print_notes, print_report
 from modern.cli.shared.inputs import read_input
 from modern.drawing.scene import eye_of
 from modern.geometry.coplanar import parse_distance
-from modern.geometry.numbers import number, quoted
+from modern.geometry.numbers import number
 from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita import picture
 from modern.papers.nakamae_nishita.bodies import Reading, read_bodies
@@ -37,7 +37,6 @@ _MOST_NAMES = 5
 
 def main(args: argparse.Namespace) -> int:
     output = args.output or (None if args.tables else "-")
-    check_writable(output)
     without = [name.strip() for name in args.without.split(",") if name.strip()]
     scene_file = _scene(args)
     _check_overwrites(output, scene_file.files)
@@ -48,7 +47,7 @@ def main(args: argparse.Namespace) -> int:
         title = scene_file.title if args.title is None else args.title
         write_text(output, picture.as_hpgl(drawing) if plot else picture.as_svg(drawing, title, args.width))
     if args.tables:
-        sys.stdout.writelines(line + "\n" for line in picture.tables(drawing))
+        print_report(args, picture.tables(drawing))
     print_notes(f"note: {note}" for note in (*scene_file.notes, *_near_plane_notes(drawing)))
     print_notes(picture.table1(drawing))
     return OK

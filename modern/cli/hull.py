@@ -17,7 +17,7 @@ from modern.cli.shared.inputs import deck_of
 from modern.cli.shared.operators import attended
 from modern.cli.shared.programs import card_rules, layers_of, machine_options
 from modern.cli.shared.refusals import Request, refusal_lines
-from modern.cli.shared.run_output import check_run_outputs, is_terminal, print_run, tracing, write_outputs
+from modern.cli.shared.run_output import is_terminal, print_run, tracing, write_outputs
 from modern.edition import programs
 from modern.formats.deck import check, with_epsilon
 from modern.thesis.job import HullRun, run_hull
@@ -26,7 +26,6 @@ from modern.thesis.refusals import Cause, explain_run
 
 def main(args: argparse.Namespace) -> int:
     options = replace(machine_options(args), uncut=args.uncut)
-    check_run_outputs(args)
     layers = layers_of(args)
     if args.epsilon is not None and "epsilon" not in layers:
         layers = (*layers, "epsilon")

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from textwrap import wrap
 
 from emulator.errors import DeckError, Diagnostic
-from emulator.files import check_writable, read_text, source_name, write_text
+from emulator.files import read_text, source_name, write_text
 from emulator.language.cards import Deck
 from emulator.language.compiler import translate
 from emulator.language.objectcode import Program
@@ -49,7 +49,6 @@ class _Row:
 
 def main(args: argparse.Namespace) -> int:
     check_one_standard_input(args)
-    check_writable(args.output)
     options = machine_options(args)
     source = source_deck(args)
     notes_above, glosses = _commentary(args) if args.commentary else ({}, [])

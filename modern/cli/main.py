@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 from emulator.errors import EmulatorError
 from modern.cli.arguments import COMMANDS
+from modern.cli.shared.arguments import complete
 from modern.cli.shared.console import BAD_INPUT, OK, Parser, check_outputs, print_error
 
 
@@ -20,6 +21,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     arguments: the words after ``hull1620``; by default those of the process.
     """
+    if "_ARGCOMPLETE" in os.environ:
+        complete(build_parser([]))
     words = sys.argv[1:] if arguments is None else list(arguments)
     # Argparse must not read the word after --operator as its value, because the option is complete without one.
     words = ["--operator=" if word == "--operator" else word for word in words]
@@ -33,35 +36,55 @@ def main(arguments: Sequence[str] | None = None) -> int:
     handles_interrupt = signal.getsignal(signal.SIGINT) is signal.SIG_DFL
     if handles_interrupt:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    code = BAD_INPUT
     try:
-        args = build_parser(words).parse_args(words)
-        if sys.stdout is None:
-            print_error("standard output is closed")
-            return BAD_INPUT
-        check_outputs(args)
-        code: int = importlib.import_module(f"modern.cli.{args.command.replace('-', '_')}").main(args)
-        sys.stdout.flush()
-        return code
+        code = _call(words)
+        if sys.stdout is not None:
+            sys.stdout.flush()
     except BrokenPipeError:
-        # The reader of the pipe has closed it, as head does.  Python must not fail again when it flushes at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return OK
+        # The reader of the pipe has closed it, as head does.
+        code = OK
     except KeyboardInterrupt:
         print_error("interrupted")
-        return 130
+        code = 130
     except MemoryError:
         print_error("not enough memory")
-        return BAD_INPUT
     except OSError as error:
         # A file that cannot be opened raises FileError with its name; here, writing to an open output failed.
+        code = BAD_INPUT
         print_error(f"cannot write: {(error.strerror or str(error)).lower()}")
-        return BAD_INPUT
     except EmulatorError as error:
         print_error(str(error))
-        return BAD_INPUT
     finally:
         if handles_interrupt:
             signal.signal(signal.SIGINT, signal.SIG_DFL)
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            if stream is not None:
+                stream.flush()
+        except OSError as error:
+            # Python must not fail again when it flushes the stream at exit.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+            code = code if isinstance(error, BrokenPipeError) else BAD_INPUT
+    return code
+
+
+def _call(words: Sequence[str]) -> int:
+    """Parse the words, run the command and return its exit code."""
+    try:
+        args, unknown = build_parser(words).parse_known_args(words)
+    except SystemExit as end:
+        return int(end.code or OK)
+    if unknown:
+        command = f"hull1620 {args.command}"
+        print_error(f"unrecognized arguments: {' '.join(unknown)} (try {command} --help)", command)
+        return BAD_INPUT
+    if sys.stdout is None:
+        print_error("standard output is closed")
+        return BAD_INPUT
+    check_outputs(args)
+    module = importlib.import_module(f"modern.cli.{args.command.replace('-', '_')}")
+    return int(module.main(args))
 
 
 def build_parser(words: Sequence[str]) -> Parser:

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.files import check_writable, write_text
+from emulator.files import write_text
 from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, print_notes
 from modern.cli.shared.volumes import array_note, coordinate_words, printable, volume_of
 from modern.digital.solids import Volume
@@ -29,7 +29,6 @@ Point = tuple[int, int, int]
 
 def main(args: argparse.Namespace) -> int:
     printed = _printed(args)
-    check_writable(args.output)
     volume, notes = volume_of(args)
     hull = octree_hull(volume, printed)
     writes_array = args.output is not None and args.output.lower().endswith(ARRAYS)

@@ -15,11 +15,12 @@ from functools import partial
 from itertools import zip_longest
 from typing import TextIO
 
-from emulator.files import check_writable, write_text
+from emulator.errors import quoted
+from emulator.files import write_text
 from emulator.machine.endings import Ending
 from modern.claims.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Finding, Paper, findings
 from modern.claims.register import DOCUMENTS, THESIS, Judged, Judgements, Statement, judge, statements_of
-from modern.cli.shared.console import DIFFERS, OK, UsageError
+from modern.cli.shared.console import DIFFERS, OK, UsageError, report_stream
 from modern.cli.shared.side_by_side import side_by_side
 from modern.cli.shared.statements import Indented, Paint, statement_lines, statement_summary, theorem_lines
 from modern.edition.chapter4 import THEOREMS
@@ -50,10 +51,8 @@ def main(args: argparse.Namespace) -> int:
     requested = list(dict.fromkeys(args.examples))
     names = [name for text in requested for name in _results_named(text)] if requested else _all_results()
     examples = [number for number in EXAMPLES if str(number) in names]
-    check_writable(args.json)
     colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
-    # If the JSON document goes to standard output, the verdicts go to standard error.
-    out = sys.stderr if args.json == "-" else sys.stdout
+    out = report_stream(args)
     reports: list[Report] = []
     width = shutil.get_terminal_size((100, 24)).columns
     paint, indented = partial(_paint, colour=colour), partial(_indented, width=width)
@@ -102,7 +101,7 @@ def _results_named(text: str) -> list[str]:
         return [text]
     if text not in DOCUMENTS and not any(row.id == text for row in _statements([text])):
         raise UsageError(
-            f"reproduce: unknown name {text!r}; expected an example 1 to {EXAMPLES[-1]}, "
+            f"reproduce: unknown name {quoted(text)}; expected an example 1 to {EXAMPLES[-1]}, "
             f"a theorem ({', '.join(THEOREMS)}), a document ({', '.join(DOCUMENTS)}) or the id of a statement"
         )
     return []

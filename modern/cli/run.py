@@ -14,14 +14,13 @@ from modern.cli.shared.console import DIFFERS, OK, check_one_standard_input
 from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.operators import attended
 from modern.cli.shared.programs import load_program, machine_options
-from modern.cli.shared.run_output import check_run_outputs, print_run, streaming, tracing
+from modern.cli.shared.run_output import print_run, streaming, tracing
 from modern.thesis.job import Refusals
 
 
 def main(args: argparse.Namespace) -> int:
     check_one_standard_input(args)
     options = replace(machine_options(args), hopper="any")
-    check_run_outputs(args)
     program = load_program(args)
     deck = deck_for(args.program, args.deck) if args.deck else Deck("no deck", ())
     refusals = Refusals()

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 import inspect
+import os
 import sys
 import textwrap
 from collections.abc import Callable
 from pathlib import Path
 
+from emulator.errors import quoted
 from modern.cli.shared.console import BAD_INPUT, OK, print_error
 
 
@@ -46,7 +48,7 @@ def main(args: argparse.Namespace) -> int:
     for name, value in (("--out", args.out), ("--dask", args.dask)):
         if value == "":
             raise PlanError(f"{name}: expected a value, found an empty string")
-    if args.resume and args.out and not Path(args.out).exists():
+    if args.resume and args.out and not os.path.exists(args.out):
         raise PlanError(f"--resume: the folder {args.out} does not exist")
     if args.workers is not None and args.dask:
         raise PlanError("--workers and --dask cannot be combined; choose one")
@@ -68,7 +70,7 @@ def main(args: argparse.Namespace) -> int:
                 built_in = study(args.name)
             except KeyError:
                 raise PlanError(
-                    f"unknown study {args.name!r}; expected a plan file NAME.toml or one of {', '.join(names())}"
+                    f"unknown study {quoted(args.name)}; expected a plan file NAME.toml or one of {', '.join(names())}"
                 ) from None
             plan = built_in.plan(args.samples or built_in.SAMPLES, SEED if args.seed is None else args.seed)
             report = run_study(plan, args.out or plan.name, built_in.report, **options)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
 
+from emulator.errors import quoted
 from emulator.files import read_bytes, read_text, write_text
 from modern.claims.apparatus_checks import texts
 from modern.cli.shared.console import DIFFERS, OK, UsageError
@@ -25,7 +26,7 @@ def main(args: argparse.Namespace) -> int:
     if args.text is not None and (args.all or args.schema or args.read):
         raise UsageError(f"{args.text}: --all, --schema and --read do not accept a text")
     if args.text is not None and args.text not in texts():
-        raise UsageError(f"unknown text {args.text!r}; expected one of {', '.join(texts())}")
+        raise UsageError(f"unknown text {quoted(args.text)}; expected one of {', '.join(texts())}")
     if args.schema:
         write_text(args.output, schema())
     elif args.read:
@@ -73,7 +74,7 @@ def _layers(root: Element, names: str) -> tuple[str, ...]:
     layers = tuple(name for name in names.split(",") if name)
     unknown = [name for name in layers if name not in reading.layers(root)]
     if unknown:
-        raise reading.TeiError(f"unknown layer {unknown[0]!r}; expected one of {', '.join(reading.layers(root))}")
+        raise reading.TeiError(f"unknown layer {quoted(unknown[0])}; expected one of {', '.join(reading.layers(root))}")
     return layers
 
 

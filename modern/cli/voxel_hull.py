@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from emulator.files import check_writable, write_text
-from modern.cli.shared.console import OK, UsageError, check_numbered, counted, print_notes
+from modern.cli.shared.console import OK, UsageError, check_numbered, counted, print_notes, print_report
 from modern.cli.shared.measure_tables import Row, centres_row, csv_text, filled_row, measure_lines, solid_row, table
 from modern.cli.shared.volumes import (
     array_note,
@@ -45,7 +45,6 @@ from modern.papers.kovalevsky_schulz.cells import all_rows, cell_list_size, econ
 def main(args: argparse.Namespace) -> int:
     _check_options(args)
     _check_output(args)
-    check_writable(args.output, args.csv)
     if args.each_label:
         _tabulate_labels(args)
     elif args.fill:
@@ -118,8 +117,7 @@ def _tabulate_labels(args: argparse.Namespace) -> None:
     print_notes([printable(f"{scan.source}: {counted(len(boxes), 'label')}; {spacing_words(scan.world)}")])
     if not args.fill:
         print_notes([printable(coordinate_words(world, not args.centres))])
-    for line in table(rows, unit):
-        print(line)
+    print_report(args, table(rows, unit))
 
 
 def _label(label: int, volume: Volume, args: argparse.Namespace) -> tuple[Row, Write]:

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.lib import format as npy
 from numpy.typing import NDArray
 
+from emulator.errors import quoted
 from modern.digital.solids import MAX_CELLS, VolumeError
-from modern.geometry.numbers import quoted
 
 NPY, NPZ = b"\x93NUMPY", b"PK\x03\x04"
 _LONGEST_MESSAGE = 120

@@ -181,6 +181,7 @@ def _hull(solid: Truth, fast: bool | None) -> tuple[int, Truth]:
     points = np.unique(np.concatenate((lower, upper)), axis=0)
     simplex = independent(points)
     if len(simplex) < 4:
+        _compile(bool(fast), len(points))  # raises if ``fast`` cannot be honoured
         filled = np.zeros(solid.shape, dtype=np.bool_)
         if len(simplex) == 3:
             _fill_polygon(filled, points, simplex)

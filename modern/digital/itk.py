@@ -15,7 +15,7 @@ import stat
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -70,7 +70,7 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
         _check_file(path)
     if importlib.util.find_spec("SimpleITK") is None:
         raise VolumeError(f"{path}: reading {kind} needs SimpleITK: pip install 'hull1620[volumes]'")
-    sizes, nifti = _checked(path, kind)
+    sizes, nifti, outside = _checked(path, kind)
     verdicts = _slices(path) if kind == SERIES else {}
     with tempfile.TemporaryDirectory(prefix="hull1620-") as folder:
         seconds = LIMIT + _bytes(path) // 10**6
@@ -84,7 +84,7 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
     if sizes is not None and _without_ones(array.shape) != _without_ones(sizes):
         stated, returned = (" x ".join(map(str, shape)) for shape in (sizes, array.shape))
         raise VolumeError(f"{path}: the header states {stated} voxels, but SimpleITK returns {returned}")
-    notes = list(facts["notes"])
+    notes = [*facts["notes"], *([outside.removeprefix(f"{path}: ")] if outside else [])]
     if kind == SERIES:
         notes += _slice_notes(path, facts["files"], verdicts)
     world = _world(facts, path)
@@ -93,18 +93,20 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
     return Scan(array, (0,) * array.ndim, path, world, tuple(f"{path}: {_plain(note)}" for note in notes))
 
 
-def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | None]:
-    """Return the sizes along the axes and the header of NIfTI, as far as known. Raise VolumeError if damaged."""
+def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | None, str]:
+    """Return the sizes along the axes, the header of NIfTI and a note, as far as known. Raise VolumeError."""
     if kind == "NIfTI":
         header = check_nifti(path)
-        return header.sizes, header
+        return header.sizes, header, ""
     if kind == "DICOM":
         sizes = check_dicom(path)
         if sizes is None:
             raise VolumeError(f"{path}: {_NO_PIXELS}")
-        return sizes, None
-    checks: Mapping[str, Callable[[str], Sequence[int]]] = {"MetaImage": check_metaimage, "TIFF": check_tiff}
-    return (checks[kind](path) if kind in checks else None), None
+        return sizes, None, ""
+    if kind == "MetaImage":
+        sizes, outside = check_metaimage(path)
+        return sizes, None, outside
+    return (check_tiff(path) if kind == "TIFF" else None), None, ""
 
 
 def _slices(folder: str) -> dict[str, str]:

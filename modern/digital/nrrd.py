@@ -20,7 +20,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.files import read_bytes, writing_bytes
+from emulator.errors import quoted
+from emulator.files import VOLUME_LIMIT, read_bytes, writing_bytes
+from modern.digital.integrity.streams import outside_note
 from modern.digital.scans import Scan
 from modern.digital.solids import MAX_CELLS, Volume, VolumeError
 from modern.digital.world import ANATOMICAL, Position, World, length_text, world_of
@@ -71,13 +73,13 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
     line, text = fields.get("sizes", (0, ""))
     values = text.split()
     if len(values) != dimension or not all(_is_count(word) and int(word) for word in values):
-        raise VolumeError(f"{source}: line {line}: sizes: expected {dimension} positive integers, found {text!r}")
+        raise VolumeError(f"{source}: line {line}: sizes: expected {dimension} positive integers, found {quoted(text)}")
     sizes = tuple(int(word) for word in values)
     if math.prod(sizes) > MAX_CELLS:
         raise VolumeError(f"{source}: line {line}: expected at most {MAX_CELLS} voxels")
     line, encoding = fields["encoding"]
     if encoding.lower() not in (_RAW, *_PACKED):
-        raise VolumeError(f"{source}: line {line}: encoding: expected raw or gzip, found {encoding!r}")
+        raise VolumeError(f"{source}: line {line}: encoding: expected raw or gzip, found {quoted(encoding)}")
     kind = _type(fields, source)
     for name in ("line skip", "byte skip"):
         if name in fields and _number(fields, name, source):
@@ -97,7 +99,8 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
         )
     array = np.frombuffer(body, kind).reshape(sizes, order="F")
     world, notes = _world(fields, dimension, source)
-    return Scan(array, (0,) * dimension, source, world, notes)
+    outside = outside_note(source, fields["data file"][1]) if "data file" in fields else ""
+    return Scan(array, (0,) * dimension, source, world, (*notes, outside) if outside else notes)
 
 
 def write_nrrd(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
@@ -159,7 +162,7 @@ def _is_count(text: str) -> bool:
 def _number(fields: Mapping[str, tuple[int, str]], name: str, source: str) -> int:
     line, text = fields[name]
     if not _is_count(text.removeprefix("-")):
-        raise VolumeError(f"{source}: line {line}: {name}: {text!r} is not an integer")
+        raise VolumeError(f"{source}: line {line}: {name}: {quoted(text)} is not an integer")
     return int(text)
 
 
@@ -167,7 +170,7 @@ def _type(fields: Mapping[str, tuple[int, str]], source: str) -> np.dtype[Any]:
     line, text = fields["type"]
     code = _CODES.get(" ".join(text.lower().split()))
     if code is None:
-        raise VolumeError(f"{source}: line {line}: type: {text!r} is not supported")
+        raise VolumeError(f"{source}: line {line}: type: {quoted(text)} is not supported")
     if code.endswith("1"):
         return np.dtype(code)
     if "endian" not in fields:
@@ -176,14 +179,14 @@ def _type(fields: Mapping[str, tuple[int, str]], source: str) -> np.dtype[Any]:
         )
     line, text = fields["endian"]
     if text.lower() not in _ENDIANS:
-        raise VolumeError(f"{source}: line {line}: endian: expected little or big, found {text!r}")
+        raise VolumeError(f"{source}: line {line}: endian: expected little or big, found {quoted(text)}")
     return np.dtype(_ENDIANS[text.lower()] + code)
 
 
 def _read_data_file(source: str, line: int, name: str) -> bytes:
     if name.upper().startswith("LIST") or "%" in name:
         raise VolumeError(f"{source}: line {line}: data in several files are not supported")
-    return read_bytes(str(Path(source).parent / name), f"{source}: line {line}: {name}")
+    return read_bytes(str(Path(source).parent / name), f"{source}: line {line}: {name}", VOLUME_LIMIT)
 
 
 def _unpacked(body: bytes, expected: int, source: str) -> bytes:
@@ -260,7 +263,7 @@ def _origin(fields: Mapping[str, tuple[int, str]], width: int, source: str) -> P
     what = f"{source}: line {line}: space origin"
     (vector,) = _vectors(text, 1, what)
     if vector is None or None in vector or len(vector) != width:
-        raise VolumeError(f"{what}: expected {width} numbers in parentheses, found {text[:60]!r}")
+        raise VolumeError(f"{what}: expected {width} numbers in parentheses, found {quoted(text)}")
     return tuple(number for number in vector if number is not None)
 
 
@@ -268,7 +271,7 @@ def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | N
     """Read ``count`` vectors with equal numbers of components, such as ``(1,0,0)``. ``none`` stands for no vector."""
     matches = list(_VECTOR.finditer(text))
     if len(matches) != count or _VECTOR.sub("", text).strip():
-        raise VolumeError(f"{what}: expected {count} vectors such as (1,0,0), found {text[:60]!r}")
+        raise VolumeError(f"{what}: expected {count} vectors such as (1,0,0), found {quoted(text)}")
     inner = [None if match[2] else match[1].split(",") for match in matches]
     width = len(next((components for components in inner if components is not None), ()))
     return [None if components is None else _lengths(components, width, what) for components in inner]

@@ -10,14 +10,13 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.errors import expect
-from emulator.files import read_bytes, source_name, writing_bytes
+from emulator.errors import expect, quoted
+from emulator.files import VOLUME_LIMIT, read_bytes, source_name, writing_bytes
 from modern.digital.arrays import NPY, NPZ, parse_npy, parse_npz, parse_raw
 from modern.digital.itk import SERIES, kind_of, read_itk
 from modern.digital.nrrd import MAGIC, parse_nrrd, write_nrrd
@@ -25,7 +24,7 @@ from modern.digital.scans import Choice, Scan, chosen
 from modern.digital.solids import DIGITS, VERTEX, VOXEL, Volume, VolumeError, ball, half_ball, listed
 from modern.digital.world import world_of
 from modern.formats.csv import rows
-from modern.geometry.numbers import quoted, real
+from modern.geometry.numbers import real
 
 # The file name extensions for a filled hull.
 ARRAYS = (".npy", ".nrrd")
@@ -106,7 +105,7 @@ def read_scan(path: str, stated: Stated | None = None) -> Scan:
             raise VolumeError(f"{path}: a ball has no --shape and no --dtype")
         make, default = (half_ball, VERTEX) if ball_name[1] else (ball, VOXEL)
         return _with_position(_scan(make(int(ball_name[2]), ball_name[3] or default)), stated)
-    if re.match(r"(half-)?ball:", path) and not Path(path).exists():
+    if re.match(r"(half-)?ball:", path) and not os.path.exists(path):
         raise VolumeError(
             f"{path}: expected ball:DIAMETER or half-ball:DIAMETER, optionally with :voxel or :vertex for its centre"
         )
@@ -116,7 +115,7 @@ def read_scan(path: str, stated: Stated | None = None) -> Scan:
         raise VolumeError(f"{path}: a series can be selected only in a folder of DICOM files")
     if kind is not None:
         return _with_position(read_itk(path, kind, stated.series), stated)
-    return _with_position(_parsed(read_bytes(path), source_name(path), stated), stated)
+    return _with_position(_parsed(read_bytes(path, limit=VOLUME_LIMIT), source_name(path), stated), stated)
 
 
 def parse_volume(data: bytes, source: str, shape: Sequence[int] | None = None, dtype: str | None = None) -> Volume:

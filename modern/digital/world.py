@@ -14,8 +14,8 @@ from decimal import Context
 from fractions import Fraction
 from itertools import permutations
 
-from emulator.errors import EmulatorError
-from modern.geometry.numbers import Exact, PointsError, decimal, finite_decimal, quoted, real, split_decimal
+from emulator.errors import EmulatorError, quoted
+from modern.geometry.numbers import Exact, PointsError, decimal, finite_decimal, real, split_decimal
 
 Position = tuple[Fraction, ...]
 

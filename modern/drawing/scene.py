@@ -5,11 +5,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from emulator.errors import quoted
 from modern.drawing.view import Eye, Flat, View, across, along, choose, root, towards, view
 from modern.drawing.visible import BACK, FLAT, classify, facing
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError, Mesh, mesh
-from modern.geometry.numbers import coordinates, number, quoted
+from modern.geometry.numbers import coordinates, number
 from modern.geometry.vectors import Vector, area_vector, cross, dot, lowest, minus
 
 _ONE = Fraction(1)

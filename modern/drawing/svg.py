@@ -1,15 +1,25 @@
-"""The elements of an SVG file as ASCII text; the marks of a picture differ in shape and in grey, never in colour."""
+"""The elements of an SVG file as ASCII text; the marks of a picture differ in shape and in grey, never in colour.
+
+``write_picture`` writes an SVG file, or converts it to PDF or PNG.
+"""
 
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import Literal
 from xml.sax.saxutils import escape as _escape
 
+from emulator.files import write_text, writing_bytes
 from modern.drawing.layout import Pixel
+from modern.geometry.mesh import ExportError
 
 _LEGAL = re.compile("[\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 FONT = "Helvetica, Arial, sans-serif"
+PICTURES = (".svg", ".pdf", ".png")
+"""The file name extensions for a picture."""
+_PAGE = b'#set page(width: auto, height: auto, margin: 0pt)\n#image(bytes(sys.inputs.svg), format: "svg")'
+_PIXELS_PER_INCH = 192  # two pixels of PNG for one of SVG
 
 
 def number(hundredths: int) -> str:
@@ -122,3 +132,33 @@ def sample(style: Style, at: Pixel) -> str:
     if style.shape == "line":
         return line(Pixel(at.x - 900, at.y), Pixel(at.x + 900, at.y), style.attributes)
     return point_mark(style, at, attributes=style.attributes)
+
+
+def check_picture(path: str) -> None:
+    """Raise ExportError if a picture needs typst, which is not installed."""
+    if path.lower().endswith(PICTURES[1:]) and find_spec("typst") is None:
+        raise ExportError(f"{path}: PDF and PNG need typst: pip install 'hull1620[plot]'")
+
+
+def write_picture(path: str, svg: str) -> None:
+    """Write a picture in the format that the extension of the file names, or SVG.
+
+    Raise FileError, or ExportError if typst is not installed.
+    """
+    if not path.lower().endswith(PICTURES[1:]):
+        write_text(path, svg)
+        return
+    check_picture(path)
+    import typst  # imported here because only PDF and PNG need it
+
+    # System fonts are ignored, so that the same picture gives the same bytes everywhere.
+    data = typst.compile(
+        _PAGE,
+        format="pdf" if path.lower().endswith(".pdf") else "png",
+        ppi=_PIXELS_PER_INCH,
+        sys_inputs={"svg": svg},
+        ignore_system_fonts=True,
+        timestamp=0,
+    )
+    with writing_bytes(path) as file:
+        file.write(data)

@@ -7,7 +7,7 @@ from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-from emulator.errors import DeckError
+from emulator.errors import DeckError, quoted
 from emulator.language.cards import Deck, deck_from_lines, deck_from_text
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
@@ -120,7 +120,7 @@ def deck(name: str, layers: Sequence[str] = ()) -> Deck:
     present = {row.layer for row in text(entry.text).rows}
     for layer in layers:
         if layer not in present:
-            raise DeckError(f"{name} has no layer {layer!r}; its layers are {', '.join(sorted(present))}")
+            raise DeckError(f"{name} has no layer {quoted(layer)}; its layers are {', '.join(sorted(present))}")
     return built(name, layers)
 
 
@@ -142,5 +142,5 @@ def loader(layers: tuple[str, ...]) -> Callable[[str], Program]:
     for layer in layers:
         if layer not in present:
             optional = sorted(present - set(_BASE))
-            raise DeckError(f"no program has a layer {layer!r}; the layers are {', '.join(optional)}")
+            raise DeckError(f"no program has a layer {quoted(layer)}; the layers are {', '.join(optional)}")
     return lambda name: with_layers(name, layers)

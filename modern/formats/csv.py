@@ -4,8 +4,8 @@ import csv
 import re
 from collections.abc import Iterator, Sequence
 
-from emulator.errors import FileError
-from modern.geometry.numbers import Point, number, quoted
+from emulator.errors import FileError, quoted
+from modern.geometry.numbers import Point, number
 
 _NAME = re.compile(r"[^\W\d_].*", re.DOTALL)
 _NOT_FINITE = ("nan", "inf", "infinity")

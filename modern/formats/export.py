@@ -7,6 +7,7 @@ of a mesh are those of ``Hull.vertices``, in that order; only JSON also contains
 from importlib import import_module
 from typing import Any
 
+from emulator.errors import quoted
 from emulator.files import write_text
 from modern.formats import HULLS, MESHES, html, json
 from modern.geometry.hull import Hull
@@ -26,7 +27,7 @@ def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
 def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:
     """Return a surface as the text of a file in one of the formats ``MESHES``; see ``export_text`` for ``digits``."""
     if form not in MESHES:
-        raise ExportError(f"{form!r} is not a mesh format; the formats are {', '.join(MESHES)}")
+        raise ExportError(f"{quoted(form)} is not a mesh format; the formats are {', '.join(MESHES)}")
     text: str = import_module(f"modern.formats.{form}").write(surface, digits)
     return text
 

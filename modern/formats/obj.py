@@ -8,9 +8,10 @@ number is negative; anything after a slash is ignored.
 
 import re
 
+from emulator.errors import quoted
 from modern.formats.tokens import FileMesh, Token, error, lines, vertex
 from modern.geometry.mesh import Mesh
-from modern.geometry.numbers import Point, quoted
+from modern.geometry.numbers import Point
 
 # The keywords with which an OBJ file may begin.
 KEYWORDS = frozenset(("v", "vn", "vt", "vp", "f", "l", "p", "o", "g", "s", "mtllib", "usemtl"))

@@ -4,11 +4,11 @@ A polyhedron is written with its faces, a polygon with one face, a segment as tw
 both without faces.  The reader accepts the plain ASCII form: one vertex or face in a line, comments after ``#``.
 """
 
-from emulator.errors import FileError
+from emulator.errors import FileError, quoted
 from modern.formats.tokens import FileMesh, Token, count, decimal, error, last_line, take, vertex
 from modern.formats.tokens import lines as token_lines
 from modern.geometry.mesh import Mesh
-from modern.geometry.numbers import Point, quoted
+from modern.geometry.numbers import Point
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:

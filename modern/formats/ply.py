@@ -13,10 +13,10 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any
 
-from emulator.errors import FileError
+from emulator.errors import FileError, quoted
 from modern.formats.tokens import FileMesh, count, decimal, error, last_line, lines
 from modern.geometry.mesh import Mesh
-from modern.geometry.numbers import Point, float_text, quoted
+from modern.geometry.numbers import Point, float_text
 
 _UCHAR = 255
 

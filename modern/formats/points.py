@@ -9,15 +9,15 @@ import io
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from emulator.errors import FileError
-from emulator.files import decoded, read_bytes, source_name
+from emulator.errors import FileError, quoted
+from emulator.files import POINTS_LIMIT, decoded, read_bytes, source_name
 from emulator.language.cards import deck_from_text
 from modern.formats import POINTS, csv, json, obj, ply, stl
 from modern.formats.deck import exact_points
 from modern.formats.off import parse_off
-from modern.geometry.numbers import Point, float_text, integer_text, quoted, real
+from modern.geometry.numbers import Point, decimal, float_text, integer_text, real
 
-_NPY = b"\x93NUMPY"
+_NPY, _DOUBLE = b"\x93NUMPY", 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,7 @@ class Input:
 
 def read_input(path: str) -> Input:
     """Return the points of a file (``-``: standard input).  Raise EmulatorError with a one-line message."""
-    return parse_bytes(read_bytes(path), source_name(path))
+    return parse_bytes(read_bytes(path, limit=POINTS_LIMIT), source_name(path))
 
 
 def parse_bytes(data: bytes, source: str) -> Input:
@@ -159,8 +159,11 @@ def _npy(data: bytes, source: str) -> tuple[Point, ...]:
         for axis, value in zip("xyz", row, strict=True):
             try:
                 exact = real(value)
+                text = integer_text(value) if isinstance(value, int) else float_text(exact)
+                if array.dtype.itemsize > _DOUBLE:
+                    decimal(text)  # raises for more digits than are read
             except ValueError as error:
                 raise FileError(f"{source}: row {row_number}, {axis}: {error}") from None
-            texts.append(integer_text(value) if isinstance(value, int) else float_text(exact))
+            texts.append(text)
         points.append((texts[0], texts[1], texts[2]))
     return tuple(points)

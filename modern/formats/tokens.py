@@ -4,8 +4,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from emulator.errors import FileError
-from modern.geometry.numbers import Point, number, quoted
+from emulator.errors import FileError, quoted
+from modern.geometry.numbers import Point, number
 
 # A token and the column in which it begins, from 1.
 Token = tuple[str, int]

@@ -10,7 +10,7 @@ from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from numbers import Rational, Real
 
-from emulator.errors import ArgumentError
+from emulator.errors import ArgumentError, quoted
 
 Exact = int | Fraction
 Point = tuple[str, str, str]
@@ -30,11 +30,6 @@ _SAFE_BITS = 10_000
 
 class PointsError(ArgumentError):
     """A point that is invalid or that an arithmetic cannot represent.  The one-line message counts points from 0."""
-
-
-def quoted(text: str) -> str:
-    """Return a text in quotation marks for a message, truncated to 40 characters."""
-    return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "...")
 
 
 def split_decimal(text: str) -> tuple[bool, str, str, int]:

@@ -7,7 +7,7 @@ so that a successful round trip proves that the document is complete.
 from collections.abc import Collection, Iterator
 from xml.etree.ElementTree import Element, ParseError, fromstring
 
-from emulator.errors import EmulatorError
+from emulator.errors import EmulatorError, quoted
 
 _TEI = "{http://www.tei-c.org/ns/1.0}"
 _ID = "{http://www.w3.org/XML/1998/namespace}id"
@@ -74,7 +74,7 @@ def part(root: Element, name: str) -> str:
         if div.get("n") == name:
             return "".join(_card(ab) + "\n" for ab in div.iterfind(_TEI + "ab"))
     held = ", ".join(parts(root)) or "none"
-    raise TeiError(f"unknown part {name!r}; the document has {held}")
+    raise TeiError(f"unknown part {quoted(name)}; the document has {held}")
 
 
 def _divisions(root: Element, types: Collection[str]) -> Iterator[Element]:
@@ -125,5 +125,5 @@ def _card(ab: Element) -> str:
 def _blanks(space: Element) -> str:
     quantity = space.get("quantity", "")
     if not quantity.isdecimal() or int(quantity) > 80:
-        raise TeiError(f"a space of {quantity!r} characters; a card has 80 columns")
+        raise TeiError(f"a space of {quoted(quantity)} characters; a card has 80 columns")
     return " " * int(quantity)

@@ -30,7 +30,7 @@ from random import Random
 from traceback import extract_tb
 from typing import Any, Literal, TypeVar
 
-from emulator.errors import EmulatorError
+from emulator.errors import EmulatorError, quoted
 from emulator.machine.result import DEFAULT_CORE, DEFAULT_LIMIT
 
 F = TypeVar("F", bound=Callable[..., object])
@@ -131,14 +131,14 @@ def named(kind: str, name: str, known: Mapping[str, F]) -> F:
         return known[name]
     module, colon, function = name.partition(":")
     if not colon:
-        raise PlanError(f"no {kind} is called {name!r}; expected {', '.join(known)} or module:function")
+        raise PlanError(f"no {kind} is called {quoted(name)}; expected {', '.join(known)} or module:function")
     if not all(part.isidentifier() for part in module.split(".")):
-        raise PlanError(f"{kind} {name}: {module!r} is not a module name")
+        raise PlanError(f"{kind} {name}: {quoted(module)} is not a module name")
     with user_code(f"{kind} {name}", module):
         loaded = import_module(module)
     user_function: F | None = getattr(loaded, function, None)
     if not callable(user_function):
-        raise PlanError(f"{kind} {name}: {module} has no function {function!r}")
+        raise PlanError(f"{kind} {name}: {module} has no function {quoted(function)}")
     return user_function
 
 
@@ -155,7 +155,7 @@ def user_code(where: str, module: str) -> Iterator[None]:
 
 def _user_error(error: Exception, module: str) -> str:
     if isinstance(error, ModuleNotFoundError) and error.name in (module, module.partition(".")[0]):
-        return f"no module is called {module!r} next to the plan or on Python's module path"
+        return f"no module is called {quoted(module)} next to the plan or on Python's module path"
     if isinstance(error, SyntaxError):
         return f"{Path(error.filename or module).name}, line {error.lineno}: {error.msg}"
     try:

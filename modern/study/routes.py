@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from functools import cache
 
-from emulator.errors import EmulatorError
+from emulator.errors import EmulatorError, quoted
 from emulator.language.cards import Deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
@@ -44,10 +44,10 @@ def programs_of(route: Programs) -> tuple[str, Load]:
     rows = [row for name in programs.TEXTS for row in programs.text(name).rows]
     missing = [layer for layer in route.layers if layer not in {row.layer for row in rows}]
     if missing:
-        raise PlanError(f"route {route.name}: no program has rows of a layer {missing[0]!r}")
+        raise PlanError(f"route {route.name}: no program has rows of a layer {quoted(missing[0])}")
     missing = [row for row in route.rows if row not in {row.id for row in rows}]
     if missing:
-        raise PlanError(f"route {route.name}: the apparatus has no row {missing[0]!r}")
+        raise PlanError(f"route {route.name}: the apparatus has no row {quoted(missing[0])}")
     return first, lambda name: _program(name, route.layers, route.rows)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from emulator.compiled.runner import compile_engine, why_plain
-from emulator.errors import expect
+from emulator.errors import expect, quoted
 from emulator.files import UNFINISHED
 from emulator.jit.functions import NotInstalled
 from emulator.language.cards import deck_from_lines
@@ -209,7 +209,7 @@ def _begin(plan: Plan, folder: Path, resume: bool, command: Sequence[str]) -> di
 def check_plan(plan: Plan) -> None:
     """Check a plan before it is begun.  Raise PlanError (or FamilyError) with one line for the first fault."""
     if not plan.name or not plan.name.replace("-", "").replace("_", "").isalnum():
-        raise PlanError(f"the name of a study consists of letters, digits, - and _; {plan.name!r} does not")
+        raise PlanError(f"the name of a study consists of letters, digits, - and _; {quoted(plan.name)} does not")
     if not plan.cells:
         raise PlanError(f"{plan.name}: the plan has no cells")
     _check_distinct((cell.name for cell in plan.cells), f"{plan.name}: two cells have the key")
@@ -234,7 +234,7 @@ def check_cell(cell: Cell, seed: int) -> None:
         raise PlanError(f"{where}: no routes")
     _check_distinct((route.name for route in cell.routes), f"{where}: two routes have the name")
     if cell.reference and cell.reference not in {route.name for route in cell.routes}:
-        raise PlanError(f"{where}: the reference {cell.reference!r} is not one of its routes")
+        raise PlanError(f"{where}: the reference {quoted(cell.reference)} is not one of its routes")
     draw_sample(cell, seed, 0)
 
 
@@ -280,5 +280,5 @@ def _check_distinct(names: Iterable[str], message: str) -> None:
     earlier: set[str] = set()
     for name in names:
         if name in earlier:
-            raise PlanError(f"{message} {name!r}")
+            raise PlanError(f"{message} {quoted(name)}")
         earlier.add(name)

@@ -30,15 +30,14 @@ Python's module path; ``measures = ["mine:spread"]`` works the same way.
 
 import re
 import sys
-import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from emulator.errors import EmulatorError
-from emulator.files import read_text
+from emulator.errors import EmulatorError, quoted
+from emulator.files import parse_toml, read_text
 from modern.study.builtin import names as built_in_names
 from modern.study.families import FAMILIES, check_keywords, family_of
 from modern.study.families.given import file_points
@@ -106,19 +105,19 @@ class _Section:
         value = data.get(key, default)
         if type(value) is not int or (least is not None and value < least):
             size = "" if least is None else f" of at least {least}"
-            raise self.error(f"{key}: expected an integer{size}, found {value!r}", key)
+            raise self.error(f"{key}: expected an integer{size}, found {quoted(value)}", key)
         return value
 
     def check_type(self, data: Mapping[str, Any], key: str, kind: type, expected: str) -> None:
         """Raise PlanError if the value of a key has another type."""
         if key in data and not isinstance(data[key], kind):
-            raise self.error(f"expected {key} to be {expected}, found {data[key]!r}", key)
+            raise self.error(f"expected {key} to be {expected}, found {quoted(data[key])}", key)
 
     def check_keys(self, data: Mapping[str, Any], keys: tuple[str, ...]) -> None:
         """Raise PlanError if the section has a key that does not exist."""
         for key in data:
             if key not in keys:
-                raise self.error(f"unknown name {key!r}; expected {', '.join(keys)}", key)
+                raise self.error(f"unknown name {quoted(key)}; expected {', '.join(keys)}", key)
 
 
 def _masked(text: str) -> str:
@@ -138,11 +137,9 @@ def read_plan(path: str, samples: int | None = None, seed: int | None = None) ->
     for match in reversed(list(re.finditer(r"(?m)^\s*epsilon\s*=\s*[+-]?(?=\.\d)", _masked(text)))):
         text = f"{text[: match.end()]}0{text[match.end() :]}"
     try:
-        data = tomllib.loads(text)
-    except RecursionError:
-        raise PlanError(f"{path}: nested too deeply") from None
-    except tomllib.TOMLDecodeError as error:
-        raise PlanError(f"{path}: {str(error).splitlines()[0]}") from None
+        data = parse_toml(text)
+    except ValueError as error:
+        raise PlanError(f"{path}: {error}") from None
     _add_to_module_path(data, Path(path).resolve().parent)
     try:
         return _plan(data, path, text, samples, seed)
@@ -170,7 +167,7 @@ def _plan(data: Mapping[str, Any], path: str, text: str, samples: int | None, se
         head.check_type(data, key, list, expected)
     name = str(data.get("name", Path(path).stem))
     if name in built_in_names():
-        raise head.error(f"{name!r} is the name of a built-in study; choose another name", "name")
+        raise head.error(f"{quoted(name)} is the name of a built-in study; choose another name", "name")
     default_samples = head.integer(data, "samples", _SAMPLES, 1)
     plan_seed = head.integer(data, "seed", SEED)
     routes: dict[str, Route] = {}
@@ -178,7 +175,7 @@ def _plan(data: Mapping[str, Any], path: str, text: str, samples: int | None, se
         section = _Section(path, text, "route", number)
         route = _route(raw, section)
         if route.name in routes:
-            raise section.error(f"two routes have the name {route.name!r}", "name")
+            raise section.error(f"two routes have the name {quoted(route.name)}", "name")
         routes[route.name] = route
     if not routes:
         raise PlanError(f"{path}: there is no [[route]]")
@@ -205,7 +202,7 @@ def _route(raw: Mapping[str, Any], section: _Section) -> Route:
     values = {name: tuple(value) if isinstance(value, list) else value for name, value in raw.items()}
     kind = values.pop("kind", "programs")
     if kind not in ("programs", "port"):
-        raise section.error(f"expected kind programs or port, found {kind!r}", "kind")
+        raise section.error(f"expected kind programs or port, found {quoted(kind)}", "kind")
     route_type: type[Any] = Programs if kind == "programs" else Port
     section.check_keys(values, tuple(field.name for field in fields(route_type)))
     if not isinstance(values.get("name"), str):
@@ -217,7 +214,7 @@ def _route(raw: Mapping[str, Any], section: _Section) -> Route:
     for name, value in values.items():
         has_only_text = not isinstance(value, tuple) or all(isinstance(element, str) for element in value)
         if type(value) is not type(getattr(default, name)) or not has_only_text:
-            raise section.error(f"{name} = {raw[name]!r} has the wrong type", name)
+            raise section.error(f"{name} = {quoted(raw[name])} has the wrong type", name)
     route: Route = route_type(**values)
     with section.locating():
         check_route(route)
@@ -232,7 +229,7 @@ def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, sec
     route_names = raw.get("routes", list(routes))
     missing = [name for name in route_names if name not in routes]
     if missing:
-        raise section.error(f"there is no route {missing[0]!r}; the routes are {', '.join(routes)}", "routes")
+        raise section.error(f"there is no route {quoted(missing[0])}; the routes are {', '.join(routes)}", "routes")
     family, parameters = str(raw["family"]), dict(raw.get("parameters", {}))
     default_key = {"family": family, **{name: str(value) for name, value in parameters.items()}}
     if family == "file":
@@ -243,7 +240,7 @@ def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, sec
             parameters["points"] = file_points(str(path))
     if ":" not in family and family not in FAMILIES:
         choices = ", ".join((*FAMILIES, "file"))
-        raise section.error(f"no family is called {family!r}; expected {choices} or module:function", "family")
+        raise section.error(f"no family is called {quoted(family)}; expected {choices} or module:function", "family")
     with section.locating("family"):
         family_of(family)
     with section.locating("parameters"):

@@ -1,11 +1,15 @@
 """Arguments that several commands share: inputs, the machine on which a program runs, and destinations of results.
 
+The end of the module names the words that the shell offers for an argument, by argcomplete (the extra ``completion``).
+The names of examples are listed there, because reading them from the data would delay every key.
+
 Like ``modern/cli/arguments.py``, this module imports nothing that only a run needs.
 """
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError
+import sys
+from argparse import Action, ArgumentParser, ArgumentTypeError
 from collections.abc import Iterable
 
 from modern.formats import POINTS
@@ -76,10 +80,47 @@ def compared_machine(parser: ArgumentParser) -> None:
     parser.set_defaults(limit=1_000_000)
 
 
-def output_argument(parser: ArgumentParser, metavar: str = "FILE") -> None:
+def program_argument(parser: ArgumentParser, action: str, nargs: str | None = None) -> None:
+    parser.add_argument("program", metavar="PROGRAM.f", nargs=nargs, help=f"the program to {action}")
+
+
+def output_argument(parser: ArgumentParser, metavar: str = "FILE", formats: str = "") -> None:
     parser.add_argument(
-        "-o", "--output", metavar=metavar, default="-", help=f"write to {metavar} (default: '-', standard output)"
+        "-o",
+        "--output",
+        metavar=metavar,
+        default="-",
+        help=f"write to {metavar}{formats} (default: '-', standard output)",
     )
+
+
+def result_file_argument(parser: ArgumentParser, contents: str) -> None:
+    """Add an output that is written only on request."""
+    parser.add_argument("-o", "--output", metavar="FILE", help=f"write {contents}")
+
+
+def json_argument(parser: ArgumentParser, contents: str) -> None:
+    parser.add_argument(
+        "--json",
+        metavar="FILE",
+        help=f"write the {contents} to FILE as JSON ('-': to standard output, and nothing else)",
+    )
+
+
+def printed_arguments(parser: ArgumentParser, rules: str, names: str) -> None:
+    """Add the choice of rules that a method uses as its paper prints them."""
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--literal", action="store_true", help=f"use every {rules} of the paper as printed")
+    which.add_argument("--printed", metavar="NAME,...", help=f"use only these {rules}s as printed: {names}")
+
+
+def epsilon_argument(parser: ArgumentParser, verb: str, use: str) -> None:
+    help_text = f"{verb} the tolerance e of chapter 7 {use}"
+    parser.add_argument("--epsilon", metavar="E", type=epsilon_text, help=help_text)
+
+
+def title_argument(parser: ArgumentParser, default: str) -> None:
+    parser.add_argument("--title", metavar="TEXT", help=f"write TEXT below the picture (default: {default})")
 
 
 def core_argument(parser: ArgumentParser) -> None:
@@ -147,3 +188,40 @@ def epsilon_text(text: str) -> str:
     except ValueError as error:
         raise ArgumentTypeError(str(error).removeprefix("epsilon: ")) from None
     return text
+
+
+ARITHMETICS = ("truncating", "ibm1962", "float64", "float32", "exact", "mp:200")
+DOCUMENTS = ("thesis", "appel-will", "nakamae-nishita", "kovalevsky-schulz", "yau-srihari")
+PROGRAMS = ("program1", "program2", "program3", "program1_examples")
+STUDIES = ("capacity", "digits", "divergence", "epsilon", "machine-time", "rounding", "seventy", "translation")
+EXAMPLES = (
+    *(f"example{number}" for number in range(1, 7)),
+    *(f"appel-will/fig{number}" for number in (13, 14, 18, 23)),
+    *(f"{study}/0" for study in STUDIES),
+)
+NAMES: dict[str, tuple[str, ...]] = {
+    "arithmetic": ARITHMETICS,
+    "against": ARITHMETICS,
+    "deck": EXAMPLES,
+    "examples": (*map(str, range(1, 7)), *DOCUMENTS),
+    "name": STUDIES,
+    "points": EXAMPLES,
+    "program": PROGRAMS,
+    "scene": ("columns", "cuboids", "house", *EXAMPLES),
+    "text": ("program1", "program2", "program3", "chapter4", "chapter6"),
+    "volume": ("ball:32", "ball:32:vertex", "half-ball:18"),
+}
+"""The names that an argument accepts besides files, by the name of the argument."""
+
+
+def complete(parser: ArgumentParser) -> None:
+    """Print the possible words for the line typed so far, and exit."""
+    try:
+        from argcomplete import FilesCompleter, autocomplete
+    except ImportError:
+        sys.exit(1)
+
+    def words(prefix: str, action: Action, **others: object) -> Iterable[str]:
+        return (*NAMES.get(action.dest, ()), *FilesCompleter()(prefix, action=action, **others))
+
+    autocomplete(parser, default_completer=words)

@@ -13,8 +13,9 @@ import os
 import re
 import sys
 from collections.abc import Iterable
+from typing import TextIO
 
-from emulator.errors import EmulatorError
+from emulator.errors import EmulatorError, quoted
 
 OK, DIFFERS, BAD_INPUT = 0, 1, 2
 
@@ -27,6 +28,9 @@ _NUMBERED = re.compile(r"(?:[^%]|%%)*%(?:0?[1-9])?d(?:[^%]|%%)*")
 """A file name with one place for a number in the notation of printf: ``card-%03d.svg``."""
 _INPUTS = ("program", "deck", "points", "volume", "scene", "name", "read")
 _OUTPUTS = ("output", "punch", "typewriter", "trace", "json", "log", "csv")
+_FOLDERS = ("out", "all", "weigh")
+_LONG = re.compile(r"(?<!\w)'(?:[^'\\]|\\.){120,}'|\S{200,}")
+"""A long text of the input in a message: in quotation marks, or without a blank."""
 
 
 class Parser(argparse.ArgumentParser):
@@ -34,21 +38,37 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> None:  # type: ignore[override]
         """Print one line and exit with 2, without the usage lines of argparse."""
-        self.exit(BAD_INPUT, f"{self.prog}: {message} (try {self.prog} --help)\n")
+        print_error(f"{message} (try {self.prog} --help)", self.prog)
+        self.exit(BAD_INPUT)
 
 
-def print_error(message: str) -> None:
-    """Print one line on standard error, if it is open; escape control characters, which a file's name may contain."""
+def print_error(message: str, source: str = "hull1620") -> None:
+    """Print one line on standard error, if it is open.
+
+    Escape control characters, which the name of a file may contain, and shorten long texts of the input.
+    """
     if sys.stderr is not None:
+        message = _LONG.sub(lambda match: f"{match[0][:80]}...{match[0][-20:]}", message)
         text = "".join(c if c.isprintable() else repr(c)[1:-1] for c in message)
         with contextlib.suppress(OSError, ValueError):
-            print(f"hull1620: {text}", file=sys.stderr)
+            print(f"{source}: {text}", file=sys.stderr)
 
 
 def print_notes(lines: Iterable[str]) -> None:
     """Print lines on standard error."""
     for line in lines:
         print(line, file=sys.stderr)
+
+
+def report_stream(args: argparse.Namespace) -> TextIO:
+    """Return the stream of a command's report: standard error if its data go to standard output."""
+    return sys.stderr if "-" in (vars(args).get(name) for name in ("json", "csv", "output")) else sys.stdout
+
+
+def print_report(args: argparse.Namespace, lines: Iterable[str]) -> None:
+    """Print the lines of a report on ``report_stream``."""
+    for line in lines:
+        print(line, file=report_stream(args))
 
 
 def counted(count: int, noun: str) -> str:
@@ -59,7 +79,7 @@ def counted(count: int, noun: str) -> str:
 def check_numbered(pattern: str, noun: str, example: str) -> None:
     """Raise UsageError if the name of an output has no place for a number."""
     if not _NUMBERED.fullmatch(pattern):
-        raise UsageError(f"--output: {pattern!r} has no place for a {noun}; write a name such as {example!r}")
+        raise UsageError(f"--output: {quoted(pattern)} has no place for a {noun}; write a name such as {example!r}")
 
 
 def check_one_standard_input(args: argparse.Namespace) -> None:
@@ -69,7 +89,13 @@ def check_one_standard_input(args: argparse.Namespace) -> None:
 
 
 def check_outputs(args: argparse.Namespace) -> None:
-    """Raise UsageError if an output would overwrite an input, or if its name ends with an unsupported format."""
+    """Check all outputs of a command before it begins to work.
+
+    Raise UsageError if an output would overwrite an input, or if its name ends with an unsupported format.  Raise
+    FileError if an output cannot be written.
+    """
+    from emulator.files import check_folder, check_writable  # imported here because --help does not need it
+
     values = vars(args)
     inputs = [values[name] for name in _INPUTS if isinstance(values.get(name), str)]
     outputs = [values[name] for name in _OUTPUTS if isinstance(values.get(name), str)]
@@ -79,8 +105,9 @@ def check_outputs(args: argparse.Namespace) -> None:
             raise UsageError(f"{name}: this output is also an input, which would be overwritten; choose another name")
     # The text table of flowchart --table may have any name.
     endings: tuple[str, ...] = () if values.get("table") else values.get("endings", ())
-    output = values.get("output")
-    if not endings or output in (None, "-") or os.path.isdir(str(output)):
-        return
-    if not str(output).lower().endswith(endings):
+    output = values.get("output") or "-"
+    if endings and output != "-" and not os.path.isdir(output) and not output.lower().endswith(endings):
         raise UsageError(f"{output}: {args.command} expects a name that ends with {' or '.join(endings)}")
+    check_writable(*outputs)
+    for name in _FOLDERS:
+        check_folder(values.get(name))

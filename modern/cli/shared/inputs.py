@@ -2,7 +2,7 @@
 
 ``example1`` to ``example6`` are the data decks of chapter 6.  ``appel-will/fig18`` is the object of a figure in Appel
 and Will's paper.  ``seventy/17`` is sample 17, counted from 0, of the study ``seventy``, and ``digits/2/17`` that
-sample of cell 2.  An existing file of the same name takes precedence.
+sample of cell 2, and ``mine.toml/17`` is a sample of a plan file.  An existing file of the same name takes precedence.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import os
 import re
 from typing import TYPE_CHECKING
 
-from emulator.files import read_bytes, source_name
+from emulator.files import POINTS_LIMIT, read_bytes, source_name
 from emulator.language.cards import Deck, deck_from_bytes
 from modern.cli.shared.console import UsageError
 from modern.formats import POINTS
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 
 _EXAMPLE = re.compile(r"example([1-6])")
 _FIGURE = re.compile(r"appel-will/(fig[0-9]{1,2})")
-_SAMPLE = re.compile(r"([a-z]+(?:-[a-z]+)*)(?:/([0-9]{1,6}))?/([0-9]{1,9})")
+_SAMPLE = re.compile(r"([a-z]+(?:-[a-z]+)*|.+\.toml)(?:/([0-9]{1,6}))?/([0-9]{1,9})")
 
 
 def read_input(name: str) -> bytes:
     """Return the bytes of a file (``-``: standard input) or of an example.  Raise EmulatorError."""
     text = None if name == "-" or os.path.exists(name) else _example(name)
-    return read_bytes(name) if text is None else text.encode("ascii")
+    return read_bytes(name, limit=POINTS_LIMIT) if text is None else text.encode("ascii")
 
 
 def points_of(name: str) -> Input:
@@ -90,10 +90,15 @@ def _sample(study_name: str, cell: int, index: int) -> str | None:
     from modern.study.families import draw_sample
     from modern.study.plan import SEED
 
-    if study_name not in builtin.names():
+    if study_name.endswith(".toml"):
+        from modern.study.tomlplan import read_plan  # imported here because few samples are those of a plan file
+
+        plan = read_plan(study_name)
+    elif study_name in builtin.names():
+        study = builtin.study(study_name)
+        plan = study.plan(study.SAMPLES, SEED)
+    else:
         return None
-    study = builtin.study(study_name)
-    plan = study.plan(study.SAMPLES, SEED)
     if cell >= len(plan.cells) or index >= plan.cells[cell].samples:
         choices = f"cells 0 to {len(plan.cells) - 1}"
         choices += f", samples 0 to {plan.cells[cell].samples - 1}" if cell < len(plan.cells) else ""

@@ -9,12 +9,16 @@ from argparse import ArgumentParser
 
 from modern.cli.shared.arguments import (
     coplanar_argument,
-    epsilon_text,
+    epsilon_argument,
     eye_argument,
+    json_argument,
     layers_argument,
     listed,
     output_argument,
     points_argument,
+    printed_arguments,
+    result_file_argument,
+    title_argument,
 )
 from modern.formats import HULLS
 
@@ -25,47 +29,30 @@ def cards(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--truncate", action="store_true", help="truncate numbers with more digits than a card holds instead of failing"
     )
-    parser.add_argument(
-        "--epsilon",
-        metavar="E",
-        type=epsilon_text,
-        help="punch the tolerance e of chapter 7 after N, for the layer epsilon",
-    )
+    epsilon_argument(parser, "punch", "after N, for the layer epsilon")
 
 
 def diff(parser: ArgumentParser) -> None:
     points_argument(parser)
-    parser.add_argument(
-        "--epsilon",
-        metavar="E",
-        type=epsilon_text,
-        help="use the tolerance e of chapter 7 in the layer epsilon and in the port, or rel:E in the port only",
-    )
-    parser.add_argument("--json", metavar="FILE", help="write the comparison to FILE as JSON")
+    epsilon_argument(parser, "use", "in the layer epsilon and in the port, or rel:E in the port only")
+    json_argument(parser, "comparison")
     parser.add_argument("--explain", action="store_true", help="if a program gives no hull, explain the reason")
     layers_argument(parser)
 
 
 def export(parser: ArgumentParser) -> None:
     points_argument(parser)
-    endings = listed(f".{name}" for name in HULLS)
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        default="-",
-        help=f"write to FILE, whose name ends with {endings} (default: '-', with --format)",
-    )
+    output_argument(parser, formats=f", whose name ends with {listed(f'.{name}' for name in HULLS)}, or with --format")
     parser.add_argument("--format", choices=tuple(HULLS), help="the format (default: the one that the name ends with)")
     coplanar_argument(parser)
 
 
 def draw(parser: ArgumentParser) -> None:
     points_argument(parser)
-    output_argument(parser, "FILE.svg")
-    parser.set_defaults(endings=(".svg",))
+    output_argument(parser, formats=" as SVG (.svg), or with the extra plot as PDF or PNG")
+    parser.set_defaults(endings=(".svg", ".pdf", ".png"))
     eye_argument(parser)
-    parser.add_argument("--title", metavar="TEXT", help="write TEXT below the picture (default: the name of the file)")
+    title_argument(parser, "the name of the file")
     _width_argument(parser)
     parser.add_argument(
         "--labels",
@@ -86,13 +73,7 @@ def draw(parser: ArgumentParser) -> None:
 
 def appel_will(parser: ArgumentParser) -> None:
     points_argument(parser, "FILE", " (points and surfaces)")
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument("--literal", action="store_true", help="use every rule of the paper as printed")
-    which.add_argument(
-        "--printed",
-        metavar="NAME,...",
-        help="use only these rules as printed: star, step3, step5, step7, step9, step10",
-    )
+    printed_arguments(parser, "rule", "star, step3, step5, step7, step9, step10")
     parser.add_argument(
         "--star",
         choices=("printed", "corrected"),
@@ -110,9 +91,7 @@ def appel_will(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--all", action="store_true", help="print all tables (default: only a summary for more than 50 points)"
     )
-    parser.add_argument(
-        "-o", "--output", metavar="FILE", help="write the hull (.off), or a drawing with its convex edges (.svg)"
-    )
+    result_file_argument(parser, "the hull (.off), or a drawing with its convex edges (.svg)")
     parser.set_defaults(endings=(".off", ".svg"))
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--map", action="store_true", help="with -o FILE.svg: draw the planar topological map instead")
@@ -131,12 +110,7 @@ def hidden_line(parser: ArgumentParser) -> None:
         help="a scene file .toml, a file of faces (OFF, OBJ, STL), a file of points whose hull is drawn, or one of the "
         "scenes cuboids, columns and house",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        help="write SVG (.svg) or HPGL (.hpgl, .plt) (default: SVG to standard output)",
-    )
+    result_file_argument(parser, "SVG (.svg) or HPGL (.hpgl, .plt) (default: SVG to standard output)")
     parser.set_defaults(endings=(".svg", ".hpgl", ".plt"))
     eye_argument(parser)
     parser.add_argument("--perspective", action="store_true", help="draw in perspective, with --eye as the eye point")
@@ -164,7 +138,7 @@ def hidden_line(parser: ArgumentParser) -> None:
         help="do not apply these corrections of the paper: enclosed, touching, ends; or its own step ghosts "
         "(default: apply all)",
     )
-    parser.add_argument("--title", metavar="TEXT", help="write TEXT below the picture (default: the scene's title)")
+    title_argument(parser, "the scene's title")
     parser.add_argument("--width", metavar="PIXELS", type=int, default=640, help="width of the SVG (default: 640)")
 
 

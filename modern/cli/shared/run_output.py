@@ -12,7 +12,7 @@ from operator import attrgetter
 from typing import TextIO
 
 from emulator.errors import FileError
-from emulator.files import check_writable, reason, write_text, writing
+from emulator.files import reason, write_text, writing
 from emulator.language.objectcode import Program
 from emulator.machine.operator import Output
 from emulator.machine.result import Event, Result
@@ -27,11 +27,6 @@ _MOST_STATEMENTS = 10
 def is_terminal(stream: TextIO | None) -> bool:
     """Return True if a standard stream is open and goes to a terminal."""
     return stream is not None and stream.isatty()
-
-
-def check_run_outputs(args: argparse.Namespace) -> None:
-    """Raise FileError if one of the files that a run writes cannot be written."""
-    check_writable(args.punch, args.typewriter, args.trace, args.log)
 
 
 def write_outputs(args: argparse.Namespace, punched: Iterable[str], typed: Iterable[str]) -> None:

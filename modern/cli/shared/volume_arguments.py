@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from argparse import ArgumentParser
 
+from modern.cli.shared.arguments import printed_arguments, result_file_argument
 from modern.formats import MESHES
 
 
@@ -52,26 +53,21 @@ def voxel_hull(parser: ArgumentParser) -> None:
         "labels given by --label; with --fill, count voxels",
     )
     parser.add_argument(
-        "--csv", metavar="FILE", help="with --each-label: write the table with all digits and exact fractions to FILE"
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
+        "--csv",
         metavar="FILE",
-        help=f"write a mesh ({', '.join(_MESH_ENDINGS)}); with --fill, an array: .nrrd, which keeps spacing and "
-        "origin, or .npy; with --each-label, the name needs a place for the label: 'label-%%d.off'",
+        help="with --each-label: write the table with all digits and exact fractions to FILE ('-': to standard output, "
+        "and nothing else)",
+    )
+    result_file_argument(
+        parser,
+        f"a mesh ({', '.join(_MESH_ENDINGS)}); with --fill, an array: .nrrd, which keeps spacing and origin, or .npy; "
+        "with --each-label, the name needs a place for the label: 'label-%%d.off'",
     )
 
 
 def octree_hull(parser: ArgumentParser) -> None:
     _volume_arguments(parser)
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument("--literal", action="store_true", help="use every statement of the paper as printed")
-    which.add_argument(
-        "--printed",
-        metavar="NAME,...",
-        help="use only these statements as printed: angle, start, triangles, truncation, bound, corners, marks",
-    )
+    printed_arguments(parser, "statement", "angle, start, triangles, truncation, bound, corners, marks")
     parser.add_argument(
         "--tables",
         action="store_true",
@@ -82,12 +78,10 @@ def octree_hull(parser: ArgumentParser) -> None:
         action="store_true",
         help="print the tables, and the result of processing every edge taken from the queue",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        help="write the filled hull as an array, .nrrd, which keeps spacing and origin, or .npy, or as a mesh over the "
-        f"centres of the voxels ({', '.join(_MESH_ENDINGS)})",
+    result_file_argument(
+        parser,
+        "the filled hull as an array, .nrrd, which keeps spacing and origin, or .npy, or as a mesh over the centres of "
+        f"the voxels ({', '.join(_MESH_ENDINGS)})",
     )
     parser.set_defaults(endings=(".nrrd", ".npy", *_MESH_ENDINGS))
 

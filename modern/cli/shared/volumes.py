@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
+from emulator.errors import quoted
 from modern.cli.shared.console import UsageError, counted
 from modern.digital.scans import Choice, Chosen, Scan, chosen, listed_labels
 from modern.digital.solids import Volume
@@ -156,5 +157,5 @@ def _shape(text: str | None) -> tuple[int, ...] | None:
         return None
     lengths = text.replace("x", ",").split(",")
     if not all(length.isascii() and length.isdigit() and len(length) < 10 for length in lengths):
-        raise UsageError(f"--shape: expected NX,NY,NZ, found {text!r}")
+        raise UsageError(f"--shape: expected NX,NY,NZ, found {quoted(text)}")
     return tuple(int(length) for length in lengths)

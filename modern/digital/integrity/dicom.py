@@ -9,6 +9,7 @@ import struct
 from dataclasses import dataclass, field
 from typing import BinaryIO
 
+from emulator.errors import quoted
 from modern.digital.integrity.streams import check_length, check_sizes
 from modern.digital.solids import VolumeError
 
@@ -157,7 +158,7 @@ def check_dicom(path: str) -> tuple[int, ...] | None:
         raise Unverifiable(_without_checksum(path, syntax))
     frames = elements.values.get(_FRAMES, b"1").strip(b"\0 ") or b"1"
     if not (frames.isdigit() and len(frames) < 10):
-        raise VolumeError(f"{path}: expected a number of frames, found {frames[:20]!r}")
+        raise VolumeError(f"{path}: expected a number of frames, found {quoted(frames)}")
     sizes = (elements.integer(_COLUMNS), elements.integer(_ROWS), int(frames))
     check_sizes(path, sizes)
     bits = sizes[0] * sizes[1] * sizes[2] * elements.integer(_SAMPLES, 1) * elements.integer(_BITS)

@@ -10,8 +10,9 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from emulator.errors import quoted
 from emulator.files import reason
-from modern.digital.integrity.streams import check_compressed, check_length, check_sizes
+from modern.digital.integrity.streams import check_compressed, check_length, check_sizes, outside_note
 from modern.digital.solids import VolumeError
 
 # The number of bytes of a value, by the name of its type.
@@ -37,8 +38,11 @@ _FLAGS = {"True": True, "true": True, "1": True, "False": False, "false": False,
 _LONGEST_HEADER = 1 << 20
 
 
-def check_metaimage(path: str) -> tuple[int, ...]:
-    """Return the number of voxels along each axis. Raise VolumeError if the header or the data are damaged."""
+def check_metaimage(path: str) -> tuple[tuple[int, ...], str]:
+    """Return the number of voxels along each axis, and a note on data outside the folder of the header, or "".
+
+    Raise VolumeError if the header or the data are damaged.
+    """
     with open(path, "rb") as file:
         head = file.read(_LONGEST_HEADER)
     fields, local = _fields(head, path)
@@ -50,12 +54,12 @@ def check_metaimage(path: str) -> tuple[int, ...]:
     if not _flag(fields, "BinaryData", path, "BinaryData" not in fields):
         raise VolumeError(f"{path}: BinaryData = False (numbers as text) is not supported; save it as binary data")
     if fields.get("ElementType") not in _BYTES:
-        raise VolumeError(f"{path}: ElementType: {fields.get('ElementType', '')[:40]!r} is not supported")
+        raise VolumeError(f"{path}: ElementType: {quoted(fields.get('ElementType', ''))} is not supported")
     size = _BYTES[fields["ElementType"]] * _integer(fields, "ElementNumberOfChannels", path, 1)
     name = fields[_DATA]
     if name in ("LOCAL", "Local", "local"):
         _check_data(path, path, local, math.prod(sizes) * size, fields)
-        return sizes
+        return sizes, ""
     names, axes_of_file = [name], axes
     if name.startswith("LIST"):
         names, axes_of_file = _listed(head[local:], name, sizes, path)
@@ -66,7 +70,7 @@ def check_metaimage(path: str) -> tuple[int, ...]:
     for data in names:
         source = f"{path}: {data[:80]}"
         _check_data(source, str(Path(path).absolute().parent / data), 0, math.prod(sizes[:axes_of_file]) * size, fields)
-    return sizes
+    return sizes, next(filter(None, (outside_note(path, data) for data in names)), "")
 
 
 def _check_data(source: str, path: str, start: int, expected: int, fields: Mapping[str, str]) -> None:
@@ -74,6 +78,8 @@ def _check_data(source: str, path: str, start: int, expected: int, fields: Mappi
     skipped = _integer(fields, "HeaderSize", source, 0)
     is_packed = _flag(fields, "CompressedData", source)
     try:
+        if os.path.exists(path) and not os.path.isfile(path):
+            raise VolumeError(f"{source}: expected a regular file")
         with open(path, "rb") as file:
             available = os.fstat(file.fileno()).st_size
             if skipped < 0 and is_packed:
@@ -123,7 +129,7 @@ def _listed(lines: bytes, name: str, sizes: tuple[int, ...], path: str) -> tuple
     axes = int(words[1]) if len(words) == 2 and re.fullmatch("[1-9]", words[1], re.ASCII) else len(sizes) - 1
     if words[0] != "LIST" or len(words) > 2 or not 1 <= axes < len(sizes):
         raise VolumeError(
-            f"{path}: {_DATA}: expected LIST and a number of axes below {len(sizes)}, found {name[:40]!r}"
+            f"{path}: {_DATA}: expected LIST and a number of axes below {len(sizes)}, found {quoted(name)}"
         )
     *complete, rest = lines.split(b"\n")
     if rest.strip():
@@ -142,7 +148,7 @@ def _numbered(name: str, sizes: tuple[int, ...], path: str) -> list[str]:
     numbers = [int(word) for word in match[2].split()] if match else []
     first, last, step = numbers if len(numbers) == 3 else (1, count, 1) if not numbers else (0, 0, 0)
     if match is None or step < 1 or len(range(first, last + 1, step)) != count:
-        raise VolumeError(f"{path}: {_DATA}: expected NAME%03d FIRST LAST STEP for {count} files, found {name[:60]!r}")
+        raise VolumeError(f"{path}: {_DATA}: expected NAME%03d FIRST LAST STEP for {count} files, found {quoted(name)}")
     return [match[1] % number for number in range(first, last + 1, step)]
 
 
@@ -151,14 +157,14 @@ def _flag(fields: Mapping[str, str], name: str, path: str, default: bool = False
     if text is None:
         return default
     if text not in _FLAGS:
-        raise VolumeError(f"{path}: {name}: expected True or False, found {text[:40]!r}")
+        raise VolumeError(f"{path}: {name}: expected True or False, found {quoted(text)}")
     return _FLAGS[text]
 
 
 def _integers(fields: Mapping[str, str], name: str, path: str) -> list[int]:
     words = fields.get(name, "").split()
     if not words or not all(map(_INTEGER.fullmatch, words)):
-        raise VolumeError(f"{path}: {name}: expected integers, found {fields.get(name, 'nothing')[:40]!r}")
+        raise VolumeError(f"{path}: {name}: expected integers, found {quoted(fields.get(name, 'nothing'))}")
     return [int(word) for word in words]
 
 

@@ -2,6 +2,7 @@
 
 import gzip
 import math
+import os
 import zlib
 from collections.abc import Iterator, Sequence
 from typing import BinaryIO
@@ -28,6 +29,14 @@ def check_sizes(source: str, sizes: Sequence[int]) -> None:
         raise VolumeError(f"{source}: expected positive sizes, found {text or 'none'}")
     if math.prod(sizes) > MAX_CELLS:
         raise VolumeError(f"{source}: expected at most {MAX_CELLS} voxels, found {text}")
+
+
+def outside_note(header: str, name: str) -> str:
+    """Return a note if a header names a file of data that is not in its folder, otherwise an empty string."""
+    folder = os.path.abspath(os.path.dirname(header))
+    data = os.path.normpath(os.path.join(folder, name))
+    outside = os.path.commonpath((folder, data)) != folder
+    return f"{header}: the data are read from {data}, which is not in the folder of the header" if outside else ""
 
 
 def chunks_of(file: BinaryIO, count: int) -> Iterator[bytes]:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from emulator.errors import quoted
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
 from modern.papers.appel_will.star import IntPoint
 from modern.papers.appel_will.surfaces import Line, Surface, lines, oriented
@@ -78,7 +79,7 @@ def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Ru
     elif rule == "concave":
         deleted = set(at_inside).intersection(_concave(points, surfaces_outward))
     else:
-        raise ValueError(f"{rule!r} is not a rule; the rules are {', '.join(RULES)}")
+        raise ValueError(f"{quoted(rule)} is not a rule; the rules are {', '.join(RULES)}")
     return Preprocessing(rule, inside, tuple(sorted(deleted)), _crowded(points, surfaces_outward))
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from emulator.errors import quoted
 from modern.exact_hull.coordinates import common_scale, read_points, to_integers
 from modern.geometry.points import Points
 from modern.geometry.vectors import area_vector, cross, dot, minus
@@ -37,7 +38,7 @@ def printed(*names: str) -> Method:
     """
     unknown = [name for name in names if name not in PRINTED]
     if unknown:
-        raise ValueError(f"{unknown[0]!r} is not one of {', '.join(PRINTED)}")
+        raise ValueError(f"{quoted(unknown[0])} is not one of {', '.join(PRINTED)}")
     steps = ("step5" in names, "step7" in names, "step9" in names, "step10" in names)
     return Method(as_printed if "star" in names else in_one_pass, Rules("step3" not in names, *steps))
 

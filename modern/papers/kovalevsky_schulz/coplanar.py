@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
+from emulator.errors import quoted
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import cross, dot, lowest, minus
 from modern.papers.kovalevsky_schulz.cells import IntPoint, Plane
@@ -44,7 +45,7 @@ class Treated:
 def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> Treated:
     """Compute the hull of integer points by a treatment. Raise ValueError for points in one plane."""
     if treatment not in (QUADRANGLES, EXTENDED):
-        raise ValueError(f"the treatment of coplanar faces is {QUADRANGLES} or {EXTENDED}, not {treatment!r}")
+        raise ValueError(f"the treatment of coplanar faces is {QUADRANGLES} or {EXTENDED}, not {quoted(treatment)}")
     distinct = list(dict.fromkeys((int(x), int(y), int(z)) for x, y, z in points))
     simplex = independent(distinct)
     if len(simplex) < 4:

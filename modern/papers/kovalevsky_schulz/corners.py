@@ -14,6 +14,7 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from emulator.errors import quoted
 from modern.digital.solids import Volume, VolumeError, Voxels
 
 # The points whose hull is computed: the centres of voxels or their corners.
@@ -53,7 +54,7 @@ def _extra(volume: Volume, of: Of) -> int:
     if volume.dimension != 3:
         raise VolumeError(f"{volume.source}: expected a volume of three dimensions, found two")
     if of not in (CENTRES, VERTICES):
-        raise ValueError(f"the hull is of {CENTRES} or {VERTICES}, not {of!r}")
+        raise ValueError(f"the hull is of {CENTRES} or {VERTICES}, not {quoted(of)}")
     return int(of == VERTICES)
 
 

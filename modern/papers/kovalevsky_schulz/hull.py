@@ -10,6 +10,7 @@ from typing import Final, Literal
 
 import numpy as np
 
+from emulator.errors import quoted
 from modern.digital.measures import Measures, measures
 from modern.digital.solids import NoVoxels, Volume, VolumeError, Voxels, as_volume
 from modern.digital.world import World, decimal_or_fraction
@@ -202,5 +203,5 @@ def ordered(points: Points, order: Order) -> Points:
     if order == SHUFFLED:
         return np.random.default_rng(_SEED).permutation(points)
     if order != RASTER:
-        raise ValueError(f"the order of insertion is {RASTER} or {SHUFFLED}, not {order!r}")
+        raise ValueError(f"the order of insertion is {RASTER} or {SHUFFLED}, not {quoted(order)}")
     return points

@@ -12,6 +12,7 @@ from typing import Any, Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from emulator.errors import quoted
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
@@ -230,7 +231,7 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
     Raise ValueError if there are no points or ``coplanar`` is unknown.
     """
     if coplanar not in (VISIBLE, INVISIBLE):
-        raise ValueError(f"coplanar faces are {VISIBLE} or {INVISIBLE}, not {coplanar!r}")
+        raise ValueError(f"coplanar faces are {VISIBLE} or {INVISIBLE}, not {quoted(coplanar)}")
     distinct = list(dict.fromkeys((int(x), int(y), int(z)) for x, y, z in points))
     if not distinct:
         raise ValueError("there are no points")

@@ -10,6 +10,7 @@ convex, the result is the convex object around it.
 import numpy as np
 from numpy.typing import NDArray
 
+from emulator.errors import quoted
 from modern.digital.solids import MAX_CELLS, Volume, VolumeError
 from modern.papers.kovalevsky_schulz.cells import Economical, Plane, expanded
 from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES, Of
@@ -24,7 +25,7 @@ def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "recons
     not a convex polyhedron, VolumeError for one that is too large, or for a hull of vertices that contains no voxel.
     """
     if of not in (CENTRES, VERTICES):
-        raise ValueError(f"the hull is of {CENTRES} or {VERTICES}, not {of!r}")
+        raise ValueError(f"the hull is of {CENTRES} or {VERTICES}, not {quoted(of)}")
     extra = 1 if of == VERTICES else 0
     columns = list(zip(*encoding.points, strict=True))
     low = tuple(min(column) for column in columns)

@@ -72,6 +72,8 @@ def read_bodies(data: bytes, name: str, reading: Reading) -> Bodies:
     table = parse_bytes(data, name)
     hull = as_hull(exact_hull(table.points))
     notes = [*table.notes]
+    if table.kind == "json" and b'"faces"' in data:
+        notes.append(f"{name}: the faces of a JSON file are not read; the hull of its points is drawn")
     notes += (f"{name}: {table.places[k]}: the point of {table.places[first]} again" for k, first in hull.duplicates)
     joined = None if reading.within is None or hull.dimension < 3 else _joined(hull, reading.within, name)
     if reading.within is not None:

@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from modern.geometry.numbers import number, quoted
+from emulator.errors import quoted
+from modern.geometry.numbers import number
 from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.polyhedron import SceneError
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from emulator.errors import quoted
 from modern.drawing.visible import BACK
 from modern.papers.nakamae_nishita.clipping import beyond_near
 from modern.papers.nakamae_nishita.contours import Tables, Values, boxes, overlapping, tables, values
@@ -120,7 +121,7 @@ def draw(
     """
     unknown = sorted(set(without) - set(REFINEMENTS))
     if unknown:
-        raise SceneError(f"{unknown[0]!r} is not one of {', '.join(REFINEMENTS)}")
+        raise SceneError(f"{quoted(unknown[0])} is not one of {', '.join(REFINEMENTS)}")
     started = time.perf_counter()
     # Time I: create the polyhedra (section 2).
     created = made() if callable(made) else made

@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 
-from emulator.errors import EmulatorError
-from emulator.files import read_bytes
+from emulator.errors import EmulatorError, quoted
+from emulator.files import POINTS_LIMIT, read_bytes
 from modern.geometry.coplanar import parse_distance
-from modern.geometry.numbers import quoted
 from modern.geometry.vectors import Vector, cross, dot, minus
 from modern.papers.nakamae_nishita import shapes
 from modern.papers.nakamae_nishita.bodies import Reading, read_bodies
@@ -92,7 +91,7 @@ def _from_file(fields: Fields, folder: str, place: str) -> Parts:
     try:
         limit = None if within is None else parse_distance(within)
         location = os.path.join(folder, path) if path else path
-        bodies = read_bodies(read_bytes(location, path), path, Reading(hull, limit))
+        bodies = read_bodies(read_bytes(location, path, POINTS_LIMIT), path, Reading(hull, limit))
     except EmulatorError as error:
         raise SceneError(f"{place}: file: {error}") from None
     parts = tuple(Part(f"{place}{solid.name.removeprefix(path)}", partial(named, solid)) for solid in bodies.polyhedra)

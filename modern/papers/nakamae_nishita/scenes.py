@@ -6,7 +6,6 @@ All numbers are exact: integers, decimals, and fractions written as text, such a
 
 import os
 import re
-import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -14,9 +13,10 @@ from functools import partial
 from importlib.resources import files
 from typing import Final, Literal
 
-from emulator.files import read_text, source_name
+from emulator.errors import quoted
+from emulator.files import parse_toml, read_text, source_name
 from modern.drawing.view import EYES, choose
-from modern.geometry.numbers import number, quoted
+from modern.geometry.numbers import number
 from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.fields import Fields
 from modern.papers.nakamae_nishita.parts import Part, make, named, part
@@ -103,11 +103,9 @@ def parse(text: str, source: str, folder: str = "") -> SceneFile:
     """Read a scene from its text. Paths of its parts are relative to ``folder``. Raise SceneError."""
     try:
         # TOML floats are read as exact decimals. TOML allows underscores between digits.
-        data = tomllib.loads(text, parse_float=lambda decimal: number(decimal.replace("_", "")))
-    except tomllib.TOMLDecodeError as error:
+        data = parse_toml(text, lambda decimal: number(decimal.replace("_", "")))
+    except ValueError as error:
         raise SceneError(_located(source, text, str(error))) from None
-    except (ValueError, RecursionError) as error:
-        raise SceneError(f"{source}: {error}") from None
     fields = Fields(data, source)
     title = fields.text("title", "")
     sight = _sight(Fields(fields.table("view"), f"{source}: view"))

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
+from emulator.errors import quoted
+
 
 @dataclass(frozen=True, slots=True)
 class Printed:
@@ -49,7 +51,7 @@ class Printed:
         """Apply the named statements as printed and the others corrected. Raise ValueError for an unknown name."""
         unknown = [name for name in names if name not in NAMES]
         if unknown:
-            raise ValueError(f"{unknown[0]!r} is not one of {', '.join(NAMES)}")
+            raise ValueError(f"{quoted(unknown[0])} is not one of {', '.join(NAMES)}")
         return cls(**dict.fromkeys(names, True))
 
     def names(self) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import TypeVar
 
-from emulator.errors import EmulatorError
+from emulator.errors import EmulatorError, quoted
 from modern.geometry.numbers import scaled_decimal
 
 T = TypeVar("T")
@@ -76,7 +76,9 @@ def whole_range(value: Count, name: str) -> tuple[int, int]:
     """Return a parameter as the least and the greatest integer; a single integer is both.  Raise FamilyError."""
     ends = (value, value) if isinstance(value, int) else value
     if not isinstance(ends, list | tuple) or len(ends) != 2 or not all(isinstance(end, int) for end in ends):
-        raise FamilyError(f"{name}: expected an integer, or the least and the greatest as [4, 20], found {value!r}")
+        raise FamilyError(
+            f"{name}: expected an integer, or the least and the greatest as [4, 20], found {quoted(value)}"
+        )
     return ends[0], ends[1]
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from functools import cache
 
+from emulator.errors import quoted
 from modern.edition import chapter6
 from modern.edition.chapter4 import load_theorems
 from modern.formats.points import parse_input, read_input
@@ -36,7 +37,7 @@ def published(draw: Draw, sets: Sequence[str] = (), shuffle: bool = False) -> Dr
     names = list(sets) or list(known)
     name = names[draw.index % len(names)]
     if name not in known:
-        raise FamilyError(f"no published set is called {name!r}; expected one of {', '.join(known)}")
+        raise FamilyError(f"no published set is called {quoted(name)}; expected one of {', '.join(known)}")
     return _order(draw, known[name], shuffle, name)
 
 

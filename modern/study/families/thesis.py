@@ -26,6 +26,7 @@ to 12, of which a given share is replaced by such decimals, from .0100 to .0999.
 
 from collections.abc import Callable, Mapping
 
+from emulator.errors import quoted
 from modern.study.families.draws import Count, Draw, Drawn, FamilyError, Whole, drawn
 
 N = (4, 17)
@@ -51,7 +52,7 @@ def thesis(
     if not isinstance(decimals, int) or not 0 <= decimals <= 1000:
         raise FamilyError(f"decimals: expected an integer number of thousandths, 0 to 1000, found {decimals}")
     if form not in FORMS:
-        raise FamilyError(f"form: expected {' or '.join(FORMS)}, found {form!r}")
+        raise FamilyError(f"form: expected {' or '.join(FORMS)}, found {quoted(form)}")
     pick = draw.whole(1, sum(weights.values()))
     for kind, weight in weights.items():
         pick -= weight

@@ -59,7 +59,7 @@ class Folder(io.RawIOBase):
     def readable(self) -> bool:
         return True
 
-    def readall(self) -> bytes:
+    def readinto(self, buffer: object) -> int:
         raise IsADirectoryError(21, "Is a directory")
 
 

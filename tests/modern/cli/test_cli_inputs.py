@@ -127,7 +127,7 @@ def test_a_ball_too_large_names_the_limit(diameter: str, capsys: pytest.CaptureF
 @pytest.mark.parametrize(
     ("words", "endings"),
     [
-        (["draw", "points.csv", "-o", "a.png"], ".svg"),
+        (["draw", "points.csv", "-o", "a.jpg"], ".svg or .pdf or .png"),
         (["appel-will", "points.csv", "-o", "a.stl"], ".off"),
         (["hidden-line", "house", "-o", "a.pdf"], ".svg or .hpgl or .plt"),
         (["export", "points.csv", "-o", "a.3ds"], ".off, .obj, .ply, .stl, .json"),

@@ -299,7 +299,7 @@ def test_voxels_of_a_file_read_by_the_library_can_be_selected() -> None:
 
 def test_time_limit_grows_with_the_size_of_the_files(monkeypatch: pytest.MonkeyPatch) -> None:
     limits = []
-    monkeypatch.setattr(itk, "_checked", lambda path, kind: (None, None))
+    monkeypatch.setattr(itk, "_checked", lambda path, kind: (None, None, ""))
     monkeypatch.setattr(itk, "_slices", lambda path: {})
     monkeypatch.setattr(itk, "_run", lambda arguments, path, seconds: limits.append(seconds) or 1)
     Path("far").mkdir()
