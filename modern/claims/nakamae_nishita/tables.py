@@ -179,7 +179,8 @@ def formula_3_in_line(cases: int = CASES) -> Check:
     """Check that d tells how segments meet that are not collinear; for two sides that overlap in a line it is 0."""
     pl, lp = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2)))
     d = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp))).crossing_number(1, 1)
-    return formula_3(cases).unless(d == 0, "the sides (0, 4) (4, 4) and (2, 4) (6, 4), which overlap, and d is 0")
+    check = formula_3(cases)
+    return check.unless(d == 0, "the sides (0, 4) (4, 4) and (2, 4) (6, 4), which overlap, and d is 0")
 
 
 @claim("nakamae-nishita.60", "nakamae-nishita.37")

@@ -11,14 +11,23 @@ from random import Random
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.claims.evidence import Check, claim, holds_if, refuted
-from modern.claims.sampled_sets import Point, counterexample_points, plane_through, plane_value, sampled_sets
+from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search, searched, slip
+from modern.claims.sampled_sets import (
+    CASES,
+    SETS,
+    Point,
+    counterexample_points,
+    plane_through,
+    plane_value,
+    sampled_sets,
+)
 from modern.digital.solids import VERTEX, ball, listed
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import dot, minus
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.convexity import convex_deficiency, is_digitally_convex, is_simple
 from modern.papers.yau_srihari.envelope import reduced_tree
+from modern.papers.yau_srihari.hull import components
 from modern.papers.yau_srihari.octree import count
 from modern.papers.yau_srihari.quadtree import Leaf, Place, graph_side, heights, no_columns, written
 from modern.papers.yau_srihari.search import Search, normal_of
@@ -33,9 +42,52 @@ def array_of(voxels: tuple[Point, ...] | list[Point]) -> Voxels:
     return listed(voxels).array
 
 
+def _draw_solid(random: Random) -> tuple[Point, ...]:
+    """Grow a solid from one voxel, by neighbours of its voxels."""
+    voxels: list[Point] = [(2, 2, 2)]
+    for _ in range(random.randint(4, 40)):
+        axis, step = random.randrange(3), random.choice((-1, 1))
+        start = random.choice(voxels)
+        new = tuple(min(5, max(0, c + step * (k == axis))) for k, c in enumerate(start))
+        voxels += [new] if new not in voxels else []  # type: ignore[list-item]
+    return tuple(voxels)
+
+
+SOLIDS: Generator[tuple[Point, ...]] = Generator(
+    "connected solids of up to 41 voxels in a cube of 6", 1983, _draw_solid, lambda s: len(s) > 1 and _connected(s)
+)
+
+
+def _connected(voxels: tuple[Point, ...]) -> bool:
+    return components(array_of(voxels)) == 1
+
+
 @cache
 def _hull() -> OctreeHull:
     return octree_hull(array_of(SOLID))
+
+
+def _placed(voxels: tuple[Point, ...]) -> tuple[Point, ...]:
+    """Return the voxels as indices of their array."""
+    low = [min(axis) for axis in zip(*voxels, strict=True)]
+    return tuple((x - low[0], y - low[1], z - low[2]) for x, y, z in voxels)
+
+
+def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
+    """Compare the faces of both envelopes with the exact hull, and the filled hull with its digital points."""
+    points, hull = _placed(voxels), octree_hull(array_of(voxels))
+    judge = exact_hull(points)
+    if judge.dimension < 3:
+        return True
+    for envelope, sign in ((hull.lower, 1), (hull.upper, -1)):
+        expected = {frozenset(points[k] for k in f.polygon) for f in judge.facets if sign * f.plane[2] < 0}
+        if {frozenset((x, y, sign * z) for x, y, z in face.vertices) for face in envelope.faces} != expected:
+            return False
+    scale = judge.scale
+    return all(
+        hull.filled[at] == all(scale * dot(f.plane[:3], at) + f.plane[3] <= 0 for f in judge.facets)
+        for at in np.ndindex(hull.filled.shape)
+    )
 
 
 @claim("yau-srihari.58", name="triangles")
@@ -59,55 +111,50 @@ def minimum_not_unique() -> Check:
     """Check that two voxels with a common corner have two smallest digitally convex solids, of three voxels."""
     both: list[Point] = [(0, 0, 0), (1, 1, 0)]
     least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
-    return holds_if(all(least) and not is_simple(array_of(both)), "either of two voxels makes a convex solid of three")
+    return exhibited(all(least) and not is_simple(array_of(both)), "either of two voxels makes a convex solid of three")
 
 
-@claim(
-    "yau-srihari.2",
-    "yau-srihari.45",
-    "yau-srihari.95",
-    "yau-srihari.48",
-    "yau-srihari.51",
-    "yau-srihari.53",
-    "yau-srihari.54",
-    "yau-srihari.97",
-    "yau-srihari.120",
-)
-@claim("yau-srihari.4", "yau-srihari.38", "yau-srihari.49", kind="condition")
-def envelopes_against_judge(kind: str = "") -> Check:
-    """Check that the faces of the envelopes are those of the exact hull that look down or up.
-
-    Between them lie the digital points of the Euclidean hull. With ``kind``, also check that those of the
-    counterexample do not form a digital solid.
-    """
-    judge = exact_hull(SOLID)
-    checks = []
-    for envelope, sign in ((_hull().lower, 1), (_hull().upper, -1)):
-        expected = {frozenset(f.polygon) for f in judge.facets if sign * f.plane[2] < 0}
-        faces = {frozenset(SOLID.index((x, y, sign * z)) for x, y, z in face.vertices) for face in envelope.faces}
-        checks.append(faces == expected)
-    inside = {p for p in _GRID if max(plane_value(f.plane, p) for f in judge.facets) <= 0}
-    checks.append({*map(tuple, np.argwhere(_hull().filled).tolist())} == inside)
-    message = f"a solid of {len(SOLID)} voxels, whose hull has {len(inside)} voxels"
-    if kind:
-        return holds_if(all(checks) and not disconnected_hull().holds, message, conditional=True)
-    return holds_if(all(checks), message)
+@claim("yau-srihari.2", "yau-srihari.48", "yau-srihari.51", "yau-srihari.53", "yau-srihari.54", full=2_000)
+@claim("yau-srihari.59", "yau-srihari.120", full=2_000)
+def envelopes_against_judge(cases: int = 5) -> Check:
+    """Check that the envelopes are faces of the exact hull, with its digital points between them."""
+    message = "the envelopes of all solids are the faces of the exact hull that look down or up"
+    return search(SOLIDS, _envelopes_agree, cases, message)
 
 
-@claim("yau-srihari.5")
-def deficiency_of_solid() -> Check:
+@claim("yau-srihari.4", "yau-srihari.38", "yau-srihari.49", full=2_000)
+def digital_hull_by_envelopes(cases: int = 5) -> Check:
+    """Check the same, and the counterexample, a hull whose digital points do not form a digital solid."""
+    disconnected = disconnected_hull()
+    return envelopes_against_judge(cases).unless(not disconnected.holds, disconnected.message)
+
+
+@claim("yau-srihari.121", "yau-srihari.68", "yau-srihari.70", name="bound", full=2_000)
+@claim("yau-srihari.67", name="start", full=2_000)
+@claim("yau-srihari.125", "yau-srihari.106", name="marks", full=2_000)
+def corrected_step(name: str, cases: int = 2) -> Check:
+    """Check that the corrected algorithm gives the digital points of the hull, and as printed it does not."""
+    as_printed = algorithm_as_printed(name)
+    check = envelopes_against_judge(cases)
+    return check.unless(not as_printed.holds, f"the step as printed: {as_printed.message}")
+
+
+@claim("yau-srihari.5", full=2_000)
+def deficiency_of_solid(cases: int = 10) -> Check:
     """Check that the hull without the convex deficiency is the solid."""
-    array = array_of(SOLID)
-    missing = convex_deficiency(array)
-    message = f"voxels of the hull that are not in the solid: {int(missing.sum())}"
-    return holds_if(bool((_hull().filled & ~missing == array).all()), message)
+
+    def restores(voxels: tuple[Point, ...]) -> bool:
+        array = array_of(voxels)
+        return bool((octree_hull(array).filled & ~convex_deficiency(array) == array).all())
+
+    return search(SOLIDS, restores, cases, "the hull without the convex deficiency is the solid")
 
 
-@claim("yau-srihari.8", "yau-srihari.9", "yau-srihari.41")
-def euclidean_convexity() -> Check:
+@claim("yau-srihari.41", full=400)
+def euclidean_convexity(cases: int = CASES) -> Check:
     """Check that the hull of the vertices is the hull, and that midpoints of vertices are in it."""
     checks = []
-    for sampled in sampled_sets(3, 1):
+    for sampled in sampled_sets(3, cases):
         again = exact_hull([sampled.points[k] for k in sampled.judge.vertices])
         checks.append(len(again.facets) == len(sampled.judge.facets))
         for i, j in combinations(sampled.judge.vertices, 2):
@@ -118,37 +165,27 @@ def euclidean_convexity() -> Check:
                 )
                 <= 0
             )
-    return holds_if(all(checks), f"{len(checks)} cases hold")
+    return searched(SETS[3], cases, checks, f"{len(checks)} cases hold")
 
 
-@claim("yau-srihari.14")
-@claim("yau-srihari.16", kind="complexity")
-def light_cap(kind: str = "") -> Check:
-    """Check that the light faces seen from a point in general position form one cap with one closed boundary."""
-    points: list[Point] = [(0, 0, 0), (7, 1, 2), (1, 8, 3), (2, 3, 9), (9, 9, 8)]
-    judge, new = exact_hull(points), (11, -4, 13)
-    light = [f for f in judge.facets if plane_value(f.plane, new) > 0]
-    rim = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in light) == 1]
-    after = [end for edge in rim for end in edge]
-    closed = bool(rim) and all(after.count(end) == 2 for end in after)
-    if kind:
-        bounds = [len(sampled.judge.edges()) <= 3 * len(sampled.points) - 6 for sampled in sampled_sets(3, 2)]
-        return holds_if(all(bounds), "a hull of n points has at most 3n - 6 edges")
-    message = f"{len(light)} light faces are surrounded by {len(rim)} edges, and two of these meet at each end"
-    return holds_if(closed, message)
+@claim("yau-srihari.14", full=400)
+def light_cap(cases: int = CASES) -> Check:
+    """Check that the light faces seen from points in general position form one cap with one closed boundary."""
+    outcomes = []
+    for sampled in sampled_sets(3, cases):
+        for new in ((11, -4, 13), (-23, 17, 9)):
+            light = [f for f in sampled.judge.facets if plane_value(f.plane, new) > 0]
+            rim = [e for e in sampled.judge.edges() if sum({*e} <= {*f.polygon} for f in light) == 1]
+            after = [end for edge in rim for end in edge]
+            outcomes.append(bool(rim) and all(after.count(end) == 2 for end in after))
+    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} caps have one closed boundary")
 
 
-@claim("yau-srihari.19")
-def voxels_fill_space() -> Check:
-    """Check that every multiple of 1/4 is in exactly one half-open voxel, x - 1/2 < V <= x + 1/2."""
-    checks = []
-    for k in range(-8, 9):
-        checks.append(sum(in_voxel(Fraction(k, 4), v) for v in range(-4, 5)) == 1)
-    return holds_if(all(checks), f"{len(checks)} coordinates are each in one voxel")
-
-
-def in_voxel(x: Fraction, v: int) -> bool:
-    return x - Fraction(1, 2) < v <= x + Fraction(1, 2)
+@claim("yau-srihari.16", full=400)
+def number_of_edges(cases: int = CASES) -> Check:
+    """Check that a hull of n points has at most 3 n - 6 edges."""
+    bounds = [len(sampled.judge.edges()) <= 3 * len(sampled.points) - 6 for sampled in sampled_sets(3, cases)]
+    return searched(SETS[3], cases, bounds, "a hull of n points has at most 3n - 6 edges")
 
 
 @claim("yau-srihari.36")
@@ -177,45 +214,62 @@ def smallest_convex_solid() -> Check:
     passed = hull.components == 1 and is_simple(hull.filled) and is_digitally_convex(hull.filled)
     path, middle = counterexample_points("yau_path.csv"), (Fraction(1), Fraction(1, 2), Fraction(1))
     far = all(max(abs(a - b) for a, b in zip(middle, p, strict=True)) >= 1 for p in path)
-    passed &= (
-        far and (octree_hull(array_of(path)).filled == array_of(path)).all() and not is_digitally_convex(array_of(path))
-    )
+    path_fails = far and bool((octree_hull(array_of(path)).filled == array_of(path)).all())
+    path_fails &= not is_digitally_convex(array_of(path))
     completions = [p for p in _GRID if p not in path and is_digitally_convex(array_of([*path, p]))]
-    message = (
-        f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels}; "
-        f"each of {len(completions)} voxels makes the path convex"
+    return exhibited(
+        passed, f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} and is convex"
+    ).unless(
+        path_fails and len(completions) > 1,
+        f"a path of six voxels that {len(completions)} different voxels make convex",
     )
-    return holds_if(passed and len(completions) > 1, message, conditional=True)
 
 
-@claim("yau-srihari.39")
-@claim("yau-srihari.50", kind="condition")
-def floor_and_ceiling(kind: str = "") -> Check:
-    """Check that floor and ceiling are the smallest and the largest z of each column; ``kind`` names them alpha and
-    beta.
-    """
+@claim("yau-srihari.50")
+def floor_and_ceiling() -> Check:
+    """Check which of alpha, the smallest z of each column, and beta, the largest, are the floor and the ceiling."""
     columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
-    passed = all(_hull().floor[at] == zs[0] and _hull().ceiling[at] == zs[-1] for at, zs in columns.items())
-    return holds_if(passed, f"{len(columns)} columns agree", conditional=kind)
+    alpha, beta = ({at: zs[k] for at, zs in columns.items()} for k in (0, -1))
+    floor, ceiling = dict(_hull().floor), dict(_hull().ceiling)
+    message = f"in {len(columns)} columns alpha is the floor and beta the ceiling"
+    as_printed, as_corrected = (alpha, beta) == (ceiling, floor), (alpha, beta) == (floor, ceiling)
+    return slip(as_printed, as_corrected, "the floor and the ceiling", message)
 
 
-@claim("yau-srihari.52", "yau-srihari.103")
+@claim("yau-srihari.103")
 def ceiling_by_negation() -> Check:
-    """Check that the envelope found for -beta has the negated heights of the upper hull."""
+    """Check that the envelope of -beta, with its sign changed, has the heights of the upper hull."""
+    envelope, upper = _upper_heights()
+    check = exhibited({(x, y, -z) for x, y, z in envelope} == upper, f"{len(upper)} vertices agree")
+    return check.unless(envelope != upper, "the heights without the change of sign")
+
+
+@claim("yau-srihari.52")
+def envelope_of_negated_ceiling() -> Check:
+    """Check whether the algorithm applied to -beta gives the concave envelope of beta or its negative."""
+    envelope, upper = _upper_heights()
+    message = f"{len(upper)} vertices agree only if their heights are negated"
+    negated = {(x, y, -z) for x, y, z in envelope}
+    return slip(envelope == upper, negated == upper, "the negative of that envelope", message)
+
+
+def _upper_heights() -> tuple[set[Point], set[Point]]:
+    """Return the vertices of the envelope found for -beta, and those of the exact upper hull."""
     judge = exact_hull(SOLID)
-    envelope_points = {(x, y, -z) for face in _hull().upper.faces for x, y, z in face.vertices}
-    upper = {SOLID[k] for f in judge.facets if f.plane[2] > 0 for k in f.polygon}
-    message = f"{len(envelope_points)} vertices agree with negated heights"
-    return holds_if(envelope_points == upper, message, conditional=True)
+    envelope = {vertex for face in _hull().upper.faces for vertex in face.vertices}
+    return envelope, {SOLID[k] for f in judge.facets if f.plane[2] > 0 for k in f.polygon}
 
 
-@claim("yau-srihari.55", "yau-srihari.98", "yau-srihari.56", "yau-srihari.64")
-def extreme_points() -> Check:
+@claim("yau-srihari.55", "yau-srihari.56", "yau-srihari.64", full=2_000)
+def extreme_points(cases: int = 10) -> Check:
     """Check that the vertices of the lower envelope are points of the floor and of the reduced set."""
-    floor = {(x, y, z) for (x, y), z in _hull().floor.items()}
-    vertices = {v for face in _hull().lower.faces for v in face.vertices}
-    message = f"{len(vertices)} vertices are among the points of {len(floor)} columns"
-    return holds_if(vertices <= floor and vertices <= {*_hull().lower.reduced}, message)
+
+    def among(voxels: tuple[Point, ...]) -> bool:
+        hull = octree_hull(array_of(voxels))
+        floor = {(x, y, z) for (x, y), z in hull.floor.items()}
+        return {v for face in hull.lower.faces for v in face.vertices} <= floor & {*hull.lower.reduced}
+
+    return search(SOLIDS, among, cases, "all vertices are points of the floor that are extreme in their row and column")
 
 
 @claim("yau-srihari.84")
@@ -230,7 +284,7 @@ def integer_normals() -> Check:
             checks.append(any(normal) and all(type(n) is int for n in normal))
             checks += [dot(normal, minus(vertex, first)) == 0 for vertex in others]
     message = f"{len(checks)} conditions hold; {upright} normals belong to starting faces"
-    return holds_if(upright > 0 and all(checks), message)
+    return exhibited(upright > 0 and all(checks), message)
 
 
 @claim("yau-srihari.100")
@@ -256,15 +310,16 @@ def opposite_sides() -> Check:
                 values = [plane_value(plane, p) for p in floor]
                 opposite = any(v * plane_value(plane, v1) < 0 for v in values)
                 checks.append((max(values) <= 0 or min(values) >= 0) == (not opposite))
-    return holds_if(all(checks) and bool(checks), f"{len(checks)} planes agree")
+    return exhausted("planes through edges of the envelope of a solid", checks, f"{len(checks)} planes agree")
 
 
 @claim("yau-srihari.99")
 def another_vertex() -> Check:
     """Check that the faces of the lower envelope have normals that point up when reversed, as v3 v2 v1."""
-    normals = [normal_of(*reversed(face.vertices[:3])) for face in _hull().lower.faces]
-    passed = all(n[2] > 0 for n in normals) and all(face.normal[2] < 0 for face in _hull().lower.faces)
-    return holds_if(passed, f"the normals of {len(normals)} reversed faces point up", conditional=True)
+    reversed_ = [normal_of(*reversed(face.vertices[:3])) for face in _hull().lower.faces]
+    faces = [face.normal for face in _hull().lower.faces]
+    message = f"the normals of {len(reversed_)} reversed faces point up, unlike those of faces of the envelope"
+    return slip(all(n[2] < 0 for n in reversed_), all(n[2] < 0 for n in faces), "v3 v2 and another vertex", message)
 
 
 @claim("yau-srihari.90")
@@ -275,9 +330,11 @@ def epigraph_at_inner_nodes() -> Check:
     voxels_as_printed = 8 if tree.low == 0 else 0
     epigraph = count(graph_side(tree, above=True))
     columns = sum(z >= top for top in tops.values() for z in (0, 1))
-    passed = voxels_as_printed == 8 > epigraph == columns == 5 and tree.high == 1
+
     message = f"as printed the root has {voxels_as_printed} voxels, and the epigraph has {epigraph}"
-    return holds_if(passed, message, conditional=True)
+    return exhibited(columns == 5, "at leaves of one column the epigraph is full from the height upward").unless(
+        voxels_as_printed == 8 > epigraph == columns == 5 and tree.high == 1, message
+    )
 
 
 @claim("yau-srihari.113")
@@ -285,28 +342,16 @@ def pairs_of_points() -> Check:
     """Count the segments between n points for n up to 12."""
     counts = {n: len([*combinations(range(n), 2)]) for n in range(2, 13)}
     message = "the number is n (n - 1) / 2 for n from 2 to 12"
-    return holds_if(all(2 * count == n * (n - 1) for n, count in counts.items()), message)
+    outcomes = [2 * count == n * (n - 1) for n, count in counts.items()]
+    return exhausted("numbers of points from 2 to 12", outcomes, message)
 
 
-@claim("yau-srihari.119")
-def outward_normals() -> Check:
-    """Check that the normals of the lower envelope point down and away from all points of the floor."""
-    floor = [(x, y, z) for (x, y), z in _hull().floor.items()]
-    checks = []
-    for face in _hull().lower.faces:
-        normal, first = face.normal, face.vertices[0]
-        ways = [sum(n * (a - b) for n, a, b in zip(normal, p, first, strict=True)) for p in floor]
-        checks.append(max(ways) == 0 and normal[2] < 0 and normal_of(*face.vertices[:3])[2] < 0)
-    return holds_if(bool(checks) and all(checks), f"the normals of {len(checks)} faces point outward")
-
-
-@claim("yau-srihari.85")
-def queued_edges_reversed() -> Check:
+@claim("yau-srihari.85", full=2_000)
+def queued_edges_reversed(cases: int = 6) -> Check:
     """Check that edges entered in the queue as u1 u3 or u3 u2 are always removed in the reverse direction."""
-    random = Random(8)
     same, reverse, neither = 0, 0, 0
-    for _ in range(6):
-        hull = octree_hull(array_of([p for p in _GRID if random.random() < 0.6]))
+    for voxels in SOLIDS.cases(cases):
+        hull = octree_hull(array_of(voxels))
         for step in (*hull.lower.steps, *hull.upper.steps):
             ring = step.face.vertices if step.face else ()
             # Section 4.6: u1 u3 and u3 u2 are the printed directions of the edges entered.
@@ -315,19 +360,24 @@ def queued_edges_reversed() -> Check:
                 same += (p, q) in entries
                 reverse += (q, p) in entries
                 neither += (p, q) not in entries and (q, p) not in entries
-    message = (
-        f"{reverse} edges are removed in the reverse direction, and {same} in the direction in which they were entered"
-    )
-    return holds_if(reverse and not same and not neither, message, conditional=True)
+    message = f"{reverse} edges that are found again are removed"
+    check = searched(SOLIDS, cases, [reverse > 0, not same, not neither], message)
+    return check.unless(not same, "a comparison of directions: every edge is found again in the reverse direction")
 
 
-@claim("yau-srihari.128")
-def row_and_column_steps() -> Check:
+def _draw_floor(random: Random) -> tuple[Point, ...]:
+    return tuple((x, y, random.randint(0, 3)) for x in range(4) for y in range(4) if random.random() < 0.8)
+
+
+FLOORS: Generator[tuple[Point, ...]] = Generator("floors of about 13 columns of height 0 to 3", 29, _draw_floor)
+
+
+@claim("yau-srihari.128", full=4_000)
+def row_and_column_steps(cases: int = 40) -> Check:
     """Compare points extreme in both row and column with those left after a step by rows and one by columns."""
-    random = Random(29)
     checks, larger = [], 0
-    for _ in range(40):
-        heights_ = {(x, y): random.randint(0, 3) for x in range(4) for y in range(4) if random.random() < 0.8}
+    for floor_ in FLOORS.cases(cases):
+        heights_ = {(x, y): z for x, y, z in floor_}
         extreme_in_both = {place for place in heights_ if all(_extreme(place, axis, heights_) for axis in (0, 1))}
         tree = written(no_columns(4), {place: Leaf(z) for place, z in heights_.items()})
         after_steps = {*heights(reduced_tree(tree))}
@@ -336,8 +386,9 @@ def row_and_column_steps() -> Check:
         hull = exact_hull([*floor, *((x, y, z + 9) for x, y, z in floor)])
         checks.append({floor[k][:2] for k in hull.vertices if k < len(floor)} <= extreme_in_both <= after_steps)
         larger += extreme_in_both < after_steps
-    message = f"{len(checks)} floors; in {larger} the second step keeps a point that is not extreme in its whole column"
-    return holds_if(all(checks) and larger, message, conditional=True)
+    return searched(FLOORS, cases, checks, f"{len(checks)} floors keep all vertices").unless(
+        larger, f"floors in which the second step keeps a point that is not extreme in its whole column ({larger})"
+    )
 
 
 @claim("yau-srihari.129")
@@ -354,9 +405,10 @@ def angle_counts() -> Check:
         )
         counts.append((all_angles, reduced_angles, sum(step.angles for step in steps)))
     (all_8, left_8, search_8), (all_40, left_40, search_40) = counts
-    passed = left_8 < all_8 and left_40 < all_40 and left_8 < search_8 and search_40 < left_40
     message = "; ".join(f"{a:,} for the floor, {b:,} for the reduced set, {c:,} by the search" for a, b, c in counts)
-    return holds_if(passed, message, conditional=True)
+    return exhibited(left_8 < all_8 and left_40 < all_40 and search_40 < left_40, message).unless(
+        search_8 > left_8, f"the search in a ball of diameter 8: {search_8:,} angles, and {left_8:,} without it"
+    )
 
 
 def _beyond(edge: tuple[Point, Point], places: Iterable[Place]) -> int:
