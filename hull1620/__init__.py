@@ -19,48 +19,10 @@
 
 import os
 from contextlib import suppress
+from importlib import import_module
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from emulator.compiled.batch import run_batch
-    from emulator.errors import ArgumentError, CardError, CompileError, DeckError, Diagnostic, EmulatorError, FileError
-    from emulator.language.cards import Card, Deck, deck_from_lines, deck_from_text, read_deck
-    from emulator.language.compiler import compile_deck, translate
-    from emulator.language.objectcode import Program
-    from emulator.machine.divergence import Divergence, diverge
-    from emulator.machine.endings import Ending
-    from emulator.machine.machine import Machine
-    from emulator.machine.result import Options, Result
-    from emulator.machine.timing import Timing, measure
-    from emulator.numbers import Numbers, numbers
-    from emulator.numbers.arithmetic import Profile, profile
-    from hull1620.hull import Hull
-    from hull1620.hulls import (
-        convex_hull,
-        data_deck,
-        draw,
-        exact_hull,
-        load_program,
-        read_points,
-        reproduce,
-        run_hull,
-        save,
-    )
-    from hull1620.voxels import voxel_hull
-    from modern.digital.hull import DigitalHull, digital_hull
-    from modern.digital.solids import NoVoxels, Volume, VolumeError
-    from modern.digital.volumes import read_volume
-    from modern.exact_hull.result import Certificate, CertificateError
-    from modern.geometry.hull import Face, HullRefused, Stage
-    from modern.geometry.mesh import ExportError
-    from modern.geometry.numbers import PointsError
-    from modern.port.arithmetic import RangeError
-    from modern.study.plan import Cell, Plan, PlanError, Port, Programs
-    from modern.study.run import run_study
-    from modern.thesis.cards import CardHull, read_hull
-    from modern.thesis.job import HullRun
-
+# The module of each public name.  ``__init__.pyi`` declares the same names for type checkers.
 _HOMES = {
     "emulator.compiled.batch": ("run_batch",),
     "emulator.errors": (
@@ -109,70 +71,7 @@ _HOMES = {
     "modern.thesis.job": ("HullRun",),
 }
 
-__all__ = [
-    "ArgumentError",
-    "Card",
-    "CardError",
-    "CardHull",
-    "Cell",
-    "Certificate",
-    "CertificateError",
-    "CompileError",
-    "Deck",
-    "DeckError",
-    "Diagnostic",
-    "DigitalHull",
-    "Divergence",
-    "EmulatorError",
-    "Ending",
-    "ExportError",
-    "Face",
-    "FileError",
-    "Hull",
-    "HullRefused",
-    "HullRun",
-    "Machine",
-    "NoVoxels",
-    "Numbers",
-    "Options",
-    "Plan",
-    "PlanError",
-    "PointsError",
-    "Port",
-    "Profile",
-    "Program",
-    "Programs",
-    "RangeError",
-    "Result",
-    "Stage",
-    "Timing",
-    "Volume",
-    "VolumeError",
-    "compile_deck",
-    "convex_hull",
-    "data_deck",
-    "deck_from_lines",
-    "deck_from_text",
-    "digital_hull",
-    "diverge",
-    "draw",
-    "exact_hull",
-    "load_program",
-    "measure",
-    "numbers",
-    "profile",
-    "read_deck",
-    "read_hull",
-    "read_points",
-    "read_volume",
-    "reproduce",
-    "run_batch",
-    "run_hull",
-    "run_study",
-    "save",
-    "translate",
-    "voxel_hull",
-]
+__all__ = sorted(name for names in _HOMES.values() for name in names)
 
 
 def _check_packages() -> None:
@@ -199,9 +98,12 @@ _check_packages()
 
 
 def __getattr__(name: str) -> object:
-    from emulator import named  # imported here because ``import hull1620`` must not load the emulator
-
-    return named(__name__, _HOMES, name)
+    """Import a public name from its module and keep it here."""
+    for module, names in _HOMES.items():
+        if name in names:
+            globals()[name] = getattr(import_module(module), name)
+            return globals()[name]
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

@@ -190,7 +190,5 @@ def test_hull_agrees_with_scikit_image(array: np.ndarray) -> None:
 
 
 def test_numba_is_not_imported_for_a_small_volume() -> None:
-    code = (
-        "import sys, numpy, modern; modern.digital_hull(numpy.ones((3, 3, 3), bool)); sys.exit('numba' in sys.modules)"
-    )
+    code = "import sys, numpy, hull1620; hull1620.digital_hull(numpy.ones((3, 3, 3))); sys.exit('numba' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import modern
 from emulator.numbers.arithmetic import TRUNCATING
 from emulator.numbers.fields import FALLBACK, read_floating, write_floating
 from modern.geometry.hull import LazyTuple, as_tuple
@@ -103,12 +102,6 @@ def test_empty_input_is_a_points_error(points: object, arithmetic: str) -> None:
 def test_unknown_arithmetic_is_a_value_error(name: str) -> None:
     with pytest.raises(ValueError, match=r"."):
         convex_hull([ORIGIN], name)
-
-
-def test_modern_exports_the_public_names() -> None:
-    assert modern.convex_hull is convex_hull
-    assert modern.PointsError is PointsError
-    assert not hasattr(modern, "hull_of_nothing")
 
 
 numbers = st.one_of(st.integers(), st.fractions(), st.decimals(allow_nan=False, allow_infinity=False).map(Fraction))

@@ -141,7 +141,7 @@ def test_items_out_of_order_are_rejected(tmp_path: object, monkeypatch: pytest.M
 
 
 def test_the_page_of_the_wrong_hull_names_the_card() -> None:
-    made = make("wrong", "")
+    made = make("console", "wrong")
     html = "".join(part.html for part in made.parts)
     parsed(html)
     assert "missed: point 1, point 2, point 3" in html

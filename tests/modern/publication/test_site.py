@@ -171,7 +171,7 @@ def test_html_is_valid(site: Path, tmp_path: Path) -> None:
 
 
 def test_unknown_names_and_arguments_are_rejected() -> None:
-    assert {"facing", "charts", "addresses", "errors", "home"} <= set(names())
+    assert {"facing", "charts", "addresses", "home"} <= set(names())
     with pytest.raises(ValueError, match="unknown page 'maps'"):
         make("maps", "")
     with pytest.raises(ValueError, match="'program4' is not one of program1"):

@@ -1,7 +1,8 @@
-"""The known faults with the decks that demonstrate them, the open questions, and the sources of the texts."""
+"""The known faults with their decks, the open questions, the sources of the texts, and the error numbers."""
 
 import re
 
+from emulator.errors import explanations
 from modern.edition.sources import Document, read, sources
 from modern.publication.numbered import Item, numbered
 from modern.publication.site.made import Made, Part, Target, one_of, slug
@@ -13,8 +14,10 @@ FILES = {"fortran_src/KNOWN-FAULTS.md": "fault", "fortran_src/OPEN-QUESTIONS.md"
 
 
 def make(argument: str) -> Made:
-    """Return a section for each item of a file, or for ``sources`` a section for each document."""
-    if one_of(argument, ("sources", *FILES)) == "sources":
+    """Return a section for each item of a file, for each document (``sources``) or for each error (``errors``)."""
+    if one_of(argument, ("sources", "errors", *FILES)) == "errors":
+        return _errors()
+    if argument == "sources":
         documents = sources().documents
         parts = [Part(document.title, document.id, html=_document(document)) for document in documents]
         return Made(tuple(parts), tuple(Target(document.id, document.id, document.title) for document in documents))
@@ -32,6 +35,18 @@ def make(argument: str) -> Made:
         targets.append(Target(f"{kind}-{item.number}", f"{kind} {item.number}", f"{kind} {item.number}"))
     if closing[0]:
         parts.append(Part(closing[0], "after", text=_FILE.sub(r"\1", closing[1])))
+    return Made(tuple(parts), tuple(targets))
+
+
+def _errors() -> Made:
+    """Return a section for each error number of the compiler and error code of the machine, with an example."""
+    parts, targets = [], []
+    for number, explanation in explanations().items():
+        example = preformatted("\n".join(explanation.example), f"example of error {number}")
+        facts = (("remedy", escape(explanation.remedy)), ("source", escape(explanation.source)))
+        html = text("p", explanation.meaning) + example + definitions(facts, cls="facts")
+        parts.append(Part(f"Error {number}: {explanation.title}", f"error-{number}", html=html))
+        targets.append(Target(f"error-{number}", f"error {number}", f"error {number}", f"error {number}"))
     return Made(tuple(parts), tuple(targets))
 
 
