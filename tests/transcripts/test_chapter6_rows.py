@@ -26,9 +26,8 @@ def faults(chapter: Chapter, row_id: str) -> tuple[str, ...]:
     return row_faults(chapter, chapter.text.row(row_id))
 
 
-@pytest.mark.parametrize("row", CHAPTER.text.rows, ids=lambda row: row.id)
-def test_the_ground_of_a_row_holds(row: Row) -> None:
-    assert row_faults(CHAPTER, row) == ()
+def test_the_ground_of_every_row_holds() -> None:
+    assert [fault for row in CHAPTER.text.rows for fault in row_faults(CHAPTER, row)] == []
 
 
 def test_rows_have_known_kinds_and_reasons() -> None:

@@ -36,9 +36,8 @@ def row_of(words: str, kind: str = "misread", lemma: str = "", layer: str = "ocr
     return Row("R", "t", layer, kind, "r", "e", (Change("1", words, lemma),), {"kind": "parse"})
 
 
-@pytest.mark.parametrize("row", OCR, ids=lambda row: row.id)
-def test_every_row_keeps_the_rule_of_its_kind(row: Row) -> None:
-    assert not list(reading_faults(row, PLACES))
+def test_every_row_keeps_the_rule_of_its_kind() -> None:
+    assert [fault for row in OCR for fault in reading_faults(row, PLACES)] == []
 
 
 def test_every_pair_of_the_table_is_used() -> None:
