@@ -150,9 +150,14 @@ def counterexample_points(name: str) -> list[Point]:
     return [(int(x), int(y), int(z)) for x, y, z in rows]
 
 
+def _draw_triple(random: Random) -> tuple[Point, Point, Point]:
+    p, q, r = (tuple(random.randint(-9, 9) for _ in range(3)) for _ in range(3))
+    return p, q, r  # type: ignore[return-value]
+
+
+TRIPLES = Generator("triples of points with coordinates from -9 to 9", 3, _draw_triple)
+
+
 def random_triples(count: int = 6) -> Iterator[tuple[Point, Point, Point]]:
-    """Yield ``count`` triples of random points, always the same ones."""
-    random = Random(3)
-    for _ in range(count):
-        p, q, r = (tuple(random.randint(-9, 9) for _ in range(3)) for _ in range(3))
-        yield p, q, r  # type: ignore[misc]
+    """Return ``count`` triples of random points, always the same ones."""
+    return TRIPLES.cases(count)

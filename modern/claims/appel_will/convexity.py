@@ -8,8 +8,18 @@ from collections.abc import Sequence
 from itertools import combinations, pairwise, product
 from random import Random
 
-from modern.claims.evidence import Check, claim, holds_if, refuted
-from modern.claims.sampled_sets import CASES, Point, counterexample_points, plane_value, sampled_sets
+from modern.claims.evidence import (
+    Check,
+    Generator,
+    claim,
+    exhausted,
+    exhibited,
+    identity,
+    refuted,
+    search,
+    searched,
+)
+from modern.claims.sampled_sets import CASES, SETS, Point, counterexample_points, plane_value, sampled_sets
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will import Method, appel_will, printed
@@ -23,57 +33,57 @@ def _area(p: Flat, q: Flat, r: Flat) -> int:
     return vorticity((q[0] - p[0], q[1] - p[1]), (r[0] - p[0], r[1] - p[1]))
 
 
-@claim("appel-will.1", "appel-will.64")
-@claim("appel-will.19", "appel-will.67", kind="plain")
-def method_against_judge(kind: str = "", cases: int = CASES) -> Check:
+@claim("appel-will.1", "appel-will.64", "appel-will.55", full=300)
+def corrected_method(cases: int = CASES) -> Check:
+    """Check the method with the corrected star test; with the test of the caption a cube gets too many edges."""
+    check = method_against_judge(cases)
+    return check.unless(not star_as_captioned().holds, "the star test as in the caption of Fig. 12")
+
+
+@claim("appel-will.19", "appel-will.67", "appel-will.68", "appel-will.98", "appel-will.112", full=300)
+def method_against_judge(cases: int = CASES) -> Check:
     """Compare the edges and faces found by the corrected method with those of the exact hull."""
     checks = []
     for sampled in sampled_sets(3, cases):
         hull = appel_will(sampled.points)
         faces = {frozenset(facet.polygon) for facet in sampled.judge.facets}
         checks.append(hull.edges == sampled.judge.edges() and {frozenset(s) for s in hull.surfaces} == faces)
-    message = f"{sum(checks)} of {len(checks)} sets agree with the exact hull"
-    return holds_if(all(checks), message, conditional=not kind)
+        checks.append(hull.table.closed)
+    return searched(SETS[3], cases, checks, f"{cases} sets agree with the exact hull")
 
 
 def _hulls(cases: int = CASES) -> list[tuple[tuple[Point, ...], ExactHull]]:
     return [(sampled.points, sampled.judge) for sampled in sampled_sets(3, cases)]
 
 
-@claim("appel-will.5")
-def convex_body() -> Check:
-    """Check that the midpoints of two vertices of a hull have no positive value."""
-    checks = []
-    for points, judge in _hulls(1):
-        for i, j in combinations(judge.vertices, 2):
-            checks.append(
-                max(plane_value(f.plane, points[i]) + plane_value(f.plane, points[j]) for f in judge.facets) <= 0
-            )
-    return holds_if(all(checks), f"the midpoints of {len(checks)} segments are in the hull")
-
-
-@claim("appel-will.6", "appel-will.9")
-def corners_of_convex_polygon() -> Check:
+@claim("appel-will.9", full=400)
+def corners_of_convex_polygon(cases: int = CASES) -> Check:
     """Check that all corners of the exact polygons turn the same way."""
     checks = []
-    for sampled in sampled_sets(2, 2):
+    for sampled in sampled_sets(2, cases):
         ring = [sampled.points[k][:2] for k in sampled.judge.polygon]
         turns = [_area(ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring))]
         checks.append(len({turn > 0 for turn in turns}) == 1 and 0 not in turns)
-    return holds_if(all(checks), f"all corners of {len(checks)} polygons are convex")
+    return searched(SETS[2], cases, checks, f"all corners of {len(checks)} polygons are convex")
 
 
-@claim("appel-will.10")
-def deletion_passes() -> Check:
+def _draw_ring(random: Random) -> tuple[Flat, ...]:
+    return tuple((random.randint(0, 6), random.randint(0, 6)) for _ in range(random.randint(4, 8)))
+
+
+RINGS: Generator[tuple[Flat, ...]] = Generator(
+    "simple polygons of 4 to 8 corners on a grid of 7 by 7", 4, _draw_ring, lambda r: len(r) > 3 and _simple(r)
+)
+
+
+@claim("appel-will.10", full=50_000)
+def deletion_passes(cases: int = 12) -> Check:
     """Check that passes that delete all nonconvex points of a simple polygon end with its hull."""
-    random = Random(4)
-    checks: list[bool] = []
-    while len(checks) < 12:
-        ring = [(random.randint(0, 6), random.randint(0, 6)) for _ in range(random.randint(4, 7))]
-        if _simple(ring):
-            hull = exact_hull([(x, y, 0) for x, y in ring])
-            checks.append({*_passed(ring)} == {ring[k] for k in hull.vertices})
-    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} polygons end as their hull", conditional=True)
+
+    def ends_as_hull(ring: tuple[Flat, ...]) -> bool:
+        return {*_passed(ring)} == {ring[k] for k in exact_hull([(x, y, 0) for x, y in ring]).vertices}
+
+    return search(RINGS, ends_as_hull, cases, "all polygons end as their hull")
 
 
 @claim("appel-will.11")
@@ -84,7 +94,7 @@ def deletion_makes_nonconvex() -> Check:
     remaining = [p for p in ring if p in before]
     after = {p for k, p in enumerate(remaining) if _area(remaining[k - 1], p, remaining[(k + 1) % len(remaining)]) > 0}
     lost = sorted(before - after)
-    return holds_if(bool(lost), f"{', '.join(map(str, lost))} is convex at first and nonconvex after a deletion")
+    return exhibited(bool(lost), f"{', '.join(map(str, lost))} is convex at first and nonconvex after a deletion")
 
 
 def _passed(ring: Sequence[Flat]) -> list[Flat]:
@@ -115,30 +125,28 @@ def jarvis_start_as_printed() -> Check:
     return refuted(inside, f"{points[first][:2]} is taken first and lies inside the hull")
 
 
-@claim("appel-will.16")
-@claim("appel-will.17", kind="condition")
-def jarvis_deletions(kind: str = "") -> Check:
-    """Check that a point inside a polygon of hull points is not a vertex of the hull."""
+@claim("appel-will.16", full=400)
+def jarvis_deletions(cases: int = CASES) -> Check:
+    """Check that a point inside a triangle of vertices is not a vertex of the hull."""
     checks = []
-    for sampled in sampled_sets(2, 2):
-        some = sampled.judge.vertices[:3]
-        corners = [sampled.points[k] for k in some]
-        for k, point in enumerate(sampled.points):
-            if k not in some and 3 not in exact_hull([*corners, point]).vertices:
-                checks.append(k not in sampled.judge.vertices)
-    message = f"points within triangles of vertices, none of them a vertex: {len(checks)}"
-    return holds_if(all(checks), message, conditional=kind)
+    for sampled in sampled_sets(2, cases):
+        for some in combinations(sampled.judge.vertices, 3):
+            corners = [sampled.points[k] for k in some]
+            for k, point in enumerate(sampled.points):
+                if k not in some and 3 not in exact_hull([*corners, point]).vertices:
+                    checks.append(k not in sampled.judge.vertices)
+    return searched(SETS[2], cases, checks, f"points in triangles of vertices, none of them a vertex: {len(checks)}")
 
 
-@claim("appel-will.27", number="1")
-@claim("appel-will.28", number="2")
-@claim("appel-will.29", "appel-will.66", number="3")
-@claim("appel-will.30", number="4")
-@claim("appel-will.31", number="5")
-def polyhedron_property(number: str) -> Check:
+@claim("appel-will.27", number="1", full=400)
+@claim("appel-will.28", number="2", full=400)
+@claim("appel-will.29", "appel-will.66", number="3", full=400)
+@claim("appel-will.30", number="4", full=400)
+@claim("appel-will.31", number="5", full=400)
+def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
     """Check a property of convex polyhedra on exact hulls, some of which have points inside."""
-    checks = [right for points, judge in _hulls(4) for right in _PROPERTIES[number](points, judge)]
-    return holds_if(bool(checks) and all(checks), f"the property holds in {len(checks)} cases")
+    checks = [right for points, judge in _hulls(cases) for right in _PROPERTIES[number](points, judge)]
+    return searched(SETS[3], cases, checks, f"the property holds in {len(checks)} cases")
 
 
 def _inside_of_all(points: Sequence[Point], judge: ExactHull) -> list[bool]:
@@ -209,11 +217,8 @@ def surface_area() -> Check:
     # The surface of the star is the number of faces of cubes without a neighbouring cube.
     star = sum((x + i, y + j, z + k) not in cubes for x, y, z in cubes for i, j, k in ways)
     around = _surface(sorted({(x + i, y + j, z + k) for x, y, z in cubes for i, j, k in CUBE}))
-    message = (
-        f"an octahedron has {inner:.2f} and its cube {outer:.2f}; three arms of cubes have {star} and their "
-        f"hull {around:.0f}"
-    )
-    return holds_if(inner < outer and star < around, message, conditional=True)
+    check = exhibited(inner < outer, f"an octahedron has the surface {inner:.2f}, and the cube around it {outer:.2f}")
+    return check.unless(star < around, f"three arms of cubes, which have {star} and their hull {around:.0f}")
 
 
 def _surface(points: list[Point]) -> float:
@@ -226,40 +231,49 @@ def _surface(points: list[Point]) -> float:
     return total
 
 
-@claim("appel-will.38", kind="fewer")
-@claim("appel-will.37", kind="formula")
-def numbers_of_combinations(kind: str) -> Check:
-    """Compare the numbers of pairs and triples of 4 to 12 objects."""
-    pairs = {n: (math.comb(n, 2), math.comb(n, 3)) for n in range(4, 13)}
-    if kind == "formula":
-        passed = all(
-            math.factorial(n) // (math.factorial(2) * math.factorial(n - 2)) == two for n, (two, _) in pairs.items()
-        )
-        return holds_if(passed, "the number is N! / (r! (N - r)!)", conditional=True)
-    fewer = [n for n, (two, three) in pairs.items() if two < three]
-    message = "pairs and triples: 6 and 4 of four, 10 and 10 of five, 15 and 20 of six"
-    return holds_if(fewer == list(range(6, 13)), message, conditional=True)
+@claim("appel-will.38")
+def fewer_pairs() -> Check:
+    """Compare the numbers of pairs and triples of six objects and more; of five objects they are equal."""
+    outcomes = [math.comb(n, 2) < math.comb(n, 3) for n in range(6, 52)]
+    check = exhausted("numbers of objects from 6 to 51", outcomes, "there are fewer pairs than triples")
+    return check.unless(math.comb(5, 2) >= math.comb(5, 3), "five objects, with 10 pairs and 10 triples")
 
 
-@claim("appel-will.48", "appel-will.130", "appel-will.142", "yau-srihari.12")
-def edge_by_star_test() -> Check:
+@claim("appel-will.37")
+def number_of_combinations() -> Check:
+    """Compare N! / (r! (N - r)!) with the number of combinations; without the brackets it is something else."""
+    f = math.factorial
+    pairs = [(n, r) for n in range(2, 13) for r in range(1, n + 1)]
+    outcomes = [len([*combinations(range(n), r)]) * f(r) * f(n - r) == f(n) for n, r in pairs]
+    check = exhausted("combinations of at most 12 objects", outcomes, "the number is N! / (r! (N - r)!)")
+    return check.unless(f(5) // f(2) * f(3) != 10, "5! / 2! 3! without brackets, which is 360 and not 10")
+
+
+@claim(
+    "appel-will.130", "appel-will.142", "appel-will.47", "appel-will.54", "appel-will.93", "yau-srihari.12", full=200
+)
+def edge_by_star_test(cases: int = 1) -> Check:
     """Compare the definition of an edge, with the images of all other points, with the exact edges."""
     checks = []
-    for points, judge in _hulls(1):
+    for points, judge in _hulls(cases):
         edges = {*judge.edges()}
         for pair in combinations(range(len(points)), 2):
             projection = project(points, pair, range(len(points)))
             if len(projection.line) == 2:
                 checks.append(as_corrected(projection.images) == (pair in edges))
-    return holds_if(all(checks), f"{len(checks)} pairs agree with the exact hull")
+    return searched(SETS[3], cases, checks, f"{len(checks)} pairs agree with the exact hull")
 
 
 @claim("appel-will.49", "appel-will.51", "appel-will.50")
 def triangle_area() -> Check:
-    """Check that the determinant is positive counterclockwise, negative clockwise, and 0 for collinear points."""
-    p, q, r = (0, 0), (4, 0), (0, 2)
-    determinants = (determinant(p, q, r), determinant(p, r, q), determinant(p, q, (2, 0)), determinant(p, p, q))
-    return holds_if(determinants == (8, -8, 0, 0), f"twice the areas are {', '.join(map(str, determinants))}")
+    """Check that the determinant is the distance to the left times the squared length."""
+
+    def difference(x: int, y: int, u: int, v: int, along: int, left: int) -> int:
+        r = (x + along * u - left * v, y + along * v + left * u)
+        return determinant((x, y), (x + u, y + v), r) - left * (u * u + v * v)
+
+    message = "the determinant is positive counterclockwise, negative clockwise, and 0 for collinear points"
+    return identity(difference, (2, 2, 2, 2, 1, 1), message)
 
 
 def determinant(p: Flat, q: Flat, r: Flat) -> int:
@@ -277,7 +291,7 @@ def inside_triangle() -> Check:
         senses = {_area(a, b, (x, y)) > 0 and _area(a, b, (x, y)) != 0 for a, b in ((p, q), (q, r), (r, p))}
         hull = exact_hull([(*t, 0) for t in (p, q, r, (x, y))])
         checks.append((senses == {True}) == (3 in hull.inside))
-    return holds_if(all(checks), f"{len(checks)} grid points agree with the exact hull")
+    return exhausted("16 grid points about a triangle", checks, f"{len(checks)} grid points agree with the exact hull")
 
 
 @claim("appel-will.59")
@@ -309,13 +323,11 @@ def step_as_printed(step: str) -> Check:
     return refuted(as_printed_hull.fault or not same, message)
 
 
-@claim("appel-will.96", "appel-will.124")
-def planar_graph() -> Check:
-    """Check that the faces embed the graph in a sphere without crossings: edges and vertices are manifold, V - E + F =
-    2.
-    """
+@claim("appel-will.96", "appel-will.124", full=400)
+def planar_graph(cases: int = CASES) -> Check:
+    """Check that the faces embed the graph in a sphere: edges and vertices are manifold, and V - E + F = 2."""
     checks = []
-    for _, hull in _hulls():
+    for _, hull in _hulls(cases):
         rings = [f.polygon for f in hull.facets]
         sides = Counter(side for ring in rings for side in zip(ring, (*ring[1:], ring[0]), strict=True))
         checks.append(set(sides.values()) == {1} and {*sides} == {(b, a) for a, b in sides})
@@ -335,4 +347,4 @@ def planar_graph() -> Check:
             waiting += new
         checks.append(reached == {*hull.vertices})
         checks.append(len(hull.vertices) - len(hull.edges()) + len(hull.facets) == 2)
-    return holds_if(all(checks), f"{len(checks)} conditions of faces, vertices and hulls hold")
+    return searched(SETS[3], cases, checks, f"{len(checks)} conditions of faces, vertices and hulls hold")

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 from modern.claims.appel_will.convexity import CUBE
-from modern.claims.evidence import Check, claim, holds_if
-from modern.claims.sampled_sets import CASES, Point, plane_through, plane_value, sampled_sets
+from modern.claims.evidence import Check, claim, searched
+from modern.claims.sampled_sets import CASES, SETS, Point, plane_through, plane_value, sampled_sets
 from modern.exact_hull import ExactHull, exact_hull
 from modern.papers.appel_will import appel_will
 from modern.papers.appel_will.loops import TIMES
@@ -21,7 +21,7 @@ def _sets(cases: int) -> list[tuple[Point, ...]]:
     return [CUBE, *figures, *(sampled.points for sampled in sampled_sets(3, cases))]  # type: ignore[list-item]
 
 
-@claim("appel-will.97")
+@claim("appel-will.97", full=100)
 def faces_from_graph(cases: int = CASES) -> Check:
     """Compare the faces found in the graph of a hull's edges, without coordinates, with those of the exact hull.
 
@@ -34,7 +34,7 @@ def faces_from_graph(cases: int = CASES) -> Check:
         found_faces = {cycle for cycle in _cycles(_graph(judge)) if _connected(_graph(judge), cycle)}
         checks.append(found_faces == {frozenset(facet.polygon) for facet in judge.facets})
         faces += len(found_faces)
-    return holds_if(all(checks), f"{faces} faces of {len(checks)} hulls follow from the edges alone")
+    return searched(SETS[3], cases, checks, f"{faces} faces of {len(checks)} hulls follow from the edges alone")
 
 
 def _graph(judge: ExactHull) -> Graph:
@@ -66,7 +66,7 @@ def _connected(graph: Graph, without: frozenset[int]) -> bool:
     return not remaining
 
 
-@claim("appel-will.158")
+@claim("appel-will.158", full=200)
 def coplanar_loops(cases: int = CASES) -> Check:
     """Check that two edges with a common end are on at most one common loop, and that no two loops are coplanar."""
     checks = []
@@ -77,10 +77,10 @@ def coplanar_loops(cases: int = CASES) -> Check:
             if len(three) == len(first_edge) + 1:
                 checks.append(sum(three <= {*facet.polygon} for facet in judge.facets) <= 1)
         checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
-    return holds_if(all(checks), f"true for {len(checks)} pairs of edges and hulls")
+    return searched(SETS[3], cases, checks, f"true for {len(checks)} pairs of edges and hulls")
 
 
-@claim("appel-will.150")
+@claim("appel-will.150", full=200)
 def list_of_points(cases: int = CASES) -> Check:
     """Check that the plane tests of step 10 repeat those of step 7, which has already tested every point.
 
@@ -108,4 +108,4 @@ def list_of_points(cases: int = CASES) -> Check:
                 match = sum(hull.edges[chosen]) - match
             before = loop.uses
     message = f"step 7 has already computed the {asked} values that step 10 needs; {len(checks)} cases agree"
-    return holds_if(all(checks) and asked > 0, message)
+    return searched(SETS[3], cases, [*checks, asked], message)

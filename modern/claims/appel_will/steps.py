@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations, pairwise, product
+from itertools import combinations, pairwise, permutations, product
 
 from modern.claims.appel_will.convexity import CUBE, Flat
-from modern.claims.evidence import Check, claim, holds_if, refuted
-from modern.claims.sampled_sets import CASES, Point, counterexample_points, sampled_sets
+from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
+from modern.claims.sampled_sets import CASES, SETS, Point, counterexample_points, sampled_sets
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import Method, appel_will, printed
 from modern.papers.appel_will.corners import triple_product
+from modern.papers.appel_will.results import found_solid
 from modern.papers.appel_will.star import as_corrected, as_printed, project, star_polygon, vorticity
 
 # The vectors I, K and L of [512], [723] and [643].
@@ -29,14 +30,14 @@ def new_lines() -> Check:
     sides = {frozenset((k, (k + 1) % len(ring))) for k in range(len(ring))}
     new = [pair for pair in zip(polygon, (*polygon[1:], polygon[0]), strict=True) if frozenset(pair) not in sides]
     message = ", ".join(f"{ring[a]} to {ring[b]}" for a, b in new)
-    return holds_if(len(polygon) < len(ring) and len(new) == 1, f"the new line is {message}")
+    return exhibited(len(polygon) < len(ring) and len(new) == 1, f"the new line is {message}")
 
 
-@claim("appel-will.133")
-def collinear_points() -> Check:
+@claim("appel-will.133", full=200)
+def collinear_points(cases: int = CASES) -> Check:
     """Check that the middle of three collinear points that are projected to one point is not a vertex of the hull."""
     checks = []
-    for sampled in sampled_sets(3, CASES):
+    for sampled in sampled_sets(3, cases):
         doubled = [(2 * x, 2 * y, 2 * z) for x, y, z in sampled.points]
         for p, q in combinations(doubled[:6], 2):
             middle: Point = ((p[0] + q[0]) // 2, (p[1] + q[1]) // 2, (p[2] + q[2]) // 2)
@@ -44,15 +45,15 @@ def collinear_points() -> Check:
                 points = [*doubled, middle]
                 line = project(points, (points.index(p), points.index(q)), range(len(points))).line
                 checks.append(len(doubled) in line and len(doubled) not in exact_hull(points).vertices)
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} points between two others are not vertices")
+    return searched(SETS[3], cases, checks, f"{len(checks)} points between two others are not vertices")
 
 
 @claim("appel-will.131")
-@claim("appel-will.58", kind="change")
-def star_test(kind: str = "") -> Check:
+@claim("appel-will.58", test="change")
+def star_test(test: str = "") -> Check:
     """Check that the senses around the star polygon decide which grid points are inside the hull of five points.
 
-    A point on the border counts as inside (Fig. 12, III). ``change``: a point is outside if two sides turn differently.
+    test: ``change`` asks only whether two sides turn differently. A point on the border counts as inside (Fig. 12).
     """
     five = [(0, 0), (6, 0), (7, 5), (0, 6), (3, 3)]
     checks, border = [], 0
@@ -65,24 +66,78 @@ def star_test(kind: str = "") -> Check:
         border += 5 in hull.boundary
         star = star_polygon(images)
         senses = {turn > 0 for a, b in zip(star, (*star[1:], star[0]), strict=True) if (turn := vorticity(a, b))}
-        checks.append(as_corrected(images) != held if not kind else len(senses) == 1 or not held)
-    return holds_if(all(checks) and border > 0, f"{len(checks)} points agree, {border} of them on the border")
+        checks.append(as_corrected(images) != held if not test else len(senses) == 1 or not held)
+    return exhausted(
+        "36 grid points about five points",
+        [*checks, border],
+        f"{len(checks)} points agree, {border} of them on the border",
+    )
 
 
-@claim("appel-will.134", "appel-will.135")
-@claim("appel-will.145", "yau-srihari.112", kind="twice")
-def closed_loops(kind: str = "") -> Check:
-    """Check that consecutive lines of a loop share an end, and that each line is in two loops, once each way."""
-    checks, signs = [], []
-    for points in (CUBE, *(sampled.points for sampled in sampled_sets(3, CASES))):
+@claim("appel-will.135", full=200)
+def closed_loops(cases: int = CASES) -> Check:
+    """Check that consecutive lines of a loop share an end, and so do the last and the first."""
+    hulls = [appel_will(points) for points in (CUBE, *(sampled.points for sampled in sampled_sets(3, cases)))]
+    checks = [_joined(loop.entries, hull.edges) for hull in hulls for loop in hull.table.loops]
+    return searched(SETS[3], cases, checks, f"{len(checks)} loops are closed")
+
+
+@claim("yau-srihari.112", full=200)
+def lines_in_two_loops(cases: int = CASES) -> Check:
+    """Check that each line of a hull is in two loops."""
+    checks = []
+    for points in (CUBE, *(sampled.points for sampled in sampled_sets(3, cases))):
         hull = appel_will(points)
-        all_entries: list[int] = []
-        for loop in hull.table.loops:
-            checks.append(_joined(loop.entries, hull.edges))
-            all_entries += loop.entries
-        signs.append(sorted(map(abs, all_entries)) == sorted([*range(1, len(hull.edges) + 1)] * 2))
-    message = f"{len(checks)} loops are closed"
-    return holds_if(all(checks) and all(signs), f"{message}, and every line is in two" if kind else message)
+        entries = sorted(abs(entry) for loop in hull.table.loops for entry in loop.entries)
+        checks.append(entries == sorted([*range(1, len(hull.edges) + 1)] * 2))
+    return searched(SETS[3], cases, checks, f"every line of {len(checks)} hulls is in two loops")
+
+
+@claim("appel-will.119")
+def images_on_one_ray() -> Check:
+    """Check that the star test does not depend on the order of the images, two of which are on one ray."""
+    outcomes = []
+    for images in ([(1, 1), (2, 2), (-1, 0), (0, -1)], [(1, 0), (2, 0), (1, 2), (0, 1)]):
+        outcomes += [as_corrected([*order]) == as_corrected(images) for order in permutations(images)]
+    return exhausted("orders of two sets of four images", outcomes, f"{len(outcomes)} orders give the same results")
+
+
+@claim("appel-will.60")
+def between_opposite_images() -> Check:
+    """Check that a point between two opposite images is not outside, and that it is outside without one of them."""
+    passed = not as_corrected([(1, 0), (-1, 0), (0, 1), (0, -1)]) and as_corrected([(1, 0), (0, 1)])
+    return exhibited(passed, "the origin is inside four images around it, and outside two of them")
+
+
+@claim("appel-will.101")
+def step_3_as_printed() -> Check:
+    """Check that step 3 finds the printed faces without the preference for a positive product, but not all loops."""
+    solids = [found_solid(name).points for name in ("fig14", "fig23")]
+    preferred, plain = ([appel_will(p, method=m) for p in solids] for m in (Method(), printed("step3")))
+    same = all(
+        {*map(frozenset, a.surfaces)} == {*map(frozenset, b.surfaces)} for a, b in zip(preferred, plain, strict=True)
+    )
+    differing = sum(
+        x.entries != y.entries
+        for a, b in zip(preferred, plain, strict=True)
+        for x, y in zip(a.table.loops, b.table.loops, strict=True)
+    )
+    check = exhibited(same, "any other edge gives the faces of Figs. 14 and 23")
+    return check.unless(
+        differing == 3, "the step as printed, which runs three of the twelve printed loops the other way"
+    )
+
+
+@claim("appel-will.90")
+def points_inside() -> Check:
+    """Check that four points inside a box add neither edges nor loops; they add projections of pairs."""
+    corners = [(x, y, z) for x in (0, 9) for y in (0, 8) for z in (0, 7)]
+    few, many = appel_will(corners), appel_will([*corners, *((x, x + 1, x) for x in (2, 3, 4, 5))])
+    check = exhibited((few.edges, few.surfaces) == (many.edges, many.surfaces), "edges and loops are those of the box")
+    return check.unless(
+        many.projections > few.projections,
+        f"points inside: {many.projections} projections instead of {few.projections}",
+    )
 
 
 @claim("appel-will.111")
@@ -91,8 +146,8 @@ def fourth_loop() -> Check:
     hull = appel_will(counterexample_points("fig14.csv"))
     (loop,) = (loop.entries for loop in hull.table.loops if {4, 6, 9} <= {*loop.entries})
     as_it_is, without = (_joined(entries, hull.edges) for entries in (loop, (*loop[:-1], abs(loop[-1]))))
-    checks = [*loop] == [4, 6, 9, -5] and as_it_is and not without
-    return holds_if(checks, f"{' '.join(map(str, loop))} runs around a face, and 4 6 9 5 does not", conditional=True)
+    check = exhibited([*loop] == [4, 6, 9, -5] and as_it_is, "4 6 9 -5 runs around a face")
+    return check.unless(not without, "the print, 4 6 9 5, which does not run around a face")
 
 
 @claim("appel-will.148")
@@ -103,7 +158,7 @@ def limit_of_searches() -> Check:
     ring = exact_hull(points).polygon
     endless = sum(_comes_again(hull.edges, ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring)))
     ended = hull.fault.endswith("does not return to its start")
-    return holds_if(ended and endless > 0, f"{endless} of {len(ring)} starts do not end; with the limit: {hull.fault}")
+    return exhibited(ended and endless > 0, f"{endless} of {len(ring)} starts do not end; with the limit: {hull.fault}")
 
 
 def _comes_again(edges: Sequence[tuple[int, int]], start: int, common: int, match: int) -> bool:
@@ -128,7 +183,7 @@ def product_with_repeated_vector() -> Check:
         determinants.append((triple_product(i, k, i), triple_product(i, k, m)))
     with_i, with_l = (", ".join(map(str, column)) for column in zip(*determinants, strict=True))
     message = f"the determinants are {with_l} with l, and {with_i} with i as displayed"
-    return holds_if(determinants == [(0, 1), (0, -1), (0, 1)], message, conditional=True)
+    return slip(any(d[0] for d in determinants), [d[1] for d in determinants] == [1, -1, 1], "l", message)
 
 
 @claim("appel-will.132")

@@ -8,22 +8,26 @@ from fractions import Fraction
 from functools import cache
 from itertools import combinations
 
-from modern.claims.appel_will.convexity import CUBE, Flat
-from modern.claims.evidence import Check, claim, holds_if, refuted
-from modern.claims.published import PAPERS, printed_lines
+from modern.claims.appel_will.convexity import CUBE, RINGS, Flat
+from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, search, searched, slip
+from modern.claims.published import PAPERS, findings, printed_lines
 from modern.claims.sampled_sets import (
+    CASES,
+    SETS,
+    TRIPLES,
     Point,
     counterexample,
     counterexample_points,
     plane_through,
     plane_value,
     random_triples,
+    sampled_sets,
 )
-from modern.exact_hull import exact_hull
+from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.off import parse_off
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
 from modern.papers.appel_will import Method, appel_will
-from modern.papers.appel_will.corners import corners, preprocess, triple_product
+from modern.papers.appel_will.corners import Rule, corners, preprocess, triple_product
 from modern.papers.appel_will.results import Solid, printed_solid
 from modern.papers.appel_will.star import as_corrected
 from modern.papers.appel_will.surfaces import lines, oriented
@@ -76,15 +80,71 @@ def surface_three() -> Check:
     return refuted(alone, f"lines on one surface only: {', '.join(f'{a}-{b}' for a, b in alone)}")
 
 
-@claim("appel-will.43")
-@claim("appel-will.155", kind="fails")
-def inside_corner_at_vertex(kind: str = "") -> Check:
-    """Check that rule ``any`` deletes a vertex of the crown; with ``kind`` the statement says so."""
+@claim("appel-will.155")
+def inside_corner_at_vertex() -> Check:
+    """Check that rule ``any`` deletes a vertex of the crown."""
     solid = crown()
     deleted = preprocess(solid.points, solid.surfaces, "any").deleted
     lost = [k + 1 for k in deleted if k in exact_hull(solid.points).vertices]
-    message = f"point {', '.join(map(str, lost))} is deleted although it is a vertex of the hull"
-    return holds_if(lost, message, conditional=not kind)
+    return exhibited(
+        lost, f"point {', '.join(map(str, lost))} of the crown is deleted although it is a vertex of the hull"
+    )
+
+
+def prism(ring: tuple[Flat, ...]) -> Solid:
+    """Return a prism over a simple polygon, in which three planes meet at each point."""
+    n = len(ring)
+    sides = [(k, (k + 1) % n, (k + 1) % n + n, k + n) for k in range(n)]
+    points = tuple((x, y, z) for z in (0, 1) for x, y in ring)
+    return Solid(points, (tuple(range(n))[::-1], tuple(range(n, 2 * n)), *sides))
+
+
+def keeps_vertices(ring: tuple[Flat, ...], rule: Rule) -> bool:
+    """Return True if a rule deletes no vertex of the hull of a prism, and deletes a corner of a concave polygon."""
+    solid = prism(ring)
+    return not {*preprocess(solid.points, solid.surfaces, rule).deleted} & {*exact_hull(solid.points).vertices}
+
+
+@claim("appel-will.72", "appel-will.75", "appel-will.136", rule="any", full=5_000)
+@claim("appel-will.74", rule="two", full=5_000)
+def deletion_in_prisms(rule: Rule, cases: int = 10) -> Check:
+    """Check that a rule deletes no vertex of the hull of a prism, at whose points three planes meet."""
+    return search(RINGS, lambda ring: keeps_vertices(ring, rule), cases, "no vertex of a hull is deleted")
+
+
+@claim("appel-will.43", full=5_000)
+def inside_corners_deleted(cases: int = 10) -> Check:
+    """Check the same, and the crown, which is not well behaved."""
+    crown_ = inside_corner_at_vertex()
+    return deletion_in_prisms("any", cases).unless(crown_.holds, crown_.message)
+
+
+@claim("appel-will.84")
+def sense_of_surfaces() -> Check:
+    """Check that surfaces listed in either sense are oriented alike, so that the corners are the same."""
+    solid = fig_4()
+    turned = tuple(surface[::-1] if k % 2 else surface for k, surface in enumerate(solid.surfaces))
+    both = [corners(solid.points, oriented(solid.points, surfaces)) for surfaces in (solid.surfaces, turned)]
+    kinds = [{frozenset(c.line.ends): c.product < 0 for c in found} for found in both]
+    return exhibited(kinds[0] == kinds[1], "the corners of Fig. 4 do not depend on the sense of its surfaces")
+
+
+@claim("appel-will.32", full=400)
+def outline(cases: int = CASES) -> Check:
+    """Check that the edges between front and back faces form one closed curve; along a face they do not."""
+    outcomes = [_closed(sampled.judge, (101, 37, 59)) for sampled in sampled_sets(3, cases)]
+    check = searched(SETS[3], cases, outcomes, "the outlines are closed curves")
+    return check.unless(not _closed(exact_hull(CUBE), (0, 0, 1)), "a cube seen along an edge")
+
+
+def _closed(judge: ExactHull, eye: Point) -> bool:
+    signs = {frozenset(f.polygon): dot(f.plane[:3], eye) > 0 for f in judge.facets if dot(f.plane[:3], eye)}
+    rim = [e for e in judge.edges() if [s for f, s in signs.items() if {*e} <= f] in ([True, False], [False, True])]
+    reached = {*rim[0]} if rim else set()
+    for _ in rim:
+        reached |= {end for edge in rim if reached & {*edge} for end in edge}
+    ends = [end for edge in rim for end in edge]
+    return bool(rim) and all(ends.count(end) == 2 for end in ends) and reached == {*ends}
 
 
 @claim("appel-will.73")
@@ -96,15 +156,18 @@ def two_inside_corners() -> Check:
     at = Counter(end for corner in preprocessed.inside for end in corner.line.ends)
     wrong = [k for k, count in at.items() if count >= 2 and k in vertices]
     message = f"point {', '.join(f'{k + 1} is on {at[k]} inside corners' for k in wrong)} and is a vertex of the hull"
-    return holds_if(wrong and not vertices & {*preprocessed.deleted}, message, conditional=True)
+    check = exhibited(
+        not vertices & {*preprocessed.deleted}, "with at most one outside corner no vertex of the crown is deleted"
+    )
+    return check.unless(wrong, message)
 
 
 @claim("appel-will.152")
-@claim("appel-will.69", kind="cheap")
-def preprocessing_cost(kind: str = "") -> Check:
+@claim("appel-will.69", subject="cost")
+def preprocessing_cost(subject: str = "projections") -> Check:
     """Compare the projections and star polygons of Fig. 4 with and without the deletion of inside corners.
 
-    ``cheap``: compare one triple product for each line with the images saved.
+    subject: ``cost`` compares one triple product for each line with the images saved.
     """
     solid, counts, stars = fig_4(), {}, [0]
 
@@ -117,17 +180,18 @@ def preprocessing_cost(kind: str = "") -> Check:
         hull = appel_will(solid.points, solid.surfaces, Method(star=counted, inside_corners=rule))
         counts[rule] = (hull.projections, stars[0])
     plain, fewer = counts[None], counts["any"]
-    passed = fewer[0] < plain[0] and fewer[1] < plain[1] and counts["two"] == plain
+    passed = fewer[0] < plain[0] and fewer[1] < plain[1]
     message = f"{plain[0]} projections and {plain[1]} stars, but {fewer[0]} and {fewer[1]} after two points are deleted"
-    if kind:
+    if subject == "cost":
         products = len(corners(solid.points, oriented(solid.points, solid.surfaces)))
         points_kept = len(solid.points) - len(preprocess(solid.points, solid.surfaces, "any").deleted)
         images = plain[0] * (len(solid.points) - 2) - fewer[0] * (points_kept - 2)
-        return holds_if(passed and products < images, f"{products} triple products save {images} images of points")
-    return holds_if(passed, f"{message}; the numbers do not change if nothing is deleted", conditional=True)
+        return exhibited(passed and products < images, f"{products} triple products save {images} images of points")
+    nothing = "rule two, which deletes no point of Fig. 4: the numbers stay the same"
+    return exhibited(passed, message).unless(counts["two"] == plain, nothing)
 
 
-@claim("appel-will.80", "appel-will.154")
+@claim("appel-will.154")
 def minimum_data() -> Check:
     """Check that the surfaces of Fig. 4, as sets of points, determine its lines, and that its points alone do not."""
     solid = fig_4()
@@ -141,18 +205,19 @@ def minimum_data() -> Check:
     mapped = {frozenset(line.ends) for line in lines(oriented(solid.points, solid.surfaces))}
     without = {frozenset(edge) for edge in exact_hull(solid.points).edges()}
     cube = exact_hull(CUBE)
-    passed = {*shared} == mapped != without and (len(cube.vertices), len(cube.facets)) == (8, 6)
-    message = f"{len(sets)} surfaces determine {len(mapped)} lines; a cube is determined by its points"
-    return holds_if(passed, message, conditional=True)
+    message = f"{len(sets)} surfaces of Fig. 4 determine its {len(mapped)} lines, and its points alone do not"
+    points_enough = (len(cube.vertices), len(cube.facets)) == (8, 6)
+    check = exhibited({*shared} == mapped != without, message)
+    return check.unless(points_enough, "a cube, whose points are enough")
 
 
-@claim("appel-will.77", kind="redundant")
-@claim("appel-will.78", kind="relation")
-def hulls_of_surfaces(kind: str) -> Check:
+@claim("appel-will.77", subject="redundant")
+@claim("appel-will.78", subject="relation")
+def hulls_of_surfaces(subject: str) -> Check:
     """Check in how many hulls of surfaces the points of four kinds of objects occur.
 
-    ``redundant``: each point occurs in three or more surfaces. ``relation``: a vertex of the hull is a vertex of the
-    hulls of all its surfaces, and the converse fails for some points.
+    subject: ``redundant``, each point occurs in three or more surfaces. ``relation``, a vertex of the hull is a vertex
+    of the hulls of all its surfaces, and the converse fails for some points.
     """
     checks, exceptions, point_count = [], 0, 0
     for solid in (fig_4(), crown(), bent(), pitted()):
@@ -161,14 +226,16 @@ def hulls_of_surfaces(kind: str) -> Check:
             on = [surface for surface in solid.surfaces if point in surface]
             own = all(surface.index(point) in exact_hull([solid.points[k] for k in surface]).vertices for surface in on)
             point_count += 1
-            checks.append(len(on) >= 3 if kind == "redundant" else own or point not in vertices)
+            checks.append(len(on) >= 3 if subject == "redundant" else own or point not in vertices)
             exceptions += own and point not in vertices
-    if kind == "redundant":
-        return holds_if(all(checks), f"each of {point_count} points is on three or more surfaces")
-    message = (
-        f"{exceptions} of {point_count} points are vertices of the hulls of all their surfaces but not of the hull"
+    if subject == "redundant":
+        return exhausted(
+            "points of four kinds of objects", checks, f"each of {point_count} points is on three or more surfaces"
+        )
+    check = exhausted(
+        "points of four kinds of objects", checks, "a vertex of the hull is one of the hulls of its surfaces"
     )
-    return holds_if(all(checks) and exceptions, message, conditional=True)
+    return check.unless(exceptions, f"the converse, which fails for {exceptions} of {point_count} points")
 
 
 @claim("appel-will.138", "appel-will.76")
@@ -187,7 +254,7 @@ def vertex_without_supporting_surface() -> Check:
     passed = supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3)
     passed &= len({*planes.values()}) == len(solid.surfaces) == 12
     message = f"{supporting} of {len({*planes.values()})} planes of surfaces support, but the hull has four vertices"
-    return holds_if(passed, message)
+    return exhibited(passed, message)
 
 
 @claim("appel-will.79")
@@ -198,7 +265,7 @@ def objects_with_same_hull() -> Check:
         for n in (1, 2, 3)
     ]
     message = "three objects have the same hull"
-    return holds_if(all(h.vertices == tuple(range(8)) and len(h.facets) == 6 for h in hulls), message)
+    return exhibited(all(h.vertices == tuple(range(8)) and len(h.facets) == 6 for h in hulls), message)
 
 
 def direction(p: Whole, q: Whole) -> tuple[Fraction, Fraction, Fraction, int]:
@@ -223,7 +290,7 @@ def unit_directions() -> Check:
         third = Fraction(length, 3)
         gone = [u * third for u in (a, b, c)]
         checks.append(9 * sum(u * u for u in gone) == length * length)
-    return holds_if(all(checks), "four lines agree; t = l / 3 is a third of the way")
+    return exhausted("four lines of integer length", checks, "four lines agree; t = l / 3 is a third of the way")
 
 
 def unit_plane(p: Whole, q: Whole, r: Whole) -> tuple[Fraction, ...]:
@@ -246,7 +313,9 @@ def planes_of_surfaces() -> Check:
         checks += [a * x + b * y + c * z + d == 0 for x, y, z in (p, q, r)]
         x, y, z = (k + m for k, m in zip(q, n, strict=True))
         checks.append(abs(a * x + b * y + c * z + d) == length)
-    return holds_if(all(checks), f"{len(checks)} values of three planes agree")
+    return exhausted(
+        "points of three planes with normals of integer length", checks, f"{len(checks)} values of three planes agree"
+    )
 
 
 @claim("appel-will.157")
@@ -266,8 +335,10 @@ def normal_from_two_lines() -> Check:
                 # At a concave corner the product is reversed; for unit directions its length is the sine.
                 turned += dot(product_, normal) < 0
                 shorter += dot(product_, product_) < dot(u, u) * dot(v, v)
-    message = f"{len(checks)} corners agree; at {turned} the product is reversed, and at {shorter} it is shorter than 1"
-    return holds_if(all(checks) and 0 < turned < len(checks) and 0 < shorter < len(checks), message, conditional=True)
+    check = exhausted("corners of three objects", checks, f"{len(checks)} corners agree up to sign and length")
+    return check.unless(
+        turned and shorter, f"corners where the product is reversed ({turned}) or shorter than 1 ({shorter})"
+    )
 
 
 @claim("appel-will.83")
@@ -288,12 +359,11 @@ def normal_line() -> Check:
         for t in (-2, 0, 3):
             x, y, z = (a + t * n for a, n in zip(p, plane[:3], strict=True))
             checks.append(plane_value(plane, (x, y, z)) == t * square)
-    return holds_if(all(checks), f"{len(checks)} points on normals agree; with unit normals the value is t")
+    return searched(TRIPLES, 6, checks, f"{len(checks)} points on normals agree; with unit normals the value is t")
 
 
-@claim("appel-will.85", kind="condition")
-@claim("appel-will.140")
-def direction_of_line(kind: str = "") -> Check:
+@claim("appel-will.85")
+def direction_of_line() -> Check:
     """Check that the determinants of Fig. 18 change sign if the line is reversed or the surfaces are exchanged."""
     rows = {"512": ((-1, 0, 0), (0, 0, -1), (0, -1, 0)), "723": ((-1, 0, 0), (0, -1, 0), (0, 0, -1))}
     signs = {}
@@ -301,19 +371,30 @@ def direction_of_line(kind: str = "") -> Check:
         columns: list[Whole] = [(matrix[0][k], matrix[1][k], matrix[2][k]) for k in range(3)]
         i, k, m = columns
         signs[name] = (triple_product(i, k, m), triple_product(minus((0, 0, 0), i), k, m), triple_product(i, m, k))
-    passed = signs == {"512": (1, -1, -1), "723": (-1, 1, 1)}
-    message = "[512] is 1 and [723] is -1; they become -1 and 1 if the line is reversed or the surfaces are exchanged"
-    return holds_if(passed, message, conditional=kind)
+    kept = [product_[0] for product_ in signs.values()] == [1, -1]
+    changed = [product_[1:] for product_ in signs.values()] == [(-1, -1), (1, 1)]
+    check = exhibited(kept, "[512] is 1 and [723] is -1")
+    return check.unless(changed, "a reversed line, or exchanged surfaces: the sign changes")
 
 
-@claim("appel-will.136")
-def corners_of_three_planes() -> Check:
-    """Check that no point of the inside corner of an L of three cubes is a vertex."""
-    points, faces = bent().points, bent().surfaces
-    deleted = preprocess(points, faces, "any").deleted
-    meeting = {sum(k in face for face in faces) for k in range(12)}
-    passed = {*deleted} == {3, 9} and meeting == {3} and not {*deleted} & {*exact_hull(points).vertices}
-    return holds_if(passed, f"the points {', '.join(str(points[k]) for k in sorted(deleted))} are deleted")
+@claim("appel-will.140")
+def sense_of_line() -> Check:
+    """Check that the sense of the line decides the sign: it changes if the line is reversed."""
+    check = direction_of_line()
+    return exhibited(check.evidence.violation, f"{check.message}; {check.evidence.violation}")
+
+
+@claim("appel-will.80")
+def figure_of_minimum_data() -> Check:
+    """Check the number of the figure that has a list of points and a map, which is printed as 3."""
+    paper = next(paper for paper in PAPERS if paper.name == "appel-will")
+    finding = next(finding for finding in findings(paper) if finding.result.id == "figure-number")
+    words, printed, corrected = (
+        " ".join(lines).split() for lines in (finding.produced, finding.result.printed, finding.result.corrected)
+    )
+    return slip(
+        words == printed, words == corrected, "Fig. 4", "Fig. 3 shows no polyhedron; Fig. 4 has a list and a map"
+    )
 
 
 @claim("appel-will.91")
@@ -323,4 +404,4 @@ def simple_hull_of_complex_object() -> Check:
     pit = [(x, y, 7 - (x + y) % 3) for x in range(1, 8, 1) for y in range(1, 8, 2)][:27]
     hull = exact_hull([*cube, *pit])
     message = f"the hull of {8 + len(pit)} points has 8 vertices"
-    return holds_if(hull.vertices == tuple(range(8)) and len(hull.facets) == 6, message)
+    return exhibited(hull.vertices == tuple(range(8)) and len(hull.facets) == 6, message)

@@ -53,7 +53,7 @@ def _area(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 
 
-@claim("thesis.20", "appel-will.129")
+@claim("thesis.20")
 def supporting_planes(cases: int = CASES) -> Check:
     """Check that the planes of the exact hull meet the definition of a supporting plane."""
     return _supporting(sampled_sets(3, cases), 3)
