@@ -1,7 +1,5 @@
 """The class Hull: a convex hull with numpy arrays, exact volume and area, drawings and files."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -45,7 +43,7 @@ class Area(float):
 
     digits: Decimal
 
-    def __new__(cls, digits: Decimal) -> Area:
+    def __new__(cls, digits: Decimal) -> "Area":
         area = super().__new__(cls, digits)
         area.digits = digits
         return area
@@ -234,7 +232,7 @@ class Hull:
         """The exact square of each face's area, in the order of ``faces``; for a polygon one number."""
         return self._closed.squared_areas()
 
-    def coplanar(self, within: Any) -> Hull:
+    def coplanar(self, within: Any) -> "Hull":
         """Return a hull in which faces that are coplanar to within a distance are joined.
 
         Parameters

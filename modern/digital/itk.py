@@ -140,7 +140,6 @@ def _slice_notes(folder: str, used: Sequence[str], remarks: Mapping[str, str]) -
 
 
 def _without_ones(sizes: Sequence[int]) -> list[int]:
-    """Return the sizes without axes of length 1 at the end."""
     kept = list(sizes)
     while kept and kept[-1] == 1:
         kept.pop()
@@ -203,7 +202,6 @@ def _run(arguments: Sequence[str], path: str, seconds: float) -> int:
 
 
 def _facts(path: Path) -> dict[str, Any] | None:
-    """Return the facts that the child wrote, or None if it wrote none."""
     try:
         facts: dict[str, Any] = json.loads(path.read_text(encoding="ascii"))
     except (OSError, ValueError):

@@ -125,7 +125,6 @@ def write_nrrd(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
 
 
 def _split(data: bytes) -> tuple[bytes, bytes]:
-    """Return header and data, which are separated by an empty line."""
     ends = [(data.find(mark), len(mark)) for mark in (b"\n\n", b"\r\n\r\n")]
     separators = [(at, length) for at, length in ends if at >= 0]
     if not separators:
@@ -288,7 +287,6 @@ def _lengths(texts: Sequence[str], count: int, what: str) -> list[Fraction | Non
 
 
 def _unit(fields: Mapping[str, tuple[int, str]], source: str) -> str:
-    """Return the common unit of all axes. Raise VolumeError if they differ."""
     line, text = fields.get("space units") or fields.get("units") or (0, "")
     units = {unit for unit in _QUOTED.findall(text) if unit}
     if len(units) > 1:

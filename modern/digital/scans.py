@@ -179,7 +179,6 @@ def _distinct(part: NDArray[Any]) -> NDArray[Any]:
 
 
 def _at_least(values: NDArray[Any], threshold: Fraction) -> NDArray[np.bool_]:
-    """Return the voxels whose value is at least the threshold, compared exactly."""
     counted = _counted(values)
     kind: Any = counted.dtype.type
     if counted.dtype.kind in "iu":
@@ -209,7 +208,6 @@ def _least(kind: Any, threshold: Fraction) -> Any:
 
 
 def _range(values: NDArray[Any]) -> tuple[Fraction | None, Fraction | None]:
-    """Return the lowest and the highest value, None for an infinite one."""
     counted = _counted(values)
     return _finite(counted.min()), _finite(counted.max())
 

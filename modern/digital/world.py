@@ -6,8 +6,6 @@ origin and directions are read as decimal text and stay exact. Therefore a hull 
 image of the hull of indices.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Context
@@ -69,11 +67,11 @@ class World:
         """True if three steps reverse the orientation of space."""
         return len(self.steps) == len(self.origin) == 3 and determinant(self.steps) < 0
 
-    def moved(self, voxel: Sequence[int]) -> World:
+    def moved(self, voxel: Sequence[int]) -> "World":
         """Return the position with coordinates counted from another voxel."""
         return replace(self, origin=self.place(voxel))
 
-    def turned(self, space: str) -> World:
+    def turned(self, space: str) -> "World":
         """Return the same position in another anatomical space. Raise VolumeError if either space is not anatomical."""
         if space not in ANATOMICAL or self.space not in ANATOMICAL or len(self.origin) != 3:
             raise VolumeError(f"expected one of the spaces {', '.join(ANATOMICAL)}, found {self.space or 'none'}")

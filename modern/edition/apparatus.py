@@ -8,8 +8,6 @@ of the result records which witness line or which row it comes from.
 ``fortran_src/README.md`` describes the file format.  This module knows nothing about FORTRAN or hulls.
 """
 
-from __future__ import annotations
-
 import re
 import tomllib
 from collections import Counter
@@ -140,7 +138,7 @@ class Text:
     default: tuple[str, ...]
     # A cache, by layers, of their rows in order and of snapshots of the page before some rows.  Builds share the
     # snapshots.
-    pages: dict[tuple[str, ...], tuple[tuple[Row, ...], dict[int, _Page]]] = field(
+    pages: "dict[tuple[str, ...], tuple[tuple[Row, ...], dict[int, _Page]]]" = field(
         default_factory=dict, init=False, compare=False, repr=False
     )
 
@@ -246,7 +244,7 @@ class _Page:
     def __init__(self, at: dict[str, Line], order: Iterable[str] = ()) -> None:
         self._at, self._order = at, list(order or at)
 
-    def copy(self) -> _Page:
+    def copy(self) -> "_Page":
         return _Page(dict(self._at), self._order)
 
     def lines(self) -> Iterator[Line]:

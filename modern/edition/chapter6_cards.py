@@ -5,8 +5,6 @@ A device file is the corrected print (witness and apparatus, :mod:`modern.editio
 cards.  No output of a program is used.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -64,7 +62,7 @@ class Chapter:
     # A cache of cards by device file and lines, shared by a chapter and its variants.
     read: dict[tuple[str, ...], tuple[Card, ...]] = field(default_factory=dict, compare=False)
     # A cache of the last chapter built without a row, because several checks of the row use it.
-    last: dict[str, Chapter] = field(default_factory=dict, compare=False)
+    last: "dict[str, Chapter]" = field(default_factory=dict, compare=False)
 
 
 def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:

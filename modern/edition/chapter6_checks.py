@@ -114,7 +114,6 @@ def records(text: str, values: int) -> tuple[tuple[tuple[Field, str], ...], ...]
 
 
 def _whole_formats(entry: DeviceLayout, sizes: dict[tuple[int, int, int], int]) -> list[str]:
-    """Check that each statement punches all cards of its FORMAT in order."""
     faults = []
     before: CardShape | None = None
     for shape in [*(shape for shape, _ in entry.cards), None]:
@@ -180,7 +179,6 @@ def _plane_faults(chapter: Chapter, example: int, program: int, name: str, deck:
 
 
 def _counts(chapter: Chapter, example: int, size: int) -> list[str]:
-    """Check that N, on every card that prints it, is the number of points of the input deck."""
     faults = []
     for _, program, device, name in (f for f in device_files(chapter) if f[0] == example):
         for card in cards(chapter, example, program, device):

@@ -15,8 +15,6 @@ To judge a row of an optional layer, its layer and the layers that its ground na
 The result with all rows of the layer is compared with the result without this row.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -94,7 +92,6 @@ def _several_steps(row: Row) -> tuple[Step, ...]:
 
 
 def _name(row: Row) -> str:
-    """Return the built-in program by which a row is judged."""
     return str(row.ground.get("program", "program1_examples" if row.layer == "examples" else row.text))
 
 
@@ -211,7 +208,6 @@ def _deck(row: Row, step: Step | None) -> tuple[bool, str]:
 
 
 def _has_room(program: Program, ending: Ending) -> bool:
-    """Return True if the array element at which another run stopped exists in this program."""
     shape = next(entry.shape for entry in program.storage.entries if entry.name == ending.name)
     return all(1 <= n <= size for n, size in zip(ending.subscripts, shape, strict=True))
 
@@ -238,7 +234,7 @@ class _Outcome:
         """The message of an abnormal end; empty after a normal end."""
         return self.ending.message if isinstance(self.ending, Ending) else str(self.ending)
 
-    def same_as(self, other: _Outcome) -> bool:
+    def same_as(self, other: "_Outcome") -> bool:
         """Return True if output and kind of ending are equal. Messages differ, because they contain card numbers."""
         return self.lines == other.lines and _reason(self.ending) == _reason(other.ending)
 

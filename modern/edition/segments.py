@@ -5,8 +5,6 @@ A place is a piece of a line with its old reading, its new reading and the row. 
 layer may change the result of an earlier one.  :func:`reading` extracts any state of the text from this tree.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
@@ -18,8 +16,8 @@ class Place:
     """A piece of a line with two readings: ``old`` before the row is applied, ``new`` after it."""
 
     row: Row
-    old: tuple[Piece, ...]
-    new: tuple[Piece, ...]
+    old: "tuple[Piece, ...]"
+    new: "tuple[Piece, ...]"
 
 
 Piece = str | Place
@@ -125,7 +123,6 @@ class _SegmentedText:
 
 
 def _trimmed(witness: str, first: int, lemma: str) -> tuple[int, str]:
-    """Return the start and the lemma of a change without its unchanged beginning."""
     length = _common_prefix(witness, lemma)
     return first + length, lemma[length:]
 

@@ -152,7 +152,6 @@ def _digits(number: str) -> Iterator[str]:
 
 
 def _steps(number: str) -> Iterator[str]:
-    """Yield the number with one digit changed by one, up or down."""
     for at, digit in enumerate(number):
         yield from (number[:at] + str((int(digit) + by) % 10) + number[at + 1 :] for by in (1, -1))
 

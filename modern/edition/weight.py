@@ -135,7 +135,6 @@ def judged(variant: Variant, known: dict[str, Bench]) -> str:
 
 
 def _numbers(text: str) -> set[str]:
-    """Return the numbers of a statement, except digits of names."""
     return set(re.findall(r"(?<![A-Z\d])\d+", text))
 
 
@@ -145,7 +144,6 @@ def _labels(name: str) -> frozenset[str]:
 
 
 def _run(variant: Variant, program: Program, known: dict[str, Bench]) -> str:
-    """Return ``print`` or ``machine`` if a run differs, and otherwise an empty string."""
     bench, run = known[variant.program], _begun(variant.program)
     reached = bench.reaching(run.index(variant.card)) if variant.card in run else range(len(bench.decks))
     prints = [d for d in reached if bench.kinds[d] == "print"]

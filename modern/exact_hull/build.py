@@ -83,7 +83,6 @@ def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Seque
 
 
 def _proposed(points: Sequence[IntPoint], fast: bool | None) -> tuple[list[Facet], list[int]] | None:
-    """Return the facets and boundary points of the hull proposed in rounded numbers, or None."""
     proposal = propose(points, fast)
     if proposal is None:
         return None

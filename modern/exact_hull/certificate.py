@@ -192,7 +192,6 @@ def _check_polyhedron(hull: ExactHull) -> int:
 
 
 def _check_polygon(hull: ExactHull) -> int:
-    """Check the plane of all points and the edges of the polygon, and return the number of edges."""
     assert hull.plane is not None  # checked by _check_dimension
     require(_is_plane(hull.plane), "the polygon's plane is not four integers")
     a, b, c, d = hull.plane

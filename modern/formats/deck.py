@@ -222,7 +222,6 @@ def _count(deck: Deck, card: Card, warnings: list[DeckWarning], last: int) -> in
 
 
 def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) -> None:
-    """Check e in columns 3 to 16; a blank field is zero."""
     columns = card.columns(_E_FIRST, _E_LAST)
     if not columns.strip():
         return

@@ -57,7 +57,6 @@ class _Element:
         return {"vertex": "vertices", "face": "faces"}.get(self.name, self.name)
 
     def index(self, *names: str) -> int | None:
-        """Return the index of the property with one of these names, or None."""
         return next((k for k, (name, _, _) in enumerate(self.properties) if name in names), None)
 
 
@@ -148,7 +147,6 @@ def _header(text: str, source: str) -> tuple[str, list[_Element]]:
 
 
 def _text(data: bytes, start: int, source: str) -> Reader:
-    """Return the reader of an ASCII file, in which each item is one line."""
     try:
         text = data.decode("ascii")
     except UnicodeDecodeError as wrong:
@@ -179,7 +177,6 @@ def _text(data: bytes, start: int, source: str) -> Reader:
 
 
 def _binary(data: bytes, start: int, order: str, source: str) -> Reader:
-    """Return the reader of a binary file."""
     offset = start
 
     def unpack(codes: str) -> tuple[Any, ...]:

@@ -5,8 +5,6 @@ result is used without a report. The order of the operands matters in ``ibm1962`
 sign of the accumulator, the left operand.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -49,10 +47,10 @@ class Number1620:
     __mul__ = _operator(accumulator.multiply)
     __truediv__ = _operator(accumulator.divide)
 
-    def __neg__(self) -> Number1620:
+    def __neg__(self) -> "Number1620":
         return Number1620(*accumulator.negate(self.m, self.e), self.by)
 
-    def __abs__(self) -> Number1620:
+    def __abs__(self) -> "Number1620":
         return -self if self.m < 0 else self
 
     def __repr__(self) -> str:

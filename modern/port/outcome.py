@@ -1,7 +1,5 @@
 """The conversion of the procedure's numbers to the result: exact text, faces and the stages of the construction."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -47,7 +45,7 @@ class Faces:
     arithmetic: Arithmetic
     points: PointTable
 
-    def whole_points(self, indices: Sequence[int]) -> dict[int, IntPoint]:
+    def whole_points(self, indices: Sequence[int]) -> "dict[int, IntPoint]":
         """Return the exact coordinates of the points at these indices as integers in a common unit, by index."""
         rows = [self.arithmetic.exacts(row[indices], 1) for row in self.points.rows]
         unit = math.lcm(*{value.denominator for row in rows for value in row})

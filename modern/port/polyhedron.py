@@ -3,8 +3,6 @@
 Numbers in parentheses are statement labels of the listing. Indices start from 0 here, from 1 in the listing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
@@ -61,7 +59,7 @@ class Polyhedron:
     # True to replace further planes in the order of their numbers, as the text does (p. 32).
     text: bool = False
 
-    def run(self, grow_stage: Callable[[Polyhedron, bool], Grown | None] = stage) -> None:
+    def run(self, grow_stage: "Callable[[Polyhedron, bool], Grown | None]" = stage) -> None:
         """Expand H_1 to the hull of all points (103 to 160) with the given function for a stage."""
         grow(self, grow_stage)
 

@@ -109,7 +109,6 @@ def packages(wheel: Path) -> bytes:
 
 
 def _installed(package: str) -> Iterator[tuple[str, bytes]]:
-    """Return the Python and grammar files of an installed package, and its licence."""
     for file in distribution(package).files or ():
         name = file.as_posix()
         if name.startswith("..") or any(part in f"/{name}" for part in _NOT_LOADED):
@@ -119,7 +118,6 @@ def _installed(package: str) -> Iterator[tuple[str, bytes]]:
 
 
 def _period() -> Mapping[str, str]:
-    """Return the programs in the style of the period and their decks by file name."""
     files = (path for path in sorted(PERIOD.glob("*.*")) if path.suffix in (".f", ".deck"))
     return {path.name: path.read_text(encoding="ascii") for path in files}
 

@@ -221,7 +221,6 @@ def write(out: Path, parts: Parts, root: Path = ROOT) -> tuple[Path, Path]:
 
 
 def _packed(folder: Path, executable: frozenset[str]) -> bytes:
-    """Pack a folder into a compressed tar archive without times and owners."""
     buffer = BytesIO()
     with tarfile.open(fileobj=buffer, mode="w", format=tarfile.PAX_FORMAT) as archive:
         for path in sorted(path for path in folder.rglob("*") if path.is_file()):

@@ -166,7 +166,6 @@ def _places(lines: Iterable[Line]) -> Iterator[tuple[str, Kind, int]]:
 
 
 def _further_places(places: Sequence[tuple[str, Kind, int]]) -> Mapping[str, tuple[str, ...]]:
-    """Return the additional places of the cards, counted from earlier statement numbers."""
     known = {place for place, _, _ in places}
     further: dict[str, list[str]] = {}
     counted: list[tuple[int, int]] = []  # earlier statement numbers with the statements since then
@@ -257,7 +256,6 @@ def _piece(text: Text, line: Line, content: str, part: bool = False) -> Piece:
 
 
 def _divided(line: str, cards: Sequence[str]) -> list[str]:
-    """Divide a line among the cards that were made from it."""
     if len(cards) == 1:
         return [line]
     all_cards = "".join(cards)
@@ -306,7 +304,6 @@ def _spans(text: str, indices: Collection[int]) -> Iterator[Span]:
 
 
 def _variants(text: Text, lines: Sequence[Line], layers: Sequence[str]) -> Mapping[str, tuple[Variant, ...]]:
-    """Return the variants of each card, by its id, in the layers that the deck does not contain."""
     variants: dict[str, list[Variant]] = {}
     own = {line.id: line for line in lines}
     for layer in text.layers:

@@ -2,7 +2,7 @@
 
 A document quotes a figure by its name between double braces, such as ``{{ seventy.failures }}``.  :func:`filled`
 replaces the names in Markdown text, for the site and for the book.  The figures come from the tables in
-``docs/studies`` and ``docs/weight`` (:data:`CELLS`), from the data of the edition, and from a new run of the examples.
+``docs/studies`` and ``docs/weight`` (``docs/figures.csv`` names the cells), from the edition, and from a run.
 """
 
 import csv
@@ -37,46 +37,6 @@ class Cell:
     column: str
 
 
-_LISTED, _CORRECTED = ("as listed",), ("last pair mended",)
-_SHEET = ("33.3 %", "as on the sheet (.0146)")
-_TENTH = ("near a plane with a gap of .1",)
-# The figures that are cells of committed tables, by name.
-CELLS: Mapping[str, Cell] = {
-    "seventy.sets": Cell("studies/seventy/table.csv", _LISTED, "sets"),
-    "seventy.failures": Cell("studies/seventy/table.csv", _LISTED, "failures in 70"),
-    "seventy.mended": Cell("studies/seventy/table.csv", _CORRECTED, "failures in 70"),
-    "seventy.two-or-more": Cell("studies/seventy/table.csv", _LISTED, "70s with 2 or more"),
-    "seventy.sheets-refused": Cell("studies/seventy/decimals.csv", _SHEET, "refused"),
-    "seventy.sheets-for-two": Cell("studies/seventy/decimals.csv", _SHEET, "sheets in 70 for two"),
-    "capacity.first": Cell("studies/capacity/table.csv", ("sphere",), "more than 98 from N ="),
-    "capacity.full": Cell("studies/capacity/table.csv", ("sphere",), "table full, as listed"),
-    "capacity.most": Cell("studies/capacity/storage.csv", ("most places seen",), "places"),
-    "capacity.listed": Cell("studies/capacity/storage.csv", ("as listed",), "places"),
-    "capacity.core": Cell("studies/capacity/storage.csv", ("most places seen",), "smallest core"),
-    "digits.two-listed": Cell("studies/digits/table.csv", ("2",), "hull found, as listed"),
-    "digits.two-corrected": Cell("studies/digits/table.csv", ("2",), "hull found, corrected"),
-    "digits.three-corrected": Cell("studies/digits/table.csv", ("3",), "hull found, corrected"),
-    "digits.two-needs": Cell("studies/digits/table.csv", ("2",), "least P without failure"),
-    "digits.three-needs": Cell("studies/digits/table.csv", ("3",), "least P without failure"),
-    "rounding.truncating": Cell("studies/rounding/table.csv", ("truncating",), "whole numbers up to"),
-    "rounding.rounding": Cell("studies/rounding/table.csv", ("rounding",), "whole numbers up to"),
-    "rounding.float32": Cell("studies/rounding/table.csv", ("float32",), "whole numbers up to"),
-    "rounding.tenth-truncating": Cell("studies/rounding/exact.csv", _TENTH, "truncating"),
-    "rounding.tenth-float64": Cell("studies/rounding/exact.csv", _TENTH, "float64"),
-    "epsilon.best": Cell("studies/epsilon/best.csv", ("as it is",), "best e"),
-    "epsilon.found": Cell("studies/epsilon/best.csv", ("as it is",), "hulls found with it"),
-    "epsilon.greater-wrong": Cell("studies/epsilon/price.csv", ("greater",), "of these sets"),
-    "translation.least": Cell("studies/translation/ratio.csv", ("less than 0.5",), "processor time saved"),
-    "translation.most": Cell("studies/translation/ratio.csv", ("1.5 and more",), "processor time saved"),
-    "translation.kept": Cell("studies/translation/digits.csv", ("numbers to 99",), "eight digits, origin kept"),
-    "translation.moved": Cell("studies/translation/digits.csv", ("numbers to 99",), "eight digits, origin moved to C"),
-    "time.sphere": Cell("studies/machine-time/table.csv", ("sphere",), "minutes"),
-    "time.ball": Cell("studies/machine-time/table.csv", ("ball",), "minutes"),
-    "time.points": Cell("studies/machine-time/table.csv", ("sphere",), "N"),
-    "divergence.share": Cell("studies/divergence/table.csv", ("program1 196+2",), "of all sets"),
-    "divergence.nowhere": Cell("studies/divergence/table.csv", ("nowhere",), "of all sets"),
-}
-
 _CHECKS = ("print", "machine", "equation", "sibling")
 
 
@@ -102,13 +62,19 @@ def figures(docs: Path) -> dict[str, str]:
     Raise FigureError if a table does not have the cell of a figure, and FileError if a table does not exist.
     """
     return {
-        **{name: _formatted(read_cell(docs, cell)) for name, cell in CELLS.items()},
+        **{name: _formatted(read_cell(docs, cell)) for name, cell in cells(docs).items()},
         **dict(_weight(docs)),
         **dict(_examples()),
         **dict(_papers()),
         **dict(_statements()),
         **dict(_listings()),
     }
+
+
+def cells(docs: Path) -> dict[str, Cell]:
+    """Return the figures that are cells of committed tables, by name."""
+    rows = _table(docs / "figures.csv")
+    return {row["figure"]: Cell(row["table"], tuple(row["row"].split("; ")), row["column"]) for row in rows}
 
 
 def read_cell(docs: Path, cell: Cell) -> str:

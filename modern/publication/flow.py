@@ -85,7 +85,6 @@ class _Part:
 
     @property
     def written(self) -> str:
-        """The text of the statement without its number."""
         text = " ".join(self.line.text.split())
         return text.removeprefix(str(self.line.label)).lstrip() if self.line.label else text
 

@@ -209,7 +209,6 @@ def _plain(value: object) -> str:
 
 
 def _devices(div: Element, chapter: Chapter) -> None:
-    """Write the device files: cards whose tokens refer to lines of the print and whose blanks follow the layout."""
     for example, program, device, file in device_files(chapter):
         layout = device_layout(chapter, example, program, device)
         part = SubElement(div, "div", {"type": device, "n": file})

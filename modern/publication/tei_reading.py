@@ -105,7 +105,6 @@ def _reading(element: Element, chosen: Collection[str]) -> str:
 
 
 def _chosen(app: Element, chosen: Collection[str]) -> str:
-    """Return our reading if the layer of the app is chosen, else that of the witness."""
     ours = app.get("type") in chosen
     for reading in app:
         is_reading = reading.tag in (_TEI + "lem", _TEI + "rdg") and reading.get("type") != "rejected"

@@ -88,7 +88,6 @@ def uses(program: str) -> Uses:
 
 
 def _jumps(statement: tree.Statement, labels: dict[int, int]) -> Iterator[Jump]:
-    """Yield the references from a statement.  Several conditions with the same target are joined."""
     body, card = statement.body, statement.place.card
     ways: list[tuple[str, int]] = []
     if isinstance(body, tree.GoTo):
@@ -111,7 +110,6 @@ def _jumps(statement: tree.Statement, labels: dict[int, int]) -> Iterator[Jump]:
 
 
 def _names(body: tree.Body) -> Iterator[tuple[str, How]]:
-    """Yield every name in a statement and what the statement does with it."""
     if isinstance(body, tree.Dimension):
         yield from ((name, "declared") for name, _, _ in body.arrays)
     elif isinstance(body, tree.Assignment):

@@ -40,7 +40,6 @@ def read_charts(folder: Path) -> tuple[Chart, ...]:
 
 
 def _text(chart: Chart) -> str:
-    """Return a chart as JSON: a line for its labels and one for each series."""
     (kind,) = (kind for kind, chart_type in _KINDS.items() if type(chart) is chart_type)
     labels = {f.name: getattr(chart, f.name) for f in fields(chart) if f.name not in ("series", "marks")}
     marks = [{"at": mark.at, "words": mark.label, "upright": mark.upright} for mark in chart.marks]
@@ -61,7 +60,6 @@ def _limit(value: float) -> float | None:
 
 
 def _chart(data: dict[str, Any]) -> Chart:
-    """Return the chart of JSON data.  Raise ValueError, TypeError or KeyError if the data does not describe one."""
     chart_type = _KINDS[data["kind"]]
     types = {f.name: f.type for f in fields(chart_type)}
     labels = {name: _checked(value, types[name]) for name, value in data.items() if name not in _PARTS}

@@ -58,7 +58,6 @@ def _hull1620_sum() -> str:
 
 
 def _module_sum(name: str) -> str:
-    """Return the SHA-256 of a module's file; empty if it has no readable file."""
     spec = find_spec(name)
     try:
         return hashlib.sha256(Path(spec.origin).read_bytes()).hexdigest() if spec and spec.origin else ""

@@ -205,7 +205,6 @@ def _fault(outcome: compared.Outcome, sample: Sample, difference: Disagreement, 
 
 
 def _plane_is_right(hull: CardHull | Hull, sample: Sample) -> bool:
-    """Return True if the plane of coplanar points is that of the exact hull, or the route gives none."""
     if sample.hull.plane is None or not isinstance(hull, CardHull) or not hull.plane:
         return True
     exact = sample.hull.plane_of(sample.hull.plane)
@@ -223,7 +222,6 @@ def _plane_is_right(hull: CardHull | Hull, sample: Sample) -> bool:
 
 
 def _incidences_are_right(hull: CardHull | Hull, sample: Sample, difference: Disagreement) -> bool:
-    """Return True if the vertices listed for each equation are exactly those that satisfy it."""
     if not difference.places:
         return True
     listed: list[set[int]] = [set() for _ in difference.places]

@@ -16,8 +16,6 @@ sample depends only on the seed of the study, the key of the cell and the index 
 workers or the order of the work.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Callable, Iterator, Mapping
@@ -219,7 +217,7 @@ class Plan:
         return dict(json.loads(json.dumps(data)))
 
     @classmethod
-    def of_document(cls, data: Mapping[str, Any]) -> Plan:
+    def of_document(cls, data: Mapping[str, Any]) -> "Plan":
         """Return the plan of a document. Raise KeyError, TypeError, ValueError or AttributeError for other data."""
         cells = tuple(
             Cell(**{**cell, "key": dict(cell["key"]), "routes": tuple(map(_route_of_document, cell["routes"]))})

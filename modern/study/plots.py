@@ -189,7 +189,6 @@ def _pale(axes: Any, series: Series) -> None:
 
 
 def _scales(axes: Any, chart: Lines, margin: float = 0.0) -> None:
-    """Set both axes from the values; ``margin`` is the share of the width that shifted markers need."""
     positions = [float(x) for series in chart.series for x, _ in series.points]
     positions += [mark.at for mark in chart.marks if mark.upright]
     if limits := _range(positions, chart.log_x, margin):

@@ -82,7 +82,6 @@ def _programs(route: Programs, samples: Sequence[Sample], runs: Runs) -> list[An
 
 
 def _uncut(decks: Sequence[Deck], load: Load, options: Options, first: str) -> Iterator[HullRun | EmulatorError]:
-    """Yield the hull run of each deck, with all digits kept between the programs, or the error that it raised."""
     for deck in decks:
         try:
             yield run_hull(deck, load, options, first)
@@ -106,7 +105,6 @@ def _port(route: Port, sample: Sample) -> Answer:
 
 
 def _measured(route: Route, sample: Sample, run: HullRun | Hull) -> Figures:
-    """Return the figures of all measures of a route.  Raise PlanError if a user-defined measure fails."""
     figures: dict[str, int | str] = {}
     for name in route.measures:
         in_module = user_code(f"route {route.name}: measure {name}", name.partition(":")[0])

@@ -141,12 +141,10 @@ def plain_lines(plan: Plan) -> tuple[str, ...]:
 
 
 def _needs_engine(plan: Plan) -> bool:
-    """Return True if the compiled engine can run at least one route of the plan."""
     return any(not why_plain(options_of(route)) for route in _program_routes(plan))
 
 
 def _program_routes(plan: Plan) -> Iterable[Programs]:
-    """Return the routes of a plan that run the programs, each once."""
     return dict.fromkeys(route for cell in plan.cells for route in cell.routes if isinstance(route, Programs))
 
 
@@ -166,7 +164,6 @@ def _fits_cards(route: Programs) -> bool:
 
 
 def _complete(plan: Plan, store: Store, client: Any, workers: int, quiet: bool) -> None:
-    """Work through the chunks whose rows are missing and store each as it is finished."""
     missing = store.missing()
     samples_missing = sum(chunk.stop - chunk.start for chunk in missing)
     progress = Progress(plan.samples, plan.samples - samples_missing, quiet=quiet)
@@ -181,7 +178,6 @@ def _complete(plan: Plan, store: Store, client: Any, workers: int, quiet: bool) 
 
 
 def _begin(plan: Plan, folder: Path, resume: bool, command: Sequence[str]) -> dict[str, object]:
-    """Prepare the folder and return the manifest of the study."""
     current = manifest(plan, command, versions())
     try:
         holds_study = (folder / NAME).exists()
@@ -276,7 +272,6 @@ def check_route(route: Route) -> None:
 
 
 def _check_distinct(names: Iterable[str], message: str) -> None:
-    """Raise PlanError with the message and the name if a name occurs twice."""
     earlier: set[str] = set()
     for name in names:
         if name in earlier:

@@ -5,8 +5,6 @@ so the files that exist show which chunks are finished.  Every line ends with it
 the line is read.  ``index.sqlite`` is made from the lines.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import sqlite3
@@ -64,7 +62,7 @@ class Store:
     database: sqlite3.Connection
 
     @classmethod
-    def open(cls, folder: Path, plan: Plan) -> Store:
+    def open(cls, folder: Path, plan: Plan) -> "Store":
         """Open the store in an existing folder.  Raise StudyFileError if that fails."""
         try:
             (folder / ROWS).mkdir(exist_ok=True)
@@ -186,7 +184,6 @@ def _with_checksum(line: bytes) -> bytes:
 
 
 def _row(line: bytes) -> Row | None:
-    """Parse a line of a file of rows; return None if it is not a row."""
     try:
         row: Row = json.loads(line)
     except ValueError:
@@ -196,7 +193,6 @@ def _row(line: bytes) -> Row | None:
 
 
 def _where(cell: int | None, route: str | None) -> tuple[str, list[int | str]]:
-    """Return the SQL condition for one cell or route, and its values; empty for all."""
     selected = {name: value for name, value in (("cell", cell), ("route", route)) if value is not None}
     condition = " AND ".join(f"runs.{name} = ?" for name in selected)
     return f"WHERE {condition}" if selected else "", list(selected.values())

@@ -101,7 +101,6 @@ class _Section:
         return f"{self.path}: line {header_line}" if header_line else self.path
 
     def integer(self, data: Mapping[str, Any], key: str, default: int, least: int | None = None) -> int:
-        """Return an integer of the section.  Raise PlanError if it has another type or is too small."""
         value = data.get(key, default)
         if type(value) is not int or (least is not None and value < least):
             size = "" if least is None else f" of at least {least}"
@@ -109,12 +108,10 @@ class _Section:
         return value
 
     def check_type(self, data: Mapping[str, Any], key: str, kind: type, expected: str) -> None:
-        """Raise PlanError if the value of a key has another type."""
         if key in data and not isinstance(data[key], kind):
             raise self.error(f"expected {key} to be {expected}, found {quoted(data[key])}", key)
 
     def check_keys(self, data: Mapping[str, Any], keys: tuple[str, ...]) -> None:
-        """Raise PlanError if the section has a key that does not exist."""
         for key in data:
             if key not in keys:
                 raise self.error(f"unknown name {quoted(key)}; expected {', '.join(keys)}", key)

@@ -37,8 +37,6 @@ class Unverifiable(VolumeError):
 
 @dataclass(slots=True)
 class _Elements:
-    """The elements of a file, read one after another."""
-
     file: BinaryIO
     path: str
     size: int
@@ -99,7 +97,6 @@ class _Elements:
                 raise VolumeError(f"{self.path}: damaged: an element is longer than its item")
 
     def read_items(self, length: int, depth: int, parent: tuple[int, int], kind: bytes) -> None:
-        """Read the items of a sequence or of compressed pixel data."""
         end = None if length == _UNDEFINED else self.file.tell() + length
         was_implicit, self.is_implicit = self.is_implicit, self.is_implicit or kind == b"UN"
         while end is None or self.file.tell() < end:

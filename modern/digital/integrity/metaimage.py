@@ -142,7 +142,6 @@ def _listed(lines: bytes, name: str, sizes: tuple[int, ...], path: str) -> tuple
 
 
 def _numbered(name: str, sizes: tuple[int, ...], path: str) -> list[str]:
-    """Return the file names that a pattern generates."""
     count = sizes[-1]
     match = _PATTERN.fullmatch(name)
     numbers = [int(word) for word in match[2].split()] if match else []

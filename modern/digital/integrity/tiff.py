@@ -73,7 +73,6 @@ class _Reader:
         return self.file.read(count)
 
     def pages(self) -> list[Tags]:
-        """Return the tags of every directory of the chain."""
         pages: list[Tags] = []
         position, visited = self.first, set()
         while position:

@@ -135,7 +135,6 @@ def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
 
 
 def _area(corners: Sequence[Place]) -> float:
-    """Return twice the signed area of a polygon."""
     return sum(a * d - b * c for (a, b), (c, d) in zip(corners, [*corners[1:], corners[0]], strict=True))
 
 

@@ -99,7 +99,6 @@ def _vertex_list(solid: Solid) -> Iterator[str]:
 
 
 def _map(surfaces: Sequence[Surface]) -> Iterator[str]:
-    """Follow every surface from its first point along the lines it has in common with other surfaces."""
     for number, surface in enumerate(surfaces):
         others = [set(points) for k, points in enumerate(surfaces) if k != number]
         path = [surface[0]]
@@ -111,7 +110,6 @@ def _map(surfaces: Sequence[Surface]) -> Iterator[str]:
 
 
 def _changes(fig4: Solid, hull: Assembled) -> Iterator[str]:
-    """Compute the caption of Fig. 4."""
     # Fig. 4: a surface in a plane of the hull is kept or respecified, every other one is deleted.
     fates = hull.fates(fig4.surfaces)
     deleted = [index for index in range(len(fig4.points)) if index not in hull.vertices]
@@ -144,7 +142,6 @@ def _edge_list(hull: Assembled) -> Iterator[str]:
 
 
 def _figure_with(names: Collection[str], *parts: str) -> str:
-    """Name the one figure of which results with all of ``parts`` exist."""
     (figure,) = {name.split("-")[0] for name in names if all(f"{name.split('-')[0]}-{part}" in names for part in parts)}
     return f"As illustrated in Fig. {figure.removeprefix('fig')}"
 

@@ -76,7 +76,6 @@ def in_one_pass(images: Sequence[Image]) -> bool:
 
 
 def _sides(star: Sequence[Image]) -> list[tuple[Image, Image]]:
-    """List the sides of the star polygon, including the one from the last point to the first."""
     return [*pairwise(star), (star[-1], star[0])] if star else []
 
 

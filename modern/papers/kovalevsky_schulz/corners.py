@@ -105,7 +105,6 @@ def _slabs(solid: Voxels, extra: int) -> Iterator[tuple[int, Voxels]]:
 
 
 def _by_six_neighbours(flat: Voxels, strides: tuple[int, ...]) -> NDArray[np.intp]:
-    """Return the indices of local corners by 6 neighbours in a flattened slab with the given strides."""
     edge = strides[0]
     mask = flat[edge:-edge].copy()
     between = np.empty_like(mask)

@@ -68,7 +68,6 @@ def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _table_5_row(printed: str) -> str:
-    """Compute a row of Table 5. The diameter and the number of Marching Cubes triangles come from the print."""
     # The digitisation behind the numbers of triangles is not stated, so they cannot be computed.
     diameter, triangles = map(int, printed.split()[:2])
     size = triangulation_size(triangles)
@@ -80,6 +79,5 @@ def _table_5_row(printed: str) -> str:
 
 
 def _decimal(number: Fraction, decimals: int) -> str:
-    """Format a positive fraction with the given number of decimals, rounded half up."""
     exact = Decimal(number.numerator) / Decimal(number.denominator)
     return str(exact.quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_UP))

@@ -131,7 +131,6 @@ def _components(surface: FileMesh, name: str) -> list[_Component]:
 
 
 def _body(surface: FileMesh, component: _Component, reading: Reading) -> tuple[Polyhedron, list[str]]:
-    """Return a component as a convex polyhedron, and notes on the changes that made it one."""
     name = component.name
     faces = {order: surface.faces[order] for order in component.faces}
     points = {place: coordinates(surface.points[place]) for place in component.vertices}
@@ -219,7 +218,6 @@ def _edge_name(surface: FileMesh, a: int, b: int) -> str:
 
 
 def _as_given(closed: _Closed) -> Polyhedron:
-    """Return the component with the faces of the file, clockwise from outside."""
     component = closed.component
     places = {place: order for order, place in enumerate(component.vertices)}
     faces = tuple(tuple(places[place] for place in face[::-1]) for face in closed.faces.values())

@@ -243,7 +243,6 @@ def _pieces(
 
 
 def _back_edges(item: Solid, back_ghosts: dict[Name, list[Span]]) -> Iterator[Piece]:
-    """Yield the edges between back faces without their ghost parts."""
     for edge in item.edges:
         if edge.kind == BACK:
             # Edges between back faces are hidden everywhere. What lies between their ghost parts is drawn dashed.

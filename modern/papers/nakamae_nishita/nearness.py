@@ -77,7 +77,6 @@ def by_plane(v: Solid, w: Solid) -> tuple[int, Plane | None]:
 
 
 def _range(plane: Plane, points: tuple[Homogeneous, ...]) -> tuple[int, int]:
-    """Return the least and the greatest value of formula (5)."""
     a, b, c, d = plane
     heights = [a * x + b * y + c * z + d * w for x, y, z, w in points]
     return min(heights), max(heights)
@@ -91,7 +90,6 @@ def _edge_planes(v: Solid, w: Solid) -> Iterator[Plane]:
 
 
 def _enclosing_face(solid: Solid, point: Homogeneous) -> Plane:
-    """Return the plane of a front face whose image contains the point."""
     at = (point[0], point[1], point[3])
     for face, facing, plane in zip(solid.polyhedron.faces, solid.signs, solid.planes, strict=True):
         if facing > 0:

@@ -99,7 +99,6 @@ def as_hpgl(drawing: Drawing) -> str:
 
 
 def _strokes(drawing: Drawing, pixel: Callable[[Flat], Pixel], visible: bool) -> Iterator[tuple[Piece, Pixel, Pixel]]:
-    """Yield the visible or the hidden pieces with the places of their ends."""
     for piece in drawing.pieces:
         if piece.visible == visible:
             a, b = (pixel(image(end, drawing.observer)) for end in ends(drawing, piece))

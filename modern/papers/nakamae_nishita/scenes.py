@@ -148,7 +148,6 @@ def _middle(polyhedra: Sequence[Polyhedron]) -> Vector:
 
 
 def _located(source: str, text: str, message: str) -> str:
-    """Rewrite a message of tomllib with the position in front."""
     match = _AT.fullmatch(message)
     if not match:
         return f"{source}: {message}"

@@ -161,7 +161,6 @@ def _full_leaves(array: NDArray[np.bool_], depth: int) -> Iterator[tuple[int, Gr
 
 
 def _all_of_eight(array: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return which cubes of 2 x 2 x 2 cells are full. Cubes that reach beyond the array are omitted."""
     for axis in range(3):
         length = array.shape[axis] // 2 * 2
         low, high = ((slice(None),) * axis + (slice(k, length, 2),) for k in (0, 1))
@@ -170,7 +169,6 @@ def _all_of_eight(array: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _doubled(array: NDArray[np.bool_], shape: tuple[int, ...]) -> NDArray[np.bool_]:
-    """Replace every cell by 2 x 2 x 2 cells and truncate the array to a shape."""
     doubled = np.empty(shape, dtype=np.bool_)
     columns = np.repeat(array, 2, axis=2)[:, :, : shape[2]]
     for i, j in QUADRANTS:
@@ -180,12 +178,10 @@ def _doubled(array: NDArray[np.bool_], shape: tuple[int, ...]) -> NDArray[np.boo
 
 
 def _spread(numbers: Grid, count: int) -> Grid:
-    """Spread the bits of ``count``-bit numbers to every third bit."""
     return _bits(np.arange(1 << count), count, 1, 3)[numbers]
 
 
 def _gathered(codes: Grid, first: int, count: int) -> Grid:
-    """Gather every third bit of codes, ``count`` bits from bit ``first``."""
     return _bits(codes >> first, count, 3, 1)
 
 

@@ -3,8 +3,6 @@
 ``octree-hull --printed NAME`` applies a statement as printed and shows the effect.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 
 from emulator.errors import quoted
@@ -47,7 +45,7 @@ class Printed:
     marks: bool = False
 
     @classmethod
-    def only(cls, *names: str) -> Printed:
+    def only(cls, *names: str) -> "Printed":
         """Apply the named statements as printed and the others corrected. Raise ValueError for an unknown name."""
         unknown = [name for name in names if name not in NAMES]
         if unknown:

@@ -76,7 +76,6 @@ def typst(folder: Path) -> str:
 
 
 def _parts(name: str, texts: dict[str, str]) -> Sequence[str]:
-    """Return the documents that a name in :data:`CHAPTERS` stands for."""
     if name == "@studies":
         return [document for document in texts if document.startswith("studies/")]
     if name in ("@text", "@transcripts"):
@@ -112,7 +111,6 @@ def _generated(folder: Path) -> Iterator[tuple[str, Iterator[str]]]:
 
 
 def _numbered(file: str, title: str, name: str) -> Iterator[str]:
-    """Write a file of numbered items, each with a heading."""
     opening, items, closing = numbered(file)
     text, section = f"# {title}\n\n{opening}\n\n", ""
     for item in items:

@@ -241,7 +241,6 @@ class Markdown:
         return posixpath.dirname(self.name)
 
     def _target(self, address: str) -> str:
-        """Return the label for an address in the documents, or an empty string."""
         file, _, part = address.partition("#")
         if not file.endswith(".md") and not (part and not file):
             return ""

@@ -73,7 +73,6 @@ class MadeDirective(SphinxDirective):
 
 
 def _register(env: BuildEnvironment, content: Made) -> None:
-    """Register the addresses for references and for the general index."""
     standard = env.get_domain("std")
     assert isinstance(standard, StandardDomain)
     entries = env.get_domain("index").data["entries"].setdefault(env.docname, [])

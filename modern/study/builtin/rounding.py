@@ -244,7 +244,6 @@ def _wrong_chart(plan: Plan, counts: Summary) -> Bars:
 
 
 def _largest(plan: Plan, counts: Summary, way: str) -> int | None:
-    """Return the largest size up to which no set failed."""
     best = None
     for number, cell in cells(plan, sets=BOXES):
         if counts.failed(number, way):

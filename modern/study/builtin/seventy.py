@@ -234,7 +234,6 @@ def _share(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str
 
 
 def _failed(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str) -> tuple[int, int]:
-    """Return how many sets of these kinds fail, and how many there are."""
     failed = sum(n for key, n in kinds.items() if key[0] in names and key[1] == route and key[2] not in DETERMINED)
     return failed, _of(kinds, names, route)
 

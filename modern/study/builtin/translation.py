@@ -220,7 +220,6 @@ def _by_ratio(pairs: list[_Pair]) -> Table:
 
 
 def _least(counts: Summary, cell: int, name: str) -> int | None:
-    """Return the least P such that no set failed at this or a greater P.  Return None if there is none."""
     return counts.sound_from(cell, lambda p: working(name, p), WORKING)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from modern.publication.figures import CELLS, Cell, FigureError, figures, filled, named, read_cell
+from modern.publication.figures import Cell, FigureError, cells, figures, filled, named, read_cell
 from tests.support import documents
 from tests.support.paths import ROOT
 
@@ -17,6 +17,9 @@ MADE = ("commands", "python")
 @pytest.fixture(scope="module")
 def values() -> dict[str, str]:
     return figures(DOCS)
+
+
+CELLS = cells(DOCS)
 
 
 @pytest.mark.parametrize("name", CELLS)

@@ -86,7 +86,6 @@ def _targets(listing: Facing) -> Iterator[Target]:
 
 
 def _controls(listing: Facing) -> str:
-    """Return the controls that choose the highlighted layers and the example in the margin."""
     name = listing.program
     present = [layer for layer in listing.text.layers if any(row.layer == layer for row in listing.rows())]
     shown = programs.built_in(name).layers
@@ -227,7 +226,6 @@ def _facts(listing: Facing, card: Card) -> str:
 
 
 def _weight(detected: tuple[int, ...], formula: str) -> str:
-    """Return the numbers of altered readings that each check detects, as text and as a bar."""
     counts = ", ".join(
         f"{count} undetected" if check == "nothing" else f"{count} detected by {check}"
         for check, count in zip(DETECTED_BY, detected, strict=True)

@@ -65,7 +65,6 @@ def _pictures() -> str:
 
 
 def _restored(card: Card) -> str:
-    """Show the witness's reading of a card next to the restored card."""
     piece = card.witness[0]
     blanks = len(piece.text) - len(piece.text.lstrip())
     changed = [(first - blanks, last - blanks) for first, last in piece.changed]
@@ -75,7 +74,6 @@ def _restored(card: Card) -> str:
 
 
 def _verdicts() -> str:
-    """Return the numbers of verdicts for the five documents, and the comparison of the printed examples."""
     rows = []
     signs = {name: text("span", SIGNS[name], cls="quiet", aria_hidden="true") for name in COLUMNS}
     for name in DOCUMENTS:
@@ -91,7 +89,6 @@ def _verdicts() -> str:
 
 
 def _examples() -> str:
-    """Return a list of the printed examples of chapter 6 with the verdict on each."""
     examples = []
     for example in EXAMPLES:
         ok, exact, reordered, different = summary(reproduce((example,), states=("examples",)))

@@ -146,7 +146,6 @@ def _sizes(maps: list[CoreMap]) -> str:
 
 
 def _addresses(storage: CoreMap) -> str:
-    """Return a table of all regions, which the reader can open."""
     rows = []
     for region in reversed(storage.regions):
         plurals = ((count, {"temporary": "temporaries"}.get(kind, f"{kind}s"), kind) for kind, count in region.fields)

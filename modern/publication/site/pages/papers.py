@@ -54,7 +54,6 @@ def make(argument: str) -> Made:
 
 
 def _strip(figures: Iterable[str]) -> str:
-    """Return pictures side by side, as many as the window has room for."""
     return element("ol", "".join(element("li", picture) for picture in figures), cls="strip")
 
 
