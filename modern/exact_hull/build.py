@@ -65,9 +65,9 @@ def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequ
 
 
 def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Sequence[int] = ()) -> list[Facet]:
-    """Return the faces of the hull of distinct points.  The four points in ``simplex`` are affinely independent.
+    """Return the faces of the hull of distinct points, starting from the four points in ``simplex``.
 
-    The points in ``first`` are inserted before all others; every other point inside is then discarded at once.
+    The points in ``first`` are inserted first. All other points that are then inside are discarded at once.
     """
     space = frame(points)
     order = insertion_order(len(points), simplex)

@@ -44,7 +44,7 @@ MANY = 1 << 18
 
 
 def _is_plane(plane: Sequence[int]) -> bool:
-    """Return True for four Python integers; those of numpy would overflow silently."""
+    """Return True for four Python integers. Integers of numpy are refused, because they overflow silently."""
     return len(plane) == 4 and all(type(number) is int for number in plane)
 
 
@@ -146,7 +146,7 @@ def _check_planes(hull: ExactHull) -> None:
 
 
 def _check_points(hull: ExactHull) -> Incidences:
-    """Evaluate all planes at all points, and check that its planes determine every vertex (2 and 3 above)."""
+    """Check conditions 2 and 3 above by evaluating every plane at every point."""
     unique = [*hull.vertices, *hull.boundary, *hull.inside]
     pairs = incidences([facet.plane for facet in hull.facets], [hull.scaled[index] for index in unique])
     if pairs.outside is not None:
@@ -217,7 +217,7 @@ def _check_polygon(hull: ExactHull) -> int:
 
 
 def _check_segment(hull: ExactHull) -> int:
-    """Check that the planes of the two ends are at right angles to the line of all points; return the edge count."""
+    """Check that both end planes are at right angles to the line of all points, and return the number of edges."""
     require(len(hull.facets) == 2, f"the segment has {len(hull.facets)} ends")
     for number, end in enumerate(hull.facets):
         for index, point in enumerate(hull.scaled):

@@ -91,15 +91,15 @@ _STEPS = 64
 
 
 class Undecided(Exception):
-    """The surface is too thin to find o or the ray in float64, so every plane must be evaluated at every point."""
+    """Raised if no inner point or ray is found in float64; every plane is then evaluated at every point."""
 
 
 @dataclass(frozen=True, slots=True)
 class Cones:
-    """The triangles into which the polygons are split from their first corners, and their cones from o.
+    """The triangles into which the polygons are split, and the cones that they span from the inner point o.
 
-    ``corners`` (t, 3) are points.  ``beyond`` (t, 3) is the triangle beyond the edge from corner k to the next corner,
-    and ``walls`` (t, 3, 3) the normal m of the plane through o and that edge, positive towards the triangle.
+    ``corners`` (t, 3) are points. ``beyond`` (t, 3) is the neighbouring triangle at each edge. ``walls`` (t, 3, 3) is
+    the normal of the plane through o and each edge; it points to the side of the triangle.
     """
 
     corners: Ints
@@ -143,7 +143,7 @@ def _product(u: Floats, v: Floats) -> Floats:
 
 @dataclass
 class _Proof:
-    """The data of a proof, and counts of evaluated signs."""
+    """The data of a proof of convexity, and the number of signs that it has evaluated."""
 
     hull: ExactHull
     sides: Polygons
@@ -157,11 +157,11 @@ class _Proof:
 
     @cached_property
     def middle(self) -> tuple[IntPoint, int]:
-        """The point o as integers and their common divisor."""
+        """The inner point o as integers and their common divisor."""
         return self.images.exactly(self.o)
 
     def signs(self, facets: Ints, points: Ints) -> Ints:
-        """Return the sign of the plane of each facet at the point with the same position in ``points``."""
+        """Return the sign of each facet's plane at one point; ``points`` has the point for each facet."""
         base = self.images.places[self.sides.corner[self.sides.first[facets]]]
         approximate = np.einsum("ij,ij->i", self.normals[facets], self.images.places[points] - base)
         signs: Ints = np.sign(approximate).astype(np.int64)
@@ -175,7 +175,7 @@ class _Proof:
         return signs
 
     def check_middle(self) -> float:
-        """Check that o is strictly inside every plane (c), and return r."""
+        """Check condition c: the inner point is inside every plane. Return the radius of a ball that is inside too."""
         bases = self.images.places[self.sides.corner[self.sides.first]]
         approximate = np.einsum("ij,ij->i", self.normals, self.o - bases)
         for facet in np.flatnonzero(~(approximate < -BOUND)).tolist():
@@ -188,7 +188,7 @@ class _Proof:
         return float((-approximate / np.sqrt((self.normals**2).sum(axis=1))).min())
 
     def check_edges(self) -> None:
-        """Check that at every edge the neighbouring polygon is strictly inside (d)."""
+        """Check condition d: at every edge, the neighbouring polygon lies strictly inside the plane of this polygon."""
         sides = self.sides
         # The corner after the edge in the neighbouring polygon.
         beyond = sides.corner[sides.next[sides.next[sides.twin]]]
@@ -196,7 +196,7 @@ class _Proof:
             raise CertificateError(f"point {beyond[side]} is outside of facet {sides.facet[side]}, or in its plane")
 
     def wall_sign(self, triangle: int, edge: int, place: Floats | int) -> int:
-        """Return the exact sign of m . (x - o), where x is the index of a point, or an image."""
+        """Return the exact sign that tells on which side of a cone's wall a point (or an image) lies."""
         o, weight = self.middle
         corners = self.cones.corners[triangle].tolist()
 
@@ -212,7 +212,7 @@ class _Proof:
         return (value > 0) - (value < 0)
 
     def check_cones(self) -> None:
-        """Check the orientation of triangular facets, and that a ray from o meets one triangle only (e)."""
+        """Check condition e: facets face outward, and a ray from the inner point meets only one triangle."""
         cones = self.cones
         third = self.images.places[cones.corners[:, 2]] - self.o
         size = np.einsum("ij,ij->i", cones.walls[:, 0], third)
@@ -233,7 +233,7 @@ class _Proof:
                 raise CertificateError(f"a ray meets the facets {cones.facet[first]} and {cones.facet[triangle]}")
 
     def check_points(self, r: float) -> None:
-        """Check that every other point is inside the surface, or on it if its class is boundary (f)."""
+        """Check condition f: every other point is inside the surface, or on it if its class is boundary."""
         hull = self.hull
         points = np.array(hull.boundary + hull.inside, np.int64)
         expected = np.repeat([0, -1], [len(hull.boundary), len(hull.inside)])
@@ -265,7 +265,7 @@ class _Proof:
             raise CertificateError(f"point {points[row]} is {where} a facet, which contradicts its class")
 
     def _located(self, away: Floats) -> tuple[Ints, NDArray[np.bool_]]:
-        """Return the triangle whose cone contains each difference from o, and True if that is certain."""
+        """Return for each point the triangle whose cone contains it, and True if the choice is certain."""
         cones = self.cones
         # Start at the triangle, of a sample, whose direction from o is closest to that of the point.
         sample = np.linspace(0, len(cones.corners) - 1, min(_STARTS, len(cones.corners))).astype(np.int64)
@@ -289,7 +289,7 @@ class _Proof:
         return at, certain
 
     def _walked(self, triangle: int, point: int) -> int:
-        """Walk from a triangle to the one whose cone contains a point, by exact signs.  Return -1 if that fails."""
+        """Walk by exact signs from a triangle to the one whose cone contains a point. Return -1 if the walk fails."""
         for _ in range(_STEPS):
             beyond = [edge for edge in range(3) if self.wall_sign(triangle, edge, point) < 0]
             if not beyond:
@@ -298,7 +298,7 @@ class _Proof:
         return -1
 
     def _in_every_plane(self, points: Ints) -> tuple[Ints, Ints]:
-        """Return for each point the facet in whose plane its sign is largest, and that sign."""
+        """Return for each point the largest sign of any facet's plane at it, and the facet that has this sign."""
         count = len(self.planes)
         every = np.tile(np.arange(count), len(points))
         signs = self.signs(every, np.repeat(points, count)).reshape(len(points), count)
@@ -307,9 +307,9 @@ class _Proof:
 
 
 def prove(hull: ExactHull) -> tuple[int, Incidences]:
-    """Prove conditions a to f for a hull of dimension 3 with valid classes.  Return the number of edges and incidences.
+    """Prove that a three-dimensional hull is convex (conditions a to f), and count edges and incidences.
 
-    Raise CertificateError if a check fails, and Undecided if there is no suitable o or ray.
+    Raise CertificateError if a condition fails, and Undecided if no suitable inner point or ray is found.
     """
     sides = polygons(hull)
     planes = check_planes(hull, sides)

@@ -15,7 +15,7 @@ IntPoint = tuple[int, int, int]
 
 
 def _plain(points: Sequence[Any]) -> TypeGuard[list[IntPoint]]:
-    """Return True for a list of tuples or lists of three Python integers.  Whole passes are faster than a loop."""
+    """Return True if the points are a list of tuples or lists of three Python integers, which need no conversion."""
     return (
         isinstance(points, list)
         and set(map(type, points)) <= {tuple, list}
@@ -25,7 +25,7 @@ def _plain(points: Sequence[Any]) -> TypeGuard[list[IntPoint]]:
 
 
 def _whole(points: NDArray[Any]) -> bool:
-    """Return True for an array of floats that are all integers below 2**60."""
+    """Return True if an array of floats holds only integers below 2**60."""
     if points.dtype.kind != "f" or points.dtype.itemsize not in (4, 8):
         return False
     with np.errstate(invalid="ignore"):

@@ -83,7 +83,7 @@ def corners_only(cycle: Sequence[int], points: Sequence[IntPoint]) -> list[int]:
 
 
 def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
-    """Return the border of triangles that fill a polygon, in the direction of the triangles."""
+    """Return the border of triangles that together fill a polygon, in the same sense of rotation."""
     edges = {edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))}
     # An edge inside the polygon occurs in both directions.
     following = {a: b for a, b in edges if (b, a) not in edges}
@@ -101,13 +101,13 @@ def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
 
 
 def faces(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint]) -> list[Facet]:
-    """Return the faces of a convex surface of triangles, with planes in lowest terms."""
+    """Return the faces of a convex surface: its triangles, merged if they share a plane, in lowest terms."""
     reduced = [(rotated(corners), lowest_terms(plane)) for corners, plane in triangles]
     return merged([corners for corners, _ in reduced], [plane for _, plane in reduced], points)
 
 
 def merged(triangles: Sequence[tuple[int, ...]], planes: Sequence[Plane], points: Sequence[IntPoint]) -> list[Facet]:
-    """Return the faces of triangles that begin with their smallest corner, with planes already in lowest terms."""
+    """Return the faces that triangles form if those in one plane are merged; ``planes`` are already in lowest terms."""
     if len(set(planes)) == len(planes):
         return list(map(Facet, planes, triangles))
     # Triangles with the same plane in lowest terms belong to one face.

@@ -20,14 +20,12 @@ NEAR = -4.0
 
 
 class Surface(NamedTuple):
-    """Triangles in slots, which are reused after removal, and linked lists of waiting points.
+    """Triangles in numbered slots, which are reused after removal, and linked lists of the points waiting outside each.
 
-    grid (n, 3): the points.
-    corners, neighbours, normals (slots, 3), images (slots, 4): as in ``proposal``.
-    first, farthest, height: for each slot the first point of its list, the farthest one, and its value.
-    mark: twice the number of the step that last looked at the triangle, plus 1 if the point did not see it.
-    following: for each point the next one in its list, or -1.
-    leaving: for each point the new triangle whose first corner it is.
+    grid (n, 3): the points. corners, neighbours, normals (slots, 3), images (slots, 4): as in ``proposal``. first,
+    farthest, height: the first and the farthest waiting point of each triangle, and the value of its plane at the
+    latter. mark: twice the number of the step that last tested the triangle, plus 1 if it is not visible. following:
+    the next waiting point in the list of each point, or -1. leaving: the new triangle whose first corner each point is.
     """
 
     grid: NDArray[np.int64]
@@ -135,7 +133,7 @@ def value(known: Any, slot: int, p: int) -> float:
 
 
 def wait(known: Any, slot: int, p: int, height: float) -> None:
-    """Add a point with value ``height`` to the list of a triangle."""
+    """Add a point to the points waiting outside a triangle, where the triangle's plane has the value ``height``."""
     known.following[p] = known.first[slot]
     known.first[slot] = p
     if height > known.height[slot]:
@@ -144,7 +142,7 @@ def wait(known: Any, slot: int, p: int, height: float) -> None:
 
 
 def distribute(known: Any, p: int, slots: Any, count: int, exact: bool) -> bool:
-    """Add a point to the list of the first triangle that it sees. Return True if it may lie on the surface instead."""
+    """Let a point wait outside the first triangle that it sees. Return True if it may lie on the surface instead."""
     largest = -np.inf
     for k in range(count):
         height = value(known, slots[k], p)
@@ -156,7 +154,7 @@ def distribute(known: Any, p: int, slots: Any, count: int, exact: bool) -> bool:
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
-    """Write the triangles that a point sees, from ``start`` on, and the edges around them; return both counts."""
+    """Find the triangles that a point sees, from ``start`` on, and the edges around them. Return both numbers."""
     mark, neighbours = known.mark, known.neighbours
     visible[0] = start
     mark[start] = 2 * step

@@ -48,11 +48,10 @@ def check_convex(polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntP
 
 @dataclass(frozen=True, slots=True)
 class Polygons:
-    """The directed sides of all polygons in arrays of length k, facet after facet.
+    """The directed sides of all polygons, as arrays with one entry for each side, facet after facet.
 
-    A side begins at the point ``corner`` of ``facet``; ``next`` is the index of the next side of the facet, and
-    ``twin`` that of the same side of the neighbouring facet, in the opposite direction.  ``first`` and ``count`` give
-    for every facet the index of its first side and the number of its sides.
+    A side of ``facet`` begins at the point ``corner``. ``next`` is the following side of the facet. ``twin`` is the
+    same edge as a side of the neighbouring facet. ``first`` and ``count`` give the sides of each facet.
     """
 
     corner: Ints
@@ -123,7 +122,7 @@ def check_planes(hull: ExactHull, sides: Polygons) -> Objects:
 
 
 def values(planes: Objects, scaled: Sequence[IntPoint], facets: Ints, points: Ints) -> Objects:
-    """Return the value of each facet's plane at the point with the same position in ``points``, as Python integers."""
+    """Return the value of each facet's plane at one point; ``points`` has the point for each facet."""
     distinct, positions = np.unique(points, return_inverse=True)
     coordinates: Objects = np.array([scaled[index] for index in distinct.tolist()], object).reshape(-1, 3)
     plane, at = planes[facets], coordinates[positions]
@@ -132,7 +131,7 @@ def values(planes: Objects, scaled: Sequence[IntPoint], facets: Ints, points: In
 
 @dataclass(frozen=True, slots=True)
 class Images:
-    """The images u of points x = c + s u: ``places`` (n, 3) is u, ``low`` is c, and ``shifts`` the exponents of s."""
+    """The float64 images u of points x = c + s u: ``places`` is u, ``low`` is c, ``shifts`` are exponents of s."""
 
     low: tuple[int, ...]
     shifts: tuple[int, ...]

@@ -60,7 +60,7 @@ def on_grid(points: Sequence[IntPoint]) -> tuple[Ints, bool]:
 
 
 def propose(points: Sequence[IntPoint], fast: bool | None = None) -> Proposal | None:
-    """Return a proposed hull or None. ``fast`` selects the compiled kernel; None chooses the faster one."""
+    """Return a hull that still has to be proved, or None. ``fast`` selects compiled code; None chooses."""
     grid, exact = on_grid(points)
     start = _simplex(grid)
     if start is None:
@@ -131,11 +131,11 @@ def exact_signs(normals: Ints, differences: Ints) -> Ints:
 
 
 class _Growing:
-    """The current surface, in arrays indexed by triangle (a removed triangle keeps its index), and the waiting points.
+    """The surface while it grows: triangles in arrays, in which removed ones keep their index, and the waiting points.
 
-    ``corners`` (T, 3) are counterclockwise seen from outside, and ``neighbours`` (T, 3) the triangles beyond the edges
-    from each corner to the next.  ``images`` (T, 4) are the planes divided by |A| + |B| + |C|.  ``home`` is a triangle
-    that each of the ``waiting`` points sees, and ``height`` its value there.  Points ``near`` may lie on the surface.
+    ``corners`` (T, 3) are counterclockwise seen from outside. ``neighbours`` (T, 3) are the triangles beyond the edges.
+    ``images`` (T, 4) are the planes, divided by |A| + |B| + |C|. ``home`` is a triangle that each of the ``waiting``
+    points sees, and ``height`` the value of its plane there. Points ``near`` may lie on the surface.
     """
 
     def __init__(self, grid: Ints, exact: bool, start: list[int]) -> None:
@@ -176,7 +176,7 @@ class _Growing:
         self.made = end
 
     def _signed(self, values: Floats, points: Ints, triangles: Ints) -> Floats:
-        """Return the values.  A value whose sign is uncertain becomes its exact sign times 1e-300."""
+        """Return the values of planes at points; an uncertain value becomes its exact sign times 1e-300."""
         doubtful = np.flatnonzero(abs(values) <= DOUBT)
         if doubtful.size:
             point, triangle = points[doubtful], triangles[doubtful]
@@ -185,13 +185,13 @@ class _Growing:
         return values
 
     def _set_aside(self, points: Ints, largest: Floats) -> None:
-        """Record the given points that may lie on the surface.  None of the given points is outside."""
+        """Record those of the given points that may lie on the surface; none of them is outside it."""
         self.near.append(points[largest == 0] if self.exact else points[largest >= NEAR])
 
     def _tried_against_all(self, points: Ints, first: int) -> tuple[Ints, Ints, Floats]:
-        """Compare the points with all triangles from index ``first`` on.
+        """Compare every point with all triangles from index ``first`` on.
 
-        Return the points that see one of these triangles, the triangle with the largest value for each, and that value.
+        Return the points that see one of them, the triangle with the largest value for each, and that value.
         """
         triangles = np.arange(first, self.made)
         chosen, largest = np.empty(len(points), np.int64), np.empty(len(points))
@@ -209,9 +209,9 @@ class _Growing:
         return points[outside], chosen[outside], largest[outside]
 
     def _tried_against_own(self, points: Ints, remover: Ints, starts: Ints, counts: Ints) -> tuple[Ints, Ints, Floats]:
-        """Compare each point only with the new triangles of its remover: ``counts`` triangles from ``starts`` on.
+        """Compare each point only with the new triangles of the inserted point that removed its triangle.
 
-        The return value is that of ``_tried_against_all``.
+        These are ``counts`` triangles from ``starts`` on. The result is that of ``_tried_against_all``.
         """
         # One row for each pair of a point and a triangle of its remover.
         pairs = counts[remover]
@@ -229,7 +229,7 @@ class _Growing:
         return points[outside], chosen[outside], largest[outside]
 
     def round(self) -> bool:
-        """Insert some of the waiting points; return False if the surface turns out not to be closed."""
+        """Insert some of the waiting points. Return False if the surface is no longer closed."""
         nominated, at = self._nominated()
         rank, visible, edge_rank, edge_from, edge = self._regions(nominated, at)
         beyond = self.neighbours[edge_from, edge]
@@ -266,7 +266,7 @@ class _Growing:
         return True
 
     def _nominated(self) -> tuple[Ints, Ints]:
-        """Return candidate points and their triangles by increasing height, each the highest of its neighbours."""
+        """Return points that are farther outside than all points at the neighbouring triangles, with their triangles."""
         highest = np.full(self.made, -1.0)
         np.maximum.at(highest, self.home, self.height)
         top = self.height == highest[self.home]
@@ -279,9 +279,9 @@ class _Growing:
         return nominee[at], at
 
     def _regions(self, nominated: Ints, at: Ints) -> tuple[Ints, Ints, Ints, Ints, Ints]:
-        """Return all pairs (rank, triangle) of a nominated point and a triangle that it sees, and the horizons.
+        """Return the triangles that each nominated point sees, and the edges around them (its horizon).
 
-        A rank is an index into ``nominated``.  The horizons are triples (rank, triangle, edge).
+        Both carry the rank of the point in ``nominated``: pairs (rank, triangle) and triples (rank, triangle, edge).
         """
         # A pair is encoded as the integer rank * size + triangle, so that sets of pairs are sorted arrays.
         size = self.made
@@ -308,7 +308,7 @@ class _Growing:
         return rank, triangle, rank[row], triangle[row], edge
 
     def _reassign(self, owner: Ints, inserted: Ints, edge_rank: Ints, first: int) -> None:
-        """Compare the points whose triangles were removed with the new triangles, from ``first`` on."""
+        """Let the points that waited at removed triangles wait at new ones, from index ``first`` on, if they see one."""
         lost = ~self.alive[self.home]
         orphans, remover = self.waiting[lost], owner[self.home[lost]]
         done = np.zeros(len(self.grid), np.bool_)

@@ -40,15 +40,12 @@ BOUND = 2.0**-48
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """Points as integers around the origin, and their images.
+    """Points moved by an integer vector so that the origin is in their middle, and their float64 images.
 
-    centre: the point that is moved to the origin.
-    shifts: the exponents of the powers of two that divide the axes.
-    integers: the points minus ``centre``.
-    images: (n, 4) float64, with 1 in the fourth column.
-    bound: 2**-48, or 0 if float64 is exact because every step of evaluating a plane is an integer below 2**53.  For
-        |x| <= X, |y| <= Y, |z| <= Z the normal of a plane through three points is at most 8YZ, 8ZX, 8XY, its D at most
-        24XYZ, and every partial sum at most 48XYZ.
+    centre: the point that is moved to the origin. shifts: the exponents of the powers of two that divide the axes.
+    integers: the moved points. images: (n, 4) float64, with 1 in the fourth column. bound: 2**-48, or 0 if every step
+    of evaluating a plane is an integer below 2**53, which float64 holds exactly (48 times the product of the largest
+    coordinates is a bound).
     """
 
     centre: IntPoint
@@ -81,7 +78,7 @@ def frame(points: Sequence[IntPoint]) -> Frame:
 
 
 def plane_image(plane: Plane, shifts: IntPoint) -> tuple[float, float, float, float]:
-    """Return the image of a plane through a point of the frame (its moved integers)."""
+    """Return the float64 image of a plane through a point of the frame."""
     a, b, c, d = plane
     k, l, m = shifts  # noqa: E741
     power = max(a.bit_length() + k if a else 0, b.bit_length() + l if b else 0, c.bit_length() + m if c else 0)
@@ -101,12 +98,11 @@ _Horizon = list[tuple[int, int, int]]
 
 
 class Surface:
-    """The current surface, as parallel lists indexed by triangle; a removed triangle keeps its index.
+    """The surface while it grows, as parallel lists indexed by triangle, in which removed triangles keep their index.
 
-    Corners are counterclockwise seen from outside, and neighbours[t][k] is the triangle beyond the edge from corner k
-    of t to the next corner.  ``waiting`` has the points that remember a triangle, and ``home`` the triangle that each
-    point remembers, or -1.  ``mark`` is the last point for which visibility was determined, and the result (see
-    ``_visible``).
+    Corners are counterclockwise seen from outside. ``neighbours[t][k]`` is the triangle beyond edge k of triangle t.
+    ``waiting`` has the points waiting outside each triangle, and ``home`` the triangle of each point, or -1. ``mark``
+    is the result of the last test of visibility with its point (see ``_visible``).
     """
 
     def __init__(self, frame: Frame, simplex: Sequence[int]) -> None:
@@ -158,7 +154,7 @@ class Surface:
         return value(self.planes[triangle], self.frame.integers[p]) > 0
 
     def _distribute(self, points: list[int], triangles: range) -> None:
-        """Assign to every point one of ``triangles`` that it sees, or none.  The range ends at the newest triangle."""
+        """Let every point wait outside one of ``triangles`` (up to the newest) that it sees; the others are inside."""
         if not points:
             return
         bound = self.frame.bound
@@ -184,7 +180,7 @@ class Surface:
         return -1
 
     def _visible(self, p: int) -> tuple[list[int], _Horizon]:
-        """Return the triangles that ``p`` sees, and the horizon: each edge (start, end) with the triangle beyond."""
+        """Return the triangles that point ``p`` sees, and the edges around them: start, end, and triangle beyond."""
         # The search begins at the remembered triangle and spreads across edges; visible triangles are connected.
         visible = [self.home[p]]
         horizon: _Horizon = []
@@ -229,7 +225,7 @@ class Surface:
         self._distribute(orphans, range(first, len(self.corners)))
 
     def triangles(self) -> list[tuple[Triangle, Plane]]:
-        """Return the triangles of the surface with their planes in the frame, not reduced to lowest terms."""
+        """Return the triangles with their planes in the coordinates of the frame, not reduced to lowest terms."""
         return [
             (corners, plane)
             for corners, plane, alive in zip(self.corners, self.planes, self.alive, strict=True)

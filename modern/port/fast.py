@@ -142,7 +142,7 @@ def _cloud(hull: Polyhedron) -> Cloud:
 
 
 def _slots(table: Equations, spare: int) -> Slots:
-    """Return the table in the first slots, followed by the given number of empty ones."""
+    """Return the table of planes as numbered slots, followed by ``spare`` empty ones."""
     count = len(table)
     coefficients = np.zeros((4, count + spare), table.coefficients.dtype)
     defining = np.zeros((3, count + spare), np.int64)
@@ -172,7 +172,7 @@ def _rules(hull: Polyhedron) -> Rules:
 
 
 def _store_state(hull: Polyhedron, cloud: Cloud, slots: Slots, state: NDArray[np.int64]) -> None:
-    """Store the kernels' state in the hull. From then on slots are the serial numbers of their equations."""
+    """Copy the results of the compiled code into the hull; the slots become the serial numbers of its equations."""
     count, made = state[workspace.COUNT], state[workspace.MADE]
     remaining_slots = np.flatnonzero(slots.alive[:made])
     points, table, remaining = hull.points, hull.table, hull.remaining

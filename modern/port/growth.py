@@ -105,10 +105,10 @@ class Growing(Protocol):
     to_check: int
 
     def outside_point(self) -> int | None:
-        """Return the index of the next vertex, or None if every equation supports."""
+        """Return the index of the next vertex, or None if no equation has a point outside."""
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex. Return the number of equations that had the point outside."""
+        """Make the point at ``index`` a vertex, and return how many equations had the point outside."""
 
 
 Hull = TypeVar("Hull", bound=Growing)
@@ -116,7 +116,7 @@ Hull = TypeVar("Hull", bound=Growing)
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """The input indices added and eliminated by a stage, NETC (``checked``), and the number of equations replaced."""
+    """The points that a stage added and eliminated, by input index, and the numbers of checked and replaced equations."""
 
     added: tuple[int, ...]
     checked: int
@@ -125,7 +125,7 @@ class Grown:
 
 
 def stage(hull: Growing, first: bool) -> Grown | None:
-    """Add the next point and eliminate the points inside, in H_1 if ``first``. Return None if no point lies outside."""
+    """Add the next vertex and eliminate points inside; ``first`` marks H_1. Return None if no point is outside."""
     if first:
         added, checked, outside = hull.points.input_indices(slice(0, hull.vertices)), 0, 0
     else:

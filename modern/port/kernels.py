@@ -46,7 +46,7 @@ BLOCK = 256
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
-    """Return the first slot in the range whose plane does not have the point inside, or -1."""
+    """Return the first slot in the range whose plane has the point on it or outside it, or -1 if there is none."""
     for slot in range(first, last):
         if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
             return slot
@@ -54,7 +54,7 @@ def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
 
 
 def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
-    """Eliminate the points inside all planes, as ``Remaining.strike_inside`` does."""
+    """Eliminate the points that are inside all planes; this is the compiled ``Remaining.strike_inside``."""
     made, tried, eliminated_before = state[MADE], state[TRIED], state[GONE]
     next_index = state[VERTICES]
     for index in range(state[VERTICES], state[COUNT]):
@@ -82,7 +82,7 @@ def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
 
 
 def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation: Any, above: Any) -> int:
-    """Count the points with a larger value. Without branches the compiler processes several points at a time."""
+    """Count the points with a larger value, without branches, so that the processor handles several at a time."""
     x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
     count = 0
     for k in range(len(x)):
@@ -91,7 +91,7 @@ def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation:
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
-    """Return the index of the last point with the largest value, or -1 if no point is outside."""
+    """Return the index of the last point at which the plane has its largest value, or -1 if no point is outside."""
     # A value within the slack counts as zero. The difference is a zero of the right type.
     largest = e if e > 0 else e - e
     index = -1
@@ -110,9 +110,7 @@ def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any,
 
 
 def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
-    """Return the next vertex as ``Polyhedron.outside_point`` does, -1 for none, or -2 if a plane misses a defining
-    point.
-    """
+    """Return the index of the next vertex, -1 for none, or -2 if a plane misses a point that defines it."""
     while state[CHECK] < state[MADE]:
         slot = state[CHECK]
         if slots.alive[slot]:
@@ -132,8 +130,8 @@ def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
 def planes_to_replace(point: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> int:
     """List the planes that have the point outside, in the order of replacement, and return their number.
 
-    The first is the plane to check. The planes before it were tested on all remaining points, so none of them has the
-    point outside.
+    The first is the plane that is being checked. Earlier planes have no point outside, because they were checked
+    before.
     """
     order, values = scratch.order, scratch.values
     # Statements 135 to 140: the plane being checked first, then by decreasing value at the new vertex.
@@ -167,7 +165,7 @@ def sort_descending(order: NDArray[np.int64], values: NDArray[Any], first: int, 
 
 
 def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, state: Any, rules: Any) -> int:
-    """Write the planes of ``Polyhedron.three_planes`` into new slots. Return correction bits, or -1 to stop."""
+    """Write the three planes that replace each plane into new slots. Return flags for corrections, or -1 to stop."""
     new, slot, corrections = state[VERTICES], state[MADE], 0
     point = corner(cloud.coordinates, index)
     for k in range(count):
@@ -202,11 +200,10 @@ def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, s
 
 
 def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) -> None:
-    """Find the pairs of equal planes among the fresh planes, which begin at slot ``first``.
+    """Find the pairs of equal planes among the new planes, which begin at slot ``first``.
 
-    ``scratch.partner`` receives for each fresh plane the index of the other fresh plane with the same three points, or
-    -1. Both are counted from zero. Among three equal planes the first two are a pair. Unpaired planes are stored in the
-    chains of a hash table.
+    ``scratch.partner`` receives for each new plane the number of the new plane with the same three points, or -1. Of
+    three equal planes the first two are a pair. A hash table holds the planes that have no partner yet.
     """
     partner, following, chains, keys = scratch.partner, scratch.following, scratch.chains, scratch.keys
     size = 4
@@ -238,7 +235,7 @@ def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) ->
 
 
 def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
-    """Return True if a deleted pair leaves at most one plane after it, as ``Polyhedron.single`` records it."""
+    """Return True if a deleted pair of planes leaves at most one plane after it."""
     remaining = count
     for k in range(count):
         if partner[k] < 0:
@@ -251,7 +248,7 @@ def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
 
 
 def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any) -> int:
-    """Make a point a vertex, as ``Polyhedron.expand`` does."""
+    """Make a point a vertex; this is the compiled ``Polyhedron.expand``."""
     replaced_count = planes_to_replace(corner(cloud.coordinates, index), slots, scratch, state)
     made, new = state[MADE], state[VERTICES]
     last = made + 3 * replaced_count
@@ -297,10 +294,7 @@ def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.i
 
 
 def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
-    """Run the given number of stages, or all stages if the number is negative.
-
-    ``first`` marks the stage of H_1, which adds no vertex.
-    """
+    """Run the given number of stages, or all if it is negative. ``first`` means that the next stage is H_1."""
     while True:
         if not first:
             # No points remain, and the last test eliminated none (103).
@@ -334,9 +328,7 @@ def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: An
 
 
 def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], indices: NDArray[np.int64]) -> int:
-    """Find the points of each equation as ``Equations.satisfied`` does. Return their number, even if not all are
-    stored.
-    """
+    """List the points that satisfy each equation, and return their number, even if not all of them are stored."""
     k, count = 0, coordinates.shape[1]
     for slot in range(len(slots.alive)):
         plane_equation, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k

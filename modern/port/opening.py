@@ -37,7 +37,7 @@ class Opening:
 
 
 def direction(arithmetic: Arithmetic, p: Point, q: Point) -> int:
-    """Return KPERP: 1 if x differs, otherwise 2 if y differs, otherwise 3 (108 to 112; 146+1, 151)."""
+    """Return the first axis on which two points differ: 1 for x, 2 for y, 3 for z (KPERP; 108 to 112, 146+1, 151)."""
     if not arithmetic.is_zero(p[0] - q[0]):
         return 1
     return 3 if arithmetic.is_zero(p[1] - q[1]) else 2
@@ -56,7 +56,7 @@ def line_equations(p: Point, q: Point, perpendicular: int, zero: Scalar) -> tupl
 
 
 def extremes(arithmetic: Arithmetic, points: PointTable) -> tuple[int, int, int]:
-    """Return the indices of the last largest and the last smallest point, and KPERP (134 to 152)."""
+    """Return the indices of the last largest and last smallest point, and the axis that decides (134 to 152)."""
     axis = 0
     while True:
         # The first axis on which the points differ gives the two extremes and KPERP.
@@ -96,10 +96,10 @@ def all_within(arithmetic: Arithmetic, equation: tuple[Scalar, ...], values: Vec
 
 
 def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, text: bool = False) -> Opening:
-    """Run program 1 on distinct points, which are reordered.
+    """Run program 1 on distinct points, which it reorders, and return the opening of the procedure.
 
-    ``text`` selects the rule of the text (p. 29): the fourth point has the largest value, not the largest square. If
-    that value is 0, there is no tetrahedron (``error``).
+    As the fourth point, the text (p. 29; ``text``) takes the one with the largest value, the listing that with the
+    largest square.
     """
     count = len(points)
     zero = arithmetic.number(0)
@@ -134,7 +134,7 @@ def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, t
 
 
 def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
-    """Return the point C, the mean of the first points (199+1; program 2, 102+7)."""
+    """Return the point C, an inner point of the hull: the mean of the first points (199+1; program 2, 102+7)."""
     x, y, z = (row[:count] for row in points.rows)
 
     def average(row: Vector) -> Scalar:
@@ -147,7 +147,7 @@ def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
 
 
 def tetrahedron(arithmetic: Arithmetic, points: PointTable, slack: Slack | None) -> Equations:
-    """Return the four planes of H_1, not yet oriented (200 to 203)."""
+    """Return the four planes of the first hull H_1, whose signs are not yet fixed (200 to 203)."""
     corners = np.array([(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)]).T
     p, q, r = (points.several(row) for row in corners)
     coefficients = np.stack(plane(p, q, r))

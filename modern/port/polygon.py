@@ -21,20 +21,20 @@ _FROM, _TO, _CONSTANT = np.array([0, 1, 2]), np.array([1, 2, 0]), np.array([0, 1
 
 
 def projection(arithmetic: Arithmetic, plane: tuple[Scalar, ...]) -> int:
-    """Return KPROJ: 1 to project onto the y-z plane, 2 onto the x-z plane, 3 onto the x-y plane (209 to 217)."""
+    """Return the axis that is projected away: 1 for x, 2 for y, 3 for z (KPROJ; 209 to 217)."""
     a_is_zero, b_is_zero = (arithmetic.is_zero(c) for c in plane[:2])
     return 1 if not a_is_zero else 2 if not b_is_zero else 3
 
 
 def lines(points: PointTable, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
-    """Return the equations (3.5) of lines through two points each, as vectors. C is computed from the point ``by``."""
+    """Return the equations (3.5) of lines through two points each, with the constant term computed at ``by``."""
     (u1, v1, _), (u2, v2, _), (cu, cv, _) = (points.several(p) for p in (first, second, by))
     return np.stack(line(u1, v1, u2, v2, cu, cv))
 
 
 @dataclass
 class Polygon:
-    """The state of program 2, changed in place; the third coordinate is the one that was projected away."""
+    """The state of program 2. The third coordinate of each point is the one that was projected away."""
 
     arithmetic: Arithmetic
     points: PointTable
@@ -51,14 +51,14 @@ class Polygon:
         self.table = Equations(self.arithmetic, self.slack, self.turn(_FROM, _TO, _CONSTANT), _FIRST.copy())
 
     def run(self) -> None:
-        """Expand H_1 to the hull of all points (103 to 135). Raise Stopped if the procedure cannot continue."""
+        """Expand the first triangle H_1 to the hull of all points (103 to 135). Raise Stopped if that fails."""
         grow(self)
 
     def turn(self, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
         return turned(self.arithmetic, lines(self.points, first, second, by), self.centre)[0]
 
     def outside_point(self) -> int | None:
-        """Return the next vertex, the point farthest outside the first line that is not supporting (124 to 132)."""
+        """Return the next vertex: the point farthest outside the first line that has a point outside (124 to 132)."""
         while self.to_check < len(self.table):
             u, v, _ = self.points.rows
             # The two end points of the line must satisfy its equation exactly, or the data are not acceptable (126).
@@ -95,10 +95,10 @@ class Polygon:
 def strike_between(
     arithmetic: Arithmetic, table: Equations, points: PointTable, progress: Progress
 ) -> tuple[NDArray[np.int64], list[int]]:
-    """Delete points that lie between two others of their line, and repeated equations of a line (144 to 169).
+    """Delete the points between two others of their line, and the repeated equations of a line (144 to 169).
 
-    Return the indices of the two end points of each remaining equation. Also return the indices of the points that are
-    not vertices, in the order in which they are identified. Raise Stopped if the procedure cannot continue.
+    Return the end points of each remaining equation, and the deleted points in the order of their discovery. Raise
+    Stopped if the procedure cannot continue.
     """
     ends = table.defining.copy()
     not_vertices: list[int] = []
@@ -129,10 +129,10 @@ def strike_between(
 def other_lines(
     arithmetic: Arithmetic, table: Equations, points: PointTable, ends: NDArray[np.int64], keep: int
 ) -> NDArray[np.bool_]:
-    """Delete the equations through both ends, except ``keep`` (161 to 167). Return a mask of the remaining equations.
+    """Mark all equations except those that hold at both ends of a line, but keep the equation ``keep`` (161 to 167).
 
-    As in the listing, KK stays a position in the table while equations before it are deleted. Raise Stopped if the
-    listing would read beyond the end of its table.
+    As in the listing, the index KK is not adjusted when earlier equations are deleted. Raise Stopped if the listing
+    would read beyond the end of its table.
     """
     first, second = (points.at(int(i))[:2] for i in ends)
     both = (arithmetic.sign(table.all_at(first)) == 0) & (arithmetic.sign(table.all_at(second)) == 0)
@@ -153,7 +153,7 @@ def other_lines(
 
 
 def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, int], progress: Progress) -> int:
-    """Return which of three points of a line lies between the others, opposite the longest side (155 to 157)."""
+    """Return which of three points on a line lies between the others: the one opposite the longest side (155 to 157)."""
     (u1, v1, _), (u2, v2, _), (u3, v3, _) = (points.at(i) for i in three)
     a = distance_squared(u1, v1, u2, v2)
     b = distance_squared(u1, v1, u3, v3)
@@ -168,12 +168,12 @@ def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, in
 
 
 def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the vertices, counted without the points that are not vertices."""
+    """Return the numbers of the vertices after the points that are not vertices are no longer counted."""
     return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 
 def listed_numbers(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the same numbers as the listing computes them, from the first point on (179+2 to 191)."""
+    """Return the numbers of the vertices by the listing's rule, which counts from the first point on (179+2 to 191)."""
     numbers = []
     for number in ends.ravel().tolist():
         # The listing compares with the number already lowered, so it can skip a point that is no vertex.

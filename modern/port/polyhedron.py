@@ -32,10 +32,7 @@ LISTED_PLANES, PLANES = 98, 193
 
 @dataclass(frozen=True)
 class Fresh:
-    """The new planes of a stage.
-
-    ``through`` is True if one of them passes through C. ``degenerate`` is True if the coefficients of one are zeros.
-    """
+    """The new planes of a stage, and whether one passes through the inner point C or has only zero coefficients."""
 
     coefficients: Vector
     defining: NDArray[np.int64]
@@ -60,11 +57,11 @@ class Polyhedron:
     text: bool = False
 
     def run(self, grow_stage: "Callable[[Polyhedron, bool], Grown | None]" = stage) -> None:
-        """Expand H_1 to the hull of all points (103 to 160) with the given function for a stage."""
+        """Expand the first tetrahedron H_1 to the hull of all points (103 to 160); ``grow_stage`` adds one vertex."""
         grow(self, grow_stage)
 
     def outside_point(self) -> int | None:
-        """Return the next vertex, the point farthest outside the first plane that is not supporting (115 to 125)."""
+        """Return the next vertex: the point farthest outside the first plane that has a point outside (115 to 125)."""
         while self.to_check < len(self.table):
             # Statements 116 to 119: the three defining points must satisfy the equation exactly.
             values = self.table.one_at(self.to_check, self.points.rows)
@@ -77,11 +74,10 @@ class Polyhedron:
         return None
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex: three planes replace each plane that has it outside (125 to 160).
+        """Make the point at ``index`` a vertex, and return how many planes had it outside (125 to 160).
 
-        The plane being checked is replaced first. The others follow by decreasing value at the point, and of equal
-        values the last comes first. If ``text`` is true, they follow in the order of their numbers instead. Return the
-        number of planes replaced. Raise Stopped if the procedure cannot continue.
+        Three planes replace each of these planes: first the one that is being checked, then the others by decreasing
+        value at the point (if ``text`` is true, by their numbers). Raise Stopped if the procedure cannot continue.
         """
         new = self.vertices
         if new == len(self.points):
@@ -124,7 +120,7 @@ class Polyhedron:
         return Fresh(coefficients, defining, bool(through.any()), degenerate)
 
     def note(self, fresh: Fresh, size: int) -> None:
-        """Record the conditions at which the listing would have stopped: a plane through C, a full plane table."""
+        """Record conditions at which the listing would have stopped: a plane through C, or a full table of planes."""
         if fresh.through:
             self.progress.correct(THROUGH_CENTRE)
         if size > LISTED_PLANES:
@@ -134,10 +130,9 @@ class Polyhedron:
         return self.arithmetic.sign(self.table.values(fresh.coefficients, point))
 
     def single(self, defining: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Return a mask of the fresh planes that remain (141 to 160).
+        """Return a mask of the new planes without pairs of equal planes, which delete each other (141 to 160).
 
-        Two planes with the same three points delete each other. No older plane contains the new vertex, so fresh
-        planes are compared only with each other.
+        The new planes are compared only with each other, because no older plane contains the new vertex.
         """
         retained = np.ones(defining.shape[1], np.bool_)
         if len(retained) == 3:
@@ -158,11 +153,10 @@ class Polyhedron:
         return retained
 
     def stop(self, first_equation: int, above: dict[int, Scalar], new: int) -> None:
-        """Replace one plane at a time until the arithmetic fails, and raise Stopped. It always fails.
+        """Replace one plane at a time until the arithmetic fails, and raise Stopped.
 
-        A plane of zeros is an error. A plane through the new point that has this point outside is replaced by a copy
-        of itself and two other planes. The listing would repeat this until the table is full, so a plane that is to be
-        replaced a second time counts as a full table.
+        A plane of zeros is an error. A plane through the new point that has this point outside is replaced by a copy of
+        itself and two other planes, which the listing would repeat until its table is full.
         """
         point = self.points.at(new)
         defining = {k: self.table.defining[:, k] for k in above}
@@ -191,10 +185,7 @@ On = list[NDArray[np.int64]]
 
 
 def strike_repeats(table: Equations, on: On, count: int, progress: Progress) -> On:
-    """Keep the first equation of each plane (164 to 174). Return the points on each remaining equation.
-
-    An equation is deleted if the three defining points of an earlier one satisfy it.
-    """
+    """Keep the first equation of each plane, and return the points on each remaining equation (164 to 174)."""
     mm, nn, kk = table.defining
     struck_by = np.full(len(table), -1)
     member = np.zeros(count, np.bool_)
@@ -216,7 +207,7 @@ def strike_repeats(table: Equations, on: On, count: int, progress: Progress) -> 
 
 
 def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
-    """Return the equations, except the first, that are not satisfied by exactly their three defining points."""
+    """Return the equations, except the first, that hold at other points than the three that define them."""
     three = np.flatnonzero(np.fromiter(map(len, on), np.int64, len(on)) == 3)
     only_defining = np.zeros(len(on), np.bool_)
     if three.size:

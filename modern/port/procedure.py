@@ -65,7 +65,7 @@ def convex_hull(
 
 @dataclass
 class _Run:
-    """The state of one call, which runs the parts of the procedure in turn."""
+    """The state of one call of the procedure."""
 
     arithmetic: Arithmetic
     coordinates: Vector
@@ -118,7 +118,7 @@ class _Run:
         )
 
     def solid(self, points: PointTable, opening: Opening) -> Hull:
-        """Run program 1 from 199 on, then program 3."""
+        """Compute the hull of points in space: the rest of program 1 from statement 199 on, then program 3."""
         numbers, centre = self.arithmetic, opening.centre
         assert centre is not None
         self.result = replace(self.result, centre=texts(numbers, centre, (1, 1, 1)))  # type: ignore[arg-type]
@@ -151,7 +151,7 @@ class _Run:
         )
 
     def coplanar(self, points: PointTable, opening: Opening) -> Hull:
-        """Run program 1 from 209 on, then program 2."""
+        """Compute the hull of coplanar points: the rest of program 1 from statement 209 on, then program 2."""
         numbers = self.arithmetic
         assert opening.plane is not None
         projected_axis = projection(numbers, opening.plane)
@@ -179,7 +179,7 @@ class _Run:
         )
 
     def triangle(self, polygon: Polygon, projected_axis: int) -> Hull:
-        """Return the hull of three points, which program 1 determines (131), with faces like those of a polygon."""
+        """Return the hull of three points, for which program 1 is sufficient (131)."""
         table, points = polygon.table, polygon.points
         on = list(table.defining.T)
         return replace(

@@ -55,10 +55,9 @@ _BLOCK = 1 << 16
 
 @dataclass(frozen=True)
 class Slack:
-    """The interval from -e to +e of chapter 7, in which a value counts as zero (thesis p. 117).
+    """The interval from -e to +e of chapter 7, in which a value counts as zero (thesis p. 117); ``size`` is e.
 
-    ``size`` is e itself. If ``relative`` is true, it is the e of an equation whose largest coefficient A, B or C is
-    1. A point whose value then counts as zero is at most ``size`` from the plane.
+    If ``relative`` is true, e is multiplied by the largest coefficient A, B or C of the equation.
     """
 
     arithmetic: Arithmetic
@@ -82,7 +81,7 @@ class Slack:
 
 
 def snapped(arithmetic: Arithmetic, values: Vector, slack: Vector | None) -> Vector:
-    """Return the values. Values within the slack are replaced by zero."""
+    """Return the values, with those within the slack replaced by zero."""
     if slack is None:
         return values
     return np.where(arithmetic.within(values, slack), arithmetic.filled([arithmetic.number(0)])[0], values)
@@ -90,10 +89,10 @@ def snapped(arithmetic: Arithmetic, values: Vector, slack: Vector | None) -> Vec
 
 @dataclass
 class Equations:
-    """The table of equations: a column for each equation, in the order in which the procedure keeps them.
+    """The table of equations, one in each column, in the order of the procedure.
 
-    ``coefficients`` has the rows A, B, C (of lines A, B) and the constant term. ``defining`` has a row for each
-    defining point: MM, NN and, for planes, KK. ``serial`` is a number that an equation keeps when others are deleted.
+    ``coefficients`` has the rows A, B, C (for lines A, B) and the constant term. ``defining`` has the points that
+    define each equation, in the listing MM, NN and KK. ``serial`` numbers equations for good.
     """
 
     arithmetic: Arithmetic
@@ -187,10 +186,9 @@ class Equations:
 def turned(
     arithmetic: Arithmetic, coefficients: Vector, centre: tuple[Scalar, ...] | None
 ) -> tuple[Vector, NDArray[np.bool_]]:
-    """Reverse the equations (columns) that are positive at C. Return all equations and a mask of those that are 0 at C.
+    """Reverse the equations that are positive at the inner point C, and mark those that are zero there.
 
-    ``centre`` is None if the origin was moved to C; the constant term is then the value (thesis p. 118). No epsilon
-    applies, because C is not an input point.
+    ``centre`` is None if the origin was moved to C, so that the constant term is the value at C (thesis p. 118).
     """
     values = coefficients[-1] if centre is None else at(tuple(coefficients), centre)
     signs = arithmetic.sign(values)

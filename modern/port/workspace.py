@@ -25,10 +25,10 @@ THROUGH, TABLE, PAIR = 1, 2, 4
 
 
 class Cloud(NamedTuple):
-    """The points in their current order, as coordinates (3, n) with their indices in the input.
+    """The points in their current order: coordinates (3, n), and indices in the input.
 
-    ``keeper`` holds for each point the slot of a plane that does not have the point inside, or -1. ``eliminated``
-    receives the eliminated points in order.
+    ``keeper`` is the slot of a plane that has the point on it or outside it, or -1. ``eliminated`` collects the
+    eliminated points.
     """
 
     coordinates: NDArray[Any]
@@ -38,10 +38,7 @@ class Cloud(NamedTuple):
 
 
 class Slots(NamedTuple):
-    """The planes by slot: ``coefficients`` (4, slots) and ``defining`` (3, slots).
-
-    ``tolerances`` holds the e of each plane, or -1.
-    """
+    """The planes by slot: coefficients (4, slots), defining points (3, slots), and the e of each plane, or -1."""
 
     coefficients: NDArray[Any]
     defining: NDArray[np.int64]
@@ -82,7 +79,7 @@ def scratch_for(slots: int, number: Any) -> Scratch:
 
 
 class Rules(NamedTuple):
-    """The constants of a run: C (unless the origin was ``moved`` to C), e or -1, and two sizes of the plane table."""
+    """The constants of a run: the inner point C (unless it is the origin), e or -1, and two sizes of the table."""
 
     centre: NDArray[Any]
     moved: bool
@@ -128,7 +125,7 @@ def tolerance(coefficients: Any, rules: Any) -> Any:
 
 
 def pack(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> None:
-    """Close the gaps between the planes that remain."""
+    """Move the remaining planes together, so that no slot between them is empty."""
     used, new_slots = state[MADE], scratch.order
     check, tried, k = -1, -1, 0
     for slot in range(used):

@@ -194,7 +194,7 @@ def _bits(numbers: Grid, count: int, old_distance: int, new_distance: int) -> Gr
 
 
 def _within(a: Octree, b: Octree, deeper: int) -> NDArray[np.bool_]:
-    """Return which leaves of ``a`` lie in a leaf of ``b`` and are at least ``deeper`` levels below it."""
+    """Return for each leaf of ``a`` whether a leaf of ``b`` contains it and is at least ``deeper`` levels larger."""
     if not len(b.codes):
         return np.zeros(len(a.codes), dtype=np.bool_)
     # The voxels of a leaf have consecutive codes, so only the last leaf of b that does not begin later can contain it.
