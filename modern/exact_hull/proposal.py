@@ -266,7 +266,7 @@ class _Growing:
         return True
 
     def _nominated(self) -> tuple[Ints, Ints]:
-        """Return points that are farther outside than all points at the neighbouring triangles, with their triangles."""
+        """Return points that are farther outside than the points at all neighbouring triangles, with their triangles."""
         highest = np.full(self.made, -1.0)
         np.maximum.at(highest, self.home, self.height)
         top = self.height == highest[self.home]
@@ -308,7 +308,7 @@ class _Growing:
         return rank, triangle, rank[row], triangle[row], edge
 
     def _reassign(self, owner: Ints, inserted: Ints, edge_rank: Ints, first: int) -> None:
-        """Let the points that waited at removed triangles wait at new ones, from index ``first`` on, if they see one."""
+        """Let points that waited at removed triangles wait at new ones, from index ``first`` on, if they see one."""
         lost = ~self.alive[self.home]
         orphans, remover = self.waiting[lost], owner[self.home[lost]]
         done = np.zeros(len(self.grid), np.bool_)

@@ -116,7 +116,7 @@ Hull = TypeVar("Hull", bound=Growing)
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """The points that a stage added and eliminated, by input index, and the numbers of checked and replaced equations."""
+    """The points that a stage added and eliminated, by input index, and the numbers of checked and replaced ones."""
 
     added: tuple[int, ...]
     checked: int
@@ -125,7 +125,7 @@ class Grown:
 
 
 def stage(hull: Growing, first: bool) -> Grown | None:
-    """Add the next vertex and eliminate points inside; ``first`` marks H_1. Return None if no point is outside."""
+    """Add the next vertex and eliminate the points inside. Return None if no point is outside."""
     if first:
         added, checked, outside = hull.points.input_indices(slice(0, hull.vertices)), 0, 0
     else:

@@ -153,7 +153,7 @@ def other_lines(
 
 
 def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, int], progress: Progress) -> int:
-    """Return which of three points on a line lies between the others: the one opposite the longest side (155 to 157)."""
+    """Return which of three points on a line lies between the others: that opposite the longest side (155 to 157)."""
     (u1, v1, _), (u2, v2, _), (u3, v3, _) = (points.at(i) for i in three)
     a = distance_squared(u1, v1, u2, v2)
     b = distance_squared(u1, v1, u3, v3)
@@ -168,7 +168,7 @@ def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, in
 
 
 def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the vertices after the points that are not vertices are no longer counted."""
+    """Return the numbers of the vertices if the points that are not vertices are not counted."""
     return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 
