@@ -266,7 +266,7 @@ class _Growing:
         return True
 
     def _nominated(self) -> tuple[Ints, Ints]:
-        """Return points that are farther outside than the points at all neighbouring triangles, with their triangles."""
+        """Return points that are farther outside than the points at neighbouring triangles, with their triangles."""
         highest = np.full(self.made, -1.0)
         np.maximum.at(highest, self.home, self.height)
         top = self.height == highest[self.home]
