@@ -1,6 +1,4 @@
-"""A folder for the command line to be tried in."""
-
-from __future__ import annotations
+"""A folder in which the tests run commands."""
 
 from pathlib import Path
 
@@ -11,7 +9,7 @@ from tests.support.commands import DECK, PROGRAM
 
 @pytest.fixture
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty folder to be in, with one good deck and one good program."""
+    """Change to a folder that holds only a valid deck and a valid program."""
     monkeypatch.chdir(tmp_path)
     Path("good.deck").write_text(DECK, encoding="utf-8")
     Path("good.f").write_text(PROGRAM, encoding="utf-8")

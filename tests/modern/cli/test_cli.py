@@ -1,6 +1,4 @@
-"""The command line as a user meets it: exit codes, one-line messages, pipes, files written whole."""
-
-from __future__ import annotations
+"""The command line: exit codes, one-line messages, pipes, and files written completely."""
 
 import importlib
 import json
@@ -23,7 +21,7 @@ def points(n: str, *cards: str) -> str:
 
 GOOD_POINT = "+.10000000E+01+.20000000E+01+.30000000E+01"
 
-# name, file's contents, arguments, words of the message
+# name, contents of the file, arguments, part of the message
 BAD_DECKS = [
     ("empty", "", "the deck is empty"),
     ("blank", "\n\n", "only blank cards"),
@@ -49,7 +47,7 @@ BAD_DECKS = [
 
 
 @pytest.mark.parametrize(("text", "words"), [b[1:] for b in BAD_DECKS], ids=[b[0] for b in BAD_DECKS])
-def test_bad_hull_deck(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
+def test_an_invalid_deck_is_rejected(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
     Path("bad.deck").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, "hull", "bad.deck")
     assert code == 2
@@ -75,7 +73,9 @@ BAD_SOURCES = [
 
 @pytest.mark.parametrize(("text", "words"), [b[1:] for b in BAD_SOURCES], ids=[b[0] for b in BAD_SOURCES])
 @pytest.mark.parametrize("command", ["run", "compile", "map"])
-def test_bad_source(room: Path, capsys: pytest.CaptureFixture[str], command: str, text: str, words: str) -> None:
+def test_an_invalid_program_is_rejected(
+    room: Path, capsys: pytest.CaptureFixture[str], command: str, text: str, words: str
+) -> None:
     Path("bad.f").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, command, "bad.f")
     assert (code, out) == (2, "")
@@ -97,10 +97,7 @@ MISUSE = [
     (["run", "good.f", "x.deck", "--trace", "."], ".: is a directory"),
     (["run", "good.f", "x.deck", "--layers", "lacuna"], "--layers is for the built-in programs"),
     (["run", "program1", "good.deck", "--layers", "nosuch"], "has no layer 'nosuch'"),
-    (
-        ["hull", "good.deck", "--layers", "nosuch"],
-        "no program has a layer 'nosuch'; the layers are corrected, ",
-    ),
+    (["hull", "good.deck", "--layers", "nosuch"], "no program has a layer 'nosuch'; the layers are corrected, "),
     (["hull", "good.deck", "--core", "20000"], "OVERLAP"),
     (["run", "-", "-"], "cannot both come from standard input"),
     (["run", "program1"], "the hopper is empty at the first READ"),
@@ -124,21 +121,21 @@ def test_misuse(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[
     assert sorted(os.listdir()) == before
 
 
-def test_hull_puts_cards_out_and_types_on_stderr(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_hull_writes_cards_to_stdout_and_typed_lines_to_stderr(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "hull", "good.deck")
     assert code == 0
     assert "CONVEX HULL HAS BEEN DETERMINED" in out
     assert err == "POINTS ARE NOT COPLANAR\n"
 
 
-def test_profile_in_a_narrow_terminal(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_profile_fits_a_narrow_terminal(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, _, err = call(capsys, "hull", "good.deck", "--profile")
     assert code == 0
     assert "time on a 1620 Model 1" in err
     assert all(len(line) <= 80 for line in err.splitlines())
 
 
-def test_accepted_line_ends_and_blank_fields(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_line_ends_and_blank_fields_are_accepted(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("crlf.deck").write_bytes(DECK.replace("\n", "\r\n").rstrip().encode())
     assert call(capsys, "hull", "crlf.deck")[0] == 0
     Path("blank.deck").write_text(DECK.replace("+.00000000E+00", " " * 14), encoding="utf-8")
@@ -147,7 +144,7 @@ def test_accepted_line_ends_and_blank_fields(room: Path, capsys: pytest.CaptureF
     assert "warning: blank.deck: card 2, column 1: x: a blank field is read as zero" in err
 
 
-def test_a_point_that_stands_twice_is_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_repeated_point_is_noted(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("twice.deck").write_text(DECK.replace(" 4", " 5") + "1.0           -.0           .0\n", encoding="utf-8")
     _, _, err = call(capsys, "hull", "twice.deck")
     assert "warning: twice.deck: card 6, column 1: the point of card 3 again" in err
@@ -161,8 +158,8 @@ def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys: pytest.Captur
     )
 
 
-def test_hopper_empty_at_a_later_read_ends_a_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Any READ may meet an empty hopper in ``run``; ``hull`` asks for whole data sets."""
+def test_an_empty_hopper_at_a_later_read_ends_a_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Any READ of ``run`` may find the hopper empty. ``hull`` requires complete data sets."""
     Path("short.deck").write_text(" 3\n" + GOOD_POINT + "\n", encoding="utf-8")
     assert call(capsys, "run", "program1", "short.deck")[:2] == (0, "")
     code, out, err = call(capsys, "hull", "short.deck")
@@ -170,7 +167,7 @@ def test_hopper_empty_at_a_later_read_ends_a_run(room: Path, capsys: pytest.Capt
     assert "short.deck: card 2, column 1: the deck ends after 1 of 3 points" in err
 
 
-def test_hopper_empty_in_the_middle_of_a_list(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_empty_hopper_within_a_list_is_an_error(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("list.f").write_text("      READ 1,I,J\n    1 FORMAT(I4)\n      END\n", encoding="utf-8")
     Path("short.deck").write_text("   3\n", encoding="utf-8")
     code, out, err = call(capsys, "run", "list.f", "short.deck")
@@ -178,7 +175,7 @@ def test_hopper_empty_in_the_middle_of_a_list(room: Path, capsys: pytest.Capture
     assert "short.deck: card 1, column 1: the deck ends in the middle of a data set" in err
 
 
-def test_bad_field_in_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_field_ends_a_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("bad.deck").write_text("2.\nABC\n", encoding="utf-8")
     assert call(capsys, "run", "good.f", "bad.deck")[::2] == (
         2,
@@ -187,14 +184,14 @@ def test_bad_field_in_run(room: Path, capsys: pytest.CaptureFixture[str]) -> Non
 
 
 @pytest.mark.parametrize(("run", "typed"), [("04_cube8", "ERROR IN PROGRAM"), ("18_dec3_n6", "DATA NOT ACCEPTABLE")])
-def test_a_refusal_exits_1(capsys: pytest.CaptureFixture[str], run: str, typed: str) -> None:
+def test_a_refusal_gives_exit_code_1(capsys: pytest.CaptureFixture[str], run: str, typed: str) -> None:
     deck = MACHINE_RUNS / run / "deck.cards"
     code, _, err = call(capsys, "hull", str(deck))
     assert code == 1
     assert typed in err
 
 
-def test_switch_1_goes_on_after_data_not_acceptable(capsys: pytest.CaptureFixture[str]) -> None:
+def test_with_switch_1_a_run_continues_after_data_not_acceptable(capsys: pytest.CaptureFixture[str]) -> None:
     """KNOWN-FAULTS 10."""
     deck = MACHINE_RUNS / "18_dec3_n6" / "deck.cards"
     off = call(capsys, "hull", str(deck))
@@ -250,7 +247,7 @@ def test_reproduce_shows_the_cards_that_differ(
     assert "NOT every printed result is reproduced." in out
 
 
-def test_check_marks_card_and_column(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_names_card_and_column(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("bad.f").write_text("      A=B+\n      GO TO 3\n      END\n", encoding="utf-8")
     code, out, err = call(capsys, "check", "bad.f")
     assert (code, err) == (2, "")
@@ -260,7 +257,7 @@ def test_check_marks_card_and_column(room: Path, capsys: pytest.CaptureFixture[s
     assert call(capsys, "check", "program3")[0] == 0
 
 
-def test_map_and_compile(capsys: pytest.CaptureFixture[str]) -> None:
+def test_map_and_compile_print_tables(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "map", "program3")
     assert code == 0
     assert "X(51)" in out
@@ -277,7 +274,7 @@ def test_apparatus_lists_rows(capsys: pytest.CaptureFixture[str]) -> None:
     assert "INN=0" in out
 
 
-def test_cards_and_back(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_points_become_cards_and_cards_points(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("p.csv").write_text("x,y,z\n1,-2.5,3e-2\n\n0,.125,-0\n", encoding="utf-8")
     code, out, err = call(capsys, "cards", "p.csv")
     assert (code, err) == (0, "")
@@ -298,7 +295,9 @@ CSV_FAULTS = [
 
 
 @pytest.mark.parametrize(("text", "words"), CSV_FAULTS)
-def test_cards_refuses(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
+def test_cards_rejects_points_that_no_card_holds(
+    room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str
+) -> None:
     Path("p.csv").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, "cards", "p.csv", "-o", "p.deck")
     assert (code, out) == (2, "")
@@ -306,13 +305,13 @@ def test_cards_refuses(room: Path, capsys: pytest.CaptureFixture[str], text: str
     assert not Path("p.deck").exists()
 
 
-def test_cards_truncates_when_told(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_cards_truncates_on_request(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("p.csv").write_text("1,2,-1234.56789\n", encoding="utf-8")
     assert "-.12345678E+04" in call(capsys, "cards", "p.csv", "--truncate")[1]
 
 
-def test_no_help_imports_what_only_a_run_needs() -> None:
-    # Of the project's own modules help needs the errors and the names of the formats.
+def test_help_imports_nothing_that_only_a_run_needs() -> None:
+    # Help needs only the errors and the names of the formats from this project.
     code = f"""
 import sys, emulator, modern
 from modern.cli.main import main
@@ -331,12 +330,12 @@ for words in ([], *([name] for name in {list(COMMANDS)})):
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_a_command_is_a_module_with_a_main_and_its_arguments_stand_with_those_of_all(name: str) -> None:
+def test_every_command_has_a_module_with_a_main_and_an_entry_in_the_arguments(name: str) -> None:
     module = importlib.import_module(f"modern.cli.{name.replace('-', '_')}")
     assert callable(module.main)
     assert not hasattr(module, "arguments")
 
 
-def test_every_module_of_the_room_is_a_command_or_serves_all() -> None:
+def test_every_module_is_a_command_or_serves_several() -> None:
     modules = {path.stem for path in Path(main.__file__).parent.glob("*.py")}
     assert modules == {name.replace("-", "_") for name in COMMANDS} | {"__init__", "main", "arguments"}

@@ -1,6 +1,4 @@
-"""``--coplanar-within`` as a user meets it: what is read as one is said, and the hull stays exact without it."""
-
-from __future__ import annotations
+"""``--coplanar-within``: merged faces are noted, and the hull is exact without the option."""
 
 from pathlib import Path
 
@@ -19,7 +17,7 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     Path("flat.csv").write_text("0,0,0\n1,0,0\n0,1,0\n", encoding="utf-8")
 
 
-def test_export_and_draw_read_twelve_faces_and_say_so(capsys: pytest.CaptureFixture[str]) -> None:
+def test_export_and_draw_read_twelve_faces_and_note_it(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "export", "d.csv", "--format", "off")
     assert (code, out.splitlines()[1].split()[:2], err) == (0, ["20", "36"], "")
     code, out, err = call(capsys, "export", "d.csv", "--format", "off", "--coplanar-within", "1e-9")
@@ -32,7 +30,7 @@ def test_export_and_draw_read_twelve_faces_and_say_so(capsys: pytest.CaptureFixt
     assert SAID in err
 
 
-def test_what_is_flat_and_what_is_not_joined_is_said_too(capsys: pytest.CaptureFixture[str]) -> None:
+def test_flat_input_and_faces_that_are_not_joined_are_noted(capsys: pytest.CaptureFixture[str]) -> None:
     code, _, err = call(capsys, "export", "flat.csv", "--format", "off", "--coplanar-within", "1")
     assert (code, err) == (0, "note: flat.csv: the points lie in one plane: there are no faces to join\n")
     code, _, err = call(capsys, "export", "d.csv", "--format", "off", "--coplanar-within", "0")
@@ -45,10 +43,7 @@ def test_what_is_flat_and_what_is_not_joined_is_said_too(capsys: pytest.CaptureF
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (
-            ("draw", "d.csv", "--coplanar-within", "2"),
-            "d.csv: --coplanar-within: within 2 the 36 faces would become 2",
-        ),
+        (("draw", "d.csv", "--coplanar-within", "2"), "d.csv: --coplanar-within: within 2 the 36 faces would become 2"),
         (("export", "d.csv", "-o", "d.off", "--coplanar-within", "9"), "all points lie within 9 of the plane"),
         (("draw", "d.csv", "--coplanar-within", "a"), "the distance within which faces are coplanar: 'a' is not"),
         (("draw", "d.csv", "--coplanar-within=-1"), "must be >= 0, not -1"),
@@ -59,7 +54,7 @@ def test_what_is_flat_and_what_is_not_joined_is_said_too(capsys: pytest.CaptureF
         ),
     ],
 )
-def test_refusals_are_one_line_and_leave_no_file(
+def test_rejections_are_one_line_and_leave_no_file(
     arguments: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     code, out, err = call(capsys, *arguments)

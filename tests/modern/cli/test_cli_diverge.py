@@ -1,6 +1,4 @@
-"""``hull1620 diverge``, and ``run`` and ``hull`` over other numbers, as a user meets them."""
-
-from __future__ import annotations
+"""``hull1620 diverge``, and ``run`` and ``hull`` with other arithmetics."""
 
 import json
 import os
@@ -21,7 +19,7 @@ def card(x: float, y: float, z: float) -> str:
 
 @pytest.fixture
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty folder to be in, with data decks for program 1 and for program 2."""
+    """Change to a folder that holds only data decks for program 1 and for program 2."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
     Path("side.deck").write_text(" 4\n" + "".join(card(x, y, 1) for x, y in SIDE), encoding="utf-8")
@@ -34,8 +32,8 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_square_of_nine_digits(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """14.875 squared has nine digits; cut to eight, its root is too small, and a vertex is taken for another."""
+def test_a_square_of_nine_digits_changes_a_decision(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """14.875 squared has nine digits. Truncated to eight, its root is too small, and a wrong vertex is chosen."""
     code, out, err = call(capsys, "diverge", "program2", "side.cards")
     assert (code, err) == (1, "")
     lines = out.splitlines()
@@ -45,14 +43,14 @@ def test_a_square_of_nine_digits(room: Path, capsys: pytest.CaptureFixture[str])
     assert "digits lost, of 8.0, up to that decision" in lines
 
 
-def test_binary_numbers_get_it_right(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_binary_numbers_decide_correctly(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--arithmetic", "float64")
     assert code == 0
     assert "none differs" in out
     assert "digits lost, of 16.0\n" in out
 
 
-def test_only_the_first_decision(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_only_the_first_decision_is_reported_on_request(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--first")
     assert code == 1
     assert "compared, 1 differs" in out
@@ -60,7 +58,7 @@ def test_only_the_first_decision(room: Path, capsys: pytest.CaptureFixture[str])
     assert "digits lost" not in out
 
 
-def test_a_document(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_comparison_is_written_as_json(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert call(capsys, "diverge", "program2", "side.cards", "--json", "d.json")[0] == 1
     found = json.loads(Path("d.json").read_text(encoding="utf-8"))
     first = found["decisions"]["first"]
@@ -71,21 +69,23 @@ def test_a_document(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert [ending["kind"] for ending in found["endings"]] == ["hopper", "hopper"]
 
 
-def test_layers(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The corrected cards do not ask for the roots."""
+def test_layers_are_compared(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The corrected cards do not use the roots."""
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--layers", "corrected")
     assert code == 0
     assert "none differs" in out
 
 
-def test_in_a_narrow_terminal(room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_comparison_fits_a_narrow_terminal(
+    room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("COLUMNS", "40")
     _, out, _ = call(capsys, "diverge", "program2", "side.cards")
     assert all(len(line) <= 40 for line in out.splitlines())
     assert "card 174," in out
 
 
-def test_what_exact_numbers_cannot_hold(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_values_that_exact_numbers_cannot_hold_are_reported(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = "sine.f: card 2: exact arithmetic cannot hold SIN of 1, in 7 B=SIN(A)"
     code, out, err = call(capsys, "diverge", "sine.f", "any.deck")
     assert code == 1
@@ -95,13 +95,13 @@ def test_what_exact_numbers_cannot_hold(room: Path, capsys: pytest.CaptureFixtur
     assert (code, out, err) == (1, "", f"hull1620: {words}\n")
 
 
-def test_nothing_differs(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_equal_runs_are_reported_as_equal(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "diverge", "sum.f", "any.deck")
     assert code == 0
     assert "values: 2 compared, none differs" in out
 
 
-def test_a_limit_is_no_end(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_limit_is_reported_as_a_limit(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--limit", "10")
     assert code == 1
     assert "decisions: 1 compared, none differs" in out
@@ -149,7 +149,7 @@ def test_misuse(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[
 
 
 @pytest.mark.parametrize("name", ["float64", "float32", "mp:90", "exact"])
-def test_run_and_hull_over_other_numbers(room: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+def test_run_and_hull_accept_other_arithmetics(room: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     code, out, err = call(capsys, "hull", "side.deck", "--arithmetic", name, "--trace", "t", "--profile")
     assert code == 0
     assert "CONVEX HULL HAS BEEN DETERMINED" in out
@@ -160,8 +160,8 @@ def test_run_and_hull_over_other_numbers(room: Path, capsys: pytest.CaptureFixtu
     assert "X(1) = -6" in Path("t").read_text(encoding="utf-8")
 
 
-def test_numbers_uncut_between_the_programs(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Planes of more than eight digits: cut by the cards they are refused, uncut they are not."""
+def test_uncut_numbers_accompany_the_cards_between_the_programs(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Planes of more than eight digits are rejected if the cards truncate them, and accepted otherwise."""
     code, _, err = call(capsys, "hull", "four.deck", "--arithmetic", "exact")
     assert code == 1
     assert "ERROR IN PROGRAM" in err
@@ -171,7 +171,7 @@ def test_numbers_uncut_between_the_programs(room: Path, capsys: pytest.CaptureFi
     assert err == "POINTS ARE NOT COPLANAR\n"
 
 
-def test_all_digits_of_a_field_are_taken(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_all_digits_of_a_field_are_read(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("long.deck").write_text(" 1\n" + ".1234567890123" + card(0, 1, 2)[14:], encoding="utf-8")
     assert "after the first 8 are dropped" in call(capsys, "hull", "long.deck")[2]
     code, _, err = call(capsys, "hull", "long.deck", "--arithmetic", "float64")

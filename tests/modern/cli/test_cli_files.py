@@ -1,6 +1,4 @@
-"""Every command that reads a file says in one line, with exit 2, that it cannot."""
-
-from __future__ import annotations
+"""Every command that cannot read a file reports it in one line and exits with 2."""
 
 import io
 import os
@@ -46,7 +44,7 @@ def reader(request: pytest.FixtureRequest) -> str:
 
 
 def refused(capsys: pytest.CaptureFixture[str], command: str, path: str) -> str:
-    """What the command says of a file, its one line."""
+    """Return the single line in which a command rejects a file."""
     code, out, err = call(capsys, command, path, *READERS[command])
     assert (code, out, err.count("\n")) == (2, "", 1), err
     assert err.startswith("hull1620: ")
@@ -54,7 +52,7 @@ def refused(capsys: pytest.CaptureFixture[str], command: str, path: str) -> str:
 
 
 class Folder(io.RawIOBase):
-    """Standard input as ``< folder`` gives it."""
+    """The standard input of a command with ``< folder``."""
 
     def readable(self) -> bool:
         return True
@@ -63,14 +61,14 @@ class Folder(io.RawIOBase):
         raise IsADirectoryError(21, "Is a directory")
 
 
-def test_standard_input_closed(
+def test_closed_standard_input_is_reported(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, reader: str
 ) -> None:
     monkeypatch.setattr("sys.stdin", None)
     assert refused(capsys, reader, "-") == "standard input is closed"
 
 
-def test_standard_input_that_cannot_be_read(
+def test_unreadable_standard_input_is_reported(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, reader: str
 ) -> None:
     monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BufferedReader(Folder()), encoding="utf-8"))
@@ -86,13 +84,15 @@ def test_standard_input_that_cannot_be_read(
         ("a\0b", "'a\\x00b': not a file name"),
     ],
 )
-def test_files_that_cannot_be_read(capsys: pytest.CaptureFixture[str], reader: str, path: str, message: str) -> None:
+def test_unreadable_files_are_reported(
+    capsys: pytest.CaptureFixture[str], reader: str, path: str, message: str
+) -> None:
     if path == "folder" and reader in ("octree-hull", "voxel-hull"):
         message += " without a DICOM file; expected a file, or a folder with a DICOM series"
     assert refused(capsys, reader, path) == message
 
 
-def test_bytes_that_are_no_text(capsys: pytest.CaptureFixture[str], reader: str) -> None:
+def test_bytes_that_are_not_text_are_reported(capsys: pytest.CaptureFixture[str], reader: str) -> None:
     Path("bytes").write_bytes(b"1,2,3\n4,\xff\n")
     message = refused(capsys, reader, "bytes")
     if reader in SOURCE_DECKS:
@@ -105,7 +105,7 @@ def test_bytes_that_are_no_text(capsys: pytest.CaptureFixture[str], reader: str)
 
 @pytest.mark.parametrize("path", ["missing.toml", "folder.toml", "bytes.toml"])
 @pytest.mark.parametrize("command", ["study", "hidden-line"])
-def test_plans_and_scenes(capsys: pytest.CaptureFixture[str], command: str, path: str) -> None:
+def test_invalid_plans_and_scenes_are_reported(capsys: pytest.CaptureFixture[str], command: str, path: str) -> None:
     Path("folder.toml").mkdir()
     Path("bytes.toml").write_bytes(b"a\n\xff")
     code, out, err = call(capsys, command, path)
@@ -118,7 +118,7 @@ def test_plans_and_scenes(capsys: pytest.CaptureFixture[str], command: str, path
     assert err == f"hull1620: {path}: {reasons[path.removesuffix('.toml')]}\n"
 
 
-def test_the_shell_closes_standard_input() -> None:
+def test_standard_input_that_the_shell_closed_is_reported() -> None:
     command = f"{sys.executable} -m modern.cli.main diff - <&-"
     folder = Path(__file__).parents[3]
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, cwd=folder)
@@ -135,7 +135,7 @@ def test_points_beyond_doubles_are_one_line_in_diff(
     assert "too large for float64" in err
 
 
-def test_a_name_that_the_terminal_cannot_show(tmp_path: Path) -> None:
+def test_a_name_that_the_terminal_cannot_show_is_escaped(tmp_path: Path) -> None:
     (tmp_path / "\u00e9.f").write_text("      END\n")
     command = [sys.executable, "-m", "modern.cli.main", "check", "\u00e9.f"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "ascii"}

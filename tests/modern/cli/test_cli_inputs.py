@@ -1,6 +1,4 @@
-"""What a command is given: examples by name, wrong kinds of file, names of outputs; and what its help says."""
-
-from __future__ import annotations
+"""The arguments of commands: examples by name, wrong kinds of file, names of outputs, and the help."""
 
 import argparse
 import re
@@ -27,19 +25,19 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.parametrize("number", range(1, 7))
-def test_an_example_has_a_name_wherever_its_deck_is_taken(
+def test_an_example_can_be_named_wherever_a_deck_is_accepted(
     number: int, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = str(CHAPTER6 / f"example{number}" / "program1.deck")
     for words in (["run", "program1"], ["hull", "--programs", "examples"], ["diverge", "program1"], ["diff"]):
         by_path, by_name = call(capsys, *words, path), call(capsys, *words, f"example{number}")
         assert by_name[0] == by_path[0]
-        # Lines are folded by their length, the name's or the path's.
+        # The length of the name or of the path determines where lines are folded.
         name_less, path_less = by_name[1].replace(f"example{number}", ""), by_path[1].replace(path, "")
         assert name_less.split() == path_less.split()
 
 
-def test_examples_are_points_too(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_examples_are_also_points(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "export", "example5", "--format", "off")
     assert (code, out.splitlines()[0]) == (0, "OFF")
     for words in (["draw", "-o", "a.svg"], ["hidden-line", "-o", "b.svg"], ["appel-will", "-o", "c.off"]):
@@ -66,20 +64,20 @@ def test_a_figure_and_a_set_of_a_study_have_names(folder: Path, capsys: pytest.C
 
 
 @pytest.mark.parametrize("name", ["example7", "example", "appel-will/fig99", "sixty/1", "seventy"])
-def test_a_name_of_no_example_is_a_file_that_is_not_there(
+def test_an_unknown_example_is_reported_as_a_missing_file(
     name: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     code, _, err = call(capsys, "draw", name, "-o", "a.svg")
     assert (code, err) == (2, f"hull1620: {name}: no such file or directory\n")
 
 
-def test_a_file_comes_before_an_example_of_its_name(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_file_takes_precedence_over_an_example_of_its_name(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "example5").write_text(CSV, encoding="ascii")
     assert call(capsys, "diff", "example5")[1].startswith("example5: 5 points\n")
 
 
 @pytest.mark.parametrize("command", [["hull"], ["diverge", "program1"], ["diverge", "program1_examples"]])
-def test_points_given_for_a_deck_name_the_command_that_makes_one(
+def test_points_instead_of_a_deck_name_the_command_that_makes_one(
     command: list[str], folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     np.save(folder / "points.npy", np.eye(3))
@@ -90,7 +88,9 @@ def test_points_given_for_a_deck_name_the_command_that_makes_one(
         assert f"hull1620 cards {name} -o points.deck makes a deck of it" in err
 
 
-def test_too_many_digits_name_a_remedy_that_exists(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_message_about_too_many_digits_names_a_valid_remedy(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (folder / "long.csv").write_text("0.123456789,0,0\n1,0,0\n0,1,0\n0,0,1\n", encoding="ascii")
     assert "hull1620 cards --truncate" in call(capsys, "diff", "long.csv")[1]
     code, _, err = call(capsys, "cards", "long.csv", "-o", "long.deck")
@@ -102,14 +102,14 @@ def test_too_many_digits_name_a_remedy_that_exists(folder: Path, capsys: pytest.
     assert "not run" not in call(capsys, "diff", "long.deck")[1]
 
 
-def test_an_overlap_names_the_core_that_has_room(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_overlap_names_a_sufficient_core(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, _, err = call(capsys, "hull", "example5", "--layers", "corrected")
     assert code == 2
     assert "OVERLAP" in err
     assert err.endswith("; --core 60000 is large enough\n")
 
 
-def test_a_raw_volume_without_a_shape_asks_for_it(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_raw_volume_needs_a_shape(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "a.raw").write_bytes(bytes(100) + b"\x01" * 25)
     for command in ("voxel-hull", "octree-hull"):
         code, _, err = call(capsys, command, "a.raw")
@@ -119,7 +119,7 @@ def test_a_raw_volume_without_a_shape_asks_for_it(folder: Path, capsys: pytest.C
 
 
 @pytest.mark.parametrize("diameter", ["1290", "100000", "999999999"])
-def test_a_ball_too_large_names_the_limit(diameter: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_message_about_a_large_ball_names_the_limit(diameter: str, capsys: pytest.CaptureFixture[str]) -> None:
     code, _, err = call(capsys, "voxel-hull", f"ball:{diameter}")
     assert (code, "the diameter is at most 1289" in err) == (2, True)
 
@@ -135,7 +135,7 @@ def test_a_ball_too_large_names_the_limit(diameter: str, capsys: pytest.CaptureF
         (["octree-hull", "ball:3", "-o", "a.svg"], ".nrrd or .npy or .off or .obj or .ply or .stl"),
     ],
 )
-def test_an_ending_that_is_not_written_is_refused(
+def test_an_unsupported_extension_of_an_output_is_rejected(
     words: list[str], endings: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     code, _, err = call(capsys, *words)
@@ -178,7 +178,7 @@ def options(command: str) -> list[argparse.Action]:
 
 
 @pytest.mark.parametrize("command", sorted(COMMANDS))
-def test_every_argument_has_a_help_and_every_default_stands_there(command: str) -> None:
+def test_every_argument_has_a_help_that_states_its_default(command: str) -> None:
     for action in options(command):
         name = "/".join(action.option_strings) or action.dest
         assert action.help or action.metavar == "PROGRAM.f", f"{command} {name} has no help"
@@ -193,14 +193,14 @@ def test_the_layers_are_listed() -> None:
     assert [layer for layer in every if layer not in str(layers.help)] == []
 
 
-def test_punched_takes_an_example_by_name(capsys: pytest.CaptureFixture[str]) -> None:
+def test_punched_accepts_an_example_by_name(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "punched", "example1")
     assert (code, err) == (0, "")
     assert "<title>example1: 4 cards</title>" in out
 
 
 @pytest.mark.parametrize("command", [["run"], ["diverge"], ["listing"]])
-def test_a_list_of_points_given_for_a_deck_is_told_what_makes_one(
+def test_a_list_of_points_instead_of_a_deck_is_rejected_with_a_remedy(
     command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -209,7 +209,7 @@ def test_a_list_of_points_given_for_a_deck_is_told_what_makes_one(
     assert (code, out) == (2, "")
     assert "not a data deck; hull1620 cards mine.csv -o points.deck makes a deck of it" in err
     assert err.count("\n") == 1
-    # A program of one's own reads what it likes, whatever it is called.
+    # A user-defined program may read any data, whatever its name is.
     Path("program1.f").write_text(
         "      READ 1,I\n      TYPE 1,I\n      STOP\n    1 FORMAT(I2)\n      END\n", encoding="utf-8"
     )
@@ -217,7 +217,7 @@ def test_a_list_of_points_given_for_a_deck_is_told_what_makes_one(
 
 
 @pytest.mark.parametrize("command", [["flowchart", "program1"], ["punched", "program1"]])
-def test_a_picture_is_written_under_a_pictures_name(
+def test_a_picture_needs_the_extension_of_a_picture(
     command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)

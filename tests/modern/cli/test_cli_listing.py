@@ -1,6 +1,4 @@
-"""A listing: cards with messages, and what a run made of each statement beside it."""
-
-from __future__ import annotations
+"""A listing: cards with messages, and next to each statement the figures of a run."""
 
 from pathlib import Path
 
@@ -23,7 +21,7 @@ MINE = ["      A=1.", "      DO 5 I=1,3", "    5 A=A/3.", "      PUNCH 9,A", "  
 
 @pytest.fixture
 def mine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with a program and a deck it does not read."""
+    """Change to a folder with a program and a deck that the program does not read."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "my.f").write_text("\n".join(MINE) + "\n")
     (tmp_path / "one.deck").write_text("1\n")
@@ -34,13 +32,13 @@ def columns(line: str) -> tuple[str, str, str, str, str]:
     return line[:5].strip(), line[5:14].strip(), line[14:21].strip(), line[21:27].strip(), line[29:]
 
 
-def test_without_a_deck_the_cards_and_the_warnings(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_listing_without_a_deck_has_cards_and_warnings(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
     reads = [*MINE[:3], "      READ 9,A", *MINE[4:]]
     (mine / "reads.f").write_text("\n".join(reads) + "\n")
     code, out, err = call(capsys, "listing", "reads.f")
     assert (code, err) == (0, "")
     assert out.splitlines() == ["reads.f: 6 cards", *(f"{n:5d}  {card}" for n, card in enumerate(reads, 1))]
-    # A program that reads no data is run without a deck.
+    # A program that reads no data runs without a deck.
     assert call(capsys, "listing", "my.f")[1] == call(capsys, "listing", "my.f", "one.deck")[1]
     (mine / "bad.f").write_text("      A=1.\n      A=(B\n      END\n")
     code, out, _ = call(capsys, "listing", "bad.f", "one.deck")
@@ -51,7 +49,7 @@ def test_without_a_deck_the_cards_and_the_warnings(mine: Path, capsys: pytest.Ca
     assert call(capsys, "check", "bad.f")[1].splitlines()[0].endswith(lines[3].partition("error: ")[2])
 
 
-def test_with_a_deck_counts_time_and_digits(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_listing_with_a_deck_has_counts_times_and_digits(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "listing", "my.f", "one.deck")
     assert (code, err) == (0, "")
     lines = out.splitlines()
@@ -61,12 +59,12 @@ def test_with_a_deck_counts_time_and_digits(mine: Path, capsys: pytest.CaptureFi
     assert [row[4] for row in rows] == MINE
     assert [row[1] for row in rows] == ["1", "1", "3", "1", "", "1"]
     assert sum(float(row[2]) for row in rows if row[2]) == pytest.approx(100.0, abs=0.3)
-    # 1/27 cut to eight digits each time is .37037036E-01: one unit of the eighth digit, 8 + log10(1.04E-8/.37) digits.
+    # 1/27, truncated to eight digits each time, is .37037036E-01: 8 + log10(1.04E-8/.37) digits are lost.
     assert [row[3] for row in rows] == ["0.0", "0.0", "0.4", "", "", ""]
 
 
 @pytest.mark.parametrize(("name", "deck"), [("program2", "example4"), ("program3", "example5")])
-def test_the_figures_are_those_of_profile_and_diverge(capsys: pytest.CaptureFixture[str], name: str, deck: str) -> None:
+def test_the_figures_agree_with_profile_and_diverge(capsys: pytest.CaptureFixture[str], name: str, deck: str) -> None:
     path = str(EXAMPLES / deck / "program1.punch")
     code, out, _ = call(capsys, "listing", name, path)
     assert code == 0
@@ -85,7 +83,7 @@ def test_the_figures_are_those_of_profile_and_diverge(capsys: pytest.CaptureFixt
     assert f"in {timing.processor_seconds:.1f} s" in out.splitlines()[0]
 
 
-def test_shares_book_each_statement_what_it_did() -> None:
+def test_shares_attribute_time_to_each_statement() -> None:
     made = program("A=2.", "DO 5 I=1,10", "5 B=A*A", "READ 9,K,A", "9 FORMAT(I4,E10.2)", "END")
     result = Machine(made, deck_from_lines("d", ["   1 1.0"])).run()
     found = shares(made, result)
@@ -94,7 +92,7 @@ def test_shares_book_each_statement_what_it_did() -> None:
     assert sum(found) == pytest.approx(measure(made, result).processor_seconds)
 
 
-def test_a_program_that_asks_is_listed_with_an_operators_file(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_program_with_accept_is_listed_with_an_operator_file(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (mine / "ask.f").write_text("    5 ACCEPT 9,A\n      IF(A)5,6,5\n    6 STOP\n    9 FORMAT(E14.8)\n      END\n")
     (mine / "lines").write_text("ENTER 1.5\nENTER 0.0\n")
     code, out, err = call(capsys, "listing", "ask.f", "one.deck", "--operator=lines", "-o", "list.txt")
@@ -116,7 +114,7 @@ def test_against_none_and_a_run_that_ends_early(mine: Path, capsys: pytest.Captu
     assert "digits" not in out
 
 
-def test_a_compiled_built_in_is_what_is_listed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_listing_of_a_built_in_program_is_its_compiled_text(capsys: pytest.CaptureFixture[str]) -> None:
     lines = call(capsys, "listing", "program1")[1].splitlines()[1:]
     assert [line[7:] for line in lines] == [card.text for card in programs.deck("program1").cards]
     assert compile_deck(deck_from_lines("again", [line[7:] for line in lines])).statements

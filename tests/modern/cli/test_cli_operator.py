@@ -1,6 +1,4 @@
-"""A person at a terminal runs programs: through a pseudo-terminal, as he would see it."""
-
-from __future__ import annotations
+"""A person at a terminal runs programs, in a pseudo-terminal."""
 
 import shutil
 import signal
@@ -36,7 +34,7 @@ ASK = "    5 ACCEPT 90,K,L\n      TYPE 90,L,K\n      IF(K)5,6,5\n    6 STOP\n   
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A folder with the game, a loop, and a program that asks."""
+    """Change to a folder with the game, a loop, and a program with ACCEPT."""
     for name in ("tictac.f", "tictac.deck"):
         shutil.copy(PERIOD / name, tmp_path)
     (tmp_path / "loop.f").write_text(LOOP)
@@ -46,7 +44,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def test_a_game_is_played_to_its_end(folder: Path) -> None:
-    """It comes to the terminal by itself: the program has ACCEPT, the deck is a file, all streams are the terminal."""
+    """The console opens without an option: the program has ACCEPT, the deck is a file, all streams are the terminal."""
     with Person(folder, "run", "tictac.f", "tictac.deck", "--punch", "cards", "--log", "log") as person:
         before = person.settings()
         person.sees("YOUR MOVE\n-- ACCEPT waits for a line, card 20\n")
@@ -74,7 +72,7 @@ def test_a_game_is_played_to_its_end(folder: Path) -> None:
 def test_a_log_replays_to_the_same_bytes(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Switch, breakpoint, bad lines, STOP: the log gives the same cards, the same typed lines and the same log."""
+    """A log with a switch, a breakpoint, invalid lines and STOP gives the same cards, typed lines and log."""
     with Person(folder, "run", "tictac.f", "tictac.deck", "--operator", "--punch", "cards", "--log", "log") as person:
         person.sees("stopped (attention) before card 9")
         person.types("\x1b1")
@@ -105,7 +103,7 @@ def test_a_log_replays_to_the_same_bytes(
 def test_example_4_is_stepped_a_switch_flipped_and_resumed(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Both programs stand before their first statement; program 2 asks for the switch where it refuses its data."""
+    """Both programs halt before their first statement. Program 2 tests the switch when it rejects its data."""
     monkeypatch.chdir(folder)
     deck = str(EXAMPLE4 / "program1.deck")
     with Person(folder, "hull", deck, "--operator", "--punch", "stepped", "--log", "log") as person:
@@ -136,10 +134,10 @@ def test_example_4_is_stepped_a_switch_flipped_and_resumed(
     assert (folder / "log2").read_text() == (folder / "log").read_text()
 
 
-def test_switch_1_flipped_at_a_breakpoint_has_program_2_go_on(
+def test_switch_1_flipped_at_a_breakpoint_lets_program_2_continue(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """After DATA NOT ACCEPTABLE it stops, or with the switch on goes on with the data it has (KNOWN-FAULTS 10)."""
+    """After DATA NOT ACCEPTABLE it stops, or continues with the same data if the switch is on (KNOWN-FAULTS 10)."""
     monkeypatch.chdir(folder)
     (folder / "refused.deck").write_text(REFUSED)
     assert call(capsys, "run", "program2", "refused.deck", "--punch", "off")[0] == 1
@@ -155,7 +153,7 @@ def test_switch_1_flipped_at_a_breakpoint_has_program_2_go_on(
     assert (folder / "flipped").read_text() == (folder / "on").read_text() != (folder / "off").read_text()
 
 
-def test_attention_in_an_endless_loop(folder: Path) -> None:
+def test_attention_stops_an_endless_loop(folder: Path) -> None:
     with Person(folder, "run", "loop.f", "one.deck", "--operator", "--log", "log", "--limit", "900000000") as person:
         person.sees("before card 1")
         person.types("\n")
@@ -177,8 +175,8 @@ def test_attention_in_an_endless_loop(folder: Path) -> None:
     assert [words[0] for words in done] == ["LOAD", "AT", "START", "AT", "START", "AT"]
 
 
-def test_attention_by_other_ways_and_at_a_slow_typewriter(folder: Path) -> None:
-    """Esc A, SIGINT, and Ctrl-C while a line is typed slowly: it is finished at once."""
+def test_attention_by_signals_and_at_a_slow_typewriter(folder: Path) -> None:
+    """Esc A, SIGINT, and Ctrl-C while a line is typed slowly, which finishes the line at once."""
     with Person(folder, "run", "loop.f", "one.deck", "--operator") as person:
         for call_on in (lambda: person.types("\x1bA"), person.interrupts, lambda: person.types("\x1ba")):
             person.sees("1620> ")
@@ -204,7 +202,7 @@ def test_attention_by_other_ways_and_at_a_slow_typewriter(folder: Path) -> None:
         assert person.ended() == 0
 
 
-def test_a_bad_entry_is_typed_again(folder: Path) -> None:
+def test_an_invalid_entry_must_be_typed_again(folder: Path) -> None:
     with Person(folder, "run", "ask.f", "--operator", "--typewriter", "typed") as person:
         person.sees("before statement 5")
         person.types("\n")
@@ -220,8 +218,8 @@ def test_a_bad_entry_is_typed_again(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("term", ["dumb", "xterm"])
-def test_in_60_columns_with_and_without_a_clever_terminal(folder: Path, term: str) -> None:
-    """Nothing is wider than the terminal, and there is nothing in it but text, line ends and backspaces."""
+def test_output_fits_60_columns_with_and_without_terminal_control(folder: Path, term: str) -> None:
+    """No line is wider than the terminal, and the output has only text, line ends and backspaces."""
     with Person(folder, "run", "tictac.f", "tictac.deck", "--operator", columns=60, term=term) as person:
         person.sees("before card 9")
         for words in (
@@ -281,7 +279,7 @@ def test_attention_at_accept_goes_to_the_console_and_back(folder: Path) -> None:
         assert person.ended() == 1
 
 
-def test_a_terminal_that_goes_away_stops_the_run_and_keeps_what_was_done(folder: Path) -> None:
+def test_a_closed_terminal_stops_the_run_and_keeps_its_output(folder: Path) -> None:
     options = ("--typewriter", "typed", "--log", "log")
     with Person(folder, "run", "tictac.f", "tictac.deck", "--operator", *options) as person:
         person.sees("before card 9")
@@ -293,8 +291,8 @@ def test_a_terminal_that_goes_away_stops_the_run_and_keeps_what_was_done(folder:
     assert (folder / "log").read_text().splitlines()[-1] == "STOP"
 
 
-def test_results_keep_their_streams(folder: Path) -> None:
-    """With standard output and error in files the terminal still shows the lines typed, and asks."""
+def test_results_go_to_their_streams(folder: Path) -> None:
+    """If standard output and error are files, the terminal still shows the typed lines and asks."""
     with (
         (folder / "out").open("w") as out,
         (folder / "err").open("w") as err,
@@ -310,7 +308,7 @@ def test_results_keep_their_streams(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("stream", ["stdin", "stdout", "stderr"])
-def test_nobody_is_asked_unless_all_is_one_terminal(folder: Path, stream: str) -> None:
+def test_the_operator_is_asked_only_if_all_streams_are_one_terminal(folder: Path, stream: str) -> None:
     with (folder / "lines").open("w+") as file:
         if stream == "stdin":
             file.write("   0   5\n")
@@ -321,13 +319,13 @@ def test_nobody_is_asked_unless_all_is_one_terminal(folder: Path, stream: str) -
 
 
 @pytest.mark.parametrize("more", [["--operator=none"], []])
-def test_nobody_is_asked_without_a_deck_or_against_ones_will(folder: Path, more: list[str]) -> None:
+def test_the_operator_is_not_asked_without_a_deck_or_on_request(folder: Path, more: list[str]) -> None:
     with Person(folder, "run", "ask.f", *(["one.deck", *more] if more else [])) as person:
         assert person.ended() == 2
         assert "nothing is typed for ACCEPT" in person.output
 
 
-def test_without_a_terminal_the_option_says_so(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+def test_the_option_without_a_terminal_is_an_error(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "modern.cli.main", "run", str(folder / "ask.f"), "--operator"],
         cwd=ROOT,
@@ -341,7 +339,7 @@ def test_without_a_terminal_the_option_says_so(capsys: pytest.CaptureFixture[str
     assert done.stderr.count("\n") == 1
 
 
-def test_a_file_of_wrong_words_is_one_line(
+def test_an_invalid_operator_file_is_reported_in_one_line(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(folder)
@@ -358,7 +356,7 @@ def test_a_file_of_wrong_words_is_one_line(
     assert call(capsys, *arguments, "--operator=none.txt")[2] == "hull1620: none.txt: no such file or directory\n"
 
 
-def test_lines_left_over_are_noted(
+def test_unused_lines_are_noted(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(folder)
@@ -367,13 +365,13 @@ def test_lines_left_over_are_noted(
     assert (code, err) == (0, "   1   0\nnote: more: the run did not use line 2 and later lines\n")
 
 
-def test_slow_is_for_a_terminal(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_slow_needs_a_terminal(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "run", str(folder / "loop.f"), "--slow", "--operator=none")
     assert (code, out) == (2, "")
     assert err == "hull1620: --slow needs an operator at the terminal; add --operator\n"
 
 
-def test_cards_come_as_they_are_punched_and_a_named_file_only_whole(folder: Path) -> None:
+def test_cards_appear_as_they_are_punched_and_files_only_complete(folder: Path) -> None:
     (folder / "endless.f").write_text("    1 PUNCH 9\n      TYPE 9\n      GO TO 1\n    9 FORMAT(5HAGAIN)\n      END\n")
     command = [sys.executable, "-m", "modern.cli.main", "run", str(folder / "endless.f"), "--limit", "900000000"]
     for more in ([], ["--punch", str(folder / "cards")], ["--typewriter", str(folder / "typed")]):

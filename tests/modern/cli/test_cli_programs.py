@@ -1,6 +1,4 @@
-"""A program of one's own, as its owner brings it: small letters, and error numbers explained."""
-
-from __future__ import annotations
+"""User-defined programs: lower case, and explanations of error numbers."""
 
 import re
 from pathlib import Path
@@ -38,16 +36,16 @@ CALLS = {
     "run": ("one.deck",),
     "diverge": ("one.deck",),
 }
-"""Every command that reads a program of one's own, and the rest of its call."""
+"""Every command that reads a user-defined program, and its other arguments."""
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_that_takes_a_program_is_here(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_command_that_accepts_a_program_is_listed(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert ("PROGRAM.f" in call(capsys, command, "--help")[1].split("options:")[0]) == (command in CALLS)
 
 
 @pytest.mark.parametrize("command", CALLS)
-def test_small_letters_are_named_once_with_the_option_that_reads_them(
+def test_lower_case_is_reported_once_with_the_option_that_reads_it(
     command: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     code, out, err = call(capsys, command, "small.f", *CALLS[command])
@@ -59,8 +57,8 @@ def test_small_letters_are_named_once_with_the_option_that_reads_them(
 
 
 @pytest.mark.parametrize("command", CALLS)
-def test_upcase_makes_it_the_program_in_capitals(command: str, capsys: pytest.CaptureFixture[str]) -> None:
-    """All that is put out is the same; the comment, in small letters, may stand in both."""
+def test_upcase_converts_a_program_to_capitals(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """The output is the same, except that the comment may be in lower case."""
     Path("large.f").write_text("C  Squares\n" + SOURCE, encoding="utf-8")
     expected = call(capsys, command, "large.f", *CALLS[command])
     assert expected[0] == 0
@@ -68,14 +66,14 @@ def test_upcase_makes_it_the_program_in_capitals(command: str, capsys: pytest.Ca
     assert (code, out.replace("small.f", "large.f"), err) == expected
 
 
-def test_a_period_program_in_small_letters_runs(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_period_program_in_lower_case_runs(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "run", str(PERIOD / "pi.f"), str(PERIOD / "pi.deck"), "--upcase")
     assert (code, err.count("\n")) == (0, 1)
     assert "the run ended after 2 cards, because the hopper was empty" in err
     assert [line[-9:] for line in out.splitlines()] == ["3.1405970", "3.1415928"]
 
 
-def test_a_period_program_is_run_by_the_operator_of_its_file(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_period_program_runs_with_its_operator_file(capsys: pytest.CaptureFixture[str]) -> None:
     operator = f"--operator={PERIOD / 'job.operator'}"
     code, out, err = call(capsys, "run", str(PERIOD / "job.f"), str(PERIOD / "job.deck"), operator)
     assert (code, len(out.splitlines())) == (0, 2)
@@ -92,7 +90,7 @@ def test_a_deck_of_data_is_never_read_as_capitals(capsys: pytest.CaptureFixture[
 
 @pytest.mark.parametrize("number", explanations())
 def test_the_example_of_an_error_gives_that_number(number: str) -> None:
-    """Compiled, or run under the arithmetic that types every code."""
+    """Compile the example, or run it with the arithmetic that types every code."""
     deck = deck_from_lines("example.f", explanations()[number].example)
     program, messages = translate(deck)
     if number.isdecimal():
@@ -106,8 +104,8 @@ def test_the_example_of_an_error_gives_that_number(number: str) -> None:
     assert result.typed == (f"ERROR {number}",)
 
 
-def test_every_number_the_program_gives_is_explained() -> None:
-    """Numbers stand as such in the sources of the compiler, codes in those of the arithmetic."""
+def test_every_error_number_is_explained() -> None:
+    """The sources of the compiler contain the numbers, those of the arithmetic the codes."""
     language = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "emulator" / "language").glob("*.py"))
     given = set(re.findall(r"(?:Refused|_refused|Diagnostic|_error)\((?:[^()]|\([^()]*\))*?, (\d+)[,)]", language))
     given |= set(re.findall(r'"(?:if_switch|do|dimension|input_output)": (\d+)', language))
@@ -145,7 +143,9 @@ def test_all_errors_are_explained_at_once(capsys: pytest.CaptureFixture[str]) ->
         ((), "check: expected a program, or --explain with an error number"),
     ],
 )
-def test_what_cannot_be_explained(arguments: tuple[str, ...], words: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_error_number_is_rejected(
+    arguments: tuple[str, ...], words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     code, out, err = call(capsys, "check", *arguments)
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert err.startswith(f"hull1620: {words}")
@@ -154,8 +154,10 @@ def test_what_cannot_be_explained(arguments: tuple[str, ...], words: str, capsys
 LARGE = "      DIMENSION X(3900)\n      X(1)=1.\n      STOP\n      END\n"
 
 
-def test_check_and_map_say_that_a_program_does_not_fit_and_what_it_fits(capsys: pytest.CaptureFixture[str]) -> None:
-    """3,900 fields of ten positions, and 40,000 less 8,300 for the subroutines and 120 for the functions' names."""
+def test_check_and_map_report_a_program_that_does_not_fit_and_a_sufficient_core(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """The data take 3,900 fields of ten positions. The subroutines take 8,300 of 40,000, the functions' names 120."""
     Path("wide.f").write_text(LARGE, encoding="utf-8")
     code, out, err = call(capsys, "check", "wide.f")
     assert (code, err) == (2, "")
@@ -172,12 +174,12 @@ def test_check_and_map_say_that_a_program_does_not_fit_and_what_it_fits(capsys: 
         code, out, err = call(capsys, command, "wide.f", "--core", "60000")
         assert (code, err) == (0, "")
         assert "OVERLAP" not in out
-    # Where no machine has room there is no remedy to name.
+    # If no machine is large enough, there is no remedy to name.
     Path("wide.f").write_text(LARGE.replace("3900", "5900"), encoding="utf-8")
     assert call(capsys, "check", "wide.f")[1].endswith("has 31580 for them\n")
 
 
-def test_check_refuses_what_run_refuses(capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_rejects_what_run_rejects(capsys: pytest.CaptureFixture[str]) -> None:
     Path("wide.f").write_text(LARGE, encoding="utf-8")
     _, out, _ = call(capsys, "check", "wide.f")
     code, _, err = call(capsys, "run", "wide.f", "one.deck")

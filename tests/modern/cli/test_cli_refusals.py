@@ -1,6 +1,4 @@
-"""A refusal explains itself: what ``hull`` and ``diff`` say of a run without a hull, and what helps."""
-
-from __future__ import annotations
+"""Refusals: the reasons and remedies that ``hull`` and ``diff`` report for a run without a hull."""
 
 import random
 import re
@@ -17,7 +15,7 @@ GROUNDS = ROOT / "fortran_src" / "grounds"
 
 @pytest.fixture
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Path:
-    """Thirty points with three decimals, as points.csv and points.deck, in the current folder."""
+    """Change to a folder with thirty points of three decimals, as points.csv and points.deck."""
     draw = random.Random(1963)
     rows = (",".join(f"{draw.uniform(-5, 5):.3f}" for _ in range(3)) for _ in range(30))
     (tmp_path / "points.csv").write_text("\n".join(rows) + "\n", encoding="ascii")
@@ -27,7 +25,7 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureF
 
 
 def tried(err: str) -> list[list[str]]:
-    """The commands that are proposed, as words."""
+    """Return the proposed commands, each as a list of arguments."""
     lines = [line.removeprefix("  try:").strip() for line in err.splitlines()]
     commands = [part.strip() for line in lines if line.startswith("hull1620 ") for part in line.split("&&")]
     return [shlex.split(command)[1:] for command in commands if not command.startswith("hull1620: ")]
@@ -48,7 +46,7 @@ def test_points_with_three_decimals_are_refused_with_the_reason(own: Path, capsy
     assert "--explain" not in longer
 
 
-def test_every_command_proposed_runs_and_some_lead_to_the_hull(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_proposed_command_runs_and_some_give_the_hull(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
     commands = tried(call(capsys, "hull", "points.deck")[2])
     assert [words[0] for words in commands] == ["hull", "hull", "run", "diverge", "export"]
     codes = {" ".join(words): call(capsys, *words)[0] for words in commands}
@@ -77,7 +75,7 @@ def test_a_fault_of_the_original_is_named_and_its_correction_works(
     assert call(capsys, *tried(err)[0])[0] == 0
 
 
-def test_of_several_data_sets_each_is_named(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_each_of_several_data_sets_is_named(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = Path("points.deck").read_text(encoding="ascii")
     Path("two.deck").write_text(text + " 1\n.1E+01        .1E+01        .1E+01\n" + text, encoding="ascii")
     err = call(capsys, "hull", "two.deck")[2]

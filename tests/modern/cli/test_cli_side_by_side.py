@@ -1,6 +1,4 @@
-"""``reproduce --show``: print beside result, in two columns or one below the other, differences marked."""
-
-from __future__ import annotations
+"""``reproduce --show``: print and result in two columns or one below the other, with differences marked."""
 
 import json
 import re
@@ -27,7 +25,7 @@ def test_two_columns_mark_each_character() -> None:
     ]
 
 
-def test_a_narrow_terminal_has_one_below_the_other() -> None:
+def test_a_narrow_terminal_shows_one_text_below_the_other() -> None:
     assert list(side_by_side(["A=1.25", "B"], ["A=1.35", "B"], 26)) == [
         "      = equal; |",
         "      different, marked by",
@@ -39,11 +37,11 @@ def test_a_narrow_terminal_has_one_below_the_other() -> None:
     ]
 
 
-def test_a_line_that_stands_elsewhere_is_not_marked_as_wrong() -> None:
+def test_a_line_that_occurs_elsewhere_is_not_marked_as_wrong() -> None:
     found = list(side_by_side(["N=2", "ONE", "TWO"], ["N=2", "TWO", "ONE"], 60))
     assert found[0].strip() == "= equal; ~ at another position"
     assert not any("^" in line for line in found)
-    # One that stands there twice and here once is.
+    # A line that occurs twice there and once here is marked.
     assert any("^" in line for line in side_by_side(["ONE", "TWO", "TWO"], ["TWO", "ONE", "ONE"], 60))
 
 
@@ -59,7 +57,7 @@ TEXT = st.lists(st.text("ABC .1", max_size=40).map(str.rstrip), max_size=6)
 
 
 def told(found: list[str]) -> tuple[str, ...]:
-    """What the lines show of each text, blanks left out: by the places of the two columns, or pair by pair."""
+    """Return both texts as the lines show them, without blanks: in two columns, or pair by pair."""
     texts = ["", ""]
     at, shown = 0, [0]
     rows = [line for line in found if line.strip(" ^")]
@@ -81,8 +79,8 @@ def told(found: list[str]) -> tuple[str, ...]:
     return tuple(text.replace(" ", "") for text in texts)
 
 
-def test_marks_stand_below_what_they_mark_where_the_other_line_is_longer() -> None:
-    """Both lines are marked as far as the longer one goes."""
+def test_marks_are_below_their_characters_if_the_other_line_is_longer() -> None:
+    """Both lines are marked up to the end of the longer one."""
     for one, other in (([], ["1" * 18]), (["1" * 18], []), (["12"], ["1" * 18])):
         *_, line, marks = side_by_side(one, other, 60)
         at = line.index("|") + 2
@@ -114,7 +112,7 @@ def test_every_card_of_an_example_is_shown(
                 assert any(re.match(rf" +\d+  {re.escape(card)} +[=~|]", line) for line in lines), card
             elif width == 100 and card.strip():
                 assert any(card.rstrip() in line for line in lines), card
-    # What came out exactly has no mark; what the listing chooses otherwise has.
+    # Exact results have no mark, and different choices of the listing have one.
     exact, listed = out.split("program 1 as listed")
     assert "^" not in exact
     assert "^" in listed
@@ -133,7 +131,7 @@ def test_every_result_of_a_paper_that_is_computed_is_shown(
             assert line.strip().expandtabs(2) in out
 
 
-def test_a_document_on_standard_output_is_alone(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_on_standard_output_is_the_only_output(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "reproduce", "1", "--show", "--json", "-")
     assert code == 0
     assert json.loads(out)["reproduced"] is True

@@ -1,6 +1,4 @@
-"""Where the commands write: files and devices, closed and full streams, what was done before an error."""
-
-from __future__ import annotations
+"""The outputs of commands: files and devices, closed and full streams, and output before an error."""
 
 import io
 import os
@@ -13,7 +11,7 @@ import pytest
 from tests.support.commands import DECK, call
 
 
-def test_files_instead(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_files_replace_the_standard_streams(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "hull", "good.deck", "--punch", "c", "--typewriter", "t", "--trace", "l")
     assert (code, out, err) == (0, "", "")
     assert Path("t").read_text(encoding="utf-8") == "POINTS ARE NOT COPLANAR\n"
@@ -38,10 +36,10 @@ def test_a_closed_pipe_is_no_error() -> None:
     assert done.stdout.count("\n") == 1
 
 
-# What is written, and where.
+# The outputs and their destinations.
 
 
-def test_a_device_is_written_not_replaced(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_device_is_written_and_not_replaced(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     os.mkfifo("pipe")
     reader = subprocess.Popen(["cat", "pipe"], stdout=subprocess.PIPE, text=True)
     assert call(capsys, "hull", "good.deck", "--trace", "pipe")[0] == 0
@@ -49,7 +47,7 @@ def test_a_device_is_written_not_replaced(room: Path, capsys: pytest.CaptureFixt
     assert Path("pipe").is_fifo()
 
 
-def test_neighbouring_files_are_left_alone(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_neighbouring_files_are_unchanged(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("log.part").write_text("mine", encoding="utf-8")
     assert call(capsys, "hull", "good.deck", "--trace", "log")[0] == 0
     assert Path("log.part").read_text(encoding="utf-8") == "mine"
@@ -65,7 +63,7 @@ def test_an_existing_file_keeps_its_mode_and_a_link_is_followed(room: Path, caps
     assert "CONVEX HULL" in Path("cards").read_text(encoding="utf-8")
 
 
-def test_work_done_before_a_bad_card_is_put_out(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_output_before_an_invalid_card_is_kept(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("bad.deck").write_text("2.\nABC\n", encoding="utf-8")
     code, out, err = call(capsys, "run", "good.f", "bad.deck", "--trace", "log")
     assert (code, out) == (2, " .20000000E+01\n")
@@ -73,14 +71,14 @@ def test_work_done_before_a_bad_card_is_put_out(room: Path, capsys: pytest.Captu
     assert "READ 2,X" in Path("log").read_text(encoding="utf-8")
 
 
-def test_blank_cards_after_the_deck(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_blank_cards_after_the_deck_are_ignored(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("b.deck").write_text(DECK + "\n\n", encoding="utf-8")
     code, _, err = call(capsys, "hull", "b.deck")
     assert code == 0
     assert "warning: b.deck: card 6, column 1: the programs do not read the blank cards" in err
 
 
-def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_errors_of_the_arithmetic_are_always_noted(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     cards = "9.E+98        1.E+98        0.\n-9.E+98       2.E+98        0.            JUNK\n"
     Path("big.deck").write_text(" 2\n" + cards, encoding="utf-8")
     code, _, err = call(capsys, "hull", "big.deck")
@@ -98,7 +96,7 @@ def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytes
         (["run", "a\nb.f"], "a\\nb.f: no such file"),
     ],
 )
-def test_outputs_are_checked_first(
+def test_outputs_are_checked_before_the_run(
     room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
 ) -> None:
     code, out, err = call(capsys, *arguments)
@@ -108,7 +106,7 @@ def test_outputs_are_checked_first(
 
 
 @pytest.mark.parametrize("redirection", ["<&-", ">&-", "> /dev/full"])
-def test_closed_and_full_streams(room: Path, redirection: str) -> None:
+def test_closed_and_full_streams_are_reported(room: Path, redirection: str) -> None:
     if redirection.endswith("full") and not os.path.exists("/dev/full"):
         pytest.skip("no /dev/full here")
     command = f"{sys.executable} -m modern.cli.main hull {'-' if '<' in redirection else 'good.deck'} {redirection}"
@@ -122,6 +120,6 @@ def test_one_example_named_twice_runs_once(capsys: pytest.CaptureFixture[str]) -
     assert call(capsys, "reproduce", "3", "3")[1] == call(capsys, "reproduce", "3")[1]
 
 
-def test_cards_takes_plain_digits_only(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_cards_accepts_plain_digits_only(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("wide.csv").write_text("\uff11,2,3\n", encoding="utf-8")
     assert call(capsys, "cards", "wide.csv")[0] == 2

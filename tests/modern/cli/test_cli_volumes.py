@@ -1,6 +1,4 @@
-"""``hull1620 voxel-hull`` and ``octree-hull`` on scans: what is chosen and said, where the hull lies, the table."""
-
-from __future__ import annotations
+"""``hull1620 voxel-hull`` and ``octree-hull`` on scans: selection, notes, position and tables."""
 
 import csv
 import os
@@ -27,7 +25,7 @@ WORLD = World(
 
 
 def scan() -> np.ndarray:
-    """Labels 1 (a block of 2 x 2 x 2), 2 (a single voxel) and 7 (a ball of 57 voxels without its middle)."""
+    """Write labels 1 (a block of 2 x 2 x 2), 2 (a single voxel) and 7 (a ball of 57 voxels without its middle)."""
     array = np.zeros((12, 12, 9), np.uint8)
     array[0:2, 0:2, 0:2] = 1
     array[3, 0, 0] = 2
@@ -46,7 +44,7 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     Path("scan.nrrd").write_bytes(nrrd(array, *PLACE))
 
 
-def test_what_was_chosen_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_selection_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     words = {
         (): "values other than 0, of 0 to 7; 89 voxels",
         ("--label", "1"): "label 1 of 1, 2, 7; 8 voxels",
@@ -65,7 +63,7 @@ def test_what_was_chosen_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     assert placed.endswith("spacing 0.5 0.5 2 (unit not stated)")
 
 
-def test_what_coordinates_mean_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_meaning_of_coordinates_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     assert call(capsys, "voxel-hull", "scan.nrrd")[2].splitlines()[1] == (
         "coordinates: left-posterior-superior; centre of voxel (0, 0, 0) at -10 5 0.25; the array's axes run left, "
         "anterior, superior; vertices are corners, half a voxel from centres"
@@ -92,7 +90,7 @@ def test_a_label_becomes_a_mesh_in_millimetres(form: str, capsys: pytest.Capture
     assert "hull: volume 4 mm^3\nhull: area 18 mm^2\nsolidity 1; convex deficiency 0 mm^3\n" in out
 
 
-def test_faces_stay_outward_where_an_axis_is_turned(capsys: pytest.CaptureFixture[str]) -> None:
+def test_faces_stay_outward_if_an_axis_is_reversed(capsys: pytest.CaptureFixture[str]) -> None:
     assert WORLD.mirrors
     call(capsys, "voxel-hull", "scan.nrrd", "--label", "7", "-o", "seven.off")
     lines = Path("seven.off").read_text(encoding="ascii").split("\n")
@@ -105,7 +103,7 @@ def test_faces_stay_outward_where_an_axis_is_turned(capsys: pytest.CaptureFixtur
         assert ((points - a) @ normal).min() < 0
 
 
-def test_the_measures_of_one_hull(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_measures_of_a_hull_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
     call(capsys, "voxel-hull", "scan.nrrd", "--label", "7", "--straight", "-o", "seven.off")
     out = call(capsys, "voxel-hull", "scan.nrrd", "--label", "7")[1].splitlines()
     judged = exact_hull(read_points("seven.off"))
@@ -142,7 +140,7 @@ def test_each_label_has_a_row_and_a_mesh(capsys: pytest.CaptureFixture[str]) -> 
         assert Fraction(row["deficiency_exact"]) == hull.volume - Fraction(row["volume"])
 
 
-def test_some_labels_and_the_table_of_centres_and_of_filled_hulls(capsys: pytest.CaptureFixture[str]) -> None:
+def test_selected_labels_have_rows_for_centres_and_filled_hulls(capsys: pytest.CaptureFixture[str]) -> None:
     some = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "--label", "7", "--label", "2")[1].splitlines()
     assert [line.split()[0] for line in some] == ["label", "7", "2", "lengths"]
     centres = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "--centres")[1].splitlines()
@@ -156,7 +154,7 @@ def test_some_labels_and_the_table_of_centres_and_of_filled_hulls(capsys: pytest
     assert "80/81" in Path("f.csv").read_text(encoding="ascii").splitlines()[3]
 
 
-def test_a_filled_hull_keeps_the_place_of_the_scan(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_filled_hull_keeps_the_position_of_the_scan(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "voxel-hull", "scan.nrrd", "--label", "7", "--fill", "-o", "filled.nrrd")
     assert (code, "note" in err) == (0, False)
     assert out.endswith("polyhedron): 81 voxels\nsolidity 80/81, in voxels; convex deficiency: 1 voxel\n")
@@ -171,7 +169,7 @@ def test_a_filled_hull_keeps_the_place_of_the_scan(capsys: pytest.CaptureFixture
     assert read_volume("index.nrrd").world is None
 
 
-def test_an_array_of_several_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+def test_one_of_several_arrays_is_named(capsys: pytest.CaptureFixture[str]) -> None:
     assert call(capsys, "voxel-hull", "scan.npz", "--array", "scan", "--label", "1")[0] == 0
     np.savez("one.npz", scan=scan())
     assert call(capsys, "voxel-hull", "one.npz")[0] == 0
@@ -207,7 +205,9 @@ def test_an_array_of_several_is_named(capsys: pytest.CaptureFixture[str]) -> Non
         ("scan.nrrd --fill -o a.off", "expected a name that ends with .npy or .nrrd"),
     ],
 )
-def test_what_cannot_be_done_is_one_line(words: str, message: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_requests_are_reported_in_one_line(
+    words: str, message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     before = sorted(Path().iterdir())
     code, out, err = call(capsys, "voxel-hull", *words.split())
     assert (code, out, err.count("\n")) == (2, "", 1)
@@ -216,8 +216,8 @@ def test_what_cannot_be_done_is_one_line(words: str, message: str, capsys: pytes
 
 
 @pytest.mark.parametrize(("shape", "code"), [("(2L, 2L, 2L)", 0), ("(2if 1 else 3, 2, 2)", 2)])
-def test_what_python_says_of_a_header_is_not_shown(shape: str, code: int) -> None:
-    """numpy reads the header as Python, which warns of some words: of those that Python 2 wrote, too."""
+def test_warnings_of_python_about_a_header_are_not_shown(shape: str, code: int) -> None:
+    """numpy parses the header as Python source, which gives warnings, also for headers of Python 2."""
     head = f"{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
     Path("a.npy").write_bytes(b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head.encode() + b"\1" * 8)
     words = [sys.executable, "-W", "always", "-m", "modern.cli.main", "voxel-hull", "a.npy"]
@@ -229,8 +229,8 @@ def test_what_python_says_of_a_header_is_not_shown(shape: str, code: int) -> Non
     )
 
 
-def test_a_name_that_would_write_two_labels_to_one_file(capsys: pytest.CaptureFixture[str]) -> None:
-    """A width cuts nothing: names differ; a folder that is not there is told before anything is written."""
+def test_a_name_that_writes_two_labels_to_one_file_is_rejected(capsys: pytest.CaptureFixture[str]) -> None:
+    """A width does not truncate a number, so names differ. A missing folder is reported before anything is written."""
     code, _, err = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "-o", "absent/label-%d.off")
     assert (code, err.count("\n")) == (2, 1)
     assert "absent" in err

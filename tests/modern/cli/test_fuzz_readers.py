@@ -1,9 +1,7 @@
-"""Every reader of a file, on files damaged at random: a result, or one line and exit code 2, and no file half written.
+"""Every reader on files damaged at random gives a result, or one line and exit code 2 and no partial file.
 
-``HULL1620_FUZZ=200`` takes 200 files of each reader and damages each in 50 ways; by itself it takes 3.
+``HULL1620_FUZZ=200`` damages 200 files of each reader instead of 3, each in 50 ways.
 """
-
-from __future__ import annotations
 
 import random
 import struct
@@ -22,7 +20,7 @@ from tests.support.solids import CUBE, CUBE_FACES, binary_stl, cut
 
 
 def points(draw: random.Random) -> list[tuple[str, str, str]]:
-    """Points in space, with decimals or without."""
+    """Draw points in space, with or without decimals."""
     count, places = draw.randrange(4, 12), draw.randrange(3)
     corner = [("0", "0", "0"), ("9", "0", "0"), ("0", "9", "0"), ("0", "0", "9")]
     return corner + [tuple(f"{draw.uniform(-5, 5):.{places}f}" for _ in range(3)) for _ in range(count)]  # type: ignore[misc]
@@ -57,7 +55,7 @@ def binary_ply(draw: random.Random) -> bytes:
 
 
 def triangles(draw: random.Random) -> bytes:
-    """The faces of one or two cuboids, a binary STL file."""
+    """Return the faces of one or two cuboids as a binary STL file."""
     rows = []
     for k in range(draw.randrange(1, 3)):
         size = draw.randrange(1, 4)
@@ -147,7 +145,7 @@ READERS: dict[str, tuple[str, Make, list[str]]] = {
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_a_damaged_file_is_read_or_refused_in_one_line(
+def test_a_damaged_file_is_read_or_rejected_in_one_line(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -155,7 +153,7 @@ def test_a_damaged_file_is_read_or_refused_in_one_line(
     assert {0, 2} <= codes, codes
 
 
-def test_a_damaged_plan_is_read_or_refused_in_one_line(tmp_path: Path) -> None:
+def test_a_damaged_plan_is_read_or_rejected_in_one_line(tmp_path: Path) -> None:
     codes = set()
     path = tmp_path / "a.toml"
     for number in range(FILES):
@@ -171,7 +169,7 @@ def test_a_damaged_plan_is_read_or_refused_in_one_line(tmp_path: Path) -> None:
 
 
 def refusal(path: Path) -> str:
-    """What is said of a plan that is refused, empty for one that is not."""
+    """Return the message about a rejected plan, or an empty string."""
     try:
         read_plan(str(path))
     except EmulatorError as error:
