@@ -3,28 +3,18 @@
 import hashlib
 from collections import Counter
 
-from emulator.language.cards import Deck
 from modern.claims.register import COLUMNS, DOCUMENTS, THESIS, counts
-from modern.drawing.draw import draw_svg
-from modern.drawing.punched import cards_svg
 from modern.edition import programs
-from modern.edition.chapter6 import EXAMPLES, input_deck
+from modern.edition.chapter6 import EXAMPLES
 from modern.edition.reproduce import reproduce, summary
 from modern.edition.sources import sources
-from modern.formats.points import parse_input
-from modern.port import convex_hull
 from modern.publication.building import citation
-from modern.publication.chart import chart
-from modern.publication.chart_svg import chart_svg
 from modern.publication.facing import Card, facing
-from modern.publication.flow import flow
 from modern.publication.site.made import Made, Part, one_of
 from modern.publication.site.markup import (
-    address,
     bar,
     element,
     escape,
-    figure,
     link,
     marked,
     preformatted,
@@ -49,19 +39,7 @@ def _pictures() -> str:
     page = link("program3", _SHOWN[0], "program 3")
     caption = f"The damaged text and the cards restored from it: {page}, card by card."
     restored = element("figure", element("div", rows, cls="mended") + element("figcaption", caption))
-    card = cards["105+3"]
-    deck = Deck("program3.f", (programs.deck("program3").cards[card.number - 1],))
-    caption = f"Statement {link('program3', card.place, card.place)} of program 3 as a punched card."
-    punched = figure(cards_svg(deck, title="a punched card"), "card", caption, "punched")
-    points = parse_input(input_deck(6).text(), "example6").points
-    hull = convex_hull(points, "exact", on_refusal="return")
-    caption = "The hull of example 6 in exact arithmetic. The programs punch the same hull."
-    drawn = figure(draw_svg(hull), "hull", caption)
-    sheet = chart_svg(chart(flow(programs.program("program3"))), 1, lambda box: address("chart3", "sheet-1"))
-    caption = (
-        f"{link('charts', '', 'Flow charts')} drawn from the compiled programs. The charts of the thesis are lost."
-    )
-    return element("div", restored + punched + drawn + figure(sheet, "chart", caption, "flow"), cls="plates broad")
+    return element("div", restored, cls="plates broad")
 
 
 def _restored(card: Card) -> str:

@@ -1,0 +1,115 @@
+"""The figures of the home page's essay: a punched card, the growing hull, a plane that fails to vanish, and the cube.
+
+Every figure is complete without JavaScript; ``story.js`` shows the stages one at a time and moves the slider.
+"""
+
+import json
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import product
+
+from emulator.numbers import numbers
+from emulator.numbers.base import Number, Numbers
+from modern.drawing.draw import draw_svg
+from modern.drawing.punched import cards_svg
+from modern.drawing.stages import frames, strip
+from modern.edition import programs
+from modern.edition.chapter6 import input_deck
+from modern.formats.deck import data_deck
+from modern.formats.points import parse_input
+from modern.port import convex_hull
+from modern.publication.site.made import Made, Part, one_of
+from modern.publication.site.markup import element, figure, link, preformatted, table, text
+from modern.thesis.job import run_hull
+
+EXAMPLE = 5
+CORNERS = ((127, 418, 52), (231, 64, 377))
+FIRST = (213, 305)  # y and z of the first point; the reader chooses x
+XS = range(5, 1000, 5)
+
+
+def make(argument: str) -> Made:
+    """Return a figure of the essay: ``card``, ``growth``, ``truncation`` or ``cube``."""
+    makers = {"card": _card, "growth": _growth, "truncation": _truncation, "cube": _cube}
+    return Made((Part(html=makers[one_of(argument, makers)]()),))
+
+
+def _card() -> str:
+    deck = input_deck(EXAMPLE)
+    second = type(deck)(deck.source, deck.cards[1:2])
+    drawn = cards_svg(second, title="a punched data card")
+    return figure(drawn, "card", f"The first point of example {EXAMPLE} on a punched card.", "punched")
+
+
+def _growth() -> str:
+    """Return the stages of the example's hull in the order of the program, one picture for each."""
+    points = parse_input(input_deck(EXAMPLE).text(), f"example{EXAMPLE}").points
+    stages = frames(convex_hull(points, "exact", history=True))
+    items = ""
+    for stage in stages:
+        caption = ". ".join(filter(None, stage.caption))
+        items += element("li", figure(strip([stage]), f"stage{stage.stage.number}", caption))
+    return element("ol", items, cls="stepper", aria_label="Stages of the hull")
+
+
+def _plane_values(arithmetic: Numbers, points: Sequence[Sequence[int]]) -> tuple[str, list[str]]:
+    """Return D of the plane through three points, and its values at them (program 3, 130+3 to 130+10 and 116+4)."""
+    x, y, z = (tuple(arithmetic.from_integer(point[axis]) for point in points) for axis in range(3))
+
+    def total(plus: Sequence[Sequence[Number]], minus: Sequence[Sequence[Number]]) -> Number:
+        result = None
+        for sign, terms in ((1, plus), (-1, minus)):
+            for first, *rest in terms:
+                term = first
+                for factor in rest:
+                    term = arithmetic.multiply(term, factor)
+                if result is None:
+                    result = term
+                else:
+                    result = arithmetic.add(result, term) if sign > 0 else arithmetic.subtract(result, term)
+        return result
+
+    a = total([(y[0], z[1]), (y[1], z[2]), (z[0], y[2])], [(y[2], z[1]), (y[0], z[2]), (y[1], z[0])])
+    b = total([(x[2], z[1]), (x[0], z[2]), (x[1], z[0])], [(x[0], z[1]), (x[1], z[2]), (x[2], z[0])])
+    c = total([(x[0], y[1]), (x[1], y[2]), (y[0], x[2])], [(y[1], x[2]), (x[0], y[2]), (x[1], y[0])])
+    d = total(
+        [(x[2], y[1], z[0]), (y[2], z[1], x[0]), (x[1], y[0], z[2])],
+        [(x[0], y[1], z[2]), (x[1], y[2], z[0]), (y[0], z[1], x[2])],
+    )
+    values = [total([(a, x[k]), (b, y[k]), (c, z[k]), (d,)], []) for k in range(3)]
+    return arithmetic.text(d), [arithmetic.text(value) for value in values]
+
+
+def _truncation() -> str:
+    """Return a slider for one coordinate of three points, with the plane's values at the points in eight digits."""
+    rows = []
+    for x in XS:
+        points = ((x, *FIRST), *CORNERS)
+        exact, _ = _plane_values(numbers("exact"), points)
+        machine, values = _plane_values(numbers("truncating"), points)
+        rows.append((x, exact, machine, *values))
+    head = ("x of the first point", "D, exactly", "D in eight digits", "first point", "second", "third")
+    shown = [[text("span", str(cell)) for cell in row] for row in rows if row[0] in (95, 320, 590, 635, 815, 905)]
+    summary = element(
+        "p", "Value of the plane at its own three points, of which every one should be zero:", cls="quiet"
+    )
+    html = summary + table(head, shown, "A plane's values at its own points")
+    others = " and ".join(f"({', '.join(map(str, point))})" for point in CORNERS)
+    caption = (
+        f"The plane through (x, {FIRST[0]}, {FIRST[1]}), {others}, as program 3 calculates it. All values are exact \
+until D needs more than eight digits on the way. Then the plane misses its own points."
+    )
+    box = element("div", html, cls="slider", data_rows=json.dumps(rows))
+    return element("figure", box + text("figcaption", caption))
+
+
+def _cube() -> str:
+    corners = [tuple(map(str, corner)) for corner in product((0, 1), repeat=3)]
+    run = run_hull(data_deck([list(corner) for corner in corners], "cube"), programs.program)
+    typed = [event.text for step in run.steps for event in step.result.events if event.what == "type"]
+    hull = convex_hull([tuple(map(Fraction, corner)) for corner in corners], "exact")
+    statements = sum(step.result.statements for step in run.steps)
+    caption = f"The unit cube. After {statements:,} statements the typewriter of the 1620 has typed:"
+    why = f"Why: {link('known-faults', '', 'known fault 2')}."
+    drawn = figure(draw_svg(hull, width=360), "cube", caption)
+    return drawn + preformatted("\n".join(typed), "typewriter") + element("p", why, cls="quiet")
