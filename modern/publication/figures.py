@@ -20,6 +20,7 @@ from modern.claims.register import COLUMNS, DOCUMENTS, counts, grades, judged
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES
 from modern.edition.reproduce import reproduce
+from modern.publication.building import citation
 
 _PLACE = re.compile(r"\{\{ *([a-z][\w.-]*) *\}\}")
 
@@ -68,6 +69,7 @@ def figures(docs: Path) -> dict[str, str]:
         **dict(_papers()),
         **dict(_statements()),
         **dict(_listings()),
+        "project.version": str(citation()["version"]),
     }
 
 

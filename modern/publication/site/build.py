@@ -14,6 +14,7 @@ from pathlib import Path
 
 from modern.publication.building import DIST, ROOT, BuildError, check_replaceable, newest_wheel, run
 from modern.publication.console import install_machine
+from modern.publication.site import downloads
 
 MISSING_SPHINX = "Sphinx builds the site: pip install 'hull1620[edition]'"
 _MARKER = ".hull1620-edition"  # a file in every site; a folder without it is not replaced
@@ -37,6 +38,7 @@ def build(out: Path, docs: Path = ROOT / "docs", quiet: bool = False, wheel: Pat
             else:
                 path.unlink(missing_ok=True)
         install_machine(new_site / "console", wheel)
+        downloads.write(new_site / downloads.FOLDER)
         (new_site / _MARKER).write_text("built by hull1620; `make edition` replaces this folder\n", encoding="utf-8")
         if out.exists():
             out.rename(Path(folder) / "before")

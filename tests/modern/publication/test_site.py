@@ -5,6 +5,7 @@ import json
 import re
 import subprocess
 import time
+import zipfile
 from itertools import pairwise
 from pathlib import Path
 from shutil import which
@@ -12,10 +13,12 @@ from shutil import which
 import pytest
 
 from emulator.errors import explanations
+from emulator.numbers import numbers
 from modern.edition import programs
 from modern.publication.site import build as site_build
 from modern.publication.site.made import make, names
 from modern.publication.site.markup import code, element, escape, inline, relative
+from modern.publication.site.pages import story
 from tests.support import editions
 from tests.support.editions import page_of_each_kind, pages, words
 from tests.support.paths import ROOT
@@ -75,10 +78,30 @@ def test_the_index_lists_every_card_and_error(site: Path) -> None:
     assert {f"errors.html#error-{number}" for number in explanations()} <= listed
 
 
-def test_the_home_page_links_to_the_examples_of_its_questions(site: Path) -> None:
+def test_the_home_page_leads_to_the_machine_the_author_the_faults_and_the_downloads(site: Path) -> None:
     home = {str(href) for href in pages(site)["index.html"].root.xpath("//article//a/@href")}
-    assert {"program3.html#147", "program1.html#P1-039", "errors.html#error-5", "addresses.html"} <= home
-    assert "to-cite" in pages(site)["index.html"].ids
+    assert {"console.html", "parting.html", "explanation/context.html", "known-faults.html", "get.html"} <= home
+    assert "ERROR IN PROGRAM" in pages(site)["index.html"].root.xpath("string(//article)")
+
+
+def test_downloads_are_files_of_the_site_and_open(site: Path) -> None:
+    links = [str(href) for href in pages(site)["get.html"].root.xpath("//article//a[@download]/@href")]
+    assert {"get/source.zip", "get/decks.zip", "get/tei.zip", "get/program3.f"} <= set(links)
+    for link in links:
+        if link.endswith(".zip"):
+            with zipfile.ZipFile(site / link) as archive:
+                assert archive.testzip() is None and archive.namelist()
+    with zipfile.ZipFile(site / "get/source.zip") as archive:
+        assert archive.read("fortran_src/program3.f").decode() == programs.deck("program3").text()
+
+
+def test_the_plane_misses_its_own_points_exactly_if_eight_digits_are_too_few() -> None:
+    for number in (95, 590, 635, 995):
+        points = ((number, *story.FIRST), *story.CORNERS)
+        exact, values = story.plane_values(numbers("exact"), points)
+        machine, on_machine = story.plane_values(numbers("truncating"), points)
+        assert values == ["0", "0", "0"]
+        assert (machine == exact) == (on_machine == values) == (number < 600)
 
 
 def test_pages_load_nothing_from_other_servers(site: Path) -> None:

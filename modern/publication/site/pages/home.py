@@ -38,8 +38,7 @@ def _pictures() -> str:
     rows = "".join(_restored(cards[place]) for place in _SHOWN)
     page = link("program3", _SHOWN[0], "program 3")
     caption = f"The damaged text and the cards restored from it: {page}, card by card."
-    restored = element("figure", element("div", rows, cls="mended") + element("figcaption", caption))
-    return element("div", restored, cls="plates broad")
+    return element("figure", element("div", rows, cls="mended") + element("figcaption", caption))
 
 
 def _restored(card: Card) -> str:

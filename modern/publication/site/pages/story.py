@@ -19,10 +19,10 @@ from modern.formats.deck import data_deck
 from modern.formats.points import parse_input
 from modern.port import convex_hull
 from modern.publication.site.made import Made, Part, one_of
-from modern.publication.site.markup import element, figure, link, preformatted, table, text
+from modern.publication.site.markup import element, figure, inline, link, preformatted, table, text
 from modern.thesis.job import run_hull
 
-EXAMPLE = 5
+EXAMPLE = 6
 CORNERS = ((127, 418, 52), (231, 64, 377))
 FIRST = (213, 305)  # y and z of the first point; the reader chooses x
 XS = range(5, 1000, 5)
@@ -44,15 +44,13 @@ def _card() -> str:
 def _growth() -> str:
     """Return the stages of the example's hull in the order of the program, one picture for each."""
     points = parse_input(input_deck(EXAMPLE).text(), f"example{EXAMPLE}").points
-    stages = frames(convex_hull(points, "exact", history=True))
-    items = ""
-    for stage in stages:
-        caption = ". ".join(filter(None, stage.caption))
-        items += element("li", figure(strip([stage]), f"stage{stage.stage.number}", caption))
-    return element("ol", items, cls="stepper", aria_label="Stages of the hull")
+    stages = frames(convex_hull(points, "exact", history=True), width=380)
+    items = "".join(element("li", inline(strip([stage]), f"stage{stage.stage.number}")) for stage in stages)
+    caption = f"The hull of {link(f'example{EXAMPLE}', '', f'example {EXAMPLE}')}, in the order of program 3."
+    return element("figure", element("ol", items, cls="stepper") + element("figcaption", caption))
 
 
-def _plane_values(arithmetic: Numbers, points: Sequence[Sequence[int]]) -> tuple[str, list[str]]:
+def plane_values(arithmetic: Numbers, points: Sequence[Sequence[int]]) -> tuple[str, list[str]]:
     """Return D of the plane through three points, and its values at them (program 3, 130+3 to 130+10 and 116+4)."""
     x, y, z = (tuple(arithmetic.from_integer(point[axis]) for point in points) for axis in range(3))
 
@@ -85,8 +83,8 @@ def _truncation() -> str:
     rows = []
     for x in XS:
         points = ((x, *FIRST), *CORNERS)
-        exact, _ = _plane_values(numbers("exact"), points)
-        machine, values = _plane_values(numbers("truncating"), points)
+        exact, _ = plane_values(numbers("exact"), points)
+        machine, values = plane_values(numbers("truncating"), points)
         rows.append((x, exact, machine, *values))
     head = ("x of the first point", "D, exactly", "D in eight digits", "first point", "second", "third")
     shown = [[text("span", str(cell)) for cell in row] for row in rows if row[0] in (95, 320, 590, 635, 815, 905)]

@@ -1,0 +1,80 @@
+"""The files that a visitor of the site can download, as groups of zip archives, and the decks as text.
+
+All of them are files of the project or are made from them.  They are part of the site, which therefore works without a
+network.  The wheel and the book are included if they have been built.
+"""
+
+import zipfile
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from modern.claims.apparatus_checks import texts
+from modern.edition import programs
+from modern.publication.building import DIST, ROOT, citation, newest_wheel
+from modern.publication.deposit import source_files
+from modern.publication.tei import schema, tei
+
+FOLDER = "get"
+_DEVICES = (".deck", ".punch", ".typewriter")
+_TABLES = (".csv", ".json", ".jsonl")
+
+
+@dataclass(frozen=True, slots=True)
+class Download:
+    """A file in the folder of downloads: its name, its description, its licence, and the files that it packs."""
+
+    name: str
+    title: str
+    licence: str
+    files: Mapping[str, bytes]
+
+    @property
+    def packed(self) -> bool:
+        return self.name.endswith(".zip")
+
+
+def downloads() -> tuple[Download, ...]:
+    """Return everything that can be downloaded, in the order of the page."""
+    return tuple(_downloads())
+
+
+def _downloads() -> Iterator[Download]:
+    version = str(citation()["version"])
+    sources = source_files()
+    if (wheel := newest_wheel()) is not None:
+        yield Download(wheel.name, "The software as a Python wheel", "MIT", {wheel.name: wheel.read_bytes()})
+    yield Download("source.zip", "The whole source, with tests and documents", "MIT, CC0; see LICENSE", _read(sources))
+    if (book := DIST / "hull1620.pdf").is_file():
+        files = {book.name: book.read_bytes()}
+        yield Download(book.name, "The edition as a book, PDF/A", "CC0; quotations: LICENSE", files)
+    for name in programs.NAMES:
+        text = programs.deck(name).text().encode("ascii")
+        title = f"{programs.built_in(name).title.capitalize()}, as cards"
+        yield Download(f"{name}.f", title, "the thesis's; quoted", {f"{name}.f": text})
+    decks = [name for name in sources if name.startswith(("fortran_src/", "transcripts/")) and name.endswith(_DEVICES)]
+    yield Download("decks.zip", "All data decks, punched cards and typed lines", "the thesis's; quoted", _read(decks))
+    documents = {f"{name}.xml": tei(name, version).encode() for name in texts()}
+    yield Download(
+        "tei.zip", "The edition in TEI P5, with its schema", "CC0", {**documents, "tei.rng": schema().encode()}
+    )
+    tables = [name for name in sources if name.startswith(("docs/studies", "docs/weight")) and name.endswith(_TABLES)]
+    yield Download("tables.zip", "All tables of the studies", "CC0", _read(tables))
+    registers = [n for n in sources if n.endswith(".toml") and n.startswith(("fortran_src/apparatus", "transcripts/"))]
+    yield Download("registers.zip", "The apparatus and the verdicts", "CC0", _read(registers))
+
+
+def _read(names: Iterable[str]) -> Mapping[str, bytes]:
+    return {name: (ROOT / name).read_bytes() for name in names}
+
+
+def write(folder: Path) -> None:
+    """Write all downloads into a new folder; the same files always give the same bytes."""
+    folder.mkdir()
+    for item in downloads():
+        if not item.packed:
+            (folder / item.name).write_bytes(next(iter(item.files.values())))
+            continue
+        with zipfile.ZipFile(folder / item.name, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, data in sorted(item.files.items()):
+                archive.writestr(zipfile.ZipInfo(name), data, zipfile.ZIP_DEFLATED)
