@@ -90,7 +90,8 @@ def test_downloads_are_files_of_the_site_and_open(site: Path) -> None:
     for link in links:
         if link.endswith(".zip"):
             with zipfile.ZipFile(site / link) as archive:
-                assert archive.testzip() is None and archive.namelist()
+                assert archive.testzip() is None
+                assert archive.namelist()
     with zipfile.ZipFile(site / "get/source.zip") as archive:
         assert archive.read("fortran_src/program3.f").decode() == programs.deck("program3").text()
 
