@@ -23,7 +23,7 @@ Operator = Callable[["Number1620", "Number1620"], "Number1620"]
 
 
 def _operator(rule: Callable[[int, int, int, int, Rules], tuple[int, int, int]]) -> Operator:
-    def apply(self: Number1620, operand: Number1620) -> Number1620:
+    def apply(self: "Number1620", operand: "Number1620") -> "Number1620":
         if not isinstance(operand, Number1620):
             return NotImplemented  # numpy then applies the operation to each element
         m, e, _ = rule(self.m, self.e, operand.m, operand.e, self.by)
