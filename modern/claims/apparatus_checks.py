@@ -6,8 +6,6 @@ too; ``arithmetic``, the four conditions of theorem 4.2 in full; and ``result``,
 is reproduced only with the emendation.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor

@@ -6,14 +6,12 @@ whole domain, :func:`searched` the cases of a generator.  The decorator :func:`c
 decides.
 """
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from random import Random
-from typing import Any, Final, Generic, Literal, TypeVar, get_args
+from typing import Any, Final, Generic, Literal, Self, TypeVar, get_args
 
 from emulator.errors import EmulatorError
 
@@ -60,7 +58,7 @@ class Check:
     message: str
     evidence: Evidence
 
-    def unless(self, refutes: object, case: str) -> Check:
+    def unless(self, refutes: object, case: str) -> Self:
         """Return the check of a statement with a condition: ``case`` violates the condition, and refutes.
 
         If it does not refute, the condition is not needed, and the statement is reported to hold without one.
@@ -137,11 +135,6 @@ def slip(as_printed: object, as_corrected: object, correction: str, message: str
     """Return the check of a slip of the print: the printed reading is false and the corrected one true."""
     evidence = Evidence("exhibited", 2, correction=correction if as_corrected else "")
     return Check(bool(as_printed), message, evidence)
-
-
-def holds_if(holds: object, message: str, conditional: object = False) -> Check:
-    check = exhibited(holds, message)
-    return check.unless(conditional, "see the reason") if conditional else check
 
 
 def _all(grade: Grade, domain: str, outcomes: Iterable[object], message: str) -> Check:

@@ -5,8 +5,6 @@ The folder of a paper below ``transcripts`` holds a witness (the values as print
 is compared with the corrected print word by word; spacing is ignored.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

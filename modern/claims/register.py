@@ -6,8 +6,6 @@ results that the row names.  A definition that our code follows is *used*; a sta
 with the reason.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -53,7 +51,7 @@ THESIS: Final = "thesis"
 DOCUMENTS = (THESIS, "appel-will", "kovalevsky-schulz", "nakamae-nishita", "yau-srihari")
 MOST_WORDS = 8
 _REQUIRED = {"page", "kind", "words", "says"}
-_OF_VERDICT = {"verdict", "why", "result", "test", "code", "file", "run"}
+_OF_VERDICT = {"verdict", "why", "result", "code", "file", "run"}
 _FIELDS = _REQUIRED | _OF_VERDICT | {"part", "same"}
 
 
@@ -81,7 +79,6 @@ class Statement:
     verdict: Verdict = HOLDS
     why: str = ""
     results: tuple[str, ...] = ()
-    tests: tuple[str, ...] = ()
     code: str = ""
     file: str = ""
     run: str = ""
@@ -154,10 +151,10 @@ def _row(document: str, number: str, raw: Mapping[str, Any]) -> Statement:
             raise StatementError(f"{place}: a repetition has no field {', '.join(sorted(extra))}")
     else:
         _check_verdict(place, raw)
-    simple = {name: raw[name] for name in _FIELDS - {"result", "test", "same"} if name in raw}
-    results, tests = _as_tuple(raw.get("result", ())), _as_tuple(raw.get("test", ()))
+    simple = {name: raw[name] for name in _FIELDS - {"result", "same"} if name in raw}
+    results = _as_tuple(raw.get("result", ()))
     same = f"{document}.{raw['same']}" if "same" in raw else ""
-    return Statement(document, place, **simple, results=results, tests=tests, same=same)
+    return Statement(document, place, **simple, results=results, same=same)
 
 
 def _check_verdict(place: str, raw: Mapping[str, Any]) -> None:
@@ -221,7 +218,7 @@ def judge(statement: Statement, results: Results) -> Judged:
         resolve(row)
         graded.append((USED, "used"))
         messages.append(f"used by {row.code}")
-    if bool(graded) == (row.verdict == UNTESTABLE) and not row.results and not row.tests:
+    if bool(graded) == (row.verdict == UNTESTABLE) and not row.results:
         raise StatementError(f"{row.id}: the verdict is {row.verdict!r}, and there is {'a' if graded else 'no'} check")
     if not graded:
         return Judged(statement, None, "")

@@ -1,7 +1,5 @@
 """Data that the checks of several documents share: sampled point sets, random triples and counterexamples."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -48,6 +46,10 @@ SETS = {
     )
     for dimension, seed, place in ((2, 1965, "a plane"), (3, 313, "space"))
 }
+
+
+# As many sets in a plane as in space, each drawn with its own seed.
+BOTH = Generator("as many sets of 7 to 11 points in a plane (seed 1965) as in space", SETS[3].seed, SETS[3].draw)
 
 
 def counterexample(name: str) -> str:

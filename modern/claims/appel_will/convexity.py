@@ -1,7 +1,5 @@
 """Checks of Appel and Will: properties of convex polyhedra, their two-dimensional methods, and steps as printed."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Sequence

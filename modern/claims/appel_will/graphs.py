@@ -1,6 +1,4 @@
-"""Checks of Appel and Will's appendix on faces found from the graph of the edges, from three points, or from a list."""
-
-from __future__ import annotations
+"""Checks of Appel and Will on graphs: the outline, and faces found from the edges, three points, or a list."""
 
 from collections.abc import Iterator, Mapping
 from itertools import combinations
@@ -9,6 +7,7 @@ from modern.claims.appel_will.convexity import CUBE
 from modern.claims.evidence import Check, claim, searched
 from modern.claims.sampled_sets import CASES, SETS, Point, plane_through, plane_value, sampled_sets
 from modern.exact_hull import ExactHull, exact_hull
+from modern.geometry.vectors import dot
 from modern.papers.appel_will import appel_will
 from modern.papers.appel_will.loops import TIMES
 from modern.papers.appel_will.results import found_solid
@@ -109,3 +108,21 @@ def list_of_points(cases: int = CASES) -> Check:
             before = loop.uses
     message = f"step 7 has already computed the {asked} values that step 10 needs; {len(checks)} cases agree"
     return searched(SETS[3], cases, [*checks, asked], message)
+
+
+@claim("appel-will.32", full=400)
+def outline(cases: int = CASES) -> Check:
+    """Check that the edges between front and back faces form one closed curve; along a face they do not."""
+    outcomes = [_closed(sampled.judge, (101, 37, 59)) for sampled in sampled_sets(3, cases)]
+    check = searched(SETS[3], cases, outcomes, "the outlines are closed curves")
+    return check.unless(not _closed(exact_hull(CUBE), (0, 0, 1)), "a cube seen along an edge")
+
+
+def _closed(judge: ExactHull, eye: Point) -> bool:
+    signs = {frozenset(f.polygon): dot(f.plane[:3], eye) > 0 for f in judge.facets if dot(f.plane[:3], eye)}
+    rim = [e for e in judge.edges() if [s for f, s in signs.items() if {*e} <= f] in ([True, False], [False, True])]
+    reached = {*rim[0]} if rim else set()
+    for _ in rim:
+        reached |= {end for edge in rim if reached & {*edge} for end in edge}
+    ends = [end for edge in rim for end in edge]
+    return bool(rim) and all(ends.count(end) == 2 for end in ends) and reached == {*ends}

@@ -1,7 +1,5 @@
 """Checks of single steps of Appel and Will: new and collinear lines, the star test, loops, and inside corners."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations, pairwise, permutations, product
 

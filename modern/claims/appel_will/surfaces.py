@@ -1,7 +1,5 @@
 """Checks of Appel and Will on objects given by surfaces: maps, lines and planes, inside corners, preprocessing."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from fractions import Fraction
@@ -12,8 +10,6 @@ from modern.claims.appel_will.convexity import CUBE, RINGS, Flat
 from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, search, searched, slip
 from modern.claims.published import PAPERS, findings, printed_lines
 from modern.claims.sampled_sets import (
-    CASES,
-    SETS,
     TRIPLES,
     Point,
     counterexample,
@@ -21,9 +17,8 @@ from modern.claims.sampled_sets import (
     plane_through,
     plane_value,
     random_triples,
-    sampled_sets,
 )
-from modern.exact_hull import ExactHull, exact_hull
+from modern.exact_hull import exact_hull
 from modern.formats.off import parse_off
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
 from modern.papers.appel_will import Method, appel_will
@@ -127,24 +122,6 @@ def sense_of_surfaces() -> Check:
     both = [corners(solid.points, oriented(solid.points, surfaces)) for surfaces in (solid.surfaces, turned)]
     kinds = [{frozenset(c.line.ends): c.product < 0 for c in found} for found in both]
     return exhibited(kinds[0] == kinds[1], "the corners of Fig. 4 do not depend on the sense of its surfaces")
-
-
-@claim("appel-will.32", full=400)
-def outline(cases: int = CASES) -> Check:
-    """Check that the edges between front and back faces form one closed curve; along a face they do not."""
-    outcomes = [_closed(sampled.judge, (101, 37, 59)) for sampled in sampled_sets(3, cases)]
-    check = searched(SETS[3], cases, outcomes, "the outlines are closed curves")
-    return check.unless(not _closed(exact_hull(CUBE), (0, 0, 1)), "a cube seen along an edge")
-
-
-def _closed(judge: ExactHull, eye: Point) -> bool:
-    signs = {frozenset(f.polygon): dot(f.plane[:3], eye) > 0 for f in judge.facets if dot(f.plane[:3], eye)}
-    rim = [e for e in judge.edges() if [s for f, s in signs.items() if {*e} <= f] in ([True, False], [False, True])]
-    reached = {*rim[0]} if rim else set()
-    for _ in rim:
-        reached |= {end for edge in rim if reached & {*edge} for end in edge}
-    ends = [end for edge in rim for end in edge]
-    return bool(rim) and all(ends.count(end) == 2 for end in ends) and reached == {*ends}
 
 
 @claim("appel-will.73")

@@ -1,7 +1,5 @@
 """Checks of Kovalevsky and Schulz: the algorithm, coplanar faces, and the cell list."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from itertools import product

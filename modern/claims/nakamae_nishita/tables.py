@@ -1,7 +1,5 @@
 """Checks of Nakamae and Nishita on two contours: correlations, formulas (1) to (3) and (5), the tables PL and LP."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache

@@ -1,7 +1,5 @@
 """Checks of Nakamae and Nishita on visibility: hidden edges, indices of intersections, nearer contours, and counts."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, permutations, product
@@ -49,7 +47,7 @@ def face_seen_edge_on() -> Check:
 @claim("nakamae-nishita.16")
 def hidden_contour_edges() -> Check:
     """Check that the nearer of two boxes hides inner edges of the other one, and contour edges as well."""
-    drawing = _two_boxes((1, 3, 1))
+    drawing = _two_boxes((1, 3, -1))
     check = exhibited(_hidden(drawing, INNER), "the contour of the nearer box hides inner edges of the other box")
     return check.unless(_hidden(drawing, CONTOUR), "the contour edges of that box, which are hidden as well")
 

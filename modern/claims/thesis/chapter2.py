@@ -3,16 +3,15 @@
 The earlier methods (testing all planes or lines, and gift wrapping) are carried out on small sets.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import combinations, permutations, product
+from itertools import combinations, permutations
 
-from modern.claims.evidence import Check, claim, holds_if, refuted
+from modern.claims.evidence import Check, claim, exhibited, refuted, searched
 from modern.claims.sampled_sets import (
     CASES,
+    SETS,
     Plane,
     Point,
     SampledSet,
@@ -30,53 +29,13 @@ from modern.geometry.vectors import cross, dot, minus
 def weights_of_combination() -> Check:
     """Check that weights must not be negative: 2 P_1 - P_2 has weights with the sum 1 and lies outside the segment."""
     hull = exact_hull([(0, 0, 0), (1, 0, 0), (-1, 0, 0)])
-    return holds_if(0 not in hull.vertices, "2 P - Q, with the weights 2 and -1, lies beyond P", conditional=True)
-
-
-@claim("thesis.19", "thesis.214", "thesis.257", "thesis.133", "yau-srihari.40")
-def triangle_of_combinations() -> Check:
-    """Check that the grid points of a triangle, and no others, are convex combinations of its corners."""
-    p, q, r = (0, 0), (4, 1), (1, 5)
-    agreeing = cases = 0
-    for x, y in product((-1, 1, 2, 4), repeat=2):
-        area = _area(p, q, r)
-        weights = [Fraction(_area(*three), area) for three in (((x, y), q, r), (p, (x, y), r), (p, q, (x, y)))]
-        inside = not set(exact_hull([(*t, 0) for t in (p, q, r)]).vertices) ^ set(
-            exact_hull([(*t, 0) for t in (p, q, r, (x, y))]).vertices
-        )
-        cases += 1
-        agreeing += (min(weights) >= 0) == inside and sum(weights) == 1
-    return holds_if(agreeing == cases, f"{agreeing} of {cases} grid points agree with the exact hull")
+    between = 2 not in exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0)]).vertices
+    check = exhibited(between, "1/2 P + 1/2 Q is between P and Q")
+    return check.unless(0 not in hull.vertices, "2 P - Q, with the weights 2 and -1, which lies beyond P")
 
 
 def _area(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-
-
-@claim("thesis.20")
-def supporting_planes(cases: int = CASES) -> Check:
-    """Check that the planes of the exact hull meet the definition of a supporting plane."""
-    return _supporting(sampled_sets(3, cases), 3)
-
-
-@claim("thesis.21")
-def supporting_lines(cases: int = CASES) -> Check:
-    """Check that the lines of the exact hull meet the definition of a supporting line."""
-    return _supporting(sampled_sets(2, cases), 2)
-
-
-def _supporting(sets: tuple[SampledSet, ...], dimension: int) -> Check:
-    """Check that each facet contains enough independent points and that no point lies beyond it."""
-    supporting = cases = 0
-    for sampled in sets:
-        for facet in sampled.judge.facets:
-            values = [plane_value(facet.plane, point) for point in sampled.points]
-            on = [point for point, v in zip(sampled.points, values, strict=True) if not v]
-            cases += 1
-            supporting += max(values) == 0 and exact_hull(on).dimension == dimension - 1
-    message = {2: "two distinct points", 3: "three noncollinear points"}[dimension]
-    message = f"{supporting} of {cases} facets contain {message}, and no point lies beyond them"
-    return holds_if(supporting == cases > 0, message)
 
 
 @claim("thesis.22")
@@ -106,15 +65,12 @@ def vertex_of_hull() -> Check:
     points = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0)]
     between = [(p, q) for p, q in combinations(points[:3], 2) if not any(cross(minus(q, p), minus(points[3], p)))]
     passed = not between and 3 not in exact_hull(points).vertices
-    return holds_if(
-        passed,
-        "the point (1, 1) lies on no line through two corners of the triangle (0, 0), (3, 0), (0, 3), and is "
-        "not a vertex",
-        conditional=True,
-    )
+    middle = 2 not in exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0)]).vertices
+    check = exhibited(middle, "a point between two others is not a vertex")
+    return check.unless(passed, "(1, 1) in the triangle (0, 0), (3, 0), (0, 3): it lies between no two points")
 
 
-@claim("thesis.200")
+@claim("thesis.200", full=400)
 def vertex_in_space(cases: int = CASES) -> Check:
     """Check that a point is between two points of the hull if and only if the hull of the other points contains it.
 
@@ -130,15 +86,12 @@ def vertex_in_space(cases: int = CASES) -> Check:
     points = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1)]
     between = [1 for p, q in combinations(points[:4], 2) if not any(cross(minus(q, p), minus(points[4], p)))]
     alone = not between and 4 not in exact_hull(points).vertices
-    message = (
-        f"{sum(checks)} of {len(checks)} points agree; (1, 1, 1) lies inside a tetrahedron but between no two "
-        "of the given points"
-    )
-    return holds_if(all(checks) and alone, message, conditional=True)
+    check = searched(SETS[3], cases, checks, f"{len(checks)} points agree")
+    return check.unless(alone, "(1, 1, 1) in a tetrahedron, which lies between no two of the given points")
 
 
-@claim("thesis.202", "thesis.27", kind="planes")
-@claim("thesis.201", kind="lines")
+@claim("thesis.202", "thesis.27", kind="planes", full=400)
+@claim("thesis.201", kind="lines", full=400)
 def gift_wrapping(kind: str, cases: int = CASES) -> Check:
     """Check that planes turned about points and edges, or lines turned about points, find all facets of the hull."""
     checks = []
@@ -146,7 +99,7 @@ def gift_wrapping(kind: str, cases: int = CASES) -> Check:
         expected = {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
         checks.append((_turned_lines(sampled) if kind == "lines" else _turned_planes(sampled.points)) == expected)
     message = f"in {sum(checks)} of {len(checks)} sets turning finds all supporting {kind} and nothing else"
-    return holds_if(all(checks), message)
+    return searched(SETS[2 if kind == "lines" else 3], cases, checks, message)
 
 
 def _on(points: Sequence[Point], plane: Plane) -> frozenset[int]:
@@ -198,7 +151,7 @@ def _turned_lines(sampled: SampledSet) -> set[frozenset[int]]:
     return lines_found
 
 
-@claim("thesis.24")
+@claim("thesis.24", full=400)
 def planes_from_triples(cases: int = CASES) -> Check:
     """Compare the supporting planes among the planes of all triples with the facets of the exact hull."""
     agreeing = 0
@@ -211,10 +164,15 @@ def planes_from_triples(cases: int = CASES) -> Check:
             if any(plane[:3]) and (max(values) <= 0 or min(values) >= 0):
                 planes.add(reduced_plane(plane if max(values) <= 0 else tuple(-x for x in plane)))  # type: ignore[arg-type]
         agreeing += planes == {facet.plane for facet in sampled.judge.facets}
-    return holds_if(agreeing == len(sets), f"the planes of {agreeing} of {len(sets)} sets agree with the exact hull")
+    return searched(
+        SETS[3],
+        cases,
+        [agreeing == len(sets)],
+        f"the planes of {agreeing} of {len(sets)} sets agree",
+    )
 
 
-@claim("thesis.25")
+@claim("thesis.25", full=400)
 def lines_from_pairs(cases: int = CASES) -> Check:
     """Compare the supporting lines among the lines of all pairs with the edges of the exact hull."""
     agreeing = 0
@@ -227,7 +185,12 @@ def lines_from_pairs(cases: int = CASES) -> Check:
             if max(sides) <= 0 or min(sides) >= 0:
                 lines.add(frozenset(k for k, side in enumerate(sides) if not side))
         agreeing += len(lines) == len(sampled.judge.facets)
-    return holds_if(agreeing == len(sets), f"the lines of {agreeing} of {len(sets)} sets agree with the exact hull")
+    return searched(
+        SETS[2],
+        cases,
+        [agreeing == len(sets)],
+        f"the lines of {agreeing} of {len(sets)} sets agree",
+    )
 
 
 @claim("thesis.26")
@@ -235,4 +198,4 @@ def cost_of_triples() -> Check:
     """Count the cost of testing all triples: C(N, 3) planes with N substitutions each."""
     cost = {n: math.comb(n, 3) * n for n in (8, 16, 51)}
     message = ", ".join(f"{n} points: {math.comb(n, 3):,} planes, {cost[n]:,} substitutions" for n in cost)
-    return holds_if(cost[16] > 2**3 * cost[8], message)
+    return exhibited(cost[16] > 2**3 * cost[8], message)

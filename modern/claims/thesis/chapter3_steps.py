@@ -3,14 +3,16 @@
 Each step that fails as printed has a counterexample in ``transcripts/counterexamples``.
 """
 
-from __future__ import annotations
-
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import combinations
+from typing import Any
 
-from modern.claims.evidence import Check, claim, holds_if, refuted
+from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, searched, slip
 from modern.claims.sampled_sets import (
+    BOTH,
     CASES,
+    SETS,
+    TRIPLES,
     Approximation,
     Point,
     SampledSet,
@@ -28,16 +30,11 @@ from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
 from modern.port.arithmetic import moments
 
-# A triangle, and a point on one of its sides that the procedure uses.
-_POINT_ON_A_SIDE: list[Point] = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]
-# A pyramid over nine points of a square.
-PYRAMID: list[Point] = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
 
-
-def all_hold(cases: Iterator[bool] | list[bool], message: str) -> Check:
-    """Return HOLDS if there are cases and all of them are true; the message starts with their number."""
-    checks = list(cases)
-    return holds_if(bool(checks) and all(checks), f"{sum(checks)} of {len(checks)} {message}")
+def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], message: str) -> Check:
+    """Return the check of outcomes; the message starts with their number."""
+    checks = list(outcomes)
+    return searched(generator, cases, checks, f"{sum(map(bool, checks))} of {len(checks)} {message}")
 
 
 @claim("thesis.42", which="1")
@@ -50,13 +47,18 @@ def line_pairs(which: str) -> Check:
     planes = [(int(a), int(b), int(c), int(d)) for a, b, c, d in lines]
     on = all(plane_value(plane, p) == 0 for plane in planes for p in ends)
     independent = any(cross(planes[0][:3], planes[1][:3]))
-    return holds_if(on and independent, "both equations hold at the two points, and their normals are independent")
+    return exhibited(on and independent, "both equations hold at the two points, and their normals are independent")
 
 
-@claim("thesis.49")
+@claim("thesis.49", full=400)
 def third_point(cases: int = CASES) -> Check:
     """Check that no point is farther from the line of the first two points than the third point of H_1."""
-    return all_hold(list(_farthest(flat_and_spatial_sets(cases))), "sets: no point is farther than the third of H_1")
+    return all_hold(
+        BOTH,
+        2 * cases,
+        list(_farthest(flat_and_spatial_sets(cases))),
+        "sets: no point is farther than the third of H_1",
+    )
 
 
 def _farthest(sets: tuple[SampledSet, ...]) -> Iterator[bool]:
@@ -85,24 +87,22 @@ def value_v() -> Check:
     as_text = ((y2 - y1) * (z2 - z1) - (z2 - zi) * (y2 - y1)) ** 2
     as_text += ((z2 - z1) * (x2 - x1) - (x2 - xi) * (z2 - z1)) ** 2
     as_text += ((x2 - x1) * (y2 - y1) - (y2 - yi) * (x2 - x1)) ** 2
-    message = (
-        f"with y_i and z_i V is d squared times D squared; as displayed in our text it is {as_text} at a "
-        "point of the line"
-    )
-    return holds_if(right and on_line and as_text, message, conditional=True)
+    message = "with y_i and z_i V is the square of the distance times that of D"
+    case = f"the display of our text, which is {as_text} at a point of the line"
+    return searched(TRIPLES, 6, [right], message).unless(on_line and as_text, case)
 
 
-@claim("thesis.52")
+@claim("thesis.52", full=300)
 def coplanarity_test(cases: int = CASES) -> Check:
     """Check that all values of (3.4) are 0 in the flat sets and in no others."""
     checks = []
     for sampled in flat_and_spatial_sets(cases):
         first = plane_as_printed(*(sampled.points[k] for k in sampled.hull.history[0].added[:3]))
         checks.append(any(plane_value(first, point) for point in sampled.points) == (not sampled.flat))
-    return all_hold(checks, "sets: all values of (3.4) are 0 if and only if the set is flat")
+    return all_hold(BOTH, 2 * cases, checks, "sets: all values of (3.4) are 0 if and only if the set is flat")
 
 
-@claim("thesis.53")
+@claim("thesis.53", full=300)
 def common_first_steps(cases: int = CASES) -> Check:
     """Check that flat sets and sets with one more point outside their plane start with the same three points."""
     checks = []
@@ -114,10 +114,10 @@ def common_first_steps(cases: int = CASES) -> Check:
         hulls = [convex_hull(points, history=True) for points in (flat, [*flat, (x, y, z + 1)])]
         firsts = [[hull.points[k] for k in hull.history[0].added[:3]] for hull in hulls]
         checks.append([hull.dimension for hull in hulls] == [2, 3] and firsts[0] == firsts[1])
-    return all_hold(checks, "sets start with the same three points; the plane of these decides which case applies")
+    return all_hold(SETS[2], cases, checks, "sets start with the same three points, whose plane decides")
 
 
-@claim("thesis.213", "thesis.57", "thesis.58", "thesis.59", "thesis.254")
+@claim("thesis.213", "thesis.58", "thesis.59", full=300)
 def classification_by_signs(cases: int = CASES) -> Check:
     """Check the classification into vertices, boundary and inside points by the signs of the exact equations."""
     checks = []
@@ -127,10 +127,10 @@ def classification_by_signs(cases: int = CASES) -> Check:
             largest = max(plane_value(facet.plane, point) for facet in sampled.judge.facets)
             checks.append(largest <= 0 and (largest == 0) == (k not in sampled.judge.inside))
     message = f"{sum(checks)} of {len(checks)} points are classified correctly; the midpoint of a side is not a vertex"
-    return holds_if(all(checks) and some_boundary, message)
+    return searched(BOTH, 2 * cases, [*checks, some_boundary], message)
 
 
-@claim("thesis.215", "thesis.61", "thesis.63", "thesis.64", "thesis.88")
+@claim("thesis.215", "thesis.61", "thesis.63", "thesis.64", "thesis.88", full=300)
 def mean_of_first_hull(cases: int = CASES) -> Check:
     """Check that the equations of H_1 are those of the exact hull and are negative at the mean of its points."""
     checks = []
@@ -141,7 +141,7 @@ def mean_of_first_hull(cases: int = CASES) -> Check:
         vertex_count = len(first.vertices)
         checks.append({reduced_plane(plane) for plane in first.equations} == {f.plane for f in judge.facets})
         checks += [dot(f.plane[:3], (x, y, z)) + vertex_count * f.plane[3] < 0 for f in judge.facets]
-    return all_hold(checks, "equations are exact and negative at C")
+    return all_hold(BOTH, 2 * cases, checks, "equations are exact and negative at C")
 
 
 @claim("thesis.67")
@@ -152,37 +152,6 @@ def outside_convention() -> Check:
     return refuted(x < 0, message)
 
 
-@claim("thesis.80", dimension="2")
-@claim("thesis.102", dimension="3")
-def remaining_points(dimension: str) -> Check:
-    """Check that the points of a grid that are neither eliminated nor used lie on the boundary."""
-    sizes = (5, 5, 1) if dimension == "2" else (3, 3, 3)
-    points = [(x, y, z) for x in range(sizes[0]) for y in range(sizes[1]) for z in range(sizes[2])]
-    hull, judge = convex_hull(points, history=True), exact_hull(points)
-    used = {k for stage in hull.history for k in stage.added}
-    eliminated = {k for stage in hull.history for k in stage.struck}
-    remaining = set(range(len(points))) - used - eliminated
-    passed = (
-        bool(remaining)
-        and remaining <= {*judge.boundary}
-        and eliminated == {*judge.inside}
-        and {*judge.vertices} <= used
-    )
-    message = f"{len(remaining)} of {len(points)} points remain; all of them are on the boundary and none is a vertex"
-    return holds_if(passed, message)
-
-
-@claim("thesis.81")
-def used_boundary_point() -> Check:
-    """Check four points, one of which is used for a hull although it lies between two others."""
-    points = _POINT_ON_A_SIDE
-    hull = convex_hull(points, history=True)
-    used = {k for stage in hull.history for k in stage.added}
-    boundary_used = used & {*hull.boundary}
-    message = f"points used that lie on one line only: {', '.join(str(points[k]) for k in sorted(boundary_used))}"
-    return holds_if(bool(boundary_used), message)
-
-
 @claim("thesis.82")
 def between_by_distances() -> Check:
     """Check that sums of distances tell which of three collinear points lies between the others."""
@@ -190,30 +159,11 @@ def between_by_distances() -> Check:
     for a, b, c in ((0, 5, 2), (0, 2, 5), (5, 0, -3), (1, 0, 2)):
         between = _between(a, b, c, *(5 * abs(p - q) for p, q in ((b, a), (a, c), (b, c))))
         checks.append(between == sorted((a, b, c))[1])
-    return all_hold(checks, "cases of points (3t, 4t) are decided correctly")
+    return exhausted("four orders of points (3t, 4t)", checks, "sums of distances decide all cases")
 
 
 def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:
     return a if ab + ac - bc == 0 else b if ab + bc - ac == 0 else c
-
-
-@claim("thesis.85")
-def duplicate_lines() -> Check:
-    """Check that a side with three used points has two equations before duplicates are removed."""
-    points = _POINT_ON_A_SIDE
-    hull = convex_hull(points, history=True)
-    last = hull.history[-1].equations
-    used = {k for stage in hull.history for k in stage.added}
-    sides = [{k for k in used if _on_side(points, face.polygon, k)} for face in hull.faces]
-    counted = [(len(side), sum(set(ends) <= side for ends in last)) for side in sides]
-    passed = all(equations >= 2 for used_count, equations in counted if used_count >= 3)
-    message = f"numbers of used points and of equations for each side: {counted}"
-    return holds_if(passed and any(used_count >= 3 for used_count, _ in counted), message)
-
-
-def _on_side(points: list[Point], ends: tuple[int, ...], k: int) -> bool:
-    p, q = points[ends[0]], points[ends[1]]
-    return not any(cross(minus(q, p), minus(points[k], p)))
 
 
 @claim("thesis.87")
@@ -231,45 +181,55 @@ def fourth_point_by_largest() -> Check:
     return refuted(wrong, message)
 
 
-@claim("thesis.94", kind="counts")
-@claim("thesis.95", kind="order")
-@claim("thesis.199", kind="as_worded")
-@claim("thesis.97", kind="pairs")
-@claim("thesis.98", kind="names")
-def visible_planes(kind: str, cases: int = CASES) -> Check:
+@claim("thesis.94", subject="counts", full=300)
+@claim("thesis.97", subject="pairs", full=300)
+def visible_planes(subject: str, cases: int = CASES) -> Check:
     """Check how the planes that a new point is outside of are replaced.
 
-    kind: ``counts`` of planes, ``pairs`` of planes with a common edge, the step ``as_worded``, the ``names`` MM,
-    NN and KK of common points, or the ``order`` of the planes.
+    subject: the ``counts`` of planes, or ``pairs`` of planes with a common edge.
     """
-    if kind == "order":
-        return _order(cases)
     checks: list[bool] = []
-    same_places = pairs = 0
+    for sampled, before, after, visible in _visible(cases):
+        shared = list(_shared(before, visible))
+        if subject == "counts":
+            added = len(after.equations) - len(before.equations)
+            checks.append(added == 2 * len(visible) - 2 * len(shared))
+        else:
+            point = sampled.points[after.vertices[-1]]
+            checks += [_separated(sampled.points, before, i, m, edge, point) for i, m, edge in shared]
+    words = "stages have the expected number of planes"
+    words = words if subject == "counts" else "pairs: the third points are on opposite sides"
+    return all_hold(SETS[3], cases, checks, words)
+
+
+def _visible(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximation, list[int]]]:
+    """Yield each step with the planes that the added point is outside of (page 31)."""
     for sampled in sampled_sets(3, cases):
         for before, after in zip(sampled.stages(), sampled.stages()[1:], strict=False):
             point = sampled.points[after.vertices[-1]]
-            # Page 31: the planes that the added point is outside of, and their pairs with a common edge.
-            visible = [k for k, plane in enumerate(before.equations) if plane_value(plane, point) > 0]
-            shared = list(_shared(before, visible))
-            pairs += len(shared)
-            same_places += sum(_same_places(before.defining[i], before.defining[m], edge) for i, m, edge in shared)
-            if kind == "counts":
-                added = len(after.equations) - len(before.equations)
-                checks.append(added == 2 * len(visible) - 2 * len(shared))
-            else:
-                checks += [_separated(sampled.points, before, i, m, edge, point) for i, m, edge in shared]
-    if kind == "names":
-        message = f"in {same_places} of {pairs} pairs the two common points have the same positions among MM, NN and KK"
-        return holds_if(pairs, message, conditional=same_places < pairs)
-    if kind == "as_worded":
-        return holds_if(all(checks), f"{len(checks)} pairs of planes i and m agree", conditional=True)
-    return all_hold(
-        checks,
-        "stages have the expected number of planes"
-        if kind == "counts"
-        else "pairs: the third points are on opposite sides",
-    )
+            yield sampled, before, after, [k for k, p in enumerate(before.equations) if plane_value(p, point) > 0]
+
+
+@claim("thesis.199")
+def planes_i_and_m() -> Check:
+    """Check that the planes i and m have two points in common; j is the index of a point and names no plane."""
+    pairs = [edge for _, before, _, visible in _visible(CASES) for _, _, edge in _shared(before, visible)]
+    right = bool(pairs) and all(len(edge) == 2 for edge in pairs)
+    right &= visible_planes("pairs").holds
+    return slip(False, right, "i and m", f"{len(pairs)} pairs of planes i and m agree")
+
+
+@claim("thesis.98", full=300)
+def planes_of_same_points(cases: int = CASES) -> Check:
+    """Check that the common points of two planes are found in any order, and not always at equal positions."""
+    positions = [
+        _same_places(before.defining[i], before.defining[m], edge)
+        for _, before, _, visible in _visible(cases)
+        for i, m, edge in _shared(before, visible)
+    ]
+    check = visible_planes("pairs", cases)
+    case = f"names at equal positions, which {positions.count(False)} of {len(positions)} pairs do not have"
+    return check.unless(not all(positions), case)
 
 
 def _shared(before: Approximation, visible: list[int]) -> Iterator[tuple[int, int, set[int]]]:
@@ -290,16 +250,17 @@ def _separated(points: tuple[Point, ...], before: Approximation, i: int, m: int,
     return plane_value(plane, points[first_corner]) * plane_value(plane, points[second_corner]) < 0
 
 
-def _order(cases: int) -> Check:
-    same = reordered = sets = 0
+@claim("thesis.95", full=300)
+def order_of_replacement(cases: int = CASES) -> Check:
+    """Check that the text and the listing find the same planes in their own orders."""
+    outcomes, reordered = [], 0
     for sampled in sampled_sets(3, cases):
         text = convex_hull(sampled.points, text=True, on_refusal="return")
         if text.determined:
-            sets += 1
-            same += {f.lowest for f in text.faces} == {f.lowest for f in sampled.hull.faces}
+            outcomes.append({f.lowest for f in text.faces} == {f.lowest for f in sampled.hull.faces})
             reordered += [f.lowest for f in text.faces] != [f.lowest for f in sampled.hull.faces]
-    message = f"{same} of {sets} sets get the same planes, {reordered} of them in another order"
-    return holds_if(same == sets, message, conditional=True)
+    check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} sets get the same planes")
+    return check.unless(reordered, f"the order of the listing: {reordered} sets get their planes in another order")
 
 
 @claim("thesis.96")
@@ -309,76 +270,3 @@ def without_constant_term() -> Check:
     planes = [facet.plane for facet in exact_hull(corners).facets]
     wrong = [plane for plane in planes if dot(plane[:3], middle) > 0 > plane_value(plane, middle)]
     return refuted(wrong, f"without D {len(wrong)} of {len(planes)} planes are positive at the centre")
-
-
-@claim("thesis.103")
-def duplicate_planes() -> Check:
-    """Check that a pyramid over nine points of a square keeps one equation of each plane."""
-    hull = convex_hull(PYRAMID, history=True)
-    equation_count = len(hull.history[-1].equations)
-    message = f"{equation_count} equations were made, and {len(hull.faces)} planes remain"
-    return holds_if(len(hull.faces) == 5 < equation_count, message)
-
-
-@claim("thesis.104")
-@claim("thesis.105", kind="condition")
-def planes_at_vertex(kind: str = "", cases: int = CASES) -> Check:
-    """Check how many planes of the exact hull contain each point."""
-    checks = []
-    for points in (*(sampled.points for sampled in sampled_sets(3, cases)), tuple(PYRAMID)):
-        judge = exact_hull(points)
-        for k, point in enumerate(points):
-            on = sum(not plane_value(facet.plane, point) for facet in judge.facets)
-            checks.append((on >= 3) == (k in judge.vertices))
-    message = (
-        f"{sum(checks)} of {len(checks)} points: a vertex lies in three or more planes, any other point in two or fewer"
-    )
-    return holds_if(all(checks), message, conditional=kind)
-
-
-@claim("thesis.223")
-def duplicates_removed() -> Check:
-    """Check a triangle with a used point on a side: three of four vertices and of four equations remain."""
-    hull = convex_hull(_POINT_ON_A_SIDE, history=True)
-    used = [k for stage in hull.history for k in stage.added]
-    equation_count, kept_equations = len(hull.history[-1].equations), [face.lowest for face in hull.faces]
-    passed = len(used) > len(hull.vertices) == 3 == len(set(kept_equations)) == len(kept_equations) < equation_count
-    return holds_if(
-        passed,
-        f"{len(hull.vertices)} of {len(used)} used points remain, "
-        f"and {len(kept_equations)} of {equation_count} equations",
-    )
-
-
-# A set in space for which the procedure uses a point that is not a vertex of the last hull.
-_TWO_PLANES: list[Point] = [(2, 1, 1), (1, 1, 3), (0, 1, 3), (0, 0, 0), (0, 2, 3), (0, 0, 2), (0, 1, 2)]
-
-
-@claim("thesis.231", "thesis.256")
-def used_points_in_planes() -> Check:
-    """Count the planes of the last hull that contain each used point that is not a vertex."""
-    hull, judge = convex_hull(_TWO_PLANES, history=True), exact_hull(_TWO_PLANES)
-    used = {k for stage in hull.history for k in stage.added} - {*judge.vertices}
-    planes = {_TWO_PLANES[k]: sum(not plane_value(f.plane, _TWO_PLANES[k]) for f in judge.facets) for k in sorted(used)}
-    passed = bool(planes) and {*planes.values()} <= {1, 2} and {*hull.vertices} == {*judge.vertices}
-    return holds_if(passed, ", ".join(f"{point} is in planes of the last hull: {n}" for point, n in planes.items()))
-
-
-@claim("thesis.230")
-def boundary_points_on_edges() -> Check:
-    """Check that surface points of a pyramid in two planes lie between the ends of the common edge."""
-    points = [(x, y, 0) for x in (0, 2, 4) for y in (0, 2, 4)] + [(2, 2, 4), (1, 1, 2)]
-    judge = exact_hull(points)
-    checks, in_one_plane = [], 0
-    for k, point in enumerate(points):
-        on = [f for f in judge.facets if not plane_value(f.plane, point)]
-        in_one_plane += len(on) == 1
-        if len(on) == 2:
-            p, q = (points[j] for j in {*on[0].polygon} & {*on[1].polygon})
-            checks.append(not any(cross(minus(point, p), minus(q, p))) and dot(minus(point, p), minus(point, q)) < 0)
-            checks.append(k not in judge.vertices)
-    message = (
-        f"{len(checks) // 2} points are in two planes; "
-        f"{in_one_plane} is in one plane and between no two ends of an edge"
-    )
-    return holds_if(checks and all(checks) and in_one_plane, message, conditional=True)

@@ -1,7 +1,5 @@
 """Checks of chapters 1 and 3 as worded: the steps of the text against the listing, and other ways to start."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator, Sequence
@@ -9,9 +7,10 @@ from itertools import pairwise
 
 from emulator.language.objectcode import Program, code_positions
 from emulator.machine.machine import Machine
-from modern.claims.evidence import Check, claim, holds_if, refuted
+from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
 from modern.claims.sampled_sets import (
     CASES,
+    SETS,
     Point,
     SampledSet,
     counterexample_points,
@@ -20,8 +19,9 @@ from modern.claims.sampled_sets import (
     reduced_plane,
     sampled_sets,
 )
+from modern.claims.thesis.chapter3_boundary import PYRAMID
 from modern.claims.thesis.chapter3_stages import stage_property
-from modern.claims.thesis.chapter3_steps import PYRAMID, fourth_point_by_largest, visible_planes
+from modern.claims.thesis.chapter3_steps import fourth_point_by_largest, order_of_replacement
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.edition import programs
 from modern.edition.chapter6 import input_deck
@@ -38,19 +38,10 @@ _ELIMINATE_CHECK_GROW = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3
 @claim("thesis.267")
 def text_against_listing() -> Check:
     """Check the four steps that differ from the listing: two lose the hull or a line, two only change an order."""
-    results = (
-        fourth_point_by_largest(),
-        line_duplicates_as_printed(),
-        visible_planes("order"),
-        plane_duplicates_as_printed(),
-    )
-    checks = [result.holds for result in results] == [False, False, True, True]
-    return holds_if(
-        checks,
-        "the fourth point and the removal of duplicate lines fail as worded; two other steps change only the "
-        "order of planes",
-        conditional=True,
-    )
+    losing = (fourth_point_by_largest(), line_duplicates_as_printed())
+    reordering = (order_of_replacement(), plane_duplicates_as_printed())
+    check = exhibited(all(step.holds for step in reordering), "two steps differ only in the order of planes")
+    return check.unless(not any(step.holds for step in losing), "two other steps, which lose the hull or a line")
 
 
 @claim("thesis.275")
@@ -83,7 +74,7 @@ def _indices_on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
     return [k for k, x in enumerate(points) if not any(cross(minus(q, p), minus(x, p)))]
 
 
-@claim("thesis.276")
+@claim("thesis.276", full=300)
 def plane_duplicates_as_printed(cases: int = CASES) -> Check:
     """Check the removal of duplicate planes: page 34 keeps the last equation of each plane, the listing the first."""
     checks, differing = [], 0
@@ -105,7 +96,7 @@ def plane_duplicates_as_printed(cases: int = CASES) -> Check:
         f"{sum(checks)} of {len(checks)} sets keep one equation of each plane; in {differing} sets it is not "
         "the one that the listing keeps"
     )
-    return holds_if(all(checks) and differing > 0, message)
+    return searched(SETS[3], cases, [*checks, differing], message)
 
 
 def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
@@ -114,9 +105,9 @@ def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
     return max(reduced, (-a, -b, -c, -d))
 
 
-@claim("thesis.79", dimension="2")
-@claim("thesis.101", dimension="3")
-def last_equation_accepted(dimension: str) -> Check:
+@claim("thesis.79", dimension="2", full=300)
+@claim("thesis.101", dimension="3", full=300)
+def last_equation_accepted(dimension: str, cases: int = CASES) -> Check:
     """Check a set with an H_j whose last equation, NETC = NE, is not supporting; at the end all equations are."""
     flat = dimension == "2"
     points = [(0, 3, 0), (0, 2, 0), (4, 4, 0), (4, 3, 0)]
@@ -124,9 +115,8 @@ def last_equation_accepted(dimension: str) -> Check:
         points = [(2, 4, 4), (0, 3, 4), (1, 4, 4), (1, 3, 0), (3, 2, 4)]
     history = convex_hull(points, history=True).history
     equal = [before.number for before, after in pairwise(history) if after.checked == len(before.equations)]
-    passed = bool(equal) and stage_property("last_hull").holds
-    message = f"H_{', H_'.join(map(str, equal))} has NETC = NE, and a point is outside that equation"
-    return holds_if(passed, message, conditional=True)
+    case = f"H_{', H_'.join(map(str, equal))} of a set, which has NETC = NE although a point is outside that equation"
+    return stage_property("last_hull", cases).unless(equal, case)
 
 
 @claim("thesis.47")
@@ -140,7 +130,11 @@ def collinearity_test() -> Check:
         for x in ((x, y, z) for x in range(-3, 6) for y in range(-1, 5) for z in range(-1, 8)):
             satisfies_both = not any(plane_value((a, b, c, d), x) for a, b, c, d in lines)
             checks.append(satisfies_both == (not any(cross(direction, minus(x, p)))))
-    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} lattice points near five lines agree")
+    return exhausted(
+        "432 lattice points about five lines",
+        checks,
+        f"{len(checks)} lattice points agree",
+    )
 
 
 @claim("thesis.272")
@@ -150,7 +144,7 @@ def program3_against_program2() -> Check:
     code = [code_positions(programs.program(f"program{k}")) for k in (2, 3)]
     passed = code[0] < code[1] and "ELIMINATING INSIDE PLANES" in three and "ELIMINATING INSIDE" not in two
     message = f"the code of program 2 takes about {code[0]:} positions, that of program 3 about {code[1]:}"
-    return holds_if(passed, message)
+    return exhibited(passed, message)
 
 
 @claim("thesis.268")
@@ -168,19 +162,19 @@ def substitution_counts() -> Check:
         f"{n} points: at most {substitutions:,} substitutions instead of {all_substitutions:,}"
         for n, (substitutions, all_substitutions) in needed.items()
     )
-    return holds_if(shares == sorted(shares, reverse=True) and shares[-1] < 1 / 3, message)
+    return exhibited(shares == sorted(shares, reverse=True) and shares[-1] < 1 / 3, message)
 
 
 @claim("thesis.269")
-def consecutive_hulls(cases: int = CASES) -> Check:
+def consecutive_hulls() -> Check:
     """Check that H_1 to H_f make f - 1 pairs H_j, H_j+1, so that j + 1 starts at 2."""
     checks = []
-    for sampled in (*sampled_sets(2, cases), *sampled_sets(3, cases)):
+    for sampled in (*sampled_sets(2, CASES), *sampled_sets(3, CASES)):
         sizes = [len(stage.vertices) for stage in sampled.stages()]
         larger = sum(a < b for a, b in pairwise(sizes))
         checks.append(larger == len(sizes) - 1 and sampled.hull.history[0].number == 1)
     message = f"in {sum(checks)} of {len(checks)} sets H_2 is the first hull that has a predecessor"
-    return holds_if(all(checks), message, conditional=True)
+    return slip(False, all(checks), "2", message)
 
 
 @claim("thesis.286")
@@ -199,7 +193,7 @@ def order_of_elimination() -> Check:
         sequences.append((bool(re.fullmatch("(EC+G)*EC*", hulls)), hulls.count("E")))
     counts = ", ".join(str(hulls) for _, hulls in sequences)
     message = f"examples 4, 5 and 6 make {counts} hulls; the inside points of each are eliminated before it is checked"
-    return holds_if(all(in_order and hulls > 1 for in_order, hulls in sequences), message)
+    return exhibited(all(in_order and hulls > 1 for in_order, hulls in sequences), message)
 
 
 @claim("thesis.271")
@@ -209,14 +203,14 @@ def coplanar_extremes() -> Check:
     for points in EXTREMES_IN_A_PLANE:
         six, whole = exact_hull(_extreme_points(points)), exact_hull(points)
         checks.append(six.dimension == 2 and whole.dimension == 3 and _volume(points, whole) > 0)
-    return holds_if(
+    return exhibited(
         all(checks),
         f"in {sum(checks)} of {len(checks)} sets the hull of the six extreme points is flat and that of all "
         "points is not",
     )
 
 
-@claim("thesis.39")
+@claim("thesis.39", full=400)
 def first_hull_against_extremes(cases: int = 12) -> Check:
     """Compare H_1 with the hull of the six extreme points by volume and number of planes.
 
@@ -230,14 +224,11 @@ def first_hull_against_extremes(cases: int = 12) -> Check:
             within.append(six_extremes[0] - first[0])
     flat = [_volumes_and_planes(points, None) for points in EXTREMES_IN_A_PLANE]
     first, six_extremes = _volumes_and_planes(counterexample_points("first_hull.csv"), None)
-    passed = min(within, default=-1) >= 0 < max(within, default=0) and all(fewer)
-    passed &= (
-        all(sampled[0] > six_measures[0] == 0 for sampled, six_measures in flat) and first[0] > six_extremes[0] > 0
-    )
-    message = (
-        f"in {len(within)} of {len(fewer)} sets H_1 uses only extreme points, and is not larger; in the counterexample "
-    )
-    return holds_if(passed, message + f"six times the volumes are {first[0]} and {six_extremes[0]}", conditional=True)
+    passed = [volume >= 0 for volume in within] + [any(within), *fewer]
+    larger = all(own[0] > of_six[0] == 0 for own, of_six in flat) and first[0] > six_extremes[0] > 0
+    message = f"in {len(within)} of {len(fewer)} sets H_1 uses only extreme points, and is not larger"
+    case = f"points that are not extreme: six times the volumes are {first[0]} for H_1 and {six_extremes[0]}"
+    return searched(SETS[3], cases, passed, message).unless(larger, case)
 
 
 def _volumes_and_planes(points: Sequence[Point], sampled: SampledSet | None) -> tuple[tuple[int, int], tuple[int, int]]:

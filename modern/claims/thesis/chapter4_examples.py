@@ -3,8 +3,6 @@
 The claims are computed exactly from the printed points. The programs read them from cards, truncated to eight digits.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from decimal import ROUND_DOWN, Context
 from fractions import Fraction
@@ -12,7 +10,7 @@ from functools import cache
 from itertools import product
 
 from emulator.machine.result import Options
-from modern.claims.evidence import Check, claim, holds_if, refuted
+from modern.claims.evidence import Check, claim, exhibited, slip
 from modern.claims.sampled_sets import counterexample
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
@@ -54,7 +52,7 @@ def _computed(theorem: str) -> Mapping[str, Check]:
 @claim("thesis.37", "thesis.112", theorem="4.2", claim="not_supporting")
 @claim("thesis.91", theorem="4.8", claim="last_outside")
 @claim("thesis.111", theorem="4.1", claim="programs")
-@claim("thesis.110", "thesis.109", theorem="4.1", claim="equations", kind="condition")
+@claim("thesis.110", "thesis.109", theorem="4.1", claim="equations")
 @claim("thesis.118", theorem="4.2", claim="programs")
 @claim("thesis.115", theorem="4.2", claim="equations")
 @claim("thesis.116", theorem="4.2", claim="signs")
@@ -63,10 +61,9 @@ def _computed(theorem: str) -> Mapping[str, Check]:
 @claim("thesis.150", theorem="4.8", claim="supporting")
 @claim("thesis.149", theorem="4.8", claim="equations")
 @claim("thesis.151", theorem="4.8", claim="signs")
-def worked_example(theorem: str, claim: str, kind: str = "") -> Check:
-    """Return the check of a claim such as ``4.1 six_extremes``, with a condition if ``kind`` is given."""
-    result = _computed(theorem)[claim]
-    return holds_if(result.holds, result.message, conditional=kind)
+def worked_example(theorem: str, claim: str) -> Check:
+    """Return the check of a claim such as ``4.1 six_extremes``."""
+    return _computed(theorem)[claim]
 
 
 # Sets in space whose three to six distinct extreme points are coplanar; only the last point is not in their plane.
@@ -78,7 +75,7 @@ EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
 )
 
 
-@claim("thesis.210", "thesis.107", claim="six_extremes")
+@claim("thesis.107", claim="six_extremes")
 def number_of_extremes(claim: str) -> Check:
     """Check theorem 4.1 for three to six distinct extreme points that are coplanar, and its example."""
     checks = []
@@ -88,19 +85,19 @@ def number_of_extremes(claim: str) -> Check:
         checks.append((exact_hull(points[:-1]).dimension, exact_hull(points).dimension) == (2, 3))
     example = worked_example("4.1", claim)
     message = f"three to six distinct extreme points are coplanar; the example: {example.message}"
-    return holds_if(all(checks) and example.holds, message)
+    return exhibited(all(checks) and example.holds, message)
 
 
 def _equations(theorem: Theorem) -> Check:
     """Check that the printed equations are 0 at the points that they contain according to the text."""
     faults = theorem_faults(theorem, load_text())
-    return holds_if(not faults, faults[0] if faults else "the printed equations are 0 at the named points")
+    return exhibited(not faults, faults[0] if faults else "the printed equations are 0 at the named points")
 
 
 def _signs(theorem: Theorem) -> Check:
     """Check that the points lie outside or inside the equations as stated."""
     right = sum((theorem.plane(n).at(_point(theorem, p)) > 0) == (sign == "+") for n, p, sign in theorem.signs)
-    return holds_if(right == len(theorem.signs), f"{right} of {len(theorem.signs)} signs are as stated")
+    return exhibited(right == len(theorem.signs), f"{right} of {len(theorem.signs)} signs are as stated")
 
 
 def _point(theorem: Theorem, name: str) -> Point:
@@ -133,7 +130,7 @@ def _six_extremes(theorem: Theorem) -> Check:
     for candidate in candidates:
         points = [*(p.at for p in theorem.points), candidate]
         nonplanar += exact_hull([*map(list, points)]).dimension == 3
-    return holds_if(
+    return exhibited(
         bool(candidates) and nonplanar == len(candidates) and all(theorem.planes[0].at(point) for point in off),
         f"P3 is lost in the OCR text; the claim holds for all {len(candidates)} integer points that P3 can have been",
     )
@@ -149,7 +146,7 @@ def _not_supporting(theorem: Theorem) -> Check:
     faces = _faces([point.at for point in theorem.points])
     table = [scaled(plane.coefficients, True) for plane in theorem.planes]
     inside = [number for number, plane in enumerate(table, 1) if plane in faces]
-    return holds_if(
+    return exhibited(
         inside == [1, 2, 3, 4, 5, 6],
         f"the hull of the six points has the equations {', '.join(map(str, inside))} of the table and "
         f"{len(faces) - len(inside)} others",
@@ -163,13 +160,13 @@ ADDED = ("Q1", "Q6", "Q7", "Q2", "Q8", "Q5", "Q3", "Q4")
 def _growing(theorem: Theorem) -> Check:
     points = [_point(theorem, name).at for name in ADDED]
     vertices = [len(exact_hull([*map(list, points[:n])]).vertices) for n in range(4, 9)]
-    return holds_if(vertices == [4, 5, 6, 7, 8], f"the hulls have {', '.join(map(str, vertices))} vertices")
+    return exhibited(vertices == [4, 5, 6, 7, 8], f"the hulls have {', '.join(map(str, vertices))} vertices")
 
 
 def _supporting(theorem: Theorem) -> Check:
     faces = _faces([_point(theorem, name).at for name in ADDED])
     table = {scaled(plane.coefficients, True) for plane in theorem.planes}
-    return holds_if(
+    return exhibited(
         faces == table,
         f"{len(faces & table)} of the {len(table)} listed planes support, up to a factor; H5 has {len(faces)} planes",
     )
@@ -180,7 +177,7 @@ def _last_outside(theorem: Theorem) -> Check:
     points = [_point(theorem, name).at for name in ADDED]
     outside = [plane.number for plane in theorem.planes if plane.at(_point(theorem, "Q9")) > 0]
     passed = outside == [3, 4, 5, 6, 7, 8] and _point(theorem, "Q9").at not in points
-    return holds_if(passed, f"the last point is outside equations {', '.join(map(str, outside))}")
+    return exhibited(passed, f"the last point is outside equations {', '.join(map(str, outside))}")
 
 
 def _programs(theorem: Theorem, load: Load) -> Check:
@@ -195,15 +192,15 @@ def _programs(theorem: Theorem, load: Load) -> Check:
     description = "the printed points" if is_exact else "the points truncated to eight digits"
     missing = f", without {', '.join(theorem.lost)}" if theorem.lost else ""
     passed = agrees if is_exact else outcome.status == NOT_ACCEPTABLE
-    return holds_if(passed, f"{description}{missing}: {_seen(outcome, agrees, judge)}")
+    return exhibited(passed, f"{description}{missing}: {_seen(outcome, agrees, judge)}")
 
 
-@claim("thesis.146", kind="theorem")
+@claim("thesis.146", subject="theorem")
 @claim("thesis.245")
-def procedure_of_4_8(kind: str = "") -> Check:
+def procedure_of_4_8(subject: str = "hulls") -> Check:
     """Check that the procedure makes H_1, H_2 and H_5 of the text, but takes other points for H_3 and H_4.
 
-    By the text of page 29 there is no H_1. ``theorem``: the last point is outside six planes of H_5.
+    By the text of page 29 there is no H_1. subject: ``theorem``, the last point is outside six planes of H_5.
     """
     theorem = theorem_of("4.8")
     points = [point.at for point in theorem.points]
@@ -212,11 +209,11 @@ def procedure_of_4_8(kind: str = "") -> Check:
     same = [set(used[:n]) == set(ADDED[:n]) for n in range(4, 9)]
     as_worded = convex_hull(points, text=True, on_refusal="return")
     outside_six = same[-1] and used[8:] == ["Q9"] and hull.history[-1].outside == 6
-    if kind:
-        return holds_if(outside_six, "the last point is outside six planes of the H_5 that the procedure makes")
-    passed = outside_six and same == [True, True, False, False, True] and not as_worded.determined
-    message = "the procedure makes H_1, H_2 and H_5, but other hulls H_3 and H_4; the last point is outside six planes"
-    return holds_if(passed, message, conditional=True)
+    if subject == "theorem":
+        return exhibited(outside_six, "the last point is outside six planes of the H_5 that the procedure makes")
+    check = exhibited(outside_six and [same[0], same[1], same[4]] == [True] * 3, "the procedure makes H_1, H_2 and H_5")
+    others = not same[2] and not same[3] and not as_worded.determined
+    return check.unless(others, "H_3 and H_4, for which it takes other points, and page 29, by which there is no H_1")
 
 
 @claim("thesis.246", which="list")
@@ -228,14 +225,27 @@ def slips_of_4_8(which: str) -> Check:
     listed, in_table = (Point("", tuple(map(Fraction, map(str, p))), "", "") for p in printed_points)
     if which == "list":
         nonzero = [plane.number for plane in theorem.planes if "Q1" in plane.vertices and plane.at(listed)]
-        return refuted(nonzero == [1, 2, 7], f"equations {', '.join(map(str, nonzero))} are not 0 at (-4, -4, 2)")
+        return slip(
+            nonzero != [1, 2, 7],
+            _is_one("Q1", (-4, 4, 2)),
+            "(-4, 4, 2)",
+            f"equations {', '.join(map(str, nonzero))} are not 0 at (-4, -4, 2)",
+        )
     nonzero = [plane.number for plane in theorem.planes if "Q6" in plane.vertices and plane.at(in_table)]
     not_a_point = in_table.at not in [point.at for point in theorem.points]
     message = (
         f"(3, 4, -1) is not one of the nine points, and equations {', '.join(map(str, nonzero))} of (3, 4, 1) are "
         "not 0 there"
     )
-    return refuted(not_a_point and nonzero == [1, 6], message)
+    return slip(not (not_a_point and nonzero == [1, 6]), _is_one("Q6", (3, 4, 1)), "(3, 4, 1)", message)
+
+
+def _is_one(name: str, at: tuple[int, int, int]) -> bool:
+    """Return True if a point of theorem 4.8 has these coordinates and is in all equations that name it."""
+    theorem = theorem_of("4.8")
+    point = _point(theorem, name)
+    values = [plane.at(point) for plane in theorem.planes if name in plane.vertices]
+    return point.at == tuple(map(Fraction, at)) and not any(values)
 
 
 def _seen(outcome: Outcome, agrees: bool, judge: Outcome) -> str:

@@ -3,16 +3,17 @@
 Theorems are checked on small sets. The equations of the proofs are transcribed as printed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, product
 from random import Random
 
-from modern.claims.evidence import Check, claim, exhibited, holds_if, refuted
+from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, searched, slip
 from modern.claims.sampled_sets import (
     CASES,
+    SETS,
+    TRIPLES,
     Point,
     SampledSet,
     counterexample_points,
@@ -21,9 +22,8 @@ from modern.claims.sampled_sets import (
     random_triples,
     sampled_sets,
 )
-from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter3_steps import value_v
-from modern.claims.thesis.chapter4_examples import ADDED, theorem_of
+from modern.claims.thesis.chapter4_examples import theorem_of
 from modern.claims.thesis.projections import theorem_4_4
 from modern.edition.chapter4 import load_theorems
 from modern.exact_hull import exact_hull
@@ -36,15 +36,15 @@ def eight_theorems() -> Check:
     """Check that theorems 4.1 to 4.8 each have a worked example or a check here."""
     examples = {theorem.id for theorem in load_theorems()}
     proofs = {"4.3": theorem_4_3, "4.4": theorem_4_4, "4.5": theorem_4_5, "4.6": theorem_4_6, "4.7": theorem_4_7}
-    passed = examples | proofs.keys() == {f"4.{k}" for k in range(1, 9)} and gap_in_4_7().holds
-    message = "theorems 4.1 to 4.8 are all checked; one step of the proof of 4.7 does not follow"
-    return holds_if(passed, message, conditional=True)
+    check = exhibited(examples | proofs.keys() == {f"4.{k}" for k in range(1, 9)}, "all eight are checked")
+    gap = gap_in_4_7()
+    return check.unless(gap.evidence.violation, f"one step of the proof of 4.7: {gap.evidence.violation}")
 
 
 @claim("thesis.108")
 def three_points_coplanar() -> Check:
     message = "six triples of points lie in a plane"
-    return holds_if(all(exact_hull(three).dimension < 3 for three in random_triples()), message)
+    return searched(TRIPLES, 6, [exact_hull(three).dimension < 3 for three in random_triples()], message)
 
 
 @claim("thesis.113")
@@ -55,7 +55,7 @@ def extremes_4_2() -> Check:
         points[2 * k][k] == max(p[k] for p in points) and points[2 * k + 1][k] == min(p[k] for p in points)
         for k in range(3)
     )
-    return holds_if(passed, "P1 to P6 are the extremes in x, y and z, the largest before the smallest")
+    return exhibited(passed, "P1 to P6 are the extremes in x, y and z, the largest before the smallest")
 
 
 @claim("thesis.117")
@@ -65,7 +65,12 @@ def inequalities_without_z() -> Check:
     a, b, c, d = theorem_of("4.2").plane(7).coefficients
     as_printed, right = a * point[0] + b * point[1] + c, plane_value((int(a), int(b), int(c), int(d)), point)
     passed = as_printed > 0 > right and [*map(Fraction, point)] == [*theorem_of("4.2").points[5].at]
-    return refuted(passed, f"at point 6 equation 7 has the value {as_printed} as printed, and {right} with z and D")
+    return slip(
+        not passed,
+        right < 0,
+        "A x + B y + C z + D",
+        f"at point 6: {as_printed} as printed, {right} with z and D",
+    )
 
 
 @claim("thesis.119")
@@ -76,22 +81,14 @@ def theorem_4_3() -> Check:
     for (x1, y1, z1), (x2, y2, z2), _ in random_triples():
         first_term = (y2 - y1) * (z2 - z1) - (z2 - z1) * (y2 - y1)
         as_text.append(first_term**2 + ((z2 - z1) * (x2 - x1) - (x2 - x1) * (z2 - z1)) ** 2)
-    return holds_if(
-        value_check.holds and not any(as_text),
-        f"{value_check.message}; as displayed in our text of p. 41 it is 0 at every point",
-        conditional=True,
-    )
+    check = replace(value_check, evidence=replace(value_check.evidence, violation=""))
+    return check.unless(not any(as_text), "the display of our text (p. 41), in which V is 0 at every point")
 
 
-@claim("thesis.120", kind="display")
 @claim("thesis.121", "thesis.122", "thesis.124", "thesis.235")
-@claim("thesis.234", kind="substituted")
-def distance_by_cosines(kind: str = "") -> Check:
-    """Check that d squared, by three determinants with direction cosines, times (e D)^2 is V.
-
-    With any ``kind`` the display in our text, which has lost signs and indices, is compared as well.
-    """
-    checks, as_text = [], []
+def distance_by_cosines() -> Check:
+    """Check that d squared, by three determinants with direction cosines, times (e D)^2 is V."""
+    checks = []
     for p, q, x in random_triples():
         u, w = minus(q, p), minus(q, x)
         square = dot(u, u)
@@ -100,13 +97,20 @@ def distance_by_cosines(kind: str = "") -> Check:
         d_squared = sum((Fraction(a * f - b * e) ** 2 / square for a, b, e, f in rows), Fraction(0))
         across = cross(u, minus(x, p))
         checks.append(d_squared * square == dot(across, across) and square == sum(k * k for k in u))
+    return searched(TRIPLES, 6, checks, "the formula agrees exactly for six triples of points")
+
+
+@claim("thesis.120", "thesis.234")
+def display_of_page_42() -> Check:
+    """Check the same, and the display of our text, which has lost signs and indices and agrees for no triple."""
+    as_text = []
+    for p, q, x in random_triples():
+        u, w = minus(q, p), minus(q, x)
+        across = cross(u, minus(x, p))
         garbled = (w[1] * u[2] - u[2] * u[1]) ** 2 + 2 * (u[0] * u[1] - u[1] * u[2]) ** 2
-        as_text.append(Fraction(garbled, square) == d_squared)
-    if kind:
-        passed = all(checks) and not any(as_text)
-        message = "the formula agrees exactly for six triples of points; the display in our text agrees for none"
-        return holds_if(passed, message, conditional=True)
-    return holds_if(all(checks), "the formula agrees exactly for six triples of points")
+        as_text.append(garbled == dot(across, across))
+    check = distance_by_cosines()
+    return check.unless(not any(as_text), "the display of our text, which agrees for no triple")
 
 
 @claim("thesis.123")
@@ -115,7 +119,11 @@ def sign_e() -> Check:
     p, q = counterexample_points("e_minus_one.csv")
     first = next(k for k in (q[2] - p[2], q[1] - p[1], q[0] - p[0]) if k)
     e = 1 if first > 0 else -1
-    return refuted(e == -1 and e * e == 1, f"e is {e} if z decreases from P1 to P2; its square is 1")
+    return slip(e == 1, e * e == 1, "e squared", f"e is {e} if z decreases from P1 to P2; its square is 1")
+
+
+# Points of a plane and a share, drawn inside the check.
+SHARES: Generator[int] = Generator("two points of a plane and a share between them", 44, lambda r: r.randint(1, 9))
 
 
 @claim("thesis.128", part="coefficient")
@@ -129,7 +137,7 @@ def proof_of_4_4(part: str) -> Check:
     """
     if part == "letters":
         message = "the formulas give -B and -A for six triples of points"
-        return holds_if(all(_letters(*three) for three in random_triples()), message)
+        return searched(TRIPLES, 6, [_letters(*three) for three in random_triples()], message)
     random = Random(44)
     coefficient, total, terms = [], [], []
     for _ in range(6):
@@ -146,9 +154,9 @@ def proof_of_4_4(part: str) -> Check:
         substituted = [xb * ya * rest, xb * yb * share, ya * xa * rest, ya * xb * share]
         terms.append(sorted(printed) == sorted([xa * yb, *substituted]))
     if part == "coefficient":
-        return holds_if(all(coefficient), "they agree exactly in six cases")
-    message = "both sums are 0, but their terms differ from those of the substitution"
-    return holds_if(all(total) and not any(terms), message, conditional=True)
+        return searched(SHARES, 6, coefficient, "they agree exactly in six cases")
+    check = searched(SHARES, 6, total, "the sum is 0, like the C of (3.4)")
+    return check.unless(not any(terms), "the terms, which are not those of the substitution")
 
 
 def _c_0(a: tuple[Fraction, ...], b: tuple[Fraction, ...], k: tuple[Fraction, ...]) -> Fraction:
@@ -168,7 +176,7 @@ def _letters(p: Point, q: Point, r: Point) -> bool:
     return (printed(0, 1), printed(0, 2), printed(2, 1)) == (c, -b, -a)
 
 
-@claim("thesis.74", "thesis.131", "thesis.238")
+@claim("thesis.74", "thesis.131", "thesis.238", full=400)
 def theorem_4_5(cases: int = CASES) -> Check:
     """Check that each H_j of a flat set is the hull of its vertices and that its edges are the lines."""
     checks = []
@@ -180,7 +188,7 @@ def theorem_4_5(cases: int = CASES) -> Check:
             )
             checks.append(len({*judge.vertices}) <= len(stage.vertices))
     message = f"in {len(checks) // 2} stages no vertex is beyond a line, and each line contains at least two vertices"
-    return holds_if(all(checks), message)
+    return searched(SETS[2], cases, checks, message)
 
 
 def _touches(sampled: SampledSet, equations: Sequence[tuple[int, int, int, int]], vertices: Sequence[int]) -> bool:
@@ -188,12 +196,12 @@ def _touches(sampled: SampledSet, equations: Sequence[tuple[int, int, int, int]]
     return all(max(row) == 0 and row.count(0) >= 2 for row in values)
 
 
-@claim("thesis.132")
-def combinations_inside() -> Check:
+@claim("thesis.132", full=400)
+def combinations_inside(cases: int = 1) -> Check:
     """Check that convex combinations of the vertices of a hull have no positive value."""
     random = Random(48)
     checks = []
-    for sampled in sampled_sets(2, 1):
+    for sampled in sampled_sets(2, cases):
         for _ in range(8):
             weights = [random.randint(0, 5) + (k == 0) for k, _ in enumerate(sampled.judge.vertices)]
             for facet in sampled.judge.facets:
@@ -202,17 +210,13 @@ def combinations_inside() -> Check:
                     for w, k in zip(weights, sampled.judge.vertices, strict=True)
                 )
                 checks.append(mixed <= 0)
-    return holds_if(all(checks), f"none of {len(checks)} values of combinations is positive")
+    return searched(SETS[2], cases, checks, f"none of {len(checks)} values of combinations is positive")
 
 
 @claim("thesis.71", "thesis.135", "thesis.136")
-@claim("thesis.242", kind="bars")
-def theorem_4_6(kind: str = "") -> Check:
-    """Check that the values of a line order points by their distance from it, and that the printed formula gives it.
-
-    ``bars`` uses the absolute values as placed in our text.
-    """
-    checks, as_text = [], []
+def theorem_4_6() -> Check:
+    """Check that the values of a line order points by their distance from it, and that the printed formula gives it."""
+    checks = []
     for (a, b, c), p, q in (((3, -2, 5), (1, 4), (3, 7)), ((4, -6, 2), (1, 1), (4, 3)), ((0, 5, -10), (0, 2), (1, 2))):
         checks += [a * x + b * y + c == 0 for x, y in (p, q)]
         points = [(x, y) for x, y in product(range(-3, 4), repeat=2) if a * x + b * y + c >= 0]
@@ -221,13 +225,18 @@ def theorem_4_6(kind: str = "") -> Check:
         both = [*zip(values, squares, strict=True)]
         checks += [(v >= w) == (s >= t) for (v, s), (w, t) in combinations(both, 2)]
         checks += [s * (a * a + b * b) == v * v for v, s in both]
-        as_text += [
-            s * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2 for (x, y), s in zip(points, squares, strict=True)
-        ]
-    message = "all pairs of grid points are ordered correctly for three lines"
-    if kind:
-        return holds_if(all(checks) and not all(as_text), message, conditional=True)
-    return holds_if(all(checks), message)
+    return exhausted("points of a grid above three lines", checks, "all pairs of grid points are ordered correctly")
+
+
+@claim("thesis.242")
+def bars_of_page_50() -> Check:
+    """Check the same, and the absolute value as our text closes it, after the first term."""
+    a, b, c, p, q = 3, -2, 5, (1, 4), (3, 7)
+    as_text = [
+        _distance_squared((x, y), p, q) * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2
+        for x, y in product(range(-3, 4), repeat=2)
+    ]
+    return theorem_4_6().unless(not all(as_text), "bars that close after the first term")
 
 
 def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]) -> Fraction:
@@ -236,7 +245,7 @@ def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]
     return (p[0] + t * along[0] - x[0]) ** 2 + (p[1] + t * along[1] - x[1]) ** 2
 
 
-@claim("thesis.90", "thesis.137", "thesis.142", "thesis.143", "thesis.259")
+@claim("thesis.90", "thesis.137", "thesis.142", "thesis.143", "thesis.259", full=400)
 def theorem_4_7(cases: int = CASES) -> Check:
     """Check that a point is outside at most one line of each H_j of flat sets."""
     numbers = [
@@ -246,7 +255,7 @@ def theorem_4_7(cases: int = CASES) -> Check:
         for point in sampled.points
     ]
     message = f"in {len(numbers)} pairs of a point and a stage, a point is outside at most {max(numbers)} line"
-    return holds_if(max(numbers) == 1, message)
+    return searched(SETS[2], 2 * cases, [number <= 1 for number in numbers], message)
 
 
 @claim("thesis.138")
@@ -254,7 +263,7 @@ def choice_of_first_triangle() -> Check:
     """Check a triangle that is not chosen by the rule: a further point is outside two of its lines."""
     triangle, point = [(0, 0, 0), (2, 0, 0), (0, 2, 0)], (-1, -1, 0)
     outside = sum(plane_value(facet.plane, point) > 0 for facet in exact_hull(triangle).facets)
-    return holds_if(outside == 2, "(-1, -1) is outside two lines of the triangle (0, 0), (2, 0), (0, 2)")
+    return exhibited(outside == 2, "(-1, -1) is outside two lines of the triangle (0, 0), (2, 0), (0, 2)")
 
 
 @claim("thesis.145")
@@ -273,9 +282,8 @@ def gap_in_4_7() -> Check:
         and any(plane_value(plane, (x, y, 0)) > 0 for plane in new)
         and sum(plane_value(plane, (x, y, 0)) > 0 for plane in after) > 1
     )
-    theorem_holds = theorem_4_7().holds
-    message = f"({point[0]}, {point[1]}) is outside at most one line of a square, and outside two after (5, 2) is added"
-    return holds_if(theorem_holds, message, conditional=True)
+    case = f"({point[0]}, {point[1]}), outside at most one line of a square, and outside two after (5, 2) is added"
+    return theorem_4_7().unless(point, case)
 
 
 @claim("thesis.260")
@@ -295,30 +303,7 @@ def outside_unreplaced_line() -> Check:
     return refuted(unreplaced, f"{message}; the line replaced is line {checked}")
 
 
-@claim("thesis.243", "thesis.141", kind="condition")
-@claim("thesis.140")
-def lines_of_figure_3(kind: str = "") -> Check:
-    """Check that the printed lines are outward, with P_3 at the origin, P_1 = (x1, y1), P_2 = (x1, y2) and y1 < y2."""
-    checks = []
-    for x1, y1, y2 in ((3, -1, 2), (5, -4, -1), (2, 1, 6)):
-        lines = _printed_lines(x1, y1, y2)
-        triangle = ((0, 0), (x1, y1), (x1, y2))
-        for a, b, c in lines:
-            values = [a * x + b * y + c for x, y in triangle]
-            checks.append(max(values) == 0 and values.count(0) == 2)
-        checks += [
-            x < 0 for x, y in product(range(-6, 7), repeat=2) if all(a * x + b * y + c > 0 for a, b, c in lines[1:])
-        ]
-    message = f"{len(checks)} lines and points agree"
-    return holds_if(all(checks), message, conditional=kind)
-
-
-def _printed_lines(x1: int, y1: int, y2: int) -> tuple[tuple[int, int, int], ...]:
-    """Return the equations (1), (2) and (3) of page 53."""
-    return (1, 0, -x1), (y1, -x1, 0), (-y2, x1, 0)
-
-
-@claim("thesis.244")
+@claim("thesis.244", full=400)
 def origin_is_third_point(cases: int = CASES) -> Check:
     """Check that no point has a negative x if P_3 is the origin and P_1 P_2 is parallel to the y axis."""
     checks = []
@@ -336,46 +321,4 @@ def origin_is_third_point(cases: int = CASES) -> Check:
             == 0
             > plane_value(line, sampled.points[r])
         )
-    return holds_if(all(checks), f"{len(checks)} conditions hold")
-
-
-@claim("thesis.148")
-def single_point_outside() -> Check:
-    """Check that exactly one of the nine points is outside H_5 and that the other eight are its vertices."""
-    theorem = theorem_of("4.8")
-    eight = [[*point.at] for point in theorem.points if point.name in ADDED]
-    hull = exact_hull(eight)
-    planes = [hull.plane_of(facet) for facet in hull.facets]
-    beyond = {p.name for p in theorem.points if any(_at(plane, p.at) > 0 for plane in planes)}
-    message = "only Q9 is outside; the other eight points are the vertices of H_5"
-    return holds_if(beyond == {"Q9"} and len(hull.vertices) == len(eight) == 8, message)
-
-
-def _at(plane: Sequence[Fraction | int], point: Sequence[Fraction]) -> Fraction:
-    return sum((Fraction(a) * x for a, x in zip(plane, (*point, Fraction(1)), strict=True)), Fraction(0))
-
-
-@claim("thesis.114", number="1")
-@claim("thesis.134", number="2")
-@claim("thesis.139", number="3")
-@claim("thesis.144", number="4")
-def figure(number: str) -> Check:
-    return {"1": _figure_1, "2": _added_triangle, "3": lines_of_figure_3, "4": _added_triangle}[number]()
-
-
-def _figure_1() -> Check:
-    theorem = theorem_of("4.2")
-    sides: dict[frozenset[str], int] = {}
-    for plane in theorem.planes:
-        for pair in combinations(plane.vertices, 2):
-            sides[frozenset(pair)] = sides.get(frozenset(pair), 0) + 1
-    v, e, f = len(theorem.points), len(sides), len(theorem.planes)
-    closed = set(sides.values()) == {2} and v - e + f == 2
-    beyond = sum(any(plane.at(p) > 0 for p in theorem.points) for plane in theorem.planes)
-    message = f"{v} vertices, {e} edges and {f} faces form a closed surface; {beyond} faces have a vertex beyond them"
-    return holds_if(closed and beyond > 0, message)
-
-
-def _added_triangle() -> Check:
-    replaced_lines = stage_property("replaced_line")
-    return exhibited(replaced_lines.holds, f"each step removes one line and adds two: {replaced_lines.message}")
+    return searched(SETS[2], cases, checks, f"{len(checks)} conditions hold")

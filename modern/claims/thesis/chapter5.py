@@ -1,15 +1,15 @@
 """Checks of chapters 5 and 6 and of the bibliography: messages, table sizes, printed hulls, and cited pages."""
 
-from __future__ import annotations
-
 import re
 from fractions import Fraction
 from functools import cache
 
 from emulator.language.cards import deck_from_lines
 from emulator.language.formats import Literal
-from modern.claims.evidence import Check, claim, holds_if, refuted
-from modern.claims.thesis.chapter7 import PLACES, deck_of, run_of, typed, vertices_of
+from modern.claims.evidence import Check, claim, exhibited, refuted
+from modern.claims.sampled_sets import CASES
+from modern.claims.thesis.chapter3_equations import procedure_against_judge
+from modern.claims.thesis.chapter7 import PLACES, deck_of, run_of, two_kinds_of_error, typed, vertices_of
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_card_hull, from_judge
 from modern.edition import programs
@@ -32,14 +32,9 @@ def error_in_program() -> Check:
     names = ("throughc.deck", "zeroplane.deck")
     ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
     hulls = [convex_hull([*exact_points(deck_of(name))[0].values()]) for name in names]
-    passed = (
-        all(ended) and all(hull.determined for hull in hulls) and bool(hulls[0].corrected) and not hulls[1].corrected
-    )
-    message = (
-        "both runs type the message; in exact arithmetic the first deck needs "
-        f"{', '.join(hulls[0].corrected)} and the second nothing"
-    )
-    return holds_if(passed, message, conditional=True)
+    check = exhibited(ended[0] and hulls[0].corrected, f"one deck needs {', '.join(hulls[0].corrected)} to be right")
+    right = all(ended) and all(hull.determined for hull in hulls) and not hulls[1].corrected
+    return check.unless(right, "a deck with too many digits, for which the steps are right in exact arithmetic")
 
 
 @claim("thesis.282")
@@ -62,9 +57,9 @@ def _first_run(exponent: str) -> HullRun:
 def points_are_coplanar() -> Check:
     """Check that points in space are reported as coplanar if their squared differences underflow."""
     typed_coplanar = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-16", "E-17")]
-    passed = typed_coplanar == [False, False, True] and exact_hull(_SPACE).dimension == 3
-    message = "POINTS ARE COPLANAR is typed for five points that are not, if their coordinates are about 1E-18"
-    return holds_if(passed, message, conditional=True)
+    check = exhibited(typed_coplanar[:2] == [False, False], "five points in space do not get the message")
+    wrong = typed_coplanar[2] and exact_hull(_SPACE).dimension == 3
+    return check.unless(wrong, "the same points with coordinates of about 1E-18, which get it")
 
 
 @claim("thesis.178")
@@ -72,9 +67,8 @@ def underflow() -> Check:
     """Check that the result for one-digit coordinates depends on the power of ten that multiplies them."""
     hulls = [_first_run(exponent) for exponent in ("E+01", "E-17")]
     names = [run.final.name for run in hulls]
-    passed = names == ["program3", "program2"]
-    message = f"the same five points lead to {names[0]}, and multiplied by 1E-18 to {names[1]}"
-    return holds_if(passed, message, conditional=True)
+    check = two_kinds_of_error()
+    return check.unless(names == ["program3", "program2"], "underflow: points times 1E-18 lead to program 2, not 3")
 
 
 @claim("thesis.158")
@@ -83,7 +77,7 @@ def ninth_digit_of_product() -> Check:
     arithmetic, (coordinates, *_) = take([("99999999", "0", "0"), ("11", "0", "0")], "truncating")
     product = Fraction(arithmetic.exact(coordinates[0] * coordinates[1], 2))
     passed = product == 1_099_999_900 == 99_999_999 * 11 - 89
-    return holds_if(passed, f"99999999 times 11 is {product} instead of 1099999989")
+    return exhibited(passed, f"99999999 times 11 is {product} instead of 1099999989")
 
 
 @claim("thesis.284")
@@ -97,9 +91,9 @@ def plane_table_size() -> Check:
         len(before.equations) + 2 * after.outside + 1
         for before, after in zip(overrun.history, overrun.history[1:], strict=False)
     )
-    passed = len(hull.vertices) == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES < most
-    message = f"a hull of {len(hull.vertices)} vertices with {planes} planes fits; table.deck needs {most} entries"
-    return holds_if(passed, message, conditional=True)
+    fits = len(hull.vertices) == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES
+    check = exhibited(fits, f"a hull of {len(hull.vertices)} vertices with {planes} planes fits")
+    return check.unless(most > size, f"intermediate hulls: table.deck needs {most} entries")
 
 
 @claim("thesis.283")
@@ -110,9 +104,8 @@ def line_table_size() -> Check:
     for n in (MOST_POINTS - 1, MOST_POINTS):
         history = convex_hull([(k, k * k, 0) for k in range(n)], history=True).history
         most[n] = max(len(stage.equations) for stage in history) + 1
-    passed = most[MOST_POINTS - 1] == size < most[MOST_POINTS]
-    message = ", ".join(f"{n} vertices: {places} lines at once" for n, places in most.items())
-    return holds_if(passed, message, conditional=True)
+    check = exhibited(most[MOST_POINTS - 1] == size, f"50 vertices need {size} lines at once")
+    return check.unless(most[MOST_POINTS] > size, f"51 vertices, which need {most[MOST_POINTS]} lines at once")
 
 
 @claim("thesis.285")
@@ -124,7 +117,7 @@ def printed_hulls() -> Check:
         last = [result for result in prints(example) if result.device == "punch"][-1]
         printed_outcome = from_card_hull("print", f"program{last.program}", read_hull(last.lines), points)
         checks.append(disagreement(printed_outcome, from_judge(exact_hull(points), points), points).agrees)
-    return holds_if(
+    return exhibited(
         all(checks),
         f"{sum(checks)} of {len(checks)} printed hulls have the exact vertices, boundary points, inside "
         "points and equations",
@@ -148,9 +141,8 @@ def possible_output() -> Check:
             }
             lacking |= {heading for heading in headings if not any(heading in card for card in cards)}
     typed_only = {"ERROR IN PROGRAM", "DATA NOT ACCEPTABLE", "POINTS ARE COPLANAR", "POINTS ARE NOT COPLANAR"}
-    passed = not missing["PUNCH"] and missing["PRINT"] == typed_only
-    message = f"all punched headings are printed; the typed messages {', '.join(sorted(missing['PRINT']))} are not"
-    return holds_if(passed, message, conditional=True)
+    check = exhibited(not missing["PUNCH"], "all punched headings are printed")
+    return check.unless(missing["PRINT"] == typed_only, f"typed messages: {', '.join(sorted(missing['PRINT']))}")
 
 
 def _punched(result: Print) -> tuple[str, ...]:
@@ -169,7 +161,7 @@ def first_card() -> Check:
     cards = [card.text.rstrip() for card in deck.cards]
     listing = programs.deck("program1").text()
     passed = cards[0] in (" 8", "08") and len(cards) == 9 and "READ 1,N" in listing and "1 FORMAT (I2)" in listing
-    return holds_if(passed, f"a deck of 8 points has {len(cards)} cards, and its first card is {cards[0]!r}")
+    return exhibited(passed, f"a deck of 8 points has {len(cards)} cards, and its first card is {cards[0]!r}")
 
 
 # Numbers of pages of the works of the bibliography (p. 121), except work 10 on pages 51 to 73 of its volume.
@@ -192,8 +184,13 @@ def cited_pages() -> Check:
     """Check that every cited page exists in its work and which works are cited by number."""
     within = [page <= _WORKS[work] for work, pages in _CITED.items() for page in pages]
     uncited = sorted({*_WORKS, 10} - {*_CITED})
-    message = (
-        f"{sum(within)} of {len(within)} cited pages exist; works {', '.join(map(str, uncited))} are not "
-        "cited by number"
-    )
-    return holds_if(all(within) and uncited == [1, 4, 7, 12], message, conditional=True)
+    works = ", ".join(map(str, uncited))
+    check = exhibited(all(within), f"{sum(within)} of {len(within)} cited pages exist")
+    return check.unless(uncited == [1, 4, 7, 12], f"works {works}, which are not cited by number and page")
+
+
+@claim("thesis.1", "thesis.8", "thesis.86", "thesis.106", full=300)
+def procedure_in_exact_arithmetic(cases: int = CASES) -> Check:
+    """Check the procedure in exact arithmetic, and a deck for which the listing loses vertices in eight digits."""
+    wrong = message_after_wrong_hull()
+    return procedure_against_judge(cases).unless(not wrong.holds, f"eight digits: {wrong.message}")

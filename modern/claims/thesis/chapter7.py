@@ -1,7 +1,5 @@
 """Checks of chapters 5 and 7: the machine, the data sheet, rejected data, errors and the two modifications."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import cache
 from itertools import combinations
@@ -12,8 +10,9 @@ from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import code_positions
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
-from modern.claims.evidence import Check, claim, exhibited, holds_if, refuted
-from modern.claims.sampled_sets import CASES, Point, SampledSet, counterexample, plane_through, sampled_sets
+from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
+from modern.claims.sampled_sets import CASES, SETS, Point, SampledSet, counterexample, plane_through, sampled_sets
+from modern.claims.thesis.chapter3_steps import between_by_distances
 from modern.comparison.outcome import from_cards
 from modern.edition import programs
 from modern.exact_hull import exact_hull
@@ -49,12 +48,11 @@ def typed(run: HullRun) -> str:
 
 
 @claim("thesis.3", "thesis.169")
-@claim("thesis.208", "thesis.207", kind="condition")
-def programs_compile(kind: str = "") -> Check:
+def programs_compile() -> Check:
     cards = {name: len(programs.deck(name).cards) for name in THREE}
     compiled = all(programs.program(name).code for name in THREE)
     message = "the decks compile: " + ", ".join(f"{name} with {n} cards" for name, n in cards.items())
-    return holds_if(compiled, message, conditional=kind)
+    return exhibited(compiled, message)
 
 
 def _positions(name: str) -> int:
@@ -67,7 +65,7 @@ def program_sizes() -> Check:
     """Check that each program and its data fit 40,000 positions, and not 20,000, by the estimated size of the code."""
     sizes = [_positions(name) for name in THREE]
     message = f"the programs take about {', '.join(f'{n:}' for n in sizes)} positions"
-    return holds_if(SMALLER_CORE < max(sizes) <= CORE, message)
+    return exhibited(SMALLER_CORE < max(sizes) <= CORE, message)
 
 
 @claim("thesis.193")
@@ -77,7 +75,7 @@ def three_programs_needed() -> Check:
     data = max(programs.program(name).storage.fields * FIELD for name in THREE)
     total = OBJECT_PROGRAM + FUNCTION_NAMES + code + data
     message = f"the code of all three programs and the largest data take about {total:} positions"
-    return holds_if(total > CORE, message, conditional=True)
+    return exhibited(total > CORE, message)
 
 
 @claim("thesis.14", "thesis.33", "thesis.157")
@@ -86,8 +84,9 @@ def fifty_one_points() -> Check:
     points, _ = exact_points(deck_of("table.deck"))
     sizes = {entry.size for entry in programs.program("program3").storage.arrays()}
     most = _most_planes(np.array([[int(Fraction(x)) for x in point] for point in points.values()], dtype=np.int64))
-    message = f"{len(points)} points need {most} entries of the plane table at once; program 3 has {PLACES}"
-    return holds_if(sizes == {51, PLACES} and len(points) <= 51 and most > PLACES, message, conditional=True)
+    check = exhibited(sizes == {51, PLACES}, "the arrays of program 3 hold 51 points")
+    message = f"{len(points)} points that need {most} entries of the plane table at once; program 3 has {PLACES}"
+    return check.unless(len(points) <= 51 and most > PLACES, message)
 
 
 def _most_planes(points: np.ndarray) -> int:
@@ -116,7 +115,8 @@ def truncated_roots() -> Check:
     """Check that the listing punches wrong vertices for the deck of KNOWN-FAULTS 14."""
     punched, judge = vertices_of("between.deck")
     message = f"{len(punched ^ judge)} points differ between the punched vertices and the exact ones"
-    return holds_if(punched != judge, message, conditional=True)
+    check = between_by_distances()
+    return check.unless(punched != judge, f"square roots of eight digits: {message}")
 
 
 def vertices_of(name: str) -> tuple[set[int], set[int]]:
@@ -141,7 +141,7 @@ def notation() -> Check:
     names = {entry.name for entry in programs.program("program3").storage.arrays()}
     text = programs.deck("program3").text() + programs.deck("program2").text()
     names_of_chapter_3 = ("NETC", "NE", "NV", "MM", "NN", "KK")
-    return holds_if(
+    return exhibited(
         {"MM", "NN", "KK"} <= names and all(f"{name}=" in text or name in names for name in names_of_chapter_3),
         f"the listings use {', '.join(names_of_chapter_3)}",
     )
@@ -155,7 +155,7 @@ def inside_heading() -> Check:
     heading = next(card for card in cards if card.startswith("5 FORMAT"))
     passed = "INSIDE POINTS" in heading and cards[place + 1] == "INSID=2" and cards.index("INSID=1") < place
     passed &= cards[place - 1].endswith("GO TO (109,110), INSID") and cards[place].startswith("109")
-    return holds_if(passed, f"{cards[place - 1]} / {cards[place]} / {cards[place + 1]}")
+    return exhibited(passed, f"{cards[place - 1]} / {cards[place]} / {cards[place + 1]}")
 
 
 @claim("thesis.181")
@@ -164,7 +164,7 @@ def eight_digits() -> Check:
     try:
         coordinate_field("1.23456789")
     except ValueError as error:
-        return holds_if(coordinate_field("1.2345678") == "+.12345678E+01", str(error))
+        return exhibited(coordinate_field("1.2345678") == "+.12345678E+01", str(error))
     return exhibited(False, "a ninth digit fits")
 
 
@@ -172,26 +172,37 @@ def eight_digits() -> Check:
 def quotient_truncated() -> Check:
     arithmetic, row = take([("2", "3", "1")], "truncating")
     quotient = arithmetic.text(arithmetic.quotient(row[0][0], 3), 1)
-    return holds_if(Fraction(quotient) == Fraction(66666666, 10**8), f"2 / 3 is {quotient}")
+    return exhibited(Fraction(quotient) == Fraction(66666666, 10**8), f"2 / 3 is {quotient}")
 
 
-@claim("thesis.248", kind="device")
 @claim("thesis.180", "thesis.249")
-def two_kinds_of_error(kind: str = "") -> Check:
-    """Check that truncation changes coordinates, and also coefficients; with ``kind``, that more digits avoid the
-    second.
-    """
+def two_kinds_of_error() -> Check:
+    """Check that truncation changes coordinates, and also coefficients."""
     third = coordinate_field("0.333333333", truncate=True)
     cut, exact = (_coefficients(_THREE, arithmetic) for arithmetic in ("truncating", "exact"))
     exact_coefficients = [*map(Fraction, plane_through(*_THREE))]
     differ = [a != b for a, b in zip(cut, exact_coefficients, strict=True)]
     passed = third == "+.33333333E+00" and any(differ) and exact == exact_coefficients
-    if kind:
-        passed &= bool(_misses(_THREE)) and not _misses(_THREE, "exact")
-    return holds_if(
+    return exhibited(
         passed,
         f"a card truncates 1/3; of a plane's coefficients {sum(differ)} are truncated, and none in exact arithmetic",
     )
+
+
+@claim("thesis.248")
+def errors_of_machine() -> Check:
+    """Check that three points miss their plane in eight digits, and do not in exact arithmetic."""
+    passed = bool(_misses(_THREE)) and not _misses(_THREE, "exact")
+    return exhibited(passed and two_kinds_of_error().holds, "three points miss their plane in eight digits only")
+
+
+@claim("thesis.179")
+def errors_on_any_computer() -> Check:
+    """Check that binary numbers of 53 bits have the errors too; exact arithmetic has none."""
+    thirds = [(Fraction(1, 3), Fraction(1, 7), Fraction(k, 11)) for k in range(3)]
+    as_floats = [Fraction(float(x)) != x for point in thirds for x in point if x.denominator > 1]
+    check = exhibited(_misses(_THREE) and all(as_floats), "eight digits and 53 bits truncate or round numbers")
+    return check.unless(not _misses(_THREE, "exact"), "exact arithmetic, in which three points satisfy their plane")
 
 
 def _coefficients(points: tuple[Point, ...], name: str) -> list[Fraction]:
@@ -212,7 +223,7 @@ def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
 def points_off_own_plane() -> Check:
     """Check three points of three digits that do not satisfy the plane through them."""
     missed = _misses(_THREE)
-    return holds_if(bool(missed), f"the plane through three points misses {', '.join(str(_THREE[k]) for k in missed)}")
+    return exhibited(bool(missed), f"the plane through three points misses {', '.join(str(_THREE[k]) for k in missed)}")
 
 
 @claim("thesis.185")
@@ -222,14 +233,15 @@ def fourth_point_off_plane() -> Check:
         sum(a * x for a, x in zip(plane_through(*_FOURTH[:3]), (*_FOURTH[3], 1), strict=True)) for _ in (0,)
     )
     message = f"{_FOURTH[3]} lies exactly in the plane of the other three points, but misses it in eight digits"
-    return holds_if(exactly and _misses(_FOURTH) == [3], message)
+    return exhibited(exactly and _misses(_FOURTH) == [3], message)
 
 
 @claim("thesis.184")
 def programs_rejecting_data() -> Check:
     """Check which programs contain the message."""
     has = [name for name in THREE if "DATA NOT ACCEPTABLE" in programs.deck(name).text()]
-    return holds_if(has == ["program2", "program3"], f"the message is in {' and '.join(has)}", conditional=True)
+    check = exhibited({*has} >= {"program2", "program3"}, f"the message is in {' and '.join(has)}")
+    return check.unless("program1" not in has, "program 1, which has no such test")
 
 
 @claim("thesis.250", "thesis.187")
@@ -238,7 +250,7 @@ def vertex_within_interval() -> Check:
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
     exact, with_epsilon = convex_hull(points), convex_hull(points, epsilon="20")
     message = "(1.4, 1.4, 1.4) is a vertex in exact arithmetic, and not with e = 20"
-    return holds_if(4 in exact.vertices and 4 not in with_epsilon.vertices, message)
+    return exhibited(4 in exact.vertices and 4 not in with_epsilon.vertices, message)
 
 
 @claim("thesis.186")
@@ -249,11 +261,8 @@ def interval_instead_of_rejection() -> Check:
     hulls = [convex_hull(whole, "truncating", epsilon=e, on_refusal="return") for e in (None, "10", "10000000")]
     judge = exact_hull(points)
     right = [hull.determined and {*hull.vertices} == {*judge.vertices} for hull in hulls]
-    message = (
-        f"without e: {hulls[0].status}; with e = 10: {hulls[1].status}; with e = 10,000,000: "
-        f"{len(hulls[2].vertices)} vertices"
-    )
-    return holds_if(right == [False, True, False], message, conditional=True)
+    check = exhibited(right[:2] == [False, True], f"without e: {hulls[0].status}; with e = 10: {hulls[1].status}")
+    return check.unless(not right[2], f"e = 10,000,000, which leaves {len(hulls[2].vertices)} vertices")
 
 
 @claim("thesis.188")
@@ -264,11 +273,13 @@ def value_against_distance() -> Check:
     a, b, c, d = plane(p, q, r)  # type: ignore[arg-type]
     value = at((a, b, c, d), x)
     distance = value * value / (a * a + b * b + c * c)
-    message = "the value is 1/100 at the distance 1"
-    return holds_if(distance == 1 and abs(value) == Fraction(1, 100), message, conditional=True)
+    unit = at((Fraction(1), Fraction(0), Fraction(0), Fraction(0)), (Fraction(1, 100), Fraction(5), Fraction(7)))
+    check = exhibited(unit == Fraction(1, 100), "for a unit normal the value is the distance")
+    short = distance == 1 and abs(value) == Fraction(1, 100)
+    return check.unless(short, "a plane through points that are close together: the value is 1/100 at the distance 1")
 
 
-@claim("thesis.189")
+@claim("thesis.189", full=300)
 def orientation_by_c(cases: int = CASES) -> Check:
     """Check that the outward planes of each H_j are negative at C; a plane eliminated later may pass through C."""
     checks = []
@@ -278,8 +289,9 @@ def orientation_by_c(cases: int = CASES) -> Check:
         for stage in sampled.stages():
             planes = [f.plane for f in exact_hull([sampled.points[k] for k in stage.vertices]).facets]
             checks += [dot(plane[:3], total) + plane[3] * len(added) < 0 for plane in planes]
-    through_c = not plane_through_c().holds
-    return holds_if(all(checks) and through_c, f"{len(checks)} planes of all H_j are negative at C", conditional=True)
+    fault = plane_through_c()
+    check = searched(SETS[3], cases, checks, f"{len(checks)} planes of all H_j are negative at C")
+    return check.unless(not fault.holds, f"a plane that is eliminated later: {fault.message}")
 
 
 def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, int]:
@@ -287,7 +299,7 @@ def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, i
     return x, y, z
 
 
-@claim("thesis.190")
+@claim("thesis.190", full=300)
 def orientation_by_constant_term(cases: int = CASES) -> Check:
     """Check that, with the origin at C, the constant term has the sign of the value at C.
 
@@ -303,8 +315,8 @@ def orientation_by_constant_term(cases: int = CASES) -> Check:
             a, b, c, d = plane_through(*(sampled.points[k] for k in defining))
             there, constant = a * x + b * y + c * z + d * len(added), plane_through(*(moved[k] for k in defining))[3]  # type: ignore[arg-type]
             checks.append((constant > 0, constant < 0) == (there > 0, there < 0))
-    message = f"{len(checks)} constant terms have the sign of the value at C"
-    return holds_if(all(checks) and not plane_through_c().holds, message, conditional=True)
+    check = searched(SETS[3], cases, checks, f"{len(checks)} constant terms have the sign of the value at C")
+    return check.unless(not plane_through_c().holds, "a plane through C, where both are 0")
 
 
 def _equations_made(sampled: SampledSet) -> int:
@@ -319,27 +331,27 @@ def cost_of_orientation() -> Check:
     operations: list[str] = []
 
     class Counted(int):
-        def __mul__(self, factor: int) -> Counted:
+        def __mul__(self, factor: int) -> "Counted":
             operations.append("product")
             return Counted(int(self) * int(factor))
 
-        def __add__(self, addend: int) -> Counted:
+        def __add__(self, addend: int) -> "Counted":
             operations.append("sum")
             return Counted(int(self) + int(addend))
 
     at(tuple(map(Counted, (1, -2, 3, -4))), tuple(map(Counted, (5, 6, 7))))
     products, sums = operations.count("product"), operations.count("sum")
     message = f"{products} products and {sums} sums for each equation, and none with the origin at C"
-    return holds_if(products > 0 < sums, message)
+    return exhibited(products > 0 < sums, message)
 
 
-@claim("thesis.251", "thesis.196")
+@claim("thesis.251", "thesis.196", full=300)
 def cost_of_translation(cases: int = CASES) -> Check:
     """Compare the sums saved, three for each equation, with the sums of the translation, six for each point."""
     few = [3 * _equations_made(sampled) - 6 * len(sampled.points) for sampled in sampled_sets(3, cases)]
     many = 3 * 4 - 6 * 51
     message = f"balance of sums saved: {', '.join(map(str, few))}; for 51 points with a tetrahedron as hull {many}"
-    return holds_if(max(few) > 0 > many, message)
+    return searched(SETS[3], cases, [max(few) > 0, many < 0], message)
 
 
 @claim("thesis.160", part="values")
@@ -351,16 +363,20 @@ def data_sheet(part: str) -> Check:
     if part == "columns":
         points, _ = exact_points(deck_of("z_in_39.deck"))
         z = [point[2] for point in points.values()][-1]
-        return refuted(Fraction(z) != 1, f"a z of 1 punched in columns 39 to 52 is read as {z}")
+        return slip(Fraction(z) == 1, _column_of_z() == 42, "29 to 42", f"a z of 1 in columns 39 to 52 is read as {z}")
     if part == "blank":
-        last = len(data_deck([["3", "12", ".0146"]], "one").cards[-1].text.rstrip())
-        return holds_if(last == 42, f"three fields of 14 columns end in column {last}", conditional=True)
+        last = _column_of_z()
+        return slip(last == 52, last == 42, "43 to 80", f"three fields of 14 columns end in column {last}")
     if part == "digits":
         printed = "+.3000000E+01"
         whole = coordinate_field("3")
         passed = len(printed) == len(whole) - 1 and printed.replace("E", "0E") == whole
-        message = f"{printed} has {len(printed)} characters, and a field has {len(whole)}"
-        return holds_if(passed, message, conditional=True)
+        check = exhibited(coordinate_field("12") == "+.12000000E+02", "12 is read as printed")
+        return check.unless(passed, f"{printed}, which has {len(printed)} characters instead of {len(whole)}")
     numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
     message = f"read as printed: {', '.join(numbers)}"
-    return holds_if(all(coordinate_field(value) == field for value, field in numbers.items()), message)
+    return exhibited(all(coordinate_field(value) == field for value, field in numbers.items()), message)
+
+
+def _column_of_z() -> int:
+    return len(data_deck([["3", "12", ".0146"]], "one").cards[-1].text.rstrip())

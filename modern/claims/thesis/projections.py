@@ -1,13 +1,19 @@
 """Checks of chapters 3 and 4 on projections and coordinate planes, and on points inside a nonconvex polyhedron."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations, product
 
-from modern.claims.evidence import Check, claim, holds_if
-from modern.claims.sampled_sets import CASES, Point, plane_through, plane_value, random_triples, sampled_sets
-from modern.claims.thesis.chapter3_steps import all_hold
+from modern.claims.evidence import Check, claim, exhausted, exhibited, searched, slip
+from modern.claims.sampled_sets import (
+    CASES,
+    SETS,
+    TRIPLES,
+    Point,
+    plane_through,
+    plane_value,
+    random_triples,
+    sampled_sets,
+)
 from modern.claims.thesis.chapter4_examples import theorem_of
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
@@ -24,7 +30,7 @@ def coordinate_planes() -> Check:
         for three in random_triples():
             p, q, r = (_with_0(point, zero) for point in three)
             checks.append([k for k, number in enumerate(plane_through(p, q, r)) if number] == [zero])
-    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} planes have exactly one nonzero coefficient")
+    return searched(TRIPLES, 18, checks, f"{sum(checks)} of {len(checks)} planes have exactly one nonzero coefficient")
 
 
 def _with_0(point: Point, axis: int) -> Point:
@@ -32,7 +38,7 @@ def _with_0(point: Point, axis: int) -> Point:
     return x, y, z
 
 
-@claim("thesis.274")
+@claim("thesis.274", full=400)
 def hull_of_projection(cases: int = CASES) -> Check:
     """Check that projections of flat sets keep the vertices, boundary and inside points, and the points of each line.
 
@@ -46,7 +52,7 @@ def hull_of_projection(cases: int = CASES) -> Check:
             image = [_with_0(point, axis) for point in sampled.points]
             checks.append(_parts(image, exact_hull(image)) == _parts(sampled.points, sampled.judge))
     message = "projections keep the vertices, the boundary and inside points, and the points of each line"
-    return holds_if(bool(checks) and all(checks), f"{sum(checks)} of {len(checks)} {message}")
+    return searched(SETS[2], cases, checks, f"{sum(checks)} of {len(checks)} {message}")
 
 
 def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
@@ -73,7 +79,7 @@ def inside_nonconvex_polyhedron() -> Check:
     hull = exact_hull([*at.values()])
     within = all(plane_value(facet.plane, point) < 0 for facet in hull.facets for point in inner)
     message = f"{len(above)} of {len(inner)} points inside the polyhedron are positive in an equation of a face"
-    return holds_if(0 < len(above) < len(inner) and within, message)
+    return exhibited(0 < len(above) < len(inner) and within, message)
 
 
 def _four_times(numbers: Sequence[object]) -> Point:
@@ -92,10 +98,8 @@ def _goes_through(start: Point, face: Sequence[Point]) -> bool:
 def perpendicular_projection() -> Check:
     """Check that a triangle projects to a segment if and only if its plane is perpendicular to the coordinate plane."""
     checks = [(_image_area(normal, axis) == 0) == (normal[axis] == 0) for normal in _normals() for axis in range(3)]
-    return all_hold(
-        checks,
-        ("pairs of a plane and a coordinate plane: the image is a segment if and only if they are perpendicular"),
-    )
+    message = "the image of a triangle is a segment if and only if its plane is perpendicular to the coordinate plane"
+    return exhausted("26 normals and three coordinate planes", checks, message)
 
 
 def _normals() -> list[Point]:
@@ -119,17 +123,17 @@ def projection_along_axis() -> Check:
             foot = tuple(0 if k == axis else x for k, x in enumerate(point))
             unit = tuple(int(k == axis) for k in range(3))
             checks.append(not any(cross(minus(point, foot), unit)))  # type: ignore[arg-type]
-    return all_hold(checks, "feet: the line from the point to its foot is perpendicular to the plane")
+    return searched(TRIPLES, 6, checks, "the line from a point to its foot is perpendicular to the plane")
 
 
 @claim("thesis.56")
 def choice_of_projection() -> Check:
     """Check that a triangle keeps a positive area on the coordinate plane that the rule chooses."""
     chosen = [(normal, 0 if normal[0] else 1 if normal[1] else 2) for normal in _normals()]
-    return all_hold([_image_area(normal, axis) != 0 for normal, axis in chosen], "normals: the image is not a segment")
+    return exhausted("26 normals", [_image_area(normal, axis) for normal, axis in chosen], "no image is a segment")
 
 
-@claim("thesis.54", "thesis.197", "thesis.125", "thesis.127", "thesis.236")
+@claim("thesis.54", "thesis.197", "thesis.125", "thesis.127", "thesis.236", full=400)
 def theorem_4_4(cases: int = CASES) -> Check:
     """Check that projections of flat sets along a coordinate that their plane is not parallel to keep the vertices."""
     checks = []
@@ -140,7 +144,7 @@ def theorem_4_4(cases: int = CASES) -> Check:
             if plane[k]:
                 projected = [tuple(0 if axis == k else x for axis, x in enumerate(point)) for point in sampled.points]
                 checks.append(exact_hull(projected).vertices == sampled.judge.vertices)
-    return holds_if(bool(checks) and all(checks), f"{sum(checks)} of {len(checks)} projections keep the vertices")
+    return searched(SETS[2], cases, checks, f"{sum(checks)} of {len(checks)} projections keep the vertices")
 
 
 @claim("thesis.273", "thesis.126")
@@ -149,9 +153,6 @@ def constant_term_of_4_4() -> Check:
     units = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
     constants = {plane_through((0, 0, 0), p, q)[3] for p, q in combinations(units, 2)}
     plane_x, plane_z = plane_through((1, 0, 0), (1, 1, 0), (1, 0, 1)), plane_through((0, 0, 1), (1, 0, 1), (0, 1, 1))
-    passed = constants == {0} and dot(plane_x[:3], plane_z[:3]) == 0 != plane_x[3] * plane_z[3]
-    message = (
-        "D_C is 0 for a coordinate plane; the planes x = 1 and z = 1 are perpendicular although the product "
-        "of their D is not 0"
-    )
-    return holds_if(passed, message, conditional=True)
+    wrong = dot(plane_x[:3], plane_z[:3]) == 0 != plane_x[3] * plane_z[3]
+    message = "D_C is 0 for a coordinate plane; x = 1 and z = 1 are perpendicular, and the product of their D is not 0"
+    return slip(not wrong, constants == {0}, "a condition without the product of the constant terms", message)

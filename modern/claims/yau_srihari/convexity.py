@@ -1,7 +1,5 @@
 """Checks of Yau and Srihari on the convexity of digital solids: three definitions, and simple solids."""
 
-from __future__ import annotations
-
 from itertools import product
 
 import numpy as np

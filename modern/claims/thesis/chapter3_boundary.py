@@ -1,0 +1,146 @@
+"""Checks of the steps of chapter 3 that find boundary points and remove duplicate equations."""
+
+from modern.claims.evidence import Check, claim, exhausted, exhibited, searched
+from modern.claims.sampled_sets import (
+    CASES,
+    SETS,
+    Point,
+    plane_through,
+    plane_value,
+    sampled_sets,
+)
+from modern.exact_hull import exact_hull
+from modern.geometry.vectors import cross, dot, minus
+from modern.port import convex_hull
+
+# A triangle, and a point on one of its sides that the procedure uses.
+_POINT_ON_A_SIDE: list[Point] = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]
+# A pyramid over nine points of a square.
+PYRAMID: list[Point] = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
+# A set in space for which the procedure uses a point that is not a vertex of the last hull.
+_TWO_PLANES: list[Point] = [(2, 1, 1), (1, 1, 3), (0, 1, 3), (0, 0, 0), (0, 2, 3), (0, 0, 2), (0, 1, 2)]
+
+
+@claim("thesis.80", dimension="2")
+@claim("thesis.102", dimension="3")
+def remaining_points(dimension: str) -> Check:
+    """Check that the points of a grid that are neither eliminated nor used lie on the boundary."""
+    sizes = (5, 5, 1) if dimension == "2" else (3, 3, 3)
+    points = [(x, y, z) for x in range(sizes[0]) for y in range(sizes[1]) for z in range(sizes[2])]
+    hull, judge = convex_hull(points, history=True), exact_hull(points)
+    used = {k for stage in hull.history for k in stage.added}
+    eliminated = {k for stage in hull.history for k in stage.struck}
+    remaining = set(range(len(points))) - used - eliminated
+    passed = (
+        bool(remaining)
+        and remaining <= {*judge.boundary}
+        and eliminated == {*judge.inside}
+        and {*judge.vertices} <= used
+    )
+    message = f"{len(remaining)} of {len(points)} points remain; all of them are on the boundary and none is a vertex"
+    return exhibited(passed, message)
+
+
+@claim("thesis.81")
+def used_boundary_point() -> Check:
+    """Check four points, one of which is used for a hull although it lies between two others."""
+    points = _POINT_ON_A_SIDE
+    hull = convex_hull(points, history=True)
+    used = {k for stage in hull.history for k in stage.added}
+    boundary_used = used & {*hull.boundary}
+    message = f"points used that lie on one line only: {', '.join(str(points[k]) for k in sorted(boundary_used))}"
+    return exhibited(bool(boundary_used), message)
+
+
+@claim("thesis.85")
+def duplicate_lines() -> Check:
+    """Check that a side with three used points has two equations before duplicates are removed."""
+    points = _POINT_ON_A_SIDE
+    hull = convex_hull(points, history=True)
+    last = hull.history[-1].equations
+    used = {k for stage in hull.history for k in stage.added}
+    sides = [{k for k in used if _on_side(points, face.polygon, k)} for face in hull.faces]
+    counted = [(len(side), sum(set(ends) <= side for ends in last)) for side in sides]
+    passed = all(equations >= 2 for used_count, equations in counted if used_count >= 3)
+    message = f"numbers of used points and of equations for each side: {counted}"
+    return exhibited(passed and any(used_count >= 3 for used_count, _ in counted), message)
+
+
+def _on_side(points: list[Point], ends: tuple[int, ...], k: int) -> bool:
+    p, q = points[ends[0]], points[ends[1]]
+    return not any(cross(minus(q, p), minus(points[k], p)))
+
+
+@claim("thesis.103")
+def duplicate_planes() -> Check:
+    """Check that a pyramid over nine points of a square keeps one equation of each plane."""
+    hull = convex_hull(PYRAMID, history=True)
+    equation_count = len(hull.history[-1].equations)
+    message = f"{equation_count} equations were made, and {len(hull.faces)} planes remain"
+    return exhibited(len(hull.faces) == 5 < equation_count, message)
+
+
+@claim("thesis.104", full=300)
+def planes_at_vertex(cases: int = CASES) -> Check:
+    """Check how many planes of the exact hull contain each point."""
+    checks = []
+    for points in (*(sampled.points for sampled in sampled_sets(3, cases)), tuple(PYRAMID)):
+        judge = exact_hull(points)
+        for k, point in enumerate(points):
+            on = sum(not plane_value(facet.plane, point) for facet in judge.facets)
+            checks.append((on >= 3) == (k in judge.vertices))
+    message = (
+        f"{sum(checks)} of {len(checks)} points: a vertex lies in three or more planes, any other point in two or fewer"
+    )
+    return searched(SETS[3], cases, checks, message)
+
+
+@claim("thesis.105", full=300)
+def planes_without_duplicates(cases: int = CASES) -> Check:
+    """Check the same, and a point of a pyramid's square that satisfies more than two equations with duplicates."""
+    equations = convex_hull(PYRAMID, history=True).history[-1].equations
+    planes = [plane_through(*(PYRAMID[k] for k in ends)) for ends in equations]
+    most = max(sum(not plane_value(p, PYRAMID[k]) for p in planes) for k in exact_hull(PYRAMID).boundary)
+    check = planes_at_vertex(cases)
+    return check.unless(most > 2, f"duplicates, with which a point that is not a vertex satisfies {most} equations")
+
+
+@claim("thesis.223")
+def duplicates_removed() -> Check:
+    """Check a triangle with a used point on a side: three of four vertices and of four equations remain."""
+    hull = convex_hull(_POINT_ON_A_SIDE, history=True)
+    used = [k for stage in hull.history for k in stage.added]
+    equation_count, kept_equations = len(hull.history[-1].equations), [face.lowest for face in hull.faces]
+    passed = len(used) > len(hull.vertices) == 3 == len(set(kept_equations)) == len(kept_equations) < equation_count
+    return exhibited(
+        passed,
+        f"{len(hull.vertices)} of {len(used)} used points remain, "
+        f"and {len(kept_equations)} of {equation_count} equations",
+    )
+
+
+@claim("thesis.231", "thesis.256")
+def used_points_in_planes() -> Check:
+    """Count the planes of the last hull that contain each used point that is not a vertex."""
+    hull, judge = convex_hull(_TWO_PLANES, history=True), exact_hull(_TWO_PLANES)
+    used = {k for stage in hull.history for k in stage.added} - {*judge.vertices}
+    planes = {_TWO_PLANES[k]: sum(not plane_value(f.plane, _TWO_PLANES[k]) for f in judge.facets) for k in sorted(used)}
+    passed = bool(planes) and {*planes.values()} <= {1, 2} and {*hull.vertices} == {*judge.vertices}
+    return exhibited(passed, ", ".join(f"{point} is in planes of the last hull: {n}" for point, n in planes.items()))
+
+
+@claim("thesis.230")
+def boundary_points_on_edges() -> Check:
+    """Check that surface points of a pyramid in two planes lie between the ends of the common edge."""
+    points = [(x, y, 0) for x in (0, 2, 4) for y in (0, 2, 4)] + [(2, 2, 4), (1, 1, 2)]
+    judge = exact_hull(points)
+    checks, in_one_plane = [], 0
+    for k, point in enumerate(points):
+        on = [f for f in judge.facets if not plane_value(f.plane, point)]
+        in_one_plane += len(on) == 1
+        if len(on) == 2:
+            p, q = (points[j] for j in {*on[0].polygon} & {*on[1].polygon})
+            checks.append(not any(cross(minus(point, p), minus(q, p))) and dot(minus(point, p), minus(point, q)) < 0)
+            checks.append(k not in judge.vertices)
+    check = exhausted("points of a pyramid that are in two planes", checks, f"{len(checks) // 2} points agree")
+    return check.unless(in_one_plane, "a point in one plane only, which is between no two ends of an edge")

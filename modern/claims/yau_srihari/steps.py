@@ -1,0 +1,96 @@
+"""Checks of Yau and Srihari on steps: edges of the queue, rows and columns, and the angles of the search."""
+
+from collections.abc import Iterable, Mapping
+from itertools import product
+from random import Random
+
+from modern.claims.evidence import Check, Generator, claim, exhibited, searched
+from modern.claims.sampled_sets import (
+    Point,
+)
+from modern.claims.yau_srihari.envelopes import SOLIDS, array_of
+from modern.digital.solids import VERTEX, ball
+from modern.exact_hull import exact_hull
+from modern.papers.yau_srihari import Printed, octree_hull
+from modern.papers.yau_srihari.envelope import reduced_tree
+from modern.papers.yau_srihari.quadtree import Leaf, Place, heights, no_columns, written
+from modern.papers.yau_srihari.search import Search
+
+
+@claim("yau-srihari.85", full=2_000)
+def queued_edges_reversed(cases: int = 6) -> Check:
+    """Check that edges entered in the queue as u1 u3 or u3 u2 are always removed in the reverse direction."""
+    same, reverse, neither = 0, 0, 0
+    for voxels in SOLIDS.cases(cases):
+        hull = octree_hull(array_of(voxels))
+        for step in (*hull.lower.steps, *hull.upper.steps):
+            ring = step.face.vertices if step.face else ()
+            # Section 4.6: u1 u3 and u3 u2 are the printed directions of the edges entered.
+            entries = {*zip((*ring[1:], *ring[:1]), ring, strict=True)}
+            for p, q in step.removed:
+                same += (p, q) in entries
+                reverse += (q, p) in entries
+                neither += (p, q) not in entries and (q, p) not in entries
+    message = f"{reverse} edges that are found again are removed"
+    check = searched(SOLIDS, cases, [reverse > 0, not same, not neither], message)
+    return check.unless(not same, "a comparison of directions: every edge is found again in the reverse direction")
+
+
+def _draw_floor(random: Random) -> tuple[Point, ...]:
+    return tuple((x, y, random.randint(0, 3)) for x in range(4) for y in range(4) if random.random() < 0.8)
+
+
+FLOORS: Generator[tuple[Point, ...]] = Generator("floors of about 13 columns of height 0 to 3", 29, _draw_floor)
+
+
+@claim("yau-srihari.128", full=4_000)
+def row_and_column_steps(cases: int = 40) -> Check:
+    """Compare points extreme in both row and column with those left after a step by rows and one by columns."""
+    checks, larger = [], 0
+    for floor_ in FLOORS.cases(cases):
+        heights_ = {(x, y): z for x, y, z in floor_}
+        extreme_in_both = {place for place in heights_ if all(_extreme(place, axis, heights_) for axis in (0, 1))}
+        tree = written(no_columns(4), {place: Leaf(z) for place, z in heights_.items()})
+        after_steps = {*heights(reduced_tree(tree))}
+        floor: list[Point] = [(x, y, z) for (x, y), z in heights_.items()]
+        # The lower hull of the floor: copies of all points far above leave its lower vertices unchanged.
+        hull = exact_hull([*floor, *((x, y, z + 9) for x, y, z in floor)])
+        checks.append({floor[k][:2] for k in hull.vertices if k < len(floor)} <= extreme_in_both <= after_steps)
+        larger += extreme_in_both < after_steps
+    return searched(FLOORS, cases, checks, f"{len(checks)} floors keep all vertices").unless(
+        larger, f"floors in which the second step keeps a point that is not extreme in its whole column ({larger})"
+    )
+
+
+def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
+    """Return True if a point is a vertex of the lower chain of its row or column."""
+    at, z = place[axis], heights_[place]
+    line = [(p[axis], h) for p, h in heights_.items() if p[1 - axis] == place[1 - axis]]
+    around = product([entry for entry in line if entry[0] < at], [entry for entry in line if entry[0] > at])
+    return all((z - h) * (b - a) < (k - h) * (at - a) for (a, h), (b, k) in around)
+
+
+@claim("yau-srihari.129")
+def angle_counts() -> Check:
+    """Count angles in the lower halves of two balls, one for each point beyond an edge, and those the tree search
+    computes.
+    """
+    counts = []
+    for diameter in (8, 40):
+        hull = octree_hull(ball(diameter, VERTEX).array)
+        steps, reduced = hull.lower.steps, [(x, y) for x, y, _ in hull.lower.reduced]
+        all_angles, reduced_angles = (
+            sum(_beyond(step.edge, places) for step in steps) for places in (hull.floor, reduced)
+        )
+        counts.append((all_angles, reduced_angles, sum(step.angles for step in steps)))
+    (all_8, left_8, search_8), (all_40, left_40, search_40) = counts
+    message = "; ".join(f"{a:,} for the floor, {b:,} for the reduced set, {c:,} by the search" for a, b, c in counts)
+    return exhibited(left_8 < all_8 and left_40 < all_40 and search_40 < left_40, message).unless(
+        search_8 > left_8, f"the search in a ball of diameter 8: {search_8:,} angles, and {left_8:,} without it"
+    )
+
+
+def _beyond(edge: tuple[Point, Point], places: Iterable[Place]) -> int:
+    """Return the number of columns that can contain the third point of a face on an edge."""
+    search = Search(*edge, (0, 0, -1), Printed())
+    return sum(search.beyond(x, y) for x, y in places)
