@@ -179,7 +179,10 @@ def test_html_is_valid(site: Path, tmp_path: Path) -> None:
         "rules": {"prefer-native-element": ["error", {"exclude": ["main"]}]},
     }
     (tmp_path / "rules.json").write_text(json.dumps(rules), encoding="utf-8")
-    files = [str(site / name) for name in page_of_each_kind(site)]
+    # By default, the pages that Sphinx alone generates from prose are not validated.
+    every = len(page_of_each_kind(site)) == len(pages(site))
+    prose = ("tutorial/", "how-to/", "explanation/", "studies/")
+    files = [str(site / name) for name in page_of_each_kind(site) if every or not name.startswith(prose)]
     report = tmp_path / "report.json"
     subprocess.run(
         [node, str(validate), "--config", str(tmp_path / "rules.json"), "-f", f"json={report}", *files],
