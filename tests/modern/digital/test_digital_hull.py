@@ -160,8 +160,9 @@ def test_compiled_code_runs_for_large_volumes_only(monkeypatch: pytest.MonkeyPat
 
 def test_compiled_code_without_numba_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("modern.digital.hull.compiled_hull", no_numba)
-    with pytest.raises(VolumeError, match="needs numba"):
-        digital_hull(ball(6), fast=True)
+    for volume in (ball(6), np.ones((3, 3)), np.ones((1, 2, 1)), np.ones((1, 1))):
+        with pytest.raises(VolumeError, match="needs numba"):
+            digital_hull(volume, fast=True)
 
 
 @pytest.mark.parametrize(
