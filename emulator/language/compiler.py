@@ -267,10 +267,11 @@ class _Translation:
             emitter.emit(op.SEND, source)
             emitter.emit(op.TRANSMIT, place)
             return
-        emitter.load(body.value)
-        # The mode changes across the equals sign (C26-5619 p. 21).
+        negative = emitter.deferred(body.value)
+        # The mode changes across the equals sign (C26-5619 p. 21), before the sign is reversed.
         if to_fixed != from_fixed:
             emitter.emit(op.FIX if to_fixed else op.FLOAT)
+        emitter.settle(negative, to_fixed)
         emitter.emit(op.FMFIX if to_fixed else op.FMFAC, place)
 
     def _dimension(self, body: tree.Dimension) -> None:

@@ -1,9 +1,11 @@
 """Code for expressions: the operations, their order, and therefore the sign of every zero result.
 
-The order was determined from the object code of two compilers of the time, and agrees with every zero that the thesis
-prints.  Operations run from left to right (C26-5619 p. 19), with two exceptions.  A right operand that must itself be
-computed is computed in FAC, the left operand is subtracted from it, and the sign is reversed (FSBR), so a cancellation
-gives minus zero.  A unary minus, also that of a factor, reverses the sign after everything else.
+The order was determined from the object code of PDQ FORTRAN, and agrees with every zero that the thesis prints and with
+IBM's compilation of 1962.  Operations run from left to right (C26-5619 p. 19).  A right operand that must itself be
+computed is computed in FAC, and the left operand is then combined with it.  Signs are deferred: the compiler remembers
+whether the accumulator or a temporary field holds the negative of its value, and chooses addition or subtraction
+accordingly.  The sign is reversed only before the value is stored, tested, or passed to a function or a power.  So
+``A-B*C-D`` is computed as B*C, minus A, plus D, and reversed at the end, and a cancellation gives minus zero.
 """
 
 from __future__ import annotations
@@ -22,11 +24,11 @@ from emulator.numbers.fields import FieldError, parse_constant
 # The library functions. Each may also be written with a final F (C26-5619 p. 63, 66).
 LIBRARY = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT")
 
-_ROLES = ("to", "from", "+", "-", "-r", "*", "/", "/r")
-_FLOATING = dict(zip(_ROLES, (op.TOFAC, op.FMFAC, op.FAD, op.FSB, op.FSBR, op.FMP, op.FDV, op.FDVR), strict=True))
-_FIXED = dict(zip(_ROLES, (op.TOFIX, op.FMFIX, op.XAD, op.XSB, op.XSBR, op.XMP, op.XDV, op.XDVR), strict=True))
-_REVERSED = {"+": "+", "*": "*", "-": "-r", "/": "/r"}
-_FLIPPED = {"+": "-", "-": "+"}
+_ROLES = ("to", "from", "+", "-", "-r", "*", "/", "/r", "reverse")
+_FLOATING = dict(
+    zip(_ROLES, (op.TOFAC, op.FMFAC, op.FAD, op.FSB, op.FSBR, op.FMP, op.FDV, op.FDVR, op.RSGN), strict=True)
+)
+_FIXED = dict(zip(_ROLES, (op.TOFIX, op.FMFIX, op.XAD, op.XSB, op.XSBR, op.XMP, op.XDV, op.XDVR, op.RSGX), strict=True))
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,18 +178,32 @@ class Emitter:
 
     def load(self, expression: Expression) -> None:
         """Emit code that leaves the value of ``expression`` in the accumulator of its mode."""
+        self.settle(self.deferred(expression), self.fixed(expression))
+
+    def settle(self, negative: bool, fixed: bool) -> None:
+        """Reverse the sign of the accumulator if it holds the negative of a value."""
+        if negative:
+            table, last = _FIXED if fixed else _FLOATING, self.code[-1]
+            if last.operation == table["-"]:
+                # FSB and RSGN together are FSBR.
+                self.code[-1] = Instruction(table["-r"], last.address, last.subscript, last.second)
+            else:
+                self.emit(table["reverse"])
+
+    def deferred(self, expression: Expression) -> bool:
+        """Emit code that leaves a value or its negative in the accumulator.  Return True for the negative."""
         table = _FIXED if self.fixed(expression) else _FLOATING
-        operand = self.simple(expression)
+        bare, negative = _unsigned(expression)
+        operand = self.simple(bare)
         if operand is not None:
             self.emit(table["to"], operand)
-        elif isinstance(expression, Sum):
-            self._sum(expression, table)
-        elif isinstance(expression, Product):
-            self._product(expression, table)
-        elif isinstance(expression, Power):
-            self._power(expression)
-        elif isinstance(expression, Reference):
-            self._function(expression)
+        elif isinstance(bare, (Sum, Product)):
+            negative ^= self._chain(bare, table)
+        elif isinstance(bare, Power):
+            self._power(bare)
+        elif isinstance(bare, Reference):
+            self._function(bare)
+        return negative
 
     def simple(self, expression: Expression) -> Operand | None:
         """Return the operand of an expression that needs no computation, or None."""
@@ -197,51 +213,42 @@ class Emitter:
             return self.variable(expression)
         return None
 
-    def _sum(self, expression: Sum, table: dict[str, int]) -> None:
-        # -a + b is computed as -(a - b): all signs of the terms are flipped, and the result is reversed at the end.
-        rest = tuple((_FLIPPED[s], t) for s, t in expression.rest) if expression.minus else expression.rest
-        self._chain(expression.first, rest, table)
-        if expression.minus:
-            self.emit(op.RSGX if table is _FIXED else op.RSGN)
-
-    def _product(self, expression: Product, table: dict[str, int]) -> None:
-        # The signs of the factors are removed.  An odd number of them reverses the sign of the product.
-        first, odd = _unsigned(expression.first)
-        rest = []
-        for sign, factor in expression.rest:
-            bare, negative = _unsigned(factor)
-            odd ^= negative
-            rest.append((sign, bare))
-        self._chain(first, tuple(rest), table)
-        if odd:
-            self.emit(op.RSGX if table is _FIXED else op.RSGN)
-
-    def _chain(self, first: Expression, rest: tuple[tuple[str, Expression], ...], table: dict[str, int]) -> None:
-        """Emit code for operands from left to right.
+    def _chain(self, expression: Sum | Product, table: dict[str, int]) -> bool:
+        """Emit code for the operands of a sum or product from left to right.
 
         ``waiting`` is the left operand while it is in a field.  If the right operand must be computed, it needs the
         accumulator.  The left operand then stays in a field, if necessary a temporary one, and the operation is
-        reversed.
+        reversed.  ``minus`` is True if the left operand has the wrong sign, and ``negative`` if the right one has.
         """
+        first, minus = _unsigned(expression.first)
+        minus ^= isinstance(expression, Sum) and expression.minus
         waiting = self.simple(first)
         if waiting is None:
-            self.load(first)
-        for sign, part in rest:
-            operand = self.simple(part)
-            if operand is not None:
-                if waiting is not None:
-                    self.emit(table["to"], waiting)
-                self.emit(table[sign], operand)
-            else:
+            minus ^= self.deferred(first)
+        for sign, part in expression.rest:
+            bare, negative = _unsigned(part)
+            operand = self.simple(bare)
+            is_computed = operand is None
+            if is_computed:
                 # The result so far is in the accumulator: save it before the accumulator is used again.
                 if waiting is None:
                     waiting = self.temporary()
                     self.emit(table["from"], waiting)
-                self.load(part)
-                self.emit(table[_REVERSED[sign]], waiting)
+                negative ^= self.deferred(bare)
+                operand = waiting
+            elif waiting is not None:
+                self.emit(table["to"], waiting)
+            # The accumulator keeps the sign of what it holds.  Operands of different signs are subtracted.
+            if isinstance(expression, Sum):
+                negative ^= sign == "-"
+                sign = "+" if negative == minus else "-"
+                minus = negative if is_computed else minus
+            else:
+                minus ^= negative
+                sign = "/r" if is_computed and sign == "/" else sign
+            self.emit(table[sign], operand)
             waiting = None
-        if waiting is not None:
-            self.emit(table["to"], waiting)
+        return minus
 
     def _power(self, expression: Power) -> None:
         base, exponent = expression.base, expression.exponent

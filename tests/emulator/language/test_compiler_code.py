@@ -19,9 +19,26 @@ T1 = "temporary 1"
         ("D=-A*B", ["TOFAC A", "FMP B", "RSGN", "FMFAC D"]),
         ("D=A-B-B", ["TOFAC A", "FSB B", "FSB B", "FMFAC D"]),
         ("D=A*B+C*D", ["TOFAC A", "FMP B", f"FMFAC {T1}", "TOFAC C", "FMP D", f"FAD {T1}", "FMFAC D"]),
+        ("R=A-B*C-D", ["TOFAC B", "FMP C", "FSB A", "FAD D", "RSGN", "FMFAC R"]),
+        ("R=(A-D*C)-B", ["TOFAC D", "FMP C", "FSB A", "FAD B", "RSGN", "FMFAC R"]),
+        ("R=A-(-B)", ["TOFAC A", "FAD B", "FMFAC R"]),
+        ("R=(-A)*B-C", ["TOFAC A", "FMP B", "FAD C", "RSGN", "FMFAC R"]),
+        ("R=A-(B-C*D)", ["TOFAC C", "FMP D", "FSB B", "FAD A", "FMFAC R"]),
+        ("R=A/(B-C*D)", ["TOFAC C", "FMP D", "FSB B", "FDVR A", "RSGN", "FMFAC R"]),
+        ("R=-A*B+C*D", ["TOFAC A", "FMP B", f"FMFAC {T1}", "TOFAC C", "FMP D", f"FSB {T1}", "FMFAC R"]),
+        (
+            "R=(A+B)-(C-D*E)*A",
+            [
+                *("TOFAC A", "FAD B", f"FMFAC {T1}", "TOFAC D", "FMP E", "FSB C", "FMP A", f"FAD {T1}", "FMFAC R"),
+            ],
+        ),
+        ("R=A-SQRT(B-C*D)", ["TOFAC C", "FMP D", "FSBR B", "FUNCTION", "FSBR A", "FMFAC R"]),
+        ("I=A-B*C", ["TOFAC B", "FMP C", "FSB A", "FIX", "RSGX", "FMFIX I"]),
+        ("R=-I", ["TOFIX I", "FLOAT", "RSGN", "FMFAC R"]),
+        ("I=K-L*M-J", ["TOFIX L", "XMP M", "XSB K", "XAD J", "RSGX", "FMFIX I"]),
     ],
 )
-def test_code_has_the_order_of_a_compiler_of_the_time(statement: str, expected: list[str]) -> None:
+def test_code_has_the_order_and_the_deferred_signs_of_pdq(statement: str, expected: list[str]) -> None:
     assert code(statement, "END")[:-1] == expected
 
 

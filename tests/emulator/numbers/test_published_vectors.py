@@ -27,8 +27,7 @@ Outcome = tuple[str, str]
 STATEMENTS = {
     "add": "D=A+B",
     "subtract": "D=A-B",
-    # FSBR subtracts a computed operand: here -A, where the card holds A with its sign reversed.
-    "subtractfrom": "D=B-(-A)",
+    "subtractfrom": "D=-A+B",
     "multiply": "D=A*B",
     "divide": "D=A/B",
     "power": "D=A**J",
@@ -80,9 +79,7 @@ def card(vector: Vector) -> Deck:
     """Return the card with the operands of a vector."""
     if vector.operation.startswith("read"):
         return deck_from_lines("data", [vector.operands[1]])
-    operands = list(vector.operands[1:] if vector.operation.startswith("write") else vector.operands)
-    if vector.operation == "subtractfrom":
-        operands[0] = operands[0].removeprefix("-") if operands[0].startswith("-") else "-" + operands[0]
+    operands = vector.operands[1:] if vector.operation.startswith("write") else vector.operands
     return deck_from_lines("data", ["".join(word.rjust(38 if "." in word else 5) for word in operands)])
 
 
