@@ -27,6 +27,9 @@ from emulator.numbers.arithmetic import (
 )
 from emulator.numbers.base import cut_decimal, decimal_length
 
+# The digits that an integer power is computed with beyond those of its result, and a width that keeps all digits.
+GUARD, _ALL = 20, 10**9
+
 
 @dataclass(frozen=True, slots=True)
 class Value:
@@ -84,7 +87,9 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
     elif far < 0:
         m, e = 1, MIN_EXPONENT - 1
     else:
-        m, e = _exact_power(size, exponent - rules.digits, count, rules)
+        # Without the zeros at its end, a base of few digits keeps all digits of its powers for longer.
+        zeros = len(str(size)) - len(str(size).rstrip("0"))
+        m, e = _exact_power(size // 10**zeros, exponent - rules.digits + zeros, count, rules)
     value = _in_range(-m if minus else m, e, rules, "E3", "E4")
     return Value(0, MINUS_ZERO, "E4") if value.code == "E4" and minus else value
 
@@ -97,8 +102,7 @@ def integer_power_steps(mantissa: int, exponent: int, count: int, rules: Rules) 
         return work.multiplied(count)
     if _out_of_range(abs(mantissa), exponent, count, rules):
         return 0
-    bits = mantissa.bit_length() * abs(count)
-    return work.product(bits, bits)
+    return work.squared(count)
 
 
 def _out_of_range(size: int, exponent: int, count: int, rules: Rules) -> int:
@@ -107,15 +111,31 @@ def _out_of_range(size: int, exponent: int, count: int, rules: Rules) -> int:
     return (decades > MAX_EXPONENT + 1) - (decades < MIN_EXPONENT - 2)
 
 
-def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules) -> tuple[int, int]:
-    """Return ``(size * 10**power_of_ten) ** count``, truncated or rounded to the digits of the rules."""
-    whole, scale = size ** abs(count), power_of_ten * abs(count)
+def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules, width: int = 0) -> tuple[int, int]:
+    """Return ``(size * 10**power_of_ten) ** count``, truncated or rounded to the digits of the rules.
+
+    Intermediate products keep ``width`` digits, by default GUARD more than the result has.  If these do not decide the
+    last digit of the result, the power is computed again with all digits.
+    """
+    times, width = abs(count), width or rules.digits + GUARD
+    whole, scale, error = 1, 0, 0
+    # Square and multiply, from the highest bit of the exponent down.
+    for bit in bin(times)[2:]:
+        whole, scale = whole * whole, 2 * scale
+        if bit == "1":
+            whole, scale = whole * size, scale + power_of_ten
+        excess = decimal_length(whole) - width
+        if excess > 0:
+            # Each truncation loses less than 10**(1 - width) of the number, and squaring doubles the relative loss.
+            whole, scale, error = whole // 10**excess, scale + excess, 21 * times
+    bounds = [whole, whole + error]
     if count < 0:
         # A reciprocal may have infinitely many digits.  Its first P + 2 digits determine the P + 1 digits that _cut
         # needs.
-        digits = decimal_length(whole) + rules.digits + 1
-        whole, scale = 10**digits // whole, -scale - digits
-    return _cut(whole, scale, rules)
+        digits = decimal_length(whole) + rules.digits + GUARD
+        bounds, scale = [10**digits // bound for bound in bounds], -scale - digits
+    first, second = (_cut(bound, scale, rules) for bound in bounds)
+    return first if first == second else _exact_power(size, power_of_ten, count, rules, _ALL)
 
 
 def _sqrt(mantissa: int, exponent: int, rules: Rules) -> Value:

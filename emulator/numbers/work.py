@@ -71,3 +71,8 @@ def decimal_power(exponent: int) -> int:
 def multiplied(count: int) -> int:
     """Return the steps of ``A**J`` by repeated multiplication."""
     return abs(count) // 2
+
+
+def squared(count: int) -> int:
+    """Return the steps of ``A**J`` of a decimal number by squaring, with some digits more than the result has."""
+    return 2 * abs(count).bit_length()

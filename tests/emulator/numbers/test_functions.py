@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from emulator.numbers.arithmetic import IBM1962, TRUNCATING, ZERO, from_integer, multiply, profile
-from emulator.numbers.functions import Value, function, integer_power, power
+from emulator.numbers.functions import Value, _exact_power, function, integer_power, power
 from tests.support.deckwork import machine, number
 
 RULES = TRUNCATING.rules
@@ -114,9 +114,15 @@ def test_integer_powers_are_the_exact_power_truncated(m: int, e: int, count: int
     assert 10**7 <= result.mantissa < 10**8
 
 
+@given(st.integers(9_990_000, 10_020_000), st.integers(-9999, 9999), st.sampled_from(["truncating", "rounding:28"]))
+def test_guard_digits_give_the_same_large_power_as_all_digits(size: int, count: int, name: str) -> None:
+    rules = profile(name).rules
+    assert _exact_power(size, -7, count, rules) == _exact_power(size, -7, count, rules, 10**9)
+
+
 @given(mantissas, st.integers(-3, 3), st.integers(1, 6))
 def test_ibm1962_computes_integer_powers_by_multiplication(mantissa: int, exponent: int, count: int) -> None:
-    """OPEN-QUESTIONS 8: the method of the set of 1962 is unknown.  PDQ FORTRAN multiplies."""
+    """OPEN-QUESTIONS 8: the method of the set of 1962 is unknown.  PDQ FORTRAN multiplies J - 1 times (executed)."""
     rules = IBM1962.rules
     m, e = mantissa, exponent
     for _ in range(count - 1):
