@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from emulator.compiled.kernel import ADDRESS, AT, DECISION, WORK, Core, Row, owe
+from emulator.compiled.kernel import ADDRESS, AT, DECISION, HOPPER_EMPTY, WORK, Core, Row, owe
 from emulator.language.cards import COLUMNS
 from emulator.language.objectcode import Flat
 from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS
@@ -214,6 +214,7 @@ def end_record(marks: Marks, cards: Cards, desk: Desk) -> int:
             return NOT_HERE
         devices[CARD] = devices[NEXT]
         devices[NEXT] += 1
+        desk.registers[HOPPER_EMPTY] = 1 if devices[NEXT] == devices[LAST_CARD] else 0
         return put(TAKEN, desk.field, 0, desk)
     line = desk.line
     while length > 0 and line[length - 1] == BLANK:

@@ -21,8 +21,8 @@ from emulator.numbers.work import STEPS
 # The registers that are kept between calls; their meaning is that of the fields of emulator.machine.state.State.
 # FAC and CHARACTERISTIC are mantissa and exponent of the accumulator, SENT and SENT_EXPONENT a field being copied.
 PC, FAC, CHARACTERISTIC, FIXED, WORK, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2 = range(11)
-AT, DECISION, ELEMENT, COSTLY, OWED = range(11, 16)
-REGISTERS = 16
+AT, DECISION, ELEMENT, COSTLY, OWED, HOPPER_EMPTY = range(11, 17)
+REGISTERS = 17
 
 Row = MutableSequence[int]
 
@@ -235,7 +235,12 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
             decision = pc + 1
             pc = targets[first + choice - 1]
         elif operation == op.SWITCH:
-            pc = targets[address] if core.switches[seconds[pc] - 1] else targets[address + 1]
+            if seconds[pc] == op.LAST_CARD:
+                switch = registers[HOPPER_EMPTY]
+                registers[HOPPER_EMPTY] = 0
+            else:
+                switch = core.switches[seconds[pc] - 1]
+            pc = targets[address] if switch else targets[address + 1]
         elif operation == op.ITEM:
             # One number of a list.  The instruction is repeated for each element of a whole array.
             if work > most + interpreter.SLACK:

@@ -17,7 +17,7 @@ import numpy as np
 from emulator.compiled import deck as decks
 from emulator.compiled import devices, kernel
 from emulator.jit.functions import Compiled, NotInstalled
-from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck, deck_from_lines
+from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, RECORD_MARKS, Deck, deck_from_lines
 from emulator.language.compiler import compile_deck
 from emulator.language.formats import MAX_RECORD, Literal
 from emulator.language.objectcode import Flat, Program, flatten
@@ -42,7 +42,7 @@ WAYS = ("E<", "E>", "F<", "F>", "I<", "I>")
 
 _VERBS = {"READ": devices.READ, "PUNCH": devices.PUNCH, "ACCEPT": devices.ACCEPT}
 _KINDS = {"E": devices.E_FIELD, "F": devices.F_FIELD, "I": devices.I_FIELD}
-_CARD_CODES = "".join(sorted(CHARACTERS)).encode("ascii")
+_CARD_CODES = "".join(sorted(CHARACTERS.difference(RECORD_MARKS))).encode("ascii")
 
 
 def why_plain(options: Options) -> str:
@@ -84,7 +84,7 @@ def compile_engine() -> None:
 
 
 def packed(deck: Deck) -> bytes | None:
-    """Return 80 codes for each card, or None if a card holds other characters than emulator/language/cards.py reads."""
+    """Return 80 codes for each card, or None if a card holds a record mark or an invalid character."""
     return _columns([card.text for card in deck.cards])
 
 

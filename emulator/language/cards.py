@@ -7,6 +7,7 @@ trailing blanks of a line are the blank columns of its card.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
@@ -15,6 +16,10 @@ from emulator.files import read_bytes, source_name
 
 COLUMNS = 80
 MAX_CARDS = 100_000
+
+# Graphics of the record mark in transcribed decks: that of simulators, one of the time, and that of the machine itself.
+RECORD_MARKS = "|?\u2021"
+RECORD_MARK = re.compile(f"[{RECORD_MARKS}]")
 
 _ZONES = {"": "0123456789", "12": "ABCDEFGHI", "11": "JKLMNOPQR"}
 
@@ -29,6 +34,7 @@ def _punches() -> dict[str, str]:
     # Special characters have three punches, or two (3-8 and 4-8).
     code.update({".": "12-3-8", ")": "12-4-8", "$": "11-3-8", "*": "11-4-8"})
     code.update({",": "0-3-8", "(": "0-4-8", "=": "3-8", "@": "4-8", "'": "4-8"})
+    code.update(dict.fromkeys(RECORD_MARKS, "0-2-8"))
     return code
 
 

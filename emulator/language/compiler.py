@@ -16,7 +16,7 @@ from typing import assert_never
 from emulator.errors import CompileError, DeckError, Diagnostic, Refused, expect, merge_repeated
 from emulator.language import objectcode as op
 from emulator.language import tree
-from emulator.language.cards import Deck
+from emulator.language.cards import RECORD_MARK, Deck
 from emulator.language.control_flow import flow_warnings
 from emulator.language.expressions import LIBRARY, Emitter, Operand, function_of, is_fixed_name, unknown_function
 from emulator.language.foreign import references
@@ -382,5 +382,5 @@ class _Translation:
 
 def _statement_text(statement: tree.Statement) -> str:
     """Return the text of a statement without its number and the blanks around it."""
-    text = " ".join(line[:72].strip() for line in statement.text.split("\n"))
+    text = " ".join(RECORD_MARK.split(line[:72])[0].strip() for line in statement.text.split("\n"))
     return text.lstrip("0123456789 ") if statement.label else text

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from emulator.language import tree
+from emulator.language.cards import RECORD_MARK
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +99,7 @@ _STATEMENTS: tuple[tuple[str, ForeignStatement], ...] = (
         ForeignStatement("input and output without a FORMAT", "GOTRAN and FORTRAN without FORMAT", _FORMAT, number=13),
     ),
     (r"\*", ForeignStatement("a control card", "the monitor of FORTRAN II-D or of another compiler", "leave it out")),
+    (RECORD_MARK.pattern + "{2}", ForeignStatement("a control card", "the monitor of FORTRAN II-D", "leave it out")),
     (r"\$", ForeignStatement("a control card", "a monitor", "leave it out")),
 )
 # The kinds that :func:`~emulator.language.statements.classify` may give to a statement of another FORTRAN.

@@ -49,7 +49,7 @@ MEANINGS = {
     "RSGX": "reverse the sign, fixed",
     "DOTEST": "step the variable of a DO, back if not past the limit",
     "SELECT": "computed go to",
-    "SWITCH": "branch on a sense switch",
+    "SWITCH": "branch on a sense switch, or with 9 on the last card",
     "FLOAT": "fixed to floating",
     "FIX": "floating to fixed",
     "FUNCTION": "library function of FAC",
@@ -187,6 +187,9 @@ class Program:
             numbers.append(statement)
         return tuple(numbers)
 
+
+# The number of the indicator that the reader turns on with the last card, and a test turns off (PDQ FORTRAN, executed).
+LAST_CARD = 9
 
 # The number of entries of :attr:`Flat.table` per subscript.
 SUBSCRIPT = 8

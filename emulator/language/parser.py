@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
+from itertools import dropwhile, takewhile
 from typing import Any
 
 from lark import Lark, Token, Tree, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
 from emulator.errors import Diagnostic, Refused
 from emulator.language import tree
-from emulator.language.cards import COLUMNS, Card, Deck
+from emulator.language.cards import COLUMNS, RECORD_MARKS, Card, Deck
 from emulator.language.foreign import STATEMENT_FUNCTION, ForeignStatement, declared_names, identify
 from emulator.language.statements import (
     LAST_COLUMN,
     Columns,
     Source,
     is_comment,
+    is_control_card,
     may_be_comment,
     resembles_statement,
     sources,
+    statement_columns,
 )
 
 # For each rule of the grammar the form shown in messages, and the error type (C26-5619 p. 56) or 0.
@@ -47,7 +50,7 @@ MAX_NESTING = 60
 # The longest statement in characters, without blanks: its object code would fill the largest machine.
 MAX_LENGTH = 20_000
 _CACHED_LENGTH = 200
-_AFTER_END = "a card after END; the program's data belong in a separate deck"
+_AFTER_MARK = "a record mark (punched 0-2-8) ends a statement, but other characters follow it"
 _EDGE = (LAST_COLUMN, LAST_COLUMN + 1)
 _CODE = re.compile(r"[=+*/(),]")
 """Characters that are unlikely in an identification in columns 73 to 80."""
@@ -60,13 +63,14 @@ class Parsed:
 
     ``refused`` holds the statement numbers of the statements that do not parse.  ``foreign_names`` holds the names that
     statements of another FORTRAN declare as arrays or functions, so that statements using these names cannot be
-    checked.
+    checked.  ``data`` holds the cards after END, without the blank cards before them and any control card after them.
     """
 
     statements: tuple[tree.Statement, ...]
     diagnostics: tuple[Diagnostic, ...]
     refused: frozenset[str] = frozenset()
     foreign_names: frozenset[str] = frozenset()
+    data: tuple[Card, ...] = ()
 
 
 def parse(deck: Deck) -> Parsed:
@@ -75,16 +79,20 @@ def parse(deck: Deck) -> Parsed:
     diagnostics: list[Diagnostic] = []
     labels: set[str] = set()
     foreign_names: set[str] = set()
-    in_subprogram = ended = False
+    data: tuple[Card, ...] = ()
+    in_subprogram = False
+    end: Card | None = None
     for source in sources(deck):
         # The cards of a subprogram are skipped up to its END.
         if in_subprogram:
             in_subprogram = source.kind != "end"
+            end = source.cards[-1] if end and not in_subprogram else end
             continue
-        if ended and not _begins_subprogram(source):
-            diagnostics.append(Diagnostic(source.place.card, source.place.column, _AFTER_END, about="END"))
-            continue
-        ended = ended or source.kind == "end"
+        if end and not _begins_subprogram(source):
+            data = _data(deck, end)
+            diagnostics.extend(_data_warnings(deck, end, data))
+            break
+        end = source.cards[-1] if source.kind == "end" else end
         diagnostics.extend(_column_warnings(source))
         try:
             statements.append(parse_statement(source))
@@ -108,10 +116,27 @@ def parse(deck: Deck) -> Parsed:
             diagnostics.append(_foreign_message(statement.place, STATEMENT_FUNCTION))
             foreign_names.add(name)
     statements = [s for s in statements if not _statement_function(s.body, arrays)]
-    for card in deck.cards:
+    for card in deck.cards[: end.number if end else None]:
         if is_comment(card) and resembles_statement(card):
             diagnostics.append(_taken_as_comment(card, "it begins like a statement"))
-    return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels), frozenset(foreign_names))
+    return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels), frozenset(foreign_names), data)
+
+
+def _data(deck: Deck, end: Card) -> tuple[Card, ...]:
+    """Return the data cards after END, without blank cards before them, up to a control card."""
+    after = dropwhile(lambda card: not card.text, deck.cards[end.number :])
+    return tuple(takewhile(lambda card: not is_control_card(card), after))
+
+
+def _data_warnings(deck: Deck, end: Card, data: Sequence[Card]) -> Iterator[Diagnostic]:
+    """Yield warnings about the cards after END that are data, and about the first control card there."""
+    if data:
+        message = f"cards {data[0].number} to {data[-1].number} follow END: they are data and are not compiled"
+        yield Diagnostic(data[0].number, 0, message, warning=True, about="END")
+    control = next(filter(is_control_card, deck.cards[end.number :]), None)
+    if control:
+        message = "a control card of a monitor follows END; neither it nor the cards after it are read"
+        yield Diagnostic(control.number, 0, message, warning=True, about="END of the job")
 
 
 def _begins_subprogram(source: Source) -> bool:
@@ -160,6 +185,9 @@ def parse_statement(source: Source) -> tree.Statement:
     """Parse a statement.  The cache serves decks that differ in single cards."""
     if not source.text:
         raise Refused(source.place, f"a statement number without a statement: {source.label}")
+    for card in source.cards:
+        if statement_columns(card).rstrip() != card.columns(1, LAST_COLUMN).rstrip(f"{RECORD_MARKS} "):
+            raise Refused(source.place, _AFTER_MARK)
     label = _statement_number(source.label, source.place) if source.label else 0
     if len(source.text) > MAX_LENGTH:
         raise Refused(source.place, f"a statement of more than {MAX_LENGTH} characters")
@@ -297,8 +325,9 @@ class _Builder:
         return tree.If(children[0], (a, b, c))
 
     def if_switch(self, children: list[Token]) -> tree.IfSwitch:
-        if children[0] not in ("1", "2", "3", "4"):
-            raise Refused(self._at(children[0]), f"there is no sense switch {children[0]}; the console has 1 to 4", 7)
+        if children[0] not in ("1", "2", "3", "4", "9"):
+            message = f"there is no sense switch {children[0]}; the console has 1 to 4, and 9 is on after the last card"
+            raise Refused(self._at(children[0]), message, 7)
         on, off = map(self._label, children[1:])
         return tree.IfSwitch(int(children[0]), (on, off))
 
@@ -337,4 +366,6 @@ class _Builder:
         return tree.Loop(tuple(items), self._name(variable), first, last, step)
 
     def input_output(self, children: list[Any]) -> tree.InputOutput:
-        return tree.InputOutput(str(children[0]), self._label(children[1]), tuple(children[2:]))
+        verb, label, *items = children
+        # A comma may stand before an empty list (READ 5,).
+        return tree.InputOutput(str(verb), self._label(label), tuple(item for item in items if item is not None))

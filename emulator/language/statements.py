@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from string import ascii_lowercase, ascii_uppercase
 
-from emulator.language.cards import Card, Deck
+from emulator.language.cards import RECORD_MARK, Card, Deck
 from emulator.language.tree import Place
 
 LAST_COLUMN = 72
@@ -73,13 +73,25 @@ class Source:
     cards: tuple[Card, ...]
 
 
+def is_control_card(card: Card) -> bool:
+    """Return True for a control card of a monitor, which begins with two record marks."""
+    return len(RECORD_MARK.findall(card.text[:2])) == 2
+
+
+def statement_columns(card: Card, first: int = 1) -> str:
+    """Return the columns of a card from ``first`` to 72, with blanks from a record mark on: it ends the statement."""
+    text = card.columns(first, LAST_COLUMN)
+    mark = None if is_control_card(card) else RECORD_MARK.search(text)
+    return text[: mark.start()].ljust(len(text)) if mark else text
+
+
 def is_comment(card: Card) -> bool:
     """Return True for a card without a statement, and for one with C in column 1 that lacks the form of a statement.
 
     The manual (p. 12) requires two blanks after the C.  IBM's FORTRAN II-D and PDQ FORTRAN also accept ``C-----`` and
     ``C TEXT`` (executed).  See :func:`may_be_comment` for a card that has a statement form but does not parse.
     """
-    if not card.columns(1, LAST_COLUMN).strip() or card.text.ljust(3).startswith("C  "):
+    if not statement_columns(card).strip() or card.text.ljust(3).startswith("C  "):
         return True
     return card.text.startswith("C") and _source((card,)).kind == "unknown"
 
@@ -112,7 +124,8 @@ def sources(deck: Deck) -> Iterator[Source]:
     for card in deck.cards:
         if is_comment(card):
             continue
-        if group and _continues(card):
+        # What follows END may be data of any form.
+        if group and _continues(card) and _source(tuple(group)).kind != "end":
             group.append(card)
             continue
         if group:
@@ -151,14 +164,14 @@ def _continues(card: Card) -> bool:
     source = _source((card,))
     if source.kind == "format":
         return False
-    if source.kind == "unknown" or source.text.count("(") != source.text.count(")"):
+    if source.kind == "unknown" or source.text[0] == "=" or source.text.count("(") != source.text.count(")"):
         return True
     return source.kind == "assignment" and _top_level(source.text, ",") >= 0
 
 
 @lru_cache(2048)
 def _source(cards: tuple[Card, ...]) -> Source:
-    raw = cards[0].columns(1, LAST_COLUMN) + "".join(card.columns(_FIRST, LAST_COLUMN) for card in cards[1:])
+    raw = statement_columns(cards[0]) + "".join(statement_columns(card, _FIRST) for card in cards[1:])
     number = _NUMBER.match(raw)
     start = number.end() if number else 0
     label = raw[:start].replace(" ", "")

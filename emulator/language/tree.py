@@ -96,7 +96,7 @@ class If:
 
 @dataclass(frozen=True, slots=True)
 class IfSwitch:
-    """``IF (SENSE SWITCH n) on, off`` (p. 56, item 7)."""
+    """``IF (SENSE SWITCH n) on, off`` (p. 56, item 7).  Switch 9 is the indicator of the last card."""
 
     switch: int
     labels: tuple[int, int]

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from emulator.errors import CardError, DeckError
-from emulator.language.cards import COLUMNS, Card, Deck, check_characters, read_line
+from emulator.language.cards import COLUMNS, RECORD_MARK, Card, Deck, check_characters, read_line
 from emulator.language.objectcode import Line, Program
 from emulator.machine.endings import Ending, Kind, Mode, Notice, stopped
 from emulator.machine.forms import Input, Layout, NoField, Output
@@ -165,6 +165,7 @@ class Devices:
             # A comment card of a program may hold any character, but no card of data may.
             check_characters(self.deck.source, card.number, card.text)
         self.position += 1
+        self.state.last_card = self.position == len(self.deck.cards)
         self.events.append(Event("read", card.text))
         return card
 
@@ -233,7 +234,8 @@ class Devices:
 
     def type(self, line: str) -> None:
         """Type a line."""
-        text = self._record(line, TYPEWRITER_COLUMNS)
+        # The typewriter stops at a record mark.
+        text = self._record(RECORD_MARK.split(line)[0], TYPEWRITER_COLUMNS)
         self.characters += len(text) + 1
         # A typed line is often a message; the last decision shows why the program typed it.
         decision = self.state.decision

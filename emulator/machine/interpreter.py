@@ -304,7 +304,11 @@ def run(
                     decide((pc, target, value))
                 pc = target
             elif operation == op.SWITCH:
-                pc = targets[address] if switches[seconds[pc] - 1] else targets[address + 1]
+                if seconds[pc] == op.LAST_CARD:
+                    is_on, state.last_card = state.last_card, False
+                else:
+                    is_on = bool(switches[seconds[pc] - 1])
+                pc = targets[address] if is_on else targets[address + 1]
             elif operation == op.ITEM:
                 # One number of a list.  For a whole array the instruction is repeated until the last element.
                 if work > most + SLACK:

@@ -70,6 +70,8 @@ class State:
     work: the work counted against the limit.  costly: the part of ``work`` for operations that take longer than a
     statement.  owed: their steps that do not yet add up to a unit (emulator/numbers/work.py).
 
+    last_card: True if the last card has been read and no statement has tested this since (SENSE SWITCH 9).
+
     event: the number of an error code.  decision: the instruction of the last IF or computed GO TO, counted from 1.
     """
 
@@ -89,6 +91,7 @@ class State:
     listed: bool = False
     event: int = 0
     decision: int = 0
+    last_card: bool = False
     work: int = 0
     costly: int = 0
     owed: int = 0

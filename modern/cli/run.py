@@ -10,10 +10,10 @@ from emulator.errors import CardError, DeckError, EmulatorError, OperatorError
 from emulator.language.cards import Deck
 from emulator.machine.machine import Machine
 from emulator.machine.result import Event
-from modern.cli.shared.console import DIFFERS, OK, check_one_standard_input
+from modern.cli.shared.console import DIFFERS, OK, UsageError, check_one_standard_input, print_notes
 from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.operators import attended
-from modern.cli.shared.programs import load_program, machine_options
+from modern.cli.shared.programs import load_program_and_data, machine_options
 from modern.cli.shared.run_output import print_run, streaming, tracing
 from modern.thesis.job import Refusals
 
@@ -21,8 +21,8 @@ from modern.thesis.job import Refusals
 def main(args: argparse.Namespace) -> int:
     check_one_standard_input(args)
     options = replace(machine_options(args), hopper="any")
-    program = load_program(args)
-    deck = deck_for(args.program, args.deck) if args.deck else Deck("no deck", ())
+    program, data = load_program_and_data(args)
+    deck = input_deck(args, data)
     refusals = Refusals()
     failure: EmulatorError | None = None
     with (
@@ -48,3 +48,14 @@ def main(args: argparse.Namespace) -> int:
     attendance.print_unused()
     print_run(args, program, result)
     return OK if result.ending.normal and not refusals.stopped else DIFFERS
+
+
+def input_deck(args: argparse.Namespace, data: Deck) -> Deck:
+    """Return the deck that the arguments name, or the cards after END.  Raise UsageError if both are present."""
+    if not data.cards:
+        return deck_for(args.program, args.deck) if args.deck else Deck("no deck", ())
+    span = f"cards {data.cards[0].number} to {data.cards[-1].number}, after END"
+    if args.deck:
+        raise UsageError(f"{data.source}: {span}, are data; remove them to read {args.deck}")
+    print_notes([f"{data.source}: {span}, are read as the data"])
+    return data

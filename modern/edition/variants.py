@@ -19,7 +19,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 
-from emulator.language.cards import CHARACTERS, Deck, deck_from_lines
+from emulator.language.cards import CHARACTERS, RECORD_MARKS, Deck, deck_from_lines
 from emulator.language.statements import Source, sources
 from modern.edition import programs
 from modern.edition.readings import table
@@ -175,7 +175,7 @@ def _confused(char: str) -> tuple[str, ...]:
     """Return the card characters for which this one may be misread, or which may be misread as this one."""
     pairs = [(p.witness, p.lemma) for p in table() if p.cls == "confusable" and len(p.witness) == len(p.lemma) == 1]
     partners = [b for a, b in (*pairs, *((b, a) for a, b in pairs)) if a == char]
-    return tuple(dict.fromkeys(c for c in partners if c in CHARACTERS))
+    return tuple(dict.fromkeys(c for c in partners if c in CHARACTERS.difference(RECORD_MARKS)))
 
 
 def _formats(text: str) -> Iterator[str]:

@@ -6,7 +6,7 @@ from fractions import Fraction
 import pytest
 
 from emulator.language import tree
-from emulator.language.cards import Deck, read_deck
+from emulator.language.cards import RECORD_MARKS, Deck, deck_from_lines, read_deck
 from emulator.language.compiler import compile_deck, translate
 from emulator.language.formats import Literal, Slash, parse_format
 from emulator.language.parser import parse
@@ -14,7 +14,7 @@ from emulator.language.statements import capitals
 from emulator.machine.machine import Machine
 from emulator.machine.operator import FromFile
 from emulator.machine.result import Options, Result
-from tests.support.deckwork import ComparedMachine, agreed
+from tests.support.deckwork import ComparedMachine, MakeMachine, agreed, program
 from tests.support.paths import DATA
 from tests.support.period_outputs import PERIOD, Eight, Lines, e_field, f_field, fibon, job, pi, stats, table, tictac
 
@@ -112,3 +112,31 @@ def test_programs_cover_every_statement_and_specification() -> None:
 def test_every_program_is_described() -> None:
     text = (PERIOD / "README.md").read_text(encoding="utf-8")
     assert [path.name for path in PROGRAMS if f"| `{path.name}` |" not in text] == []
+
+
+@pytest.mark.parametrize("mark", RECORD_MARKS)
+def test_a_record_mark_ends_a_statement_and_a_typed_line(engines: MakeMachine, mark: str) -> None:
+    """TIC3D of 1962 ends each statement so, and its texts are typed up to the mark (executed)."""
+    deck = ["READ 5,|", "TYPE 5|", "PUNCH 5,|", "5 FORMAT(8H        )|", "END|"]
+    made = program(*(line.replace("|", mark) for line in deck))
+    result = engines(made, deck_from_lines("data", [f"HALLO{mark} X"]), Options()).run()
+    assert (result.typed, result.punched) == (("HALLO",), (f"HALLO{mark} X",))
+
+
+def test_sense_switch_9_is_on_once_after_the_last_card(engines: MakeMachine) -> None:
+    """PDQ FORTRAN, executed: the test turns the indicator off."""
+    made = program(
+        *("DO 5 I=1,5", "IF(SENSE SWITCH 9)1,2", "1 PUNCH 7,I", "IF(SENSE SWITCH 9)3,5", "3 PUNCH 8,I", "GO TO 5"),
+        *(
+            "2 READ 9,K",
+            "PUNCH 9,K",
+            "5 CONTINUE",
+            "7 FORMAT(4HLAST,I4)",
+            "8 FORMAT(5HAGAIN,I4)",
+            "9 FORMAT(I4)",
+            "END",
+        ),
+    )
+    result = engines(made, deck_from_lines("data", ["   1", "   2", "   3"]), Options(hopper="any")).run()
+    assert result.punched == ("   1", "   2", "   3", "LAST   4")
+    assert result.ending.kind == "hopper"

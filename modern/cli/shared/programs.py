@@ -8,6 +8,7 @@ from emulator.errors import LowerCaseError
 from emulator.language.cards import Deck, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
+from emulator.language.parser import parse
 from emulator.language.statements import capitals
 from emulator.machine.result import Options
 from emulator.numbers import DecimalNumbers, Numbers, numbers
@@ -46,6 +47,12 @@ def load_program(args: argparse.Namespace) -> Program:
     if args.program in programs.NAMES:
         return programs.program(args.program, layers_of(args))
     return compile_deck(source_deck(args))
+
+
+def load_program_and_data(args: argparse.Namespace) -> tuple[Program, Deck]:
+    """Return the compiled ``PROGRAM.f`` and the deck of the cards after its END.  Raise EmulatorError."""
+    deck = source_deck(args)
+    return compile_deck(deck), Deck(deck.source, parse(deck).data)
 
 
 def machine_options(args: argparse.Namespace) -> Options:

@@ -54,9 +54,12 @@ def print_run(
 
 
 def print_ending(result: Result) -> None:
-    """Print how a run ended, if it did not end normally."""
+    """Print how a run ended, if it did not end normally, and the option that lets a subscript leave its array."""
     if not result.ending.normal:
-        print_notes([f"hull1620: {result.ending.message}"])
+        advice = (
+            "; --bounds core reads the neighbouring field, as the machine did" if result.ending.kind == "bounds" else ""
+        )
+        print_notes([f"hull1620: {result.ending.message}{advice}"])
 
 
 class _StreamError(Exception):

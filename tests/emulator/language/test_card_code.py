@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from emulator.errors import CardError, DeckError, FileError
 from emulator.language import cards
-from emulator.language.cards import CHARACTERS, PUNCHES, Card, deck_from_lines, deck_from_text, read_deck
+from emulator.language.cards import CHARACTERS, PUNCHES, RECORD_MARKS, Card, deck_from_lines, deck_from_text, read_deck
 
 texts = st.text(st.sampled_from(sorted(CHARACTERS)), max_size=80)
 
@@ -40,11 +40,11 @@ def test_digits_and_signs_of_the_reference_card() -> None:
     assert {c: PUNCHES[c] for c in signs} == signs
 
 
-def test_only_the_quote_shares_its_punches_with_another_character() -> None:
+def test_only_the_quote_and_the_record_mark_share_their_punches_with_other_characters() -> None:
     """The 026's H keyboard prints the punches 4-8 as a quote, and the reference card prints them as @."""
     shared = {c for c in PUNCHES if list(PUNCHES.values()).count(PUNCHES[c]) > 1}
-    assert shared == {"@", "'"}
-    assert len(PUNCHES) == 49
+    assert shared == {"@", "'", *RECORD_MARKS}
+    assert len(PUNCHES) == 52
 
 
 def test_columns_beyond_the_text_are_blank() -> None:

@@ -64,7 +64,9 @@ MESSAGES = [
     ("DO from zero", ["DO 5 I=0,3", "5 CONTINUE", "END"], 1, 0, "greater than zero"),
     ("DO step zero", ["DO 5 I=1,3,0", "5 CONTINUE", "END"], 1, 0, "greater than zero"),
     ("computed GO TO, floating", ["GO TO(5),A", "5 END"], 1, 0, "fixed-point variable"),
-    ("card after END", ["END", "X=1."], 2, 0, "a card after END"),
+    ("columns after a record mark", ["A=1.| B=2.", "END"], 1, 0, "a record mark (punched 0-2-8) ends a statement"),
+    ("two commas before a list", ["READ 5,,A", "5 FORMAT(F5.1)", "END"], 1, 13, "','"),
+    ("no such sense switch", ["IF(SENSE SWITCH 5)6,6", "6 END"], 1, 7, "9 is on after the last card"),
     ("too much data", ["DIMENSION X(70,90)", "END"], 1, 0, "OVERLAP"),
 ]
 
@@ -138,12 +140,9 @@ def test_deck_of_formats_alone_compiles() -> None:
     assert [d.warning for d in diagnostics("5 FORMAT(I4)")] == [True]
 
 
-def test_card_behind_an_end_with_blanks() -> None:
-    assert [d.card for d in errors("E N D", "X=1.")] == [2]
-
-
-def test_card_behind_an_end_with_a_number() -> None:
-    assert [d.card for d in errors("GO TO 5", " 05 END", "X=1.")] == [3]
+@pytest.mark.parametrize("cards", [["E N D", "X=1."], ["GO TO 5", " 05 END", "X=1."], ["END ", "     1"]])
+def test_cards_after_an_end_of_any_form_are_data(cards: list[str]) -> None:
+    assert [(d.card, d.warning) for d in diagnostics(*cards)] == [(len(cards), True)]
 
 
 @pytest.mark.parametrize("last", ["5 X=I+1.", "5 X=+*"])

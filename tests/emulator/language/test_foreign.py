@@ -5,8 +5,9 @@ import pytest
 from emulator.errors import Diagnostic
 from emulator.language.expressions import LIBRARY
 from emulator.language.foreign import FOREIGN_FIELDS, FOREIGN_STATEMENTS, identify, suggest_function
+from emulator.language.parser import parse
 from emulator.language.statements import classify
-from tests.support.deckwork import diagnostics, errors, within
+from tests.support.deckwork import diagnostics, errors, source, within
 
 F = "90 FORMAT(5E14.8)"
 
@@ -131,13 +132,26 @@ def test_subprogram_gives_one_message_before_or_after_the_program() -> None:
 
 def test_cards_around_a_subprogram_are_checked() -> None:
     found = errors("X=A+I", "END", *SUBPROGRAMS, "Y=2.")
-    assert [(d.card, d.number) for d in found] == [(1, 5), (3, 0), (12, 0)]
-    assert found[2].message == "a card after END; the program's data belong in a separate deck"
+    assert [(d.card, d.number) for d in found] == [(1, 5), (3, 0)]
 
 
-def test_data_after_the_program_give_one_message() -> None:
-    found = errors("READ 90,X", F, "END", "  1.0  2.0", "X=A+I", "5 FORMAT(A4)", "  CALL EXIT", "END")
-    assert [(d.card, d.message[-23:]) for d in found] == [(4, "(also on cards 5, 6, 7, 8)"[-23:])]
+@pytest.mark.parametrize(
+    ("after", "first", "messages"),
+    [
+        (["  1.0  2.0", "X=A+I", "5 FORMAT(A4)", "  CALL EXIT", "END"], 4, ["cards 4 to 8 follow END"]),
+        (["", "", "     5", "C", ""], 6, ["cards 6 to 8 follow END"]),
+        (["1.", "||||", "2."], 4, ["cards 4 to 4 follow END", "a control card of a monitor follows END"]),
+        (["?? JOB"], 0, ["a control card of a monitor follows END"]),
+        (["", "C     END"], 0, []),
+    ],
+)
+def test_data_and_control_cards_after_the_program_are_distinguished(
+    after: list[str], first: int, messages: list[str]
+) -> None:
+    parsed = parse(source("READ 90,X", F, "END", *after))
+    assert [card.number for card in parsed.data[:1]] == [first] * bool(first)
+    assert [d.message.partition(":")[0].partition(";")[0] for d in parsed.diagnostics] == messages
+    assert all(d.warning for d in parsed.diagnostics)
 
 
 @pytest.mark.parametrize(

@@ -170,7 +170,7 @@ REFUSED = [
     ("DIMENSION X(I)", 13, 9, "'I' does not fit"),
     ("DIMENSION X(2,3,4)", 11, 9, "X has more than two dimensions"),
     ("READ", 4, 13, "ends too soon"),
-    ("PUNCH 5,", 8, 13, "ends too soon"),
+    ("PUNCH 5,,A", 9, 13, "',' does not fit"),
     ("PUNCH 5,3", 9, 13, "'3' does not fit"),
     ("PUNCH 5,(A(I),I=1)", 18, 13, "')' does not fit"),
     ("X=" + "(" * 61 + "A", 1, 0, f"nested more than {MAX_NESTING} deep"),
