@@ -236,7 +236,7 @@ def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning])
 
 
 def _point(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) -> tuple[tuple[int, int], ...]:
-    """Check a card and return the mantissa and exponent of its three numbers.  All zeros have the same pair."""
+    """Check a card and return the mantissa and exponent of each of its numbers, which are the same for every zero."""
     numbers = []
     for axis, (first, columns) in zip("xyz", _fields(card), strict=True):
         try:

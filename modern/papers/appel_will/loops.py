@@ -101,7 +101,7 @@ def intersect(edges: Sequence[Pair], first: int, second: int) -> Intersection | 
 
 
 def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) -> LoopTable:
-    """Run steps 1 to 10. Only the ends of the edges are considered (the reduced "vertex list")."""
+    """Find the loops by steps 1 to 10 of the appendix, among the points at which convex edges end."""
     vertices = sorted({end for edge in edges for end in edge})
     uses = [0] * len(edges)  # step 1: all counts IUC are 0
     table = _Table(points, vertices, edges, uses, [], rules)

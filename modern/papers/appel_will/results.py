@@ -124,7 +124,7 @@ def _changes(fig4: Solid, hull: Assembled) -> Iterator[str]:
 
 
 def _parallel_lines(points: Sequence[IntPoint], pair: Pair) -> Iterator[str]:
-    """Find all lines that project to points together with ``pair`` and classify them as convex or not (Fig. 5)."""
+    """Find the lines parallel to the line of ``pair``, and tell which of them are convex edges (Fig. 5)."""
     along = minus(points[pair[1]], points[pair[0]])
     lines = [
         (i, j) for i, j in combinations(range(len(points)), 2) if not any(cross(along, minus(points[j], points[i])))

@@ -11,7 +11,7 @@ from modern.papers.nakamae_nishita.polyhedron import SceneError
 
 
 class Fields:
-    """The fields of a table, which are read one by one. Fields that remain at the end are rejected."""
+    """The fields of a table in a scene file, which are read one by one. Unread fields are rejected at the end."""
 
     def __init__(self, data: Mapping[str, Any], place: str) -> None:
         self.place = place

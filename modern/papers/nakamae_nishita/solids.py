@@ -135,7 +135,7 @@ def _face_plane(corners: Sequence[Homogeneous]) -> Plane:
 
 
 def _merged(edge: Edge, joined: Sequence[int]) -> Edge:
-    """Return the edge as one that is not drawn if its two faces are merged and it is not on the contour."""
+    """Return the edge, marked as not drawn if its two faces are merged and it is not on the contour."""
     first, last = edge.faces[0], edge.faces[-1]
     within = edge.kind in (visible.INNER, visible.BACK) and joined[first] == joined[last]
     return replace(edge, kind=visible.JOINED) if within else edge
