@@ -148,9 +148,7 @@ def _device(raw: Mapping[str, Any], shapes: Mapping[str, CardShape]) -> DeviceLa
 
 @dataclass(frozen=True, slots=True)
 class Print:
-    """The lines that one device writes in one example, as the thesis prints them (or, for a typewriter, describes
-    them).
-    """
+    """The lines that one device writes in one example, as the thesis prints or (for a typewriter) describes them."""
 
     example: int
     program: int
