@@ -238,7 +238,7 @@ class Emitter:
                 operand = waiting
             elif waiting is not None:
                 self.emit(table["to"], waiting)
-            # The accumulator keeps the sign of what it holds.  Operands of different signs are subtracted.
+            # The accumulator keeps its sign. Operands of different signs are subtracted.
             if isinstance(expression, Sum):
                 negative ^= sign == "-"
                 sign = "+" if negative == minus else "-"
