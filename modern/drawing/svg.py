@@ -16,8 +16,8 @@ from modern.geometry.mesh import ExportError
 
 _LEGAL = re.compile("[\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 FONT = "Helvetica, Arial, sans-serif"
+# The file name extensions for a picture.
 PICTURES = (".svg", ".pdf", ".png")
-"""The file name extensions for a picture."""
 _PAGE = b'#set page(width: auto, height: auto, margin: 0pt)\n#image(bytes(sys.inputs.svg), format: "svg")'
 _PIXELS_PER_INCH = 192  # two pixels of PNG for one of SVG
 

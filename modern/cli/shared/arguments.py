@@ -199,6 +199,7 @@ EXAMPLES = (
     *(f"appel-will/fig{number}" for number in (13, 14, 18, 23)),
     *(f"{study}/0" for study in STUDIES),
 )
+# The names that an argument accepts besides files, by the name of the argument.
 NAMES: dict[str, tuple[str, ...]] = {
     "arithmetic": ARITHMETICS,
     "against": ARITHMETICS,
@@ -211,7 +212,6 @@ NAMES: dict[str, tuple[str, ...]] = {
     "text": ("program1", "program2", "program3", "chapter4", "chapter6"),
     "volume": ("ball:32", "ball:32:vertex", "half-ball:18"),
 }
-"""The names that an argument accepts besides files, by the name of the argument."""
 
 
 def complete(parser: ArgumentParser) -> None:
@@ -221,7 +221,7 @@ def complete(parser: ArgumentParser) -> None:
     except ImportError:
         sys.exit(1)
 
-    def words(prefix: str, action: Action, **others: object) -> Iterable[str]:
+    def candidates(prefix: str, action: Action, **others: object) -> Iterable[str]:
         return (*NAMES.get(action.dest, ()), *FilesCompleter()(prefix, action=action, **others))
 
-    autocomplete(parser, default_completer=words)
+    autocomplete(parser, default_completer=candidates)
