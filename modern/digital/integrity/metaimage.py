@@ -16,20 +16,9 @@ from modern.digital.integrity.streams import check_compressed, check_length, che
 from modern.digital.solids import VolumeError
 
 # The number of bytes of a value, by the name of its type.
-_BYTES = {
-    "MET_CHAR": 1,
-    "MET_UCHAR": 1,
-    "MET_SHORT": 2,
-    "MET_USHORT": 2,
-    "MET_INT": 4,
-    "MET_UINT": 4,
-    "MET_LONG": 4,
-    "MET_ULONG": 4,
-    "MET_LONG_LONG": 8,
-    "MET_ULONG_LONG": 8,
-    "MET_FLOAT": 4,
-    "MET_DOUBLE": 8,
-}
+_INTEGERS = {"CHAR": 1, "SHORT": 2, "INT": 4, "LONG": 4, "LONG_LONG": 8}
+_BYTES = {f"MET_{sign}{name}": size for name, size in _INTEGERS.items() for sign in ("", "U")}
+_BYTES |= {"MET_FLOAT": 4, "MET_DOUBLE": 8}
 _FIELD = re.compile(rb"\s*(\w+)\s*[=:]\s*(.*?)\s*", re.DOTALL)
 _INTEGER = re.compile(r"-?[0-9]{1,18}", re.ASCII)
 _PATTERN = re.compile(r"([^%]*%(?:0?[0-9])?d[^%]*?)((?:\s+[0-9]{1,9})*)", re.ASCII)

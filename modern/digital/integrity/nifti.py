@@ -20,25 +20,17 @@ from modern.digital.world import World
 
 _HEADER, _FIRST_DATA = 348, 352
 _NIFTI_2 = 540
-# The number of bits of a value, by the code of its type.
-_BITS = {
-    2: 8,
-    4: 16,
-    8: 32,
-    16: 32,
-    32: 64,
-    64: 64,
-    128: 24,
-    256: 8,
-    512: 16,
-    768: 32,
-    1024: 64,
-    1280: 64,
-    1536: 128,
-    1792: 128,
-    2048: 256,
-    2304: 32,
+# The codes of types by the number of bits of a value, and the reverse.
+_TYPES = {
+    8: (2, 256),
+    16: (4, 512),
+    24: (128,),
+    32: (8, 16, 768, 2304),
+    64: (32, 64, 1024, 1280),
+    128: (1536, 1792),
+    256: (2048,),
 }
+_BITS = {code: bits for bits, codes in _TYPES.items() for code in codes}
 # The length in millimetres of other units of length, by their code.
 _MILLIMETRES = {1: 1000.0, 3: 0.001}
 _WIDEST = 16 * MAX_CELLS
