@@ -49,9 +49,8 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
     ``limit``, ``most``, ``strict`` and the operations are the same as in :func:`emulator.machine.interpreter.run`,
     which cites the source of each operation.
     """
-    operations, addresses, subscripts, seconds, table, targets, loops, _, charges = code
+    operations, addresses, subscripts, seconds, table, targets, loops, _, charges, size = code
     mantissas, exponents = core.mantissas, core.exponents
-    size = len(mantissas)
     # Local variables, not array elements, so that the compiler can keep them in processor registers.
     pc = registers[PC]
     fac, fac_exponent, fixed = registers[FAC], registers[CHARACTERISTIC], registers[FIXED]

@@ -86,6 +86,7 @@ class _Translation:
     loops: list[tuple[int, int, int, int]] = field(default_factory=list)
     formats: dict[int, FormatSpec] = field(default_factory=dict)
     format_places: dict[int, int] = field(default_factory=dict)
+    format_lines: dict[int, int] = field(default_factory=dict)
     targets: dict[int, int] = field(default_factory=dict)
     open_dos: list[_OpenDo] = field(default_factory=list)
     opened: Counter[int] = field(default_factory=Counter)
@@ -133,12 +134,13 @@ class _Translation:
         code = self.emitter
         return Program(
             source=self.source,
-            code=tuple(code.code),
+            code=tuple(replace(i, address=code.allocator.final(i.address)) for i in code.code),
             subscripts=tuple(code.subscripts),
             branches=tuple(tuple(self.targets[label] for label in labels) for labels in self.branches),
-            loops=tuple(self.loops),
+            loops=tuple((v, code.allocator.final(step), code.allocator.final(limit), pc) for v, step, limit, pc in self.loops),
             counters=tuple(code.counters),
             formats=tuple(self.formats.items()),
+            format_lines=tuple(self.format_lines.get(label, 0) for label in self.formats),
             storage=code.allocator.storage(),
             statements=tuple(self.lines),
             verbs=VERBS,
@@ -203,6 +205,9 @@ class _Translation:
         if statement.label:
             self.emitter.allocator.place("statement number", str(statement.label))
         if isinstance(body, tree.Format):
+            # The second field is the target of a branch around the text.
+            self.emitter.allocator.place("statement number", f"after {statement.label}")
+            self.format_lines.setdefault(statement.label, len(self.lines))
             return
         if isinstance(body, tree.Dimension):
             self._dimension(body)
@@ -212,8 +217,7 @@ class _Translation:
         self.lines.append(line)
         if statement.label:
             self.targets.setdefault(statement.label, len(self.emitter.code))
-        self.emitter.temporaries = 0
-        self.emitter.modes.clear()
+        self.emitter.begin_statement()
         self.emitter.count(index, True, "statement")
         self._body(body, statement, index)
         # The last instruction shows what the statement did: a store, a test or the end of a list.
@@ -288,7 +292,9 @@ class _Translation:
             self.emitter.allocator.place("array", name, shape)
 
     def _branch(self, labels: Sequence[int], place: tree.Place) -> int:
-        self.jumps.extend((label, place) for label in labels)
+        for label in labels:
+            self.emitter.allocator.place("statement number", str(label))
+            self.jumps.append((label, place))
         self.branches.append(tuple(labels))
         return len(self.branches) - 1
 
@@ -305,7 +311,7 @@ class _Translation:
             if isinstance(bound, tree.Number) and not bound.floating:
                 if int(bound.text) == 0:
                     raise Refused(bound.place, "the bounds and the step of a DO must be greater than zero")
-                bounds.append(self.emitter.constant(bound))
+                bounds.append(Operand(self.emitter.allocator.immediate(bound.text)))
             elif isinstance(bound, tree.Reference):
                 bounds.append(self._fixed_variable(bound, "a bound of a DO"))
             else:
@@ -319,9 +325,9 @@ class _Translation:
     def _do(self, body: tree.Do, statement: tree.Statement, index: int) -> None:
         if body.label in self.labels and self.labels[body.label] <= statement.place:
             raise Refused(statement.place, f"the last statement of this DO, number {body.label}, is before the DO")
-        variable, step, limit = self._loop(body, statement.place)
-        # The statement number takes a field here, if this is its first appearance (p. 69).
+        # The statement number takes a field here, if this is its first appearance (p. 69), before the variable.
         self.emitter.allocator.place("statement number", str(body.label))
+        variable, step, limit = self._loop(body, statement.place)
         self.loops.append((variable, step, limit, len(self.emitter.code)))
         self.open_dos.append(_OpenDo(body.label, len(self.loops) - 1, index, statement.place))
         self.opened[body.label] += 1
@@ -350,6 +356,7 @@ class _Translation:
             raise Refused(statement.place, f"there is no FORMAT number {body.format}", 13)
         if body.items and not spec.has_fields and spec.specs:
             raise Refused(statement.place, f"FORMAT {body.format} has no field for the list", 13)
+        self.emitter.allocator.place("statement number", str(body.format))
         self.emitter.emit(op.BEGIN, address=VERBS.index(body.verb), second=self.format_places[body.format])
         for item in body.items:
             self._item(item, statement, index)

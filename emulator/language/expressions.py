@@ -50,7 +50,10 @@ class Emitter:
     counters: list[Counter] = field(default_factory=list)
     # Array elements by array name and subscript, for subscripts that are a single name: these repeat most often.
     elements: dict[tuple[str, str], Operand] = field(default_factory=dict)
-    temporaries: int = 0
+    # Products and parenthesized sums of the current statement are groups, numbered as they are completed.  ``held`` is
+    # the number of the group in the accumulator, or -1.
+    groups: int = 0
+    held: int = -1
     # True for fixed point, by the identity of an expression of the current statement.
     modes: dict[int, bool] = field(default_factory=dict)
 
@@ -65,10 +68,20 @@ class Emitter:
         self.counters.append(Counter(statement, begins, what))
         self.emit(op.COUNT, address=len(self.counters) - 1)
 
+    def begin_statement(self) -> None:
+        """Forget the groups of the statement before.  Every statement reuses its temporary fields."""
+        self.groups, self.held = 0, -1
+        self.modes.clear()
+
+    def group(self) -> None:
+        """Complete a group: its value is in the accumulator."""
+        self.held, self.groups = self.groups, self.groups + 1
+
     def temporary(self) -> Operand:
-        """Return a field for an intermediate result.  Every statement reuses the temporaries of the one before."""
-        self.temporaries += 1
-        return Operand(self.allocator.place("temporary", f"temporary {self.temporaries}").first)
+        """Return the field for the group in the accumulator."""
+        if self.held < 0:
+            self.group()
+        return Operand(self.allocator.place("temporary", f"temporary {self.held}").first)
 
     def constant(self, number: Number) -> Operand:
         if number.floating:
@@ -197,6 +210,7 @@ class Emitter:
         operand = self.simple(bare)
         if operand is not None:
             self.emit(table["to"], operand)
+            self.held = -1
         elif isinstance(bare, (Sum, Product)):
             negative ^= self._chain(bare, table)
         elif isinstance(bare, Power):
@@ -204,6 +218,16 @@ class Emitter:
         elif isinstance(bare, Reference):
             self._function(bare)
         return negative
+
+    def _part(self, expression: Expression) -> bool:
+        """Emit code for an operand like :meth:`deferred`.  A sum is one only in parentheses, which make it a group."""
+        negative = self.deferred(expression)
+        if isinstance(expression, Sum):
+            self.group()
+        return negative
+
+    def _load_part(self, expression: Expression) -> None:
+        self.settle(self._part(expression), self.fixed(expression))
 
     def simple(self, expression: Expression) -> Operand | None:
         """Return the operand of an expression that needs no computation, or None."""
@@ -224,7 +248,7 @@ class Emitter:
         minus ^= isinstance(expression, Sum) and expression.minus
         waiting = self.simple(first)
         if waiting is None:
-            minus ^= self.deferred(first)
+            minus ^= self._part(first)
         for sign, part in expression.rest:
             bare, negative = _unsigned(part)
             operand = self.simple(bare)
@@ -234,10 +258,11 @@ class Emitter:
                 if waiting is None:
                     waiting = self.temporary()
                     self.emit(table["from"], waiting)
-                negative ^= self.deferred(bare)
+                negative ^= self._part(bare)
                 operand = waiting
             elif waiting is not None:
                 self.emit(table["to"], waiting)
+                self.held = -1
             # The accumulator keeps its sign. Operands of different signs are subtracted.
             if isinstance(expression, Sum):
                 negative ^= sign == "-"
@@ -248,6 +273,10 @@ class Emitter:
                 sign = "/r" if is_computed and sign == "/" else sign
             self.emit(table[sign], operand)
             waiting = None
+        # IBM's compiler reserved a field for every product, whether or not the code uses it.
+        if isinstance(expression, Product):
+            self.group()
+            self.temporary()
         return minus
 
     def _power(self, expression: Power) -> None:
@@ -257,28 +286,32 @@ class Emitter:
         operand = self.simple(base)
         if not self.fixed(exponent):
             if operand is None:
-                self.load(base)
+                self._load_part(base)
                 operand = self.temporary()
                 self.emit(op.FMFAC, operand)
-            self.load(exponent)
+            self._load_part(exponent)
             self.emit(op.POWER, operand)
+            self.held = -1
             return
         # A square is a product with itself, as in the object code of the time.
         if isinstance(exponent, Number) and exponent.text == "2":
-            self.load(base)
+            self._load_part(base)
             if operand is None:
                 operand = self.temporary()
                 self.emit(op.FMFAC, operand)
             self.emit(op.FMP, operand)
+            self.group()
+            self.temporary()
             return
         # The exponent is computed first, because POWERX takes the base from FAC.
         power = self.simple(exponent)
         if power is None:
-            self.load(exponent)
+            self._load_part(exponent)
             power = self.temporary()
             self.emit(op.FMFIX, power)
-        self.load(base)
+        self._load_part(base)
         self.emit(op.POWERX, power)
+        self.held = -1
 
     def _function(self, reference: Reference) -> None:
         name = function_of(reference, self.arrays)
@@ -288,6 +321,7 @@ class Emitter:
             raise Refused(reference.place, f"{reference.name} takes a floating-point argument", 5)
         self.load(reference.arguments[0])
         self.emit(op.FUNCTION, address=LIBRARY.index(name))
+        self.held = -1
 
 
 def is_fixed_name(name: str) -> bool:

@@ -154,7 +154,10 @@ class Line:
 
 @dataclass(frozen=True)
 class Program:
-    """A compiled program: everything the engine needs, as plain data."""
+    """A compiled program: everything the engine needs, as plain data.
+
+    ``format_lines`` holds the number of statements that precede each FORMAT.
+    """
 
     source: str
     code: tuple[Instruction, ...]
@@ -163,6 +166,7 @@ class Program:
     loops: tuple[tuple[int, int, int, int], ...]
     counters: tuple[Counter, ...]
     formats: tuple[tuple[int, FormatSpec], ...]
+    format_lines: tuple[int, ...]
     storage: Storage
     statements: tuple[Line, ...]
     verbs: tuple[str, ...]
@@ -204,6 +208,7 @@ class Flat(NamedTuple):
     step, limit, and first instruction.  ``begins`` is 1 for a counter at which a statement begins, 2 for a pass of an
     indexed list, and 0 for others.  ``charges`` is the amount that a counter adds to the work of the run: 1 if
     ``begins`` is not 0, and 1 more for every STEPS operations up to the next counter (emulator/numbers/work.py).
+    ``fields`` is the number of fields that a subscript can reach.
     """
 
     operations: Sequence[int]
@@ -215,6 +220,7 @@ class Flat(NamedTuple):
     loops: Sequence[int]
     begins: Sequence[int]
     charges: Sequence[int]
+    fields: int
 
 
 def flatten(program: Program) -> Flat:
@@ -252,7 +258,8 @@ def flatten(program: Program) -> Flat:
         elif instruction.operation != ITEM:
             lengths[counter] += 1
     charges = [int(begun > 0) + length // STEPS for begun, length in zip(begins, lengths, strict=True)]
-    return Flat(operations, addresses, subscripts, seconds, table, targets, loops, begins, charges)
+    fields = program.storage.fields
+    return Flat(operations, addresses, subscripts, seconds, table, targets, loops, begins, charges, fields)
 
 
 _INSTRUCTION, _SUBSCRIPT = 12, 30

@@ -2,8 +2,10 @@
 
 Fields are assigned downward from the top of core in order of first appearance.  An array takes one field per element,
 with element 1 at the highest address, and the arrays of one DIMENSION follow each other without a gap (C26-5619
-p. 66-69).  Executing IBM's code showed how subscripts are computed and that no code checks them.  The 120
-positions at the top hold the names of the library functions.  The object program begins at 08300 (p. 67).
+p. 66-69).  The 120 positions at the top hold the names of the library functions.  The object program begins at 08300
+(p. 67).  The rest is read from the symbol table of an object deck that IBM's compiler punched in 1962
+(docs/reference/object-decks.md): a FORMAT takes two fields, the constants of a DO take none, and every product and
+quotient reserves a temporary field.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ FIELD = 10
 FUNCTION_NAMES = 120
 OBJECT_PROGRAM = 8300
 CORES = (20000, 40000, 60000)
+_PROVISIONAL = 10**9
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,12 +46,20 @@ class Entry:
 class Storage:
     """A storage map: the entries in order of address, and the constants.
 
-    ``constants`` pairs the field of each constant with its text in the source.
+    ``constants`` pairs the field of each constant with its text in the source.  ``immediates`` does the same for the
+    constants of DO statements.  In the object program they are parts of instructions.  The emulator keeps them after
+    the ``fields`` of the map, where no subscript reaches them.
     """
 
     entries: tuple[Entry, ...]
     fields: int
     constants: tuple[tuple[int, str], ...]
+    immediates: tuple[tuple[int, str], ...] = ()
+
+    @property
+    def length(self) -> int:
+        """The number of fields that the emulator keeps: those of the map, and the immediate constants."""
+        return self.fields + len(self.immediates)
 
     def arrays(self) -> Iterator[Entry]:
         return (entry for entry in self.entries if entry.shape)
@@ -61,6 +72,8 @@ class Storage:
 
     def name_of(self, address: int) -> str:
         """Return the name of a field: ``NE``, ``X(3)``, ``constant 4.``."""
+        if self.fields <= address < self.length:
+            return f"constant {self.immediates[address - self.fields][1]}"
         try:
             entry = self.entry_of(address)
         except KeyError:
@@ -79,6 +92,15 @@ class Allocator:
 
     entries: dict[tuple[str, str], Entry] = field(default_factory=dict)
     used: int = 0
+    immediates: dict[str, int] = field(default_factory=dict)
+
+    def immediate(self, text: str) -> int:
+        """Return a provisional address for the constant of a DO.  :meth:`final` replaces it."""
+        return self.immediates.setdefault(text, _PROVISIONAL + len(self.immediates))
+
+    def final(self, address: int) -> int:
+        """Return the address of a field after the whole program has been translated."""
+        return address if address < _PROVISIONAL else address - _PROVISIONAL + self.used
 
     def place(self, kind: str, name: str, shape: tuple[int, ...] = ()) -> Entry:
         """Return the entry for a name of this kind, and create it at its first appearance."""
@@ -94,4 +116,5 @@ class Allocator:
     def storage(self) -> Storage:
         entries = tuple(self.entries.values())
         constants = tuple((e.first, e.name.removeprefix("constant ")) for e in entries if e.kind == "constant")
-        return Storage(entries, self.used, constants)
+        immediates = tuple((self.final(address), text) for text, address in self.immediates.items())
+        return Storage(entries, self.used, constants, immediates)

@@ -80,10 +80,9 @@ def run(
     Undecided
         If the numbers cannot decide a test.  The state then holds the instruction.
     """
-    operations, addresses, subscripts, seconds, _, targets, loops, begins, charges = code
+    operations, addresses, subscripts, seconds, _, targets, loops, begins, charges, size = code
     # While the loop runs the registers are local variables, which are faster than attributes of the state.
     values, kinds, counts = state.values, state.kinds, state.counts
-    size = len(values)
     pc, fac, fixed, work, stored, decision = state.pc, state.fac, state.fixed, state.work, state.stored, state.decision
     sent, sent_kind = state.sent, state.sent_kind
     element = state.element

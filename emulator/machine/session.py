@@ -389,9 +389,9 @@ def overlap(program: Program, core: int) -> str:
 
 def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]:
     """Return core storage before a run, as values and kinds of fields.  All fields but the constants are undefined."""
-    values: list[Number] = [0] * program.storage.fields
-    kinds = [UNDEFINED] * program.storage.fields
-    for address, text in program.storage.constants:
+    values: list[Number] = [0] * program.storage.length
+    kinds = [UNDEFINED] * program.storage.length
+    for address, text in program.storage.constants + program.storage.immediates:
         # A constant with a decimal point is floating point.
         if "." in text:
             values[address], kinds[address] = numbers.constant(text), FLOATING

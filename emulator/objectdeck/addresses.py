@@ -1,0 +1,94 @@
+"""Operands in the object program: the address of a field, and the code that computes the address of an array element.
+
+Element 1 of an array has the highest address.  The code writes the address of element 0 into the instruction that
+follows it, and subtracts the subscript one digit further left, that is ten times.  A second subscript, or a factor, is
+multiplied first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from emulator.language.objectcode import Program, Subscript
+from emulator.language.storage import FIELD, core_address
+from emulator.objectdeck import digits as d
+from emulator.objectdeck.digits import address
+from emulator.objectdeck.library import PRODUCT
+
+_INSTRUCTION = 12
+
+
+@dataclass(frozen=True)
+class Addresses:
+    """The addresses of a program's fields in a machine with ``core`` positions."""
+
+    program: Program
+    core: int
+
+    def units(self, field: int) -> int:
+        """Return the position of a field's last digit."""
+        return core_address(field, self.core)
+
+    @cached_property
+    def labels(self) -> dict[str, int]:
+        """The position of the last digit of each statement number's field."""
+        entries = self.program.storage.entries
+        return {entry.name: self.units(entry.first) for entry in entries if entry.kind == "statement number"}
+
+    def branch(self, label: int | str) -> int:
+        """Return the first position of a statement number's field, which holds a branch to the statement."""
+        return self.labels[str(label)] - FIELD + 1
+
+    def format(self, label: int) -> int:
+        """Return the last position of the address in the field of a FORMAT's number."""
+        return self.labels[str(label)] - 3
+
+    def operand(self, call: str, field: int, subscript: int, at: int) -> str:
+        """Return an instruction with its operand, preceded by the code for its subscript.
+
+        Parameters
+        ----------
+        call
+            The first seven digits of the instruction.
+        field, subscript
+            The field of the operand, and the index of its subscript or -1.
+        at
+            The position at which the code begins.
+        """
+        if subscript < 0:
+            return call + address(self.units(field))
+        part = self.program.subscripts[subscript]
+        # Element 0 in each dimension that has a variable.
+        base = self.units(part.array) - FIELD * (part.o1 - 1 + (part.rows * (part.o2 - 1) if part.columns else 0))
+        steps = self._steps(part)
+        if not steps:
+            return call + address(base)
+        # Each step has an instruction that subtracts, and one more sets the address of element 0.
+        length = sum(len(code) for code, _ in steps) + _INSTRUCTION * (len(steps) + 1)
+        place = at + length + _INSTRUCTION - 1
+        text = steps[0][0] + d.TRANSMIT_FIELD_IMMEDIATE + address(place) + address(base)
+        for number, (code, subtrahend) in enumerate(steps):
+            text += (code if number else "") + d.SUBTRACT + address(place - 1) + address(subtrahend)
+        # Before the code has run, the operand is the variable, as in the deck.
+        variable = part.v2 if part.v2 >= 0 else part.v1
+        return text + call + address(self.units(variable))
+
+    def _steps(self, part: Subscript) -> list[tuple[str, int]]:
+        """Return the steps that compute a subscript: code, and the position of the number to be subtracted."""
+        steps = []
+        if part.v2 >= 0:
+            code = self._product(part.v2, part.rows * part.c2)
+            if part.v1 >= 0 and part.c1 == 1:
+                return [(code + d.ADD + f"{PRODUCT:05d}" + address(self.units(part.v1)), PRODUCT)]
+            steps.append((code, PRODUCT))
+        if part.v1 >= 0 and part.c1 == 1:
+            steps.append(("", self.units(part.v1)))
+        elif part.v1 >= 0:
+            steps.append((self._product(part.v1, part.c1), PRODUCT))
+        return steps
+
+    def _product(self, variable: int, factor: int) -> str:
+        """Return code that leaves the product of a variable and a constant as a field of four digits."""
+        multiply = d.MULTIPLY_IMMEDIATE + address(self.units(variable)) + d.wide_immediate(factor)
+        return multiply + d.SET_FLAG + f"{PRODUCT - 3:05d}" + d.NONE

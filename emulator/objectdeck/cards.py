@@ -1,0 +1,135 @@
+"""The object deck: the cards of an object program, and their place among the cards of a deck with IBM's library.
+
+A card of the program holds five control digits, the length of its code, the code and a record mark.  IBM's loader, which stands
+before it in the deck, puts the code at the end of what it has loaded, and advances by the length.  After the code follow a
+card of lengths and the symbol table, six fields a card from the top of core storage downward.  Columns 77 to 80 number
+all cards of a deck.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from emulator.errors import DeckError
+from emulator.language.expressions import LIBRARY
+from emulator.language.objectcode import Program
+from emulator.language.storage import FIELD, Entry
+from emulator.numbers.arithmetic import TRUNCATING
+from emulator.numbers.fields import parse_constant
+from emulator.objectdeck import digits as d
+from emulator.objectdeck.addresses import Addresses
+from emulator.objectdeck.digits import address, alphameric, flagged
+from emulator.objectdeck.generator import ObjectProgram, Unit, generate
+
+_CODE_COLUMNS = 60
+_FIELDS_A_CARD = 6
+_NUMBER_COLUMN = 76
+# The cards of the loader, which precede the object program in the deck.
+_LOADER_CARDS = 54
+_END_OF_CODE = "]0]0999" + "0" + d.RECORD_MARK
+
+
+def object_cards(program: Program, core: int) -> list[str]:
+    """Return the cards of a program without numbers, to be loaded into a machine with ``core`` positions.
+
+    Raise DeckError if the program needs a function that neither the library nor this project supplies.
+    """
+    code = generate(program, core)
+    if code.missing:
+        names = " and ".join(code.missing)
+        raise DeckError(f"{program.source}: the library has no routine for {names}; an object deck can use SQRT alone")
+    table = list(symbol_table(program, code, core))
+    lowest = Addresses(program, core).units(program.storage.fields)
+    # The end of the code, the last position below the data, the end of the table as the compiler kept it, and the top.
+    lengths = address(code.end) + address(lowest) + address(core - 1 - FIELD * len(table)) + "]]000" + "0" * 45
+    cards = [*_code_cards(code.units), _END_OF_CODE, lengths + address(core - 1) + d.RECORD_MARK]
+    for start in range(0, len(table), _FIELDS_A_CARD):
+        cards.append("".join(reversed(table[start : start + _FIELDS_A_CARD])) + d.RECORD_MARK)
+    return cards
+
+
+def _code_cards(units: Sequence[Unit]) -> Iterator[str]:
+    """Yield the cards of code.  The loader stops at a record mark, so that nothing follows it on a card."""
+    for unit in units:
+        digits = unit.digits
+        while digits:
+            mark = digits.find(d.RECORD_MARK)
+            piece = digits[: min(_CODE_COLUMNS, mark + 1 if mark >= 0 else _CODE_COLUMNS)]
+            # Zeros after a record mark belong to the length of the card, but need not be loaded.
+            length = len(piece)
+            while piece.endswith(d.RECORD_MARK) and digits[length : length + 1] == "0":
+                length += 1
+            yield f"]0]0{flagged(f'{length:03d}')}{piece.removesuffix(d.RECORD_MARK)}{d.RECORD_MARK}"
+            digits = digits[length:]
+
+
+def symbol_table(program: Program, code: ObjectProgram, core: int) -> Iterator[str]:
+    """Yield the fields of the symbol table, from the top of core storage downward."""
+    for name in LIBRARY:
+        entry = code.functions.get(name)
+        yield flagged(alphameric(f"{name:<5}")) if entry is None else _label(entry, 0)
+        yield flagged(alphameric(f"{name + 'F':<5}"))
+    addresses = Addresses(program, core)
+    formats = {str(label) for label, _ in program.formats}
+    for entry_ in program.storage.entries:
+        yield from _fields(entry_, addresses, code, formats)
+
+
+def _fields(entry: Entry, addresses: Addresses, code: ObjectProgram, formats: set[str]) -> Iterator[str]:
+    """Yield the field of an entry, or the two fields of an array."""
+    name = entry.name
+    if entry.kind == "statement number":
+        label = name.removeprefix("after ")
+        # A number that is never defined has no field, because the program does not compile.
+        yield _label(code.labels[name], int(label), "K" if label in formats else "]")
+    elif entry.kind == "constant":
+        yield _constant(name.removeprefix("constant "))
+    elif entry.kind == "temporary":
+        yield "]000000" + flagged(f"{int(name.removeprefix('temporary ')):03d}")
+    else:
+        yield flagged(alphameric(f"{name:<5}"))
+        if entry.shape:
+            yield d.wide_immediate(entry.shape[0]) + address(addresses.units(entry.first + entry.size - 1))
+
+
+def _label(position: int, number: int, kind: str = "]") -> str:
+    return address(position) + kind + flagged(f"{number:04d}")
+
+
+def _constant(text: str) -> str:
+    if "." not in text:
+        digits = flagged(f"{int(text):04d}")
+        return "]00000" + digits[:-1] + d.FLAGGED[int(digits[-1])]
+    return d.mantissa_and_exponent(*parse_constant(text, TRUNCATING.rules))
+
+
+def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> list[str]:
+    """Return a complete object deck: a deck with IBM's library, with ``cards`` in place of its program.
+
+    The cards of data that follow the library are left out.  Raise DeckError if ``library`` is not such a deck.
+    """
+    numbered = 0
+    while numbered < len(library) and library[numbered][_NUMBER_COLUMN:].rstrip() == number(numbered + 1):
+        numbered += 1
+    ends = [index for index, card in enumerate(library[:numbered]) if card.startswith(_END_OF_CODE)]
+    if numbered <= _LOADER_CARDS or len(ends) != 1 or len(library[ends[0] + 1]) < 70:
+        raise DeckError(
+            f"{source}: expected an object deck of IBM 1620 FORTRAN with its library, whose cards are numbered from 1 in "
+            f"columns 77 to 80; {numbered} cards are numbered so"
+        )
+    lengths = library[ends[0] + 1]
+    top, end_of_table = (int(_plain(lengths[start : start + 5])) for start in (65, 10))
+    fields = (top - end_of_table) // FIELD
+    after = ends[0] + 2 + -(-fields // _FIELDS_A_CARD)
+    deck = [card[:_NUMBER_COLUMN] for card in library[:_LOADER_CARDS]]
+    deck += [*cards, *(card[:_NUMBER_COLUMN] for card in library[after:numbered])]
+    return [f"{card:<{_NUMBER_COLUMN}}{number(index)}" for index, card in enumerate(deck, 1)]
+
+
+def number(index: int) -> str:
+    """Return the number of a card in columns 77 to 80."""
+    return flagged(f"{index % 10000:04d}")
+
+
+def _plain(digits: str) -> str:
+    return "".join(str(d.FLAGGED.index(digit)) if digit in d.FLAGGED else digit for digit in digits)

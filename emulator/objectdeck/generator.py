@@ -1,0 +1,289 @@
+"""The translation of a program into the code of IBM's compiler, as the object deck of 1962 shows it.
+
+Every statement begins at an even position.  What would end at an odd position ends with a record mark.  A branch to a
+statement goes to the field of its number, which holds another branch.  The object program begins at 08300.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from emulator.language import objectcode as op
+from emulator.language.objectcode import Instruction, Program
+from emulator.language.storage import CORES, OBJECT_PROGRAM
+from emulator.objectdeck import digits as d
+from emulator.objectdeck import library
+from emulator.objectdeck.addresses import Addresses
+from emulator.objectdeck.digits import address, flagged
+from emulator.objectdeck.formats import format_text
+
+# Conditions of the code that tests a DO: it is repeated while the variable does not exceed the limit.
+_NOT_HIGH = "011" + d.RECORD_MARK + "0"
+_POSITION = "00060"
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """Digits that follow each other in core storage from an even position."""
+
+    at: int
+    digits: str
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectProgram:
+    """An object program: its digits, the positions of its statement numbers and functions, and its end.
+
+    ``labels`` has the names of the storage map.  ``missing`` names the functions that neither the library nor this
+    project supplies.
+    """
+
+    units: tuple[Unit, ...]
+    labels: dict[str, int]
+    functions: dict[str, int]
+    missing: tuple[str, ...]
+    end: int
+
+
+def generate(program: Program, core: int = CORES[0]) -> ObjectProgram:
+    """Return the object program for a machine with ``core`` positions.  Its length does not depend on ``core``."""
+    return _Generator(program, Addresses(program, core)).run()
+
+
+@dataclass
+class _Generator:
+    """The state of one translation.  ``places`` holds the position of each instruction of the emulator's object code."""
+
+    program: Program
+    addresses: Addresses
+    at: int = OBJECT_PROGRAM
+    units: list[Unit] = field(default_factory=list)
+    labels: dict[str, int] = field(default_factory=dict)
+    places: dict[int, int] = field(default_factory=dict)
+    formats: int = 0
+    operands: str = d.NONE + d.NONE
+    unused: str = "0"
+
+    def run(self) -> ObjectProgram:
+        program = self.program
+        # The two instructions before the body of a loop set its variable.
+        starts = {body - 2: index for index, (_, _, _, body) in enumerate(program.loops)}
+        closing = _loops_closed_by_lists(program)
+        pc = 0
+        while pc < len(program.code):
+            instruction = program.code[pc]
+            self.places[pc] = self.at
+            if instruction.operation == op.COUNT:
+                self._count(instruction)
+            elif pc in starts:
+                self._start_loop(starts[pc])
+                pc += 1
+            elif instruction.operation == op.ITEM:
+                self._items(instruction, closing.get(pc))
+            elif not (instruction.operation == op.STOP and instruction.second and self._is_past_branch(pc)):
+                self._put(self._code(instruction, pc))
+            pc += 1
+        self._formats_before(len(program.statements))
+        functions = {}
+        used = sorted({program.functions[i.address] for i in program.code if i.operation == op.FUNCTION})
+        for name in used:
+            if name in library.ROUTINES:
+                functions[name] = self.at
+                self._put(library.ROUTINES[name](self.at))
+        powers = ["A**B"] if any(i.operation == op.POWER for i in program.code) else []
+        missing = tuple(name for name in used if name not in library.ROUTINES) + tuple(powers)
+        return ObjectProgram(tuple(self.units), self.labels, functions, missing, self.at)
+
+    def _put(self, digits: str) -> None:
+        if digits:
+            self.units.append(Unit(self.at, digits + (d.RECORD_MARK if len(digits) % 2 else "")))
+            self.at += len(self.units[-1].digits)
+
+    def _count(self, instruction: Instruction) -> None:
+        """Begin a statement: FORMATs that stand before it come first, and its number is the present position."""
+        counter = self.program.counters[instruction.address]
+        if counter.begins:
+            self._formats_before(counter.statement)
+            label = self.program.statements[counter.statement].label
+            if label:
+                self.labels[str(label)] = self.at
+
+    def _formats_before(self, statement: int) -> None:
+        while self.formats < len(self.program.formats) and self.program.format_lines[self.formats] <= statement:
+            label, spec = self.program.formats[self.formats]
+            # The library adds five to the address before it takes the first word.
+            self.labels[str(label)] = self.at + 6
+            self._put(format_text(spec, self.addresses.branch(f"after {label}")))
+            self.labels[f"after {label}"] = self.at
+            self.formats += 1
+
+    def _start_loop(self, loop: int) -> None:
+        variable = self.program.loops[loop][0]
+        first = self.program.code[self.program.loops[loop][3] - 2].address
+        code = self._with_bound(d.TRANSMIT_FIELD_IMMEDIATE, d.TRANSMIT_FIELD, variable, first)
+        # The digit to the left of a constant was left in the compiler's buffer by the address of a variable, if any.
+        if code.startswith(d.TRANSMIT_FIELD_IMMEDIATE):
+            code = code[:7] + self.unused + code[8:]
+        else:
+            self.unused = code[-1]
+        self._put(code)
+
+    def _with_bound(self, immediate: str, direct: str, variable: int, bound: int, wide: bool = False) -> str:
+        """Return an instruction on the variable of a DO and one of its bounds, a constant or a variable."""
+        target = address(self.addresses.units(variable))
+        if bound < self.program.storage.fields:
+            return direct + target + address(self.addresses.units(bound))
+        value = int(self.program.storage.immediates[bound - self.program.storage.fields][1])
+        return immediate + target + (d.wide_immediate(value) if wide else d.immediate(value))
+
+    def _end_loop(self, loop: int) -> str:
+        variable, step, limit, body = self.program.loops[loop]
+        return (
+            self._with_bound(d.ADD_IMMEDIATE, d.ADD, variable, step)
+            + self._with_bound(d.COMPARE_IMMEDIATE, d.COMPARE, variable, limit, wide=True)
+            + (d.BRANCH_NO_INDICATOR + address(self.places[body]) + _NOT_HIGH)
+        )
+
+    def _is_past_branch(self, pc: int) -> bool:
+        """Return True if END cannot be reached: it has no number, and the statement before it always branches."""
+        before = pc - 1
+        while before >= 0 and self.program.code[before].operation == op.COUNT:
+            before -= 1
+        ends_in_branch = before >= 0 and self.program.code[before].operation in (
+            op.BRANCH,
+            op.IF,
+            op.IFX,
+            op.SELECT,
+            op.SWITCH,
+            op.STOP,
+        )
+        return ends_in_branch and not self.program.line_at(pc).label
+
+    def _code(self, instruction: Instruction, pc: int) -> str:
+        """Return the code of one instruction of the emulator's object code."""
+        operation = instruction.operation
+        if operation in library.PLAIN_ENTRIES:
+            return self._call(f"{library.PLAIN_ENTRIES[operation]:05d}", instruction)
+        if operation in library.ENTRIES:
+            code = self._call(address(library.ENTRIES[operation]), instruction)
+            reversed_sign = operation in (op.FSBR, op.XSBR)
+            return code + (self._bare_call(library.REVERSE_SIGN) if reversed_sign else "")
+        if operation in library.CALLS:
+            return self._bare_call(library.CALLS[operation])
+        match operation:
+            case op.FUNCTION:
+                entry = library.function_entry(self.program.functions[instruction.address], self.addresses.core)
+                return d.CALL_IMMEDIATE + address(entry) + address(library.ACCUMULATOR)
+            case op.BRANCH:
+                return d.BRANCH + self._targets(instruction.address)[0]
+            case op.IF | op.IFX:
+                return self._test(instruction)
+            case op.SWITCH:
+                on, off = self._targets(instruction.address)
+                return d.BRANCH_INDICATOR + on + f"00{instruction.second}00" + d.BRANCH + off
+            case op.SELECT:
+                return self._select(instruction)
+            case op.DOTEST:
+                return self._end_loop(instruction.address)
+            case op.BEGIN:
+                label = self.program.formats[instruction.second][0]
+                entry = library.VERB_ENTRIES[self.program.verbs[instruction.address]]
+                return d.CALL + address(entry) + address(self.addresses.format(label))
+            case op.PAUSE:
+                # The operands are those of the last arithmetic, left in the compiler's buffer.
+                return "M8" + self.operands
+            case op.STOP:
+                # After a halt START would execute what follows, so that the halt is repeated.
+                return d.HALT + d.NONE + d.NONE + d.BRANCH + address(self.at)
+            case _:
+                return ""
+
+    def _call(self, entry: str, instruction: Instruction) -> str:
+        code = self.addresses.operand(
+            d.CALL_IMMEDIATE + entry, instruction.address, instruction.subscript, self.at
+        )
+        self.operands = code[-10:]
+        return code
+
+    @staticmethod
+    def _bare_call(entry: int) -> str:
+        return f"{d.CALL}{entry:05d}{entry - 1:05d}"
+
+    def _targets(self, branch: int) -> list[str]:
+        """Return the addresses of the statement numbers of a branch."""
+        pcs = self.program.branches[branch]
+        return [address(self.addresses.branch(self.program.line_at(pc).label)) for pc in pcs]
+
+    def _test(self, instruction: Instruction) -> str:
+        negative, zero, positive = self._targets(instruction.address)
+        units = library.MANTISSA if instruction.operation == op.IF else library.ACCUMULATOR
+        compare = f"{d.COMPARE_IMMEDIATE}{units:05d}{d.immediate(0)}"
+        to_zero = d.BRANCH_INDICATOR + zero + d.EQUAL
+        return compare + to_zero + d.BRANCH_INDICATOR + positive + d.HIGH + d.BRANCH + negative
+
+    def _select(self, instruction: Instruction) -> str:
+        """Return the code of a computed GO TO: a table of addresses, four digits each, the last statement number first."""
+        targets = self._targets(instruction.second)
+        selector = address(self.addresses.units(instruction.address))
+        branch = self.at + 60
+        table = branch + 8
+        # Four times the variable is subtracted from the end of the table.
+        return (
+            d.MULTIPLY_IMMEDIATE + selector + "000]M"
+            + d.SET_FLAG + "00095" + d.NONE
+            + d.ADD_IMMEDIATE + f"{library.PRODUCT:05d}" + address(table + 4 * len(targets) + 3)
+            + d.TRANSMIT_FIELD + address(branch - 1) + f"{library.PRODUCT:05d}"
+            + d.TRANSMIT_FIELD + address(branch + 5) + d.NONE
+            + d.BRANCH + d.NONE + d.RECORD_MARK
+            + "".join(target[:4] for target in reversed(targets))
+        )  # fmt: skip
+
+    def _items(self, instruction: Instruction, loops: tuple[int, ...] | None) -> None:
+        """Put the calls for the elements of a list.  ``loops`` are those that end with the list, or None."""
+        count = op.repeats(instruction)
+        for element in range(count):
+            is_last = loops is not None and element == count - 1
+            if is_last and loops:
+                self._put(self._last_pass(loops))
+            entry = library.LAST_ITEM if is_last and not loops else library.ITEM
+            call = d.CALL_IMMEDIATE + address(entry)
+            self._put(
+                self.addresses.operand(call, instruction.address + element, instruction.subscript, self.at)
+            )
+
+    def _last_pass(self, loops: tuple[int, ...]) -> str:
+        """Return code that announces the last item of the list if every loop around it makes its last pass."""
+        length = 48 * len(loops) + 12
+        past = self.at + length
+        text = ""
+        for loop in loops:
+            variable, step, limit, _ = self.program.loops[loop]
+            text += d.TRANSMIT_FIELD + _POSITION + address(self.addresses.units(variable))
+            text += self._next_value(d.ADD_IMMEDIATE, d.ADD, step)
+            text += self._next_value(d.COMPARE_IMMEDIATE, d.COMPARE, limit)
+            text += d.BRANCH_NO_INDICATOR + address(past) + d.HIGH
+        return text + d.TRANSMIT_FIELD_IMMEDIATE + f"{library.MORE_ITEMS:05d}" + "000]0"
+
+    def _next_value(self, immediate: str, direct: str, bound: int) -> str:
+        """Return an instruction on a copy of a loop's variable in the accumulator."""
+        if bound < self.program.storage.fields:
+            return direct + _POSITION + address(self.addresses.units(bound))
+        value = int(self.program.storage.immediates[bound - self.program.storage.fields][1])
+        return immediate + _POSITION + d.immediate(value)
+
+
+def _loops_closed_by_lists(program: Program) -> dict[int, tuple[int, ...]]:
+    """Return, for the last item of each list, the loops of the list that are closed after it."""
+    closing: dict[int, tuple[int, ...]] = {}
+    for pc, instruction in enumerate(program.code):
+        if instruction.operation != op.FINISH:
+            continue
+        loops = []
+        before = pc - 1
+        while program.code[before].operation in (op.COUNT, op.DOTEST):
+            if program.code[before].operation == op.DOTEST:
+                loops.append(program.code[before].address)
+            before -= 1
+        if program.code[before].operation == op.ITEM:
+            closing[before] = tuple(loops)
+    return closing
