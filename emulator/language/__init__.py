@@ -16,7 +16,7 @@ To add a kind of statement:
    with the statement, and an entry of ``_EFFECTS`` if a trace should show its effect.
 7. ``modern/bench/translate.py``: a case.  mypy reports steps 6 and 7 while they are missing.
 8. Only if no operation fits: a name and its meaning in ``objectcode.py`` (``MEANINGS`` and the names below it in the
-   same order, ``_LENGTHS``, and ``flatten`` if it branches), its action in ``emulator/machine/interpreter.py``, or in
+   same order, and ``flatten`` if it branches), its action in ``emulator/machine/interpreter.py``, or in
    ``session.py`` or ``devices.py`` if it concerns the operator or a device, the same in ``emulator/compiled/kernel.py``
    or ``NOT_HERE`` in ``emulator/compiled/deck.py``, and its time in ``emulator/machine/timing.py``.  An operation that
    branches needs an entry in ``emulator/machine/postdominators.py`` and in ``_DECISIONS`` of ``divergence.py`` as well.

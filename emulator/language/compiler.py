@@ -137,7 +137,9 @@ class _Translation:
             code=tuple(replace(i, address=code.allocator.final(i.address)) for i in code.code),
             subscripts=tuple(code.subscripts),
             branches=tuple(tuple(self.targets[label] for label in labels) for labels in self.branches),
-            loops=tuple((v, code.allocator.final(step), code.allocator.final(limit), pc) for v, step, limit, pc in self.loops),
+            loops=tuple(
+                (v, code.allocator.final(step), code.allocator.final(limit), pc) for v, step, limit, pc in self.loops
+            ),
             counters=tuple(code.counters),
             formats=tuple(self.formats.items()),
             format_lines=tuple(self.format_lines.get(label, 0) for label in self.formats),

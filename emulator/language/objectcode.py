@@ -260,25 +260,3 @@ def flatten(program: Program) -> Flat:
     charges = [int(begun > 0) + length // STEPS for begun, length in zip(begins, lengths, strict=True)]
     fields = program.storage.fields
     return Flat(operations, addresses, subscripts, seconds, table, targets, loops, begins, charges, fields)
-
-
-_INSTRUCTION, _SUBSCRIPT = 12, 30
-# Instructions of the object program per operation: IF compiles to three, FSBR to two (subtract and reverse sign).
-_LENGTHS = {COUNT: 0, IF: 3, IFX: 3, DOTEST: 3, SELECT: 4, SWITCH: 2, TRANSMIT: 0, FSBR: 2}
-
-
-def code_positions(program: Program) -> int:
-    """Return an estimate of the length of the object program in positions, FORMATs included.
-
-    The estimate is twelve digits per instruction, thirty per subscript and two per character of a FORMAT.  No object
-    deck exists to compare with.  The thirty is fitted: the lengths of the three hull programs then differ by the same
-    amounts, within 450 positions, as their object programs from PDQ FORTRAN, which end at 26136, 21566 and 24996.
-    """
-    length = 0
-    for instruction in program.code:
-        length += _INSTRUCTION * _LENGTHS.get(instruction.operation, 1) * repeats(instruction)
-        if instruction.operation == SELECT:
-            length += 5 * len(program.branches[instruction.second])
-        if instruction.subscript >= 0:
-            length += _SUBSCRIPT * (2 if program.subscripts[instruction.subscript].columns else 1)
-    return length + sum(spec.positions for _, spec in program.formats)

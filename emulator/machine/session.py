@@ -13,8 +13,7 @@ from typing import Literal
 
 from emulator.errors import CardError, DeckError
 from emulator.language.cards import Deck
-from emulator.language.objectcode import Line, Program, code_positions, flatten
-from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
+from emulator.language.objectcode import Line, Program, flatten
 from emulator.machine import interpreter
 from emulator.machine.devices import Devices, Ended, LineNeeded
 from emulator.machine.endings import Ending, Notice, looped, out_of_bounds, stopped, too_costly, unfit
@@ -22,6 +21,7 @@ from emulator.machine.result import LOOP_WINDOW, Event, Options, Result, Uncut, 
 from emulator.machine.state import FLOATING, Journal, State, recorded_instructions, subscript_table
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.numbers.base import Number, Numbers, Undecided
+from emulator.objectdeck.extent import extent
 
 BAD_INPUT = Ending("input", trouble="bad input")
 
@@ -369,22 +369,10 @@ class _Checkpoint:
 
 
 def refuse_overlap(program: Program, core: int) -> None:
-    """Raise DeckError if a program and its data do not fit a machine with ``core`` positions of storage."""
-    message = overlap(program, core)
-    if message:
-        raise DeckError(f"{program.source}: {message}")
-
-
-def overlap(program: Program, core: int) -> str:
-    """Return a message if a program and its data do not fit ``core`` positions of storage, else ""."""
-    # IBM's subroutines and tables lie below the object program, the names of the library functions above the data.
-    need = program.storage.fields * FIELD + code_positions(program)
-    room = core - OBJECT_PROGRAM - FUNCTION_NAMES
-    if need <= room:
-        return ""
-    message = f"OVERLAP: program and data need about {need} positions; a machine of {core} has {room} for them"
-    large_enough = next((size for size in CORES if size - OBJECT_PROGRAM - FUNCTION_NAMES >= need), 0)
-    return message + (f"; --core {large_enough} is large enough" if large_enough else "")
+    """Raise DeckError if a program and its data cannot fit a machine with ``core`` positions of storage."""
+    size = extent(program)
+    if size.is_certain(core):
+        raise DeckError(f"{program.source}: {size.overlap(core)}")
 
 
 def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]:

@@ -14,7 +14,7 @@ from emulator.language.storage import CORES, OBJECT_PROGRAM
 from emulator.objectdeck import digits as d
 from emulator.objectdeck import library
 from emulator.objectdeck.addresses import Addresses
-from emulator.objectdeck.digits import address, flagged
+from emulator.objectdeck.digits import address
 from emulator.objectdeck.formats import format_text
 
 # Conditions of the code that tests a DO: it is repeated while the variable does not exceed the limit.
@@ -199,9 +199,7 @@ class _Generator:
                 return ""
 
     def _call(self, entry: str, instruction: Instruction) -> str:
-        code = self.addresses.operand(
-            d.CALL_IMMEDIATE + entry, instruction.address, instruction.subscript, self.at
-        )
+        code = self.addresses.operand(d.CALL_IMMEDIATE + entry, instruction.address, instruction.subscript, self.at)
         self.operands = code[-10:]
         return code
 
@@ -247,9 +245,7 @@ class _Generator:
                 self._put(self._last_pass(loops))
             entry = library.LAST_ITEM if is_last and not loops else library.ITEM
             call = d.CALL_IMMEDIATE + address(entry)
-            self._put(
-                self.addresses.operand(call, instruction.address + element, instruction.subscript, self.at)
-            )
+            self._put(self.addresses.operand(call, instruction.address + element, instruction.subscript, self.at))
 
     def _last_pass(self, loops: tuple[int, ...]) -> str:
         """Return code that announces the last item of the list if every loop around it makes its last pass."""

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from emulator.errors import explanations
 from emulator.language.compiler import translate
-from emulator.machine.session import overlap
+from emulator.objectdeck.extent import extent
 from modern.cli.shared.console import BAD_INPUT, OK, UsageError, counted
 from modern.cli.shared.programs import source_deck
 
@@ -38,12 +38,13 @@ def main(args: argparse.Namespace) -> int:
     if program is None:
         print(f"{deck.source}: {counted(sum(not message.warning for message in messages), 'error')}")
         return BAD_INPUT
-    overlap_message = overlap(program, args.core)
-    if overlap_message:
+    size = extent(program)
+    if overlap_message := size.overlap(args.core):
         print(f"{deck.source}: {overlap_message}")
+    if size.is_certain(args.core):
         return BAD_INPUT
     sizes = f"{len(deck.cards)} cards, {len(program.statements)} executable statements"
-    print(f"{deck.source}: {sizes}, {program.storage.fields * 10} positions of data, no errors")
+    print(f"{deck.source}: {sizes}, {size.data} positions of data, no errors")
     return OK
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from emulator.language.objectcode import Program, code_positions
+from emulator.language.objectcode import Program
 from emulator.language.storage import FIELD, core_address
-from emulator.machine.session import overlap
+from emulator.objectdeck.extent import extent
 from modern.cli.shared.console import OK
 from modern.cli.shared.programs import load_program
 from modern.edition import programs
@@ -31,7 +31,10 @@ def map_lines(program: Program, core: int) -> Iterator[str]:
 
     The address of a field is that of its rightmost digit.  Element 1 of an array has the highest address.
     """
-    yield f"{program.source}: storage in a machine of {core} positions (~: estimated length of the program)"
+    size = extent(program)
+    about = "~" if size.inferred else ""
+    note = " (~: partly inferred)" if size.inferred else ""
+    yield f"{program.source}: storage in a machine of {core} positions{note}"
     yield f"  {'name':<20}{'kind':<18}{'fields':>7}  {'from':>6}  {'down to':>7}"
     for entry in program.storage.entries:
         if entry.shape:
@@ -43,19 +46,13 @@ def map_lines(program: Program, core: int) -> Iterator[str]:
             yield _line(entry.name, kind, 1, entry.first, core)
         if entries and kind != "variable":
             yield f"  {'':<20}{_PLURALS[kind]:<18}{len(entries):>7}"
-    data = program.storage.fields * FIELD
     lowest = core_address(program.storage.fields, core) + 1
-    code = code_positions(program)
-    yield f"  data: {data} positions, from {core_address(0, core)} down to {lowest}"
-    overlap_message = overlap(program, core)
-    free = (
-        f"free between them: ~{lowest - 8300 - code}"
-        if not overlap_message
-        else f"~{8300 + code - lowest} positions too many"
-    )
-    yield f"  program: ~{code} positions from 08300; {free}"
-    if overlap_message:
-        yield f"  {overlap_message}"
+    yield f"  data: {size.data} positions, from {core_address(0, core)} down to {lowest}"
+    excess = size.excess(core)
+    free = f"{about}{excess} positions too many" if excess > 0 else f"free between them: {about}{-excess}"
+    yield f"  program: {about}{size.code} positions from 08300; {free}"
+    if excess > 0:
+        yield f"  {size.overlap(core)}"
 
 
 def capacity_line(program: Program, core: int) -> str:

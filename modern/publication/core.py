@@ -1,7 +1,7 @@
 """Storage maps: the regions of core storage that a built-in program uses, from address 0 up.
 
 The order of the regions is IBM's (form C26-5619, p. 66-69; :mod:`emulator.language.storage`).  The length of the object
-program is an estimate (:func:`emulator.language.objectcode.code_positions`), and so is the free space.
+program is partly inferred (:mod:`emulator.objectdeck.extent`), and so is the free space.
 """
 
 from collections import Counter
@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import groupby
 
-from emulator.language.objectcode import code_positions
 from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES, OBJECT_PROGRAM, Entry, core_address
+from emulator.objectdeck.extent import code_positions
 from modern.edition import programs
 from modern.thesis.capacity import array_lengths, largest
 

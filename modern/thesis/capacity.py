@@ -2,13 +2,14 @@
 
 Arrays of length 51 have one entry for each point, those of length 98 one for each plane: 2N-4 for N points in space.
 With the layer ``corrected`` the lengths are 52 and 193, that is N+1 and 4N-11 (rows P2-023, P3-028).  The length of the
-object program is estimated by ``code_positions``.
+object program is that of :mod:`emulator.objectdeck.extent`.
 """
 
 from collections.abc import Callable
 
-from emulator.language.objectcode import Program, code_positions
+from emulator.language.objectcode import Program
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
+from emulator.objectdeck.extent import code_positions
 
 # Array lengths of the hull programs, at 51 points, as functions of the number of points.
 _SIZES: dict[int, Callable[[int], int]] = {

@@ -5,8 +5,9 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from emulator.language.objectcode import Program, code_positions
+from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
+from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
 from modern.claims.sampled_sets import (
     CASES,

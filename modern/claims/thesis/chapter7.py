@@ -7,9 +7,9 @@ from itertools import combinations
 import numpy as np
 
 from emulator.language.cards import Deck, deck_from_text
-from emulator.language.objectcode import code_positions
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
+from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
 from modern.claims.sampled_sets import CASES, SETS, Point, SampledSet, counterexample, plane_through, sampled_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances

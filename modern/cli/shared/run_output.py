@@ -19,6 +19,7 @@ from emulator.machine.result import Event, Result
 from emulator.machine.timing import Row, measure
 from emulator.machine.trace import Tracer
 from emulator.machine.words import notes
+from emulator.objectdeck.extent import extent
 from modern.cli.shared.console import print_notes
 
 _MOST_STATEMENTS = 10
@@ -47,6 +48,8 @@ def print_run(
 
     reported: the card and column of fields whose notes have already been printed.
     """
+    overlap = extent(program).overlap(args.core)
+    print_notes([f"warning: {program.source}: {overlap}"] if overlap else [])
     print_notes(notes(program, result, reported))
     if args.profile:
         print_notes(profile_lines(program, result))

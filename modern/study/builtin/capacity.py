@@ -7,8 +7,8 @@ each family and N.
 
 from dataclasses import dataclass
 
-from emulator.language.objectcode import code_positions
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
+from emulator.objectdeck.extent import code_positions
 from modern.edition import programs
 from modern.study.outcomes import TABLE
 from modern.study.plan import Cell, Plan, Port, Programs, Value

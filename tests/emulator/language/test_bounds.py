@@ -14,7 +14,8 @@ import pytest
 from emulator.language import parser, statements
 from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import translate
-from emulator.language.objectcode import code_positions, repeats
+from emulator.language.objectcode import repeats
+from emulator.objectdeck.extent import code_positions
 from tests.support.deckwork import errors, program
 
 CARDS = 9_999

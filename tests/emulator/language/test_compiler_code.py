@@ -108,7 +108,7 @@ def test_instruction_without_subscript_holds_minus_one() -> None:
 def test_a_variable_subscript_takes_thirty_positions(statement: str, more: int) -> None:
     """Fitted to the lengths of the hull programs under PDQ FORTRAN.  An array of two dimensions takes twice as many."""
     plain, longer = (program("DIMENSION X(5),Y(2,2)", line, "END") for line in ("A=B", statement))
-    assert op.code_positions(longer) - op.code_positions(plain) == more
+    assert code_positions(longer) - code_positions(plain) == more
 
 
 def test_do_tests_at_the_bottom() -> None:

@@ -3,7 +3,6 @@
 import pytest
 
 from emulator.language import objectcode as op
-from emulator.language.objectcode import code_positions
 from emulator.machine.timing import (
     COSTS,
     FIELD_COSTS,
@@ -13,6 +12,7 @@ from emulator.machine.timing import (
     Timing,
     measure,
 )
+from emulator.objectdeck.extent import code_positions
 from tests.support.deckwork import machine
 
 

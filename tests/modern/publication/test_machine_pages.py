@@ -6,7 +6,7 @@ from itertools import pairwise
 import pytest
 from lxml import etree
 
-from emulator.language.objectcode import code_positions
+from emulator.objectdeck.extent import code_positions
 from modern.cli.map import map_lines
 from modern.edition import programs
 from modern.publication.core import ARRAY, CORE, FREE, NAMES, PROGRAM, SINGLE, SYSTEM, core_map

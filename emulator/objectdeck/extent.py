@@ -1,0 +1,77 @@
+"""The core storage that a program and its data need, by the code of IBM's compiler.
+
+The lengths are those of :mod:`emulator.objectdeck.generator`.  The known object deck does not show every construct, and of
+IBM's function routines only their existence is known.  :attr:`Extent.inferred` counts the positions for which there is no
+evidence, so that a program is refused only if it cannot fit without them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from emulator.language import objectcode as op
+from emulator.language.objectcode import Program
+from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
+from emulator.objectdeck.generator import ObjectProgram, generate
+
+# What is inferred in an instruction beyond the twelve digits that it needs in any case.
+_INFERRED = {op.IF: 32, op.STOP: 8}
+
+
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """Positions of core: the data, the object program, and the part of both that is only inferred."""
+
+    data: int
+    code: int
+    inferred: int
+
+    def excess(self, core: int) -> int:
+        """Return the positions by which program and data exceed a machine.  Negative: the positions that are free."""
+        return self.data + self.code - _room(core)
+
+    def overlap(self, core: int) -> str:
+        """Return the compiler's message if program and data exceed a machine, else an empty string."""
+        excess, need = self.excess(core), self.data + self.code
+        if excess <= 0:
+            return ""
+        large_enough = next((size for size in CORES if need <= _room(size)), 0)
+        advice = f"; --core {large_enough} is large enough" if large_enough else ""
+        if self.is_certain(core):
+            about = "about " if self.inferred else ""
+            room = f"a machine of {core} has {_room(core)} for them"
+            return f"OVERLAP: program and data need {about}{need} positions; {room}{advice}"
+        return (
+            f"OVERLAP is possible: program and data need about {need} positions, {excess} more than a machine of {core} "
+            f"has; {self.inferred} of them are inferred{advice}"
+        )
+
+    def is_certain(self, core: int) -> bool:
+        """Return True if program and data exceed a machine even without the inferred positions."""
+        return self.excess(core) > self.inferred
+
+
+def _room(core: int) -> int:
+    """Return the positions between IBM's subroutines and tables, and the names of the library functions."""
+    return core - OBJECT_PROGRAM - FUNCTION_NAMES
+
+
+def code_positions(program: Program) -> int:
+    """Return the length of the object program in positions, FORMATs included."""
+    return extent(program).code
+
+
+@lru_cache(maxsize=256)
+def extent(program: Program) -> Extent:
+    """Return the core storage that a program needs."""
+    code = generate(program)
+    temporaries = sum(entry.kind == "temporary" for entry in program.storage.entries)
+    inferred = sum(_INFERRED.get(instruction.operation, 0) for instruction in program.code)
+    inferred += FIELD * temporaries + _routines(code)
+    return Extent(program.storage.fields * FIELD, code.end - OBJECT_PROGRAM, inferred)
+
+
+def _routines(code: ObjectProgram) -> int:
+    """Return the length of the function routines."""
+    return code.end - min(code.functions.values(), default=code.end)
