@@ -237,7 +237,8 @@ def _codes(text: bytes) -> Any:
 def _code(program: Program) -> devices.Code:
     roots = [int(name == "SQRT") for name in program.functions]
     verbs = [_VERBS.get(verb, devices.TYPE) for verb in program.verbs]
-    flat = Flat._make(map(_short, flatten(program)))
+    *rows, fields = flatten(program)
+    flat = Flat._make([*map(_short, rows), fields])
     marks = devices.Marks(_short(flat.seconds), _short(program.statement_numbers), _short(verbs))
     return devices.Code(flat, marks, _short(roots))
 

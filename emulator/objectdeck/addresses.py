@@ -5,8 +5,6 @@ follows it, and subtracts the subscript one digit further left, that is ten time
 multiplied first.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,12 +1,10 @@
 """The object deck: the cards of an object program, and their place among the cards of a deck with IBM's library.
 
-A card of the program holds five control digits, the length of its code, the code and a record mark.  IBM's loader, which stands
-before it in the deck, puts the code at the end of what it has loaded, and advances by the length.  After the code follow a
-card of lengths and the symbol table, six fields a card from the top of core storage downward.  Columns 77 to 80 number
-all cards of a deck.
+A card of the program holds four control digits, the length of its code, the code and a record mark.  IBM's loader
+precedes it in the deck.  It puts the code behind what it has loaded, and advances by the length.  A card of lengths and
+the symbol table follow, with six fields on a card, from the top of core storage downward.  Columns 77 to 80 number all
+cards of a deck.
 """
-
-from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
@@ -19,25 +17,29 @@ from emulator.numbers.fields import parse_constant
 from emulator.objectdeck import digits as d
 from emulator.objectdeck.addresses import Addresses
 from emulator.objectdeck.digits import address, alphameric, flagged
+from emulator.objectdeck.extent import extent
 from emulator.objectdeck.generator import ObjectProgram, Unit, generate
 
 _CODE_COLUMNS = 60
 _FIELDS_A_CARD = 6
 _NUMBER_COLUMN = 76
-# The cards of the loader, which precede the object program in the deck.
-_LOADER_CARDS = 54
+# The cards of IBM's loader, which precede the object program in a deck.
+LOADER_CARDS = 54
 _END_OF_CODE = "]0]0999" + "0" + d.RECORD_MARK
 
 
 def object_cards(program: Program, core: int) -> list[str]:
     """Return the cards of a program without numbers, to be loaded into a machine with ``core`` positions.
 
-    Raise DeckError if the program needs a function that neither the library nor this project supplies.
+    Raise DeckError if the program needs a function that neither the library nor this project supplies, or if it does
+    not fit the machine.
     """
     code = generate(program, core)
     if code.missing:
-        names = " and ".join(code.missing)
-        raise DeckError(f"{program.source}: the library has no routine for {names}; an object deck can use SQRT alone")
+        message = f"no routine for {' and '.join(code.missing)} is known; an object deck can use SQRT only"
+        raise DeckError(f"{program.source}: {message}")
+    if overlap := extent(program).overlap(core):
+        raise DeckError(f"{program.source}: {overlap}")
     table = list(symbol_table(program, code, core))
     lowest = Addresses(program, core).units(program.storage.fields)
     # The end of the code, the last position below the data, the end of the table as the compiler kept it, and the top.
@@ -67,8 +69,8 @@ def symbol_table(program: Program, code: ObjectProgram, core: int) -> Iterator[s
     """Yield the fields of the symbol table, from the top of core storage downward."""
     for name in LIBRARY:
         entry = code.functions.get(name)
-        yield flagged(alphameric(f"{name:<5}")) if entry is None else _label(entry, 0)
-        yield flagged(alphameric(f"{name + 'F':<5}"))
+        yield alphameric(name) if entry is None else _label(entry, 0)
+        yield alphameric(name + "F")
     addresses = Addresses(program, core)
     formats = {str(label) for label, _ in program.formats}
     for entry_ in program.storage.entries:
@@ -87,7 +89,7 @@ def _fields(entry: Entry, addresses: Addresses, code: ObjectProgram, formats: se
     elif entry.kind == "temporary":
         yield "]000000" + flagged(f"{int(name.removeprefix('temporary ')):03d}")
     else:
-        yield flagged(alphameric(f"{name:<5}"))
+        yield alphameric(name)
         if entry.shape:
             yield d.wide_immediate(entry.shape[0]) + address(addresses.units(entry.first + entry.size - 1))
 
@@ -100,7 +102,7 @@ def _constant(text: str) -> str:
     if "." not in text:
         digits = flagged(f"{int(text):04d}")
         return "]00000" + digits[:-1] + d.FLAGGED[int(digits[-1])]
-    return d.mantissa_and_exponent(*parse_constant(text, TRUNCATING.rules))
+    return d.floating_field(*parse_constant(text, TRUNCATING.rules))
 
 
 def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> list[str]:
@@ -108,26 +110,28 @@ def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> l
 
     The cards of data that follow the library are left out.  Raise DeckError if ``library`` is not such a deck.
     """
-    numbered = 0
-    while numbered < len(library) and library[numbered][_NUMBER_COLUMN:].rstrip() == number(numbered + 1):
-        numbered += 1
-    ends = [index for index, card in enumerate(library[:numbered]) if card.startswith(_END_OF_CODE)]
-    if numbered <= _LOADER_CARDS or len(ends) != 1 or len(library[ends[0] + 1]) < 70:
+    end = 0
+    while end < len(library) and library[end][_NUMBER_COLUMN:].rstrip() == _number(end + 1):
+        end += 1
+    ends = [index for index, card in enumerate(library[:end]) if card.startswith(_END_OF_CODE)]
+    if end <= LOADER_CARDS or len(ends) != 1 or len(library[ends[0] + 1]) < 70:
         raise DeckError(
-            f"{source}: expected an object deck of IBM 1620 FORTRAN with its library, whose cards are numbered from 1 in "
-            f"columns 77 to 80; {numbered} cards are numbered so"
+            f"{source}: expected an object deck of IBM 1620 FORTRAN with its library, whose cards are numbered from 1 "
+            f"in columns 77 to 80; found {end} such cards"
         )
     lengths = library[ends[0] + 1]
     top, end_of_table = (int(_plain(lengths[start : start + 5])) for start in (65, 10))
     fields = (top - end_of_table) // FIELD
     after = ends[0] + 2 + -(-fields // _FIELDS_A_CARD)
-    deck = [card[:_NUMBER_COLUMN] for card in library[:_LOADER_CARDS]]
-    deck += [*cards, *(card[:_NUMBER_COLUMN] for card in library[after:numbered])]
-    return [f"{card:<{_NUMBER_COLUMN}}{number(index)}" for index, card in enumerate(deck, 1)]
+    return numbered([*library[:LOADER_CARDS], *cards, *library[after:end]], 1)
 
 
-def number(index: int) -> str:
-    """Return the number of a card in columns 77 to 80."""
+def numbered(cards: Sequence[str], first: int) -> list[str]:
+    """Return cards with their numbers in columns 77 to 80, in place of other numbers."""
+    return [f"{card[:_NUMBER_COLUMN]:<{_NUMBER_COLUMN}}{_number(index)}" for index, card in enumerate(cards, first)]
+
+
+def _number(index: int) -> str:
     return flagged(f"{index % 10000:04d}")
 
 

@@ -1,13 +1,15 @@
 """Digits of core storage in the code of the cards, with flags, and the instructions of the 1620 made of them.
 
-One character stands for one position of core storage: ``0`` to ``9``, ``]`` for a zero with a flag, ``J`` to ``R`` for 1 to 9
-with a flag, and ``|`` for a record mark.  An instruction has twelve digits: two of operation code, five of address P and
-five of address Q.  An immediate instruction takes the digits of Q themselves as its second operand.
+One character stands for one position of core storage: ``0`` to ``9``, ``]`` for a zero with a flag, ``J`` to ``R`` for
+1 to 9 with a flag, and ``|`` for a record mark.  An instruction has twelve digits: two of operation code, five of
+address P and five of address Q.  An immediate instruction takes the digits of Q themselves as its second operand.
 """
 
-from __future__ import annotations
+from collections.abc import Iterable
 
-FLAGGED = "]JKLMNOPQR"
+from emulator.language.ibm1962 import FLAG, character_code, digits
+
+PLAIN, FLAGGED = "0123456789|", "]JKLMNOPQR"
 RECORD_MARK = "|"
 
 # Operation codes (reference card X26-5743-2).
@@ -43,28 +45,17 @@ def wide_immediate(value: int) -> str:
     return "]" + flagged(f"{value:04d}")
 
 
-def mantissa_and_exponent(mantissa: int, exponent: int) -> str:
-    """Return a floating-point number of eight digits as a field: mantissa, then exponent, each with its flags."""
-    digits = flagged(f"{abs(mantissa):08d}")
-    if mantissa < 0:
-        digits = digits[:-1] + FLAGGED[int(digits[-1])]
-    size = f"{abs(exponent):02d}"
-    return digits + flagged(size[0]) + (FLAGGED[int(size[1])] if exponent < 0 else size[1])
+def floating_field(mantissa: int, exponent: int) -> str:
+    """Return a floating-point number of eight digits as a field."""
+    number = digits(abs(mantissa), 8, negative=mantissa < 0) + digits(abs(exponent), 2, negative=exponent < 0)
+    return card_text(number)
 
 
-def alphameric(text: str) -> str:
-    """Return the two-digit codes of characters (X26-5743-2, page 4)."""
-    return "".join(_CODES[character] for character in text)
+def card_text(positions: Iterable[int]) -> str:
+    """Return positions of core storage, digits and flags as integers, in the code of the cards."""
+    return "".join((FLAGGED if position & FLAG else PLAIN)[position % FLAG] for position in positions)
 
 
-def flagged_alphameric(text: str) -> str:
-    """Return the two-digit codes of characters with a flag over the first digit of each."""
-    return "".join(flagged(_CODES[character]) for character in text)
-
-
-_CODES = {" ": "00", ".": "03", ")": "04", "+": "10", "$": "13", "*": "14", "-": "20", "/": "21", ",": "23", "(": "24"}
-_CODES |= {"=": "33", "@": "34", "'": "34"}
-_CODES |= {letter: f"4{n}" for n, letter in enumerate("ABCDEFGHI", 1)}
-_CODES |= {letter: f"5{n}" for n, letter in enumerate("JKLMNOPQR", 1)}
-_CODES |= {letter: f"6{n}" for n, letter in enumerate("STUVWXYZ", 2)}
-_CODES |= {digit: f"7{digit}" for digit in "0123456789"}
+def alphameric(name: str) -> str:
+    """Return a name as a field: the two-digit codes of five characters, with a flag over the first digit."""
+    return flagged("".join(f"{character_code(character):02d}" for character in f"{name:<5}"))

@@ -1,11 +1,9 @@
 """The core storage that a program and its data need, by the code of IBM's compiler.
 
-The lengths are those of :mod:`emulator.objectdeck.generator`.  The known object deck does not show every construct, and of
-IBM's function routines only their existence is known.  :attr:`Extent.inferred` counts the positions for which there is no
-evidence, so that a program is refused only if it cannot fit without them.
+The lengths are those of :mod:`emulator.objectdeck.generator`.  The known object deck does not show every construct, and
+the lengths of IBM's function routines are unknown.  :attr:`Extent.inferred` counts the positions without evidence.  A
+program is refused only if it cannot fit without them.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -43,8 +41,8 @@ class Extent:
             room = f"a machine of {core} has {_room(core)} for them"
             return f"OVERLAP: program and data need {about}{need} positions; {room}{advice}"
         return (
-            f"OVERLAP is possible: program and data need about {need} positions, {excess} more than a machine of {core} "
-            f"has; {self.inferred} of them are inferred{advice}"
+            f"OVERLAP is possible: program and data need about {need} positions, {excess} more than a machine of "
+            f"{core} has, but {self.inferred} of them are inferred{advice}"
         )
 
     def is_certain(self, core: int) -> bool:

@@ -4,18 +4,16 @@ Every statement begins at an even position.  What would end at an odd position e
 statement goes to the field of its number, which holds another branch.  The object program begins at 08300.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from emulator.language import objectcode as op
+from emulator.language.ibm1962 import ITEM, LAST_ITEM, VERBS, format_positions
 from emulator.language.objectcode import Instruction, Program
 from emulator.language.storage import CORES, OBJECT_PROGRAM
 from emulator.objectdeck import digits as d
 from emulator.objectdeck import library
 from emulator.objectdeck.addresses import Addresses
 from emulator.objectdeck.digits import address
-from emulator.objectdeck.formats import format_text
 
 # Conditions of the code that tests a DO: it is repeated while the variable does not exceed the limit.
 _NOT_HIGH = "011" + d.RECORD_MARK + "0"
@@ -45,14 +43,18 @@ class ObjectProgram:
     end: int
 
 
-def generate(program: Program, core: int = CORES[0]) -> ObjectProgram:
+def generate(program: Program, core: int = CORES[-1]) -> ObjectProgram:
     """Return the object program for a machine with ``core`` positions.  Its length does not depend on ``core``."""
     return _Generator(program, Addresses(program, core)).run()
 
 
 @dataclass
 class _Generator:
-    """The state of one translation.  ``places`` holds the position of each instruction of the emulator's object code."""
+    """The state of one translation.
+
+    ``places`` holds the position of each instruction of the emulator's object code, ``operands`` those of the last
+    arithmetic, and ``unused`` a digit that the compiler left in its buffer.
+    """
 
     program: Program
     addresses: Addresses
@@ -113,7 +115,8 @@ class _Generator:
             label, spec = self.program.formats[self.formats]
             # The library adds five to the address before it takes the first word.
             self.labels[str(label)] = self.at + 6
-            self._put(format_text(spec, self.addresses.branch(f"after {label}")))
+            around = d.BRANCH + address(self.addresses.branch(f"after {label}"))
+            self._put(around + d.card_text(format_positions(spec)))
             self.labels[f"after {label}"] = self.at
             self.formats += 1
 
@@ -187,7 +190,7 @@ class _Generator:
                 return self._end_loop(instruction.address)
             case op.BEGIN:
                 label = self.program.formats[instruction.second][0]
-                entry = library.VERB_ENTRIES[self.program.verbs[instruction.address]]
+                entry = VERBS[self.program.verbs[instruction.address]]
                 return d.CALL + address(entry) + address(self.addresses.format(label))
             case op.PAUSE:
                 # The operands are those of the last arithmetic, left in the compiler's buffer.
@@ -220,7 +223,7 @@ class _Generator:
         return compare + to_zero + d.BRANCH_INDICATOR + positive + d.HIGH + d.BRANCH + negative
 
     def _select(self, instruction: Instruction) -> str:
-        """Return the code of a computed GO TO: a table of addresses, four digits each, the last statement number first."""
+        """Return the code of a computed GO TO.  Its table has four digits for each statement number, the last first."""
         targets = self._targets(instruction.second)
         selector = address(self.addresses.units(instruction.address))
         branch = self.at + 60
@@ -243,7 +246,7 @@ class _Generator:
             is_last = loops is not None and element == count - 1
             if is_last and loops:
                 self._put(self._last_pass(loops))
-            entry = library.LAST_ITEM if is_last and not loops else library.ITEM
+            entry = LAST_ITEM if is_last and not loops else ITEM
             call = d.CALL_IMMEDIATE + address(entry)
             self._put(self.addresses.operand(call, instruction.address + element, instruction.subscript, self.at))
 

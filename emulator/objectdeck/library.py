@@ -1,10 +1,8 @@
-"""Entry points of IBM's library of 1962, as the object deck shows them, and the routines that this project supplies.
+"""Entry points of the arithmetic in IBM's library of 1962, and the routines that this project supplies.
 
 A call transmits the address of its operand to the position before the entry.  Arithmetic routines work with the
 accumulator in positions 51 to 60: a floating-point number fills it, a fixed-point number takes its last four digits.
 """
-
-from __future__ import annotations
 
 from emulator.language import objectcode as op
 from emulator.language.expressions import LIBRARY
@@ -37,14 +35,8 @@ ENTRIES = {
 REVERSE_SIGN = 2546
 CALLS = {op.RSGN: REVERSE_SIGN, op.RSGX: REVERSE_SIGN, op.FLOAT: 3222, op.FIX: 3494}
 
-# Input and output: the entry of each verb, the entries of an item and of the last item of a list.
-VERB_ENTRIES = {"READ": 4512, "ACCEPT": 4548, "PUNCH": 4748, "TYPE": 4796, "PRINT": 4796}
-ITEM, LAST_ITEM = 4992, 4940
 # The last item of a list sets this field of two digits to zero.
 MORE_ITEMS = 5365
-
-# The control words of a FORMAT: begin, text, next record, end.
-FORMAT_BEGIN, FORMAT_TEXT, FORMAT_SLASH, FORMAT_END = 4044, 4264, 4136, 4076
 
 # Routines of this project for functions that the library lacks.  Each is given the position of its first instruction.
 ROUTINES = {"SQRT": square_root}

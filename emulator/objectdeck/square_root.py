@@ -1,19 +1,17 @@
 """A square root routine for the 1620, written for this project: no known deck contains IBM's own.
 
-It replaces the number in the accumulator, positions 51 to 60, by its square root truncated to eight digits.  The sign of
-the number is ignored, and a zero becomes +0.  The exponent is halved, and an odd one is first made even by moving the point.
+It replaces the number in the accumulator, positions 51 to 60, by its square root truncated to eight digits.  The sign
+of the number is ignored, and a zero becomes +0.  The exponent is halved; if it is odd, the point moves first.
 
-The digits come from subtraction alone.  With ``b`` = 5 at first, ``b`` is subtracted from five times the number as often
-as possible, and each time grows by ten.  Then ``b`` moves one digit to the right, with a zero before its last digit, and the
-next digit follows.  The digits of ``b`` before the 5 are those of the root.  The routine needs indirect addressing.
+The digits come from subtraction alone.  ``b`` is 5 at first.  It is subtracted from five times the number as often as
+possible, and each time it grows by ten.  Then ``b`` moves one digit to the right with a zero before its last digit, and
+the next digit follows.  The digits of ``b`` before the 5 are those of the root.  The routine needs indirect addressing.
 """
-
-from __future__ import annotations
 
 from emulator.objectdeck import digits as d
 
-# The name of a line or "", its operation code, P and Q.  An operand is five digits, the name of a line with an offset in
-# digits, the same after "@" for an indirect address, or after "=" for an immediate address.
+# The name of a line or "", its operation code, P and Q.  An operand is five digits, or the name of a line with an
+# offset in digits.  "@" before the name makes it an indirect address, and "=" an immediate address.
 _LINES = (
     ("", d.BRANCH_ON_DIGIT, "nonzero", "00051"),
     ("", d.CLEAR_FLAG, "00058", d.NONE),

@@ -159,6 +159,18 @@ def _program(parser: ArgumentParser) -> None:
     upcase_argument(parser)
 
 
+def _compile(parser: ArgumentParser) -> None:
+    _program(parser)
+    parser.add_argument(
+        "--object", action="store_true", help="punch the program as an object deck for IBM's library of 1962"
+    )
+    parser.add_argument(
+        "--library", metavar="DECK", help="with --object: put the program into DECK, an object deck with IBM's library"
+    )
+    core_argument(parser)
+    output_argument(parser)
+
+
 def _check(parser: ArgumentParser) -> None:
     program_argument(parser, "check", "?")
     parser.add_argument(
@@ -252,7 +264,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     ),
     "apparatus": ("list, check and weigh the emendations of the listings", _apparatus),
     "check": ("compile a program and show the messages, or explain error numbers", _check),
-    "compile": ("print the object code of a program", _program),
+    "compile": ("print the object code of a program, or punch its object deck", _compile),
     "map": ("print the storage map of a program", _map),
     "listing": ("list a program with run counts, times and lost digits next to each card", _listing),
     "flowchart": ("draw the flow chart of a program as SVG", _flowchart),

@@ -1,20 +1,33 @@
-"""``hull1620 compile``: print the object code of a program, statement by statement."""
+"""``hull1620 compile``: print the object code of a program, statement by statement, or punch its object deck."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
 
+from emulator.files import read_text, source_name, write_text
 from emulator.language import objectcode as op
 from emulator.language.objectcode import Instruction, Program
-from modern.cli.shared.console import OK
+from emulator.objectdeck.cards import LOADER_CARDS, numbered, object_cards, with_library
+from modern.cli.shared.console import OK, UsageError
 from modern.cli.shared.programs import load_program
 
 
 def main(args: argparse.Namespace) -> int:
-    for line in listing(load_program(args)):
-        print(line)
+    if args.library and not args.object:
+        raise UsageError("--library needs --object")
+    program = load_program(args)
+    lines = _deck(program, args.core, args.library) if args.object else listing(program)
+    write_text(args.output, "".join(f"{line}\n" for line in lines))
     return OK
+
+
+def _deck(program: Program, core: int, library: str | None) -> list[str]:
+    """Return the numbered cards of an object program, with the library if its deck is named."""
+    cards = object_cards(program, core)
+    if library is None:
+        return numbered(cards, LOADER_CARDS + 1)
+    return with_library(cards, read_text(library).splitlines(), source_name(library))
 
 
 def listing(program: Program) -> Iterator[str]:

@@ -36,7 +36,7 @@ class ComparedMachine(Machine):
             (run,) = runner.runs([packed(self.deck)])
             if run is not None:
                 core = list(zip(runner.core.mantissas.tolist(), runner.core.exponents.tolist(), strict=True))  # type: ignore[attr-defined]
-                assert core == [pair(self, address) for address in range(self.program.storage.fields)]
+                assert core == [pair(self, address) for address in range(self.program.storage.length)]
         assert run_batch(self.program, [self.deck], self.options) == (result,)
         return result
 

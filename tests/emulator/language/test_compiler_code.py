@@ -3,9 +3,10 @@
 import pytest
 
 from emulator.language import objectcode as op
+from emulator.objectdeck.extent import code_positions
 from tests.support.deckwork import code, program
 
-T1 = "temporary 1"
+T1, T2 = "temporary 0", "temporary 1"
 
 
 @pytest.mark.parametrize(
@@ -72,7 +73,20 @@ def test_expressions(statement: str, expected: list[str]) -> None:
 
 def test_next_statement_reuses_temporaries() -> None:
     made = program("D=A*B+C*D", "E=A*B+C*D", "END")
-    assert [e.name for e in made.storage.entries if e.kind == "temporary"] == [T1]
+    assert [e.name for e in made.storage.entries if e.kind == "temporary"] == [T1, T2]
+
+
+def test_temporaries_are_those_of_the_deck_of_1962() -> None:
+    """TIC3D, card 51: the products have the numbers 1, 3 and 4, and the sums in parentheses 0 and 2 without a field."""
+    made = program("M=16*(K1-1)+4*(J3-1)+J2-10*J3", "END")
+    names = [e.name for e in made.storage.entries]
+    assert names == [
+        *("M", "constant 16", "K1", "constant 1", "temporary 1", "constant 4", "J3"),
+        *("temporary 3", "J2", "constant 10", "temporary 4"),
+    ]
+    assert [word for word in code("M=16*(K1-1)+4*(J3-1)+J2-10*J3", "END") if "temporary" in word] == [
+        *("FMFIX temporary 1", "XAD temporary 1", "FMFIX temporary 3", "XSBR temporary 3"),
+    ]
 
 
 def test_two_temporaries() -> None:
@@ -104,9 +118,9 @@ def test_instruction_without_subscript_holds_minus_one() -> None:
     assert {i.subscript for i in made.code if i.operation != op.SEND} == {-1}
 
 
-@pytest.mark.parametrize(("statement", "more"), [("A=X(2)", 0), ("A=X(I)", 30), ("A=Y(I,J)", 60), ("A=Y(I,1)", 60)])
-def test_a_variable_subscript_takes_thirty_positions(statement: str, more: int) -> None:
-    """Fitted to the lengths of the hull programs under PDQ FORTRAN.  An array of two dimensions takes twice as many."""
+@pytest.mark.parametrize(("statement", "more"), [("A=X(2)", 0), ("A=X(I)", 24), ("A=Y(I,J)", 60), ("A=Y(I,1)", 24)])
+def test_a_variable_subscript_takes_the_positions_of_the_deck_of_1962(statement: str, more: int) -> None:
+    """Two instructions compute the address.  A second variable needs a multiplication, a flag and an addition."""
     plain, longer = (program("DIMENSION X(5),Y(2,2)", line, "END") for line in ("A=B", statement))
     assert code_positions(longer) - code_positions(plain) == more
 

@@ -53,7 +53,7 @@ def checked_ending(machine: Machine, result: Result, options: Options) -> str:
     assert result.statements <= options.limit
     assert bool(result.ending.message) == (not result.ending.normal)
     assert "\n" not in result.ending.message
-    assert len(machine.state.values) == len(machine.state.kinds) == machine.program.storage.fields
+    assert len(machine.state.values) == len(machine.state.kinds) == machine.program.storage.length
     assert measure(machine.program, result).seconds >= 0
     return result.ending.kind
 
