@@ -223,7 +223,7 @@ def wrap_integer(value: int) -> int:
 
 
 def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
-    """Return the square root of the magnitude of a number that is not zero, truncated or rounded as products are."""
+    """Return the square root of the magnitude of a number that is not zero, truncated or rounded as quotients are."""
     size = mantissa if mantissa > 0 else -mantissa
     # Write the number as an integer of 2P-1 or 2P digits times an even power of ten, whose root has P digits.
     power = exponent - 2 * rules.digits
@@ -240,7 +240,7 @@ def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
         better = (root + size // root) // 2
     exponent = power // 2 + rules.digits
     # Round up if size > (root + 1/2)**2, that is if size - root**2 > root: equality is impossible for integers.
-    if rules.round_products and size - root * root > root:
+    if rules.round_quotients and size - root * root > root:
         root += 1
         if root >= rules.limit:
             root = root // 10

@@ -71,8 +71,8 @@ class Arithmetic:
 def arithmetic(name: str) -> Arithmetic:
     """Return the rules of ``truncating``, ``ibm1962``, ``truncating:P``, ``guarded:P`` or ``rounding:P``."""
     if name == "ibm1962":
-        # Products are rounded (code at 01482 and 01622); so are roots (OQ 9).
-        return Arithmetic(name, 8, rounded=frozenset({"product", "root"}), of_1962=True)
+        # Products are rounded (code at 01482 and 01622).
+        return Arithmetic(name, 8, rounded=frozenset({"product"}), of_1962=True)
     family, _, count = name.partition(":")
     digits = int(count or 8)
     if family == "rounding":
@@ -188,7 +188,7 @@ def power(a: Number, count: int, by: Arithmetic) -> Outcome:
 
 
 def square_root(a: Number, by: Arithmetic) -> Outcome:
-    """Return the root of the magnitude, truncated (II-D, executed) or rounded if products are (OQ 9)."""
+    """Return the root of the magnitude, truncated (II-D, executed) or rounded in ``rounding:P`` (OQ 9)."""
     if not a.size:
         if a.minus:
             raise Undecided("the root of minus zero")
