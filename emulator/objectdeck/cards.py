@@ -25,7 +25,7 @@ _FIELDS_A_CARD = 6
 _NUMBER_COLUMN = 76
 # The cards of IBM's loader, which precede the object program in a deck.
 LOADER_CARDS = 54
-_END_OF_CODE = "]0]0999" + "0" + d.RECORD_MARK
+END_OF_CODE = "]0]0999" + "0" + d.RECORD_MARK
 
 
 def object_cards(program: Program, core: int) -> list[str]:
@@ -44,7 +44,7 @@ def object_cards(program: Program, core: int) -> list[str]:
     lowest = Addresses(program, core).units(program.storage.fields)
     # The end of the code, the last position below the data, the end of the table as the compiler kept it, and the top.
     lengths = address(code.end) + address(lowest) + address(core - 1 - FIELD * len(table)) + "]]000" + "0" * 45
-    cards = [*_code_cards(code.units), _END_OF_CODE, lengths + address(core - 1) + d.RECORD_MARK]
+    cards = [*_code_cards(code.units), END_OF_CODE, lengths + address(core - 1) + d.RECORD_MARK]
     for start in range(0, len(table), _FIELDS_A_CARD):
         cards.append("".join(reversed(table[start : start + _FIELDS_A_CARD])) + d.RECORD_MARK)
     return cards
@@ -113,7 +113,7 @@ def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> l
     end = 0
     while end < len(library) and library[end][_NUMBER_COLUMN:].rstrip() == _number(end + 1):
         end += 1
-    ends = [index for index, card in enumerate(library[:end]) if card.startswith(_END_OF_CODE)]
+    ends = [index for index, card in enumerate(library[:end]) if card.startswith(END_OF_CODE)]
     if end <= LOADER_CARDS or len(ends) != 1 or len(library[ends[0] + 1]) < 70:
         raise DeckError(
             f"{source}: expected an object deck of IBM 1620 FORTRAN with its library, whose cards are numbered from 1 "

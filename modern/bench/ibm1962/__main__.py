@@ -1,4 +1,4 @@
-"""``python -m modern.bench.ibm1962``: execute a statement with IBM's library of 1962."""
+"""``python -m modern.bench.ibm1962``: execute statements and object decks with IBM's library of 1962."""
 
 from __future__ import annotations
 
@@ -6,7 +6,12 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from emulator.errors import Refused
+from emulator.errors import EmulatorError, Refused
+from emulator.files import read_text, write_text
+from emulator.language.cards import read_deck
+from emulator.language.compiler import compile_deck
+from modern.bench.ibm1962.chapter6 import FOLDER, results
+from modern.bench.ibm1962.objectdecks import against_deck, compare, library, subjects
 from modern.bench.ibm1962.simulator import Failed, Unavailable, object_deck
 from modern.bench.ibm1962.statements import Statement, execute
 
@@ -16,6 +21,7 @@ the command prints a line that begins with "skipped" and ends with exit code 0.
 
 examples:
   python -m modern.bench.ibm1962 show TYPE "(I4,F8.3)" --values="12 -.25000000E+01"
+  python -m modern.bench.ibm1962 chapter6
   python -m modern.bench.ibm1962 show READ "(I5,E14.8)" --values="1 .10000000E+01" --card "   -0     .2E1"
 """
 VERBS = ("READ", "ACCEPT", "PUNCH", "TYPE", "PRINT")
@@ -35,28 +41,84 @@ def parser() -> argparse.ArgumentParser:
     show.add_argument("format", help='a FORMAT, such as "(I4,F8.3)"')
     show.add_argument("--values", default="", help='the numbers of the list, such as --values="12 -.25000000E+01"')
     show.add_argument("--card", action="append", default=[], help="a data card, or a line typed for ACCEPT")
+    chapter6 = commands.add_parser(
+        "chapter6", help="run chapter 6 and its apparatus; compare with the committed results"
+    )
+    chapter6.add_argument("--write", action="store_true", help="replace the committed results")
+    commands.add_parser("programs", help="run the object decks of all programs, and compare them with the emulator")
+    compiled = commands.add_parser("compile", help="compare the object code of a source with the program in the deck")
+    compiled.add_argument("source", help="the source deck")
     return result
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command.  Print a line and return 0 if the simulator or the deck is missing."""
-    options = parser().parse_args(arguments)
-    try:
-        outcome = execute(
-            Statement(options.verb, options.format, options.values.split()), object_deck(), cards=options.card
-        )
-    except Unavailable as reason:
-        print(f"skipped: {reason}")
-        return 0
-    except (Failed, ValueError, Refused) as error:
-        print(error, file=sys.stderr)
-        return 2
+def show(options: argparse.Namespace) -> int:
+    """Execute one statement and print its outcome."""
+    outcome = execute(
+        Statement(options.verb, options.format, options.values.split()), object_deck(), cards=options.card
+    )
     for what, lines in (("typed", outcome.typed), ("punched", outcome.punched), ("number", outcome.numbers)):
         for line in lines:
             print(f"{what:7} [{line}]")
     if outcome.trouble:
         print(f"stopped: {outcome.trouble}")
     return 0
+
+
+def run_chapter6(options: argparse.Namespace) -> int:
+    """Run chapter 6, and write the results or compare them with the committed files.  Return 1 if they differ."""
+    library()
+    exit_code = 0
+    for name, text in results().items():
+        path = f"{FOLDER}/{name}"
+        if options.write:
+            write_text(path, text)
+        same = read_text(path) == text
+        exit_code = exit_code or int(not same)
+        print(f"{path}: {'as committed' if same else 'different'}")
+    return exit_code
+
+
+def run_programs() -> int:
+    """Compare all programs.  Return 1 if a card or a line differs."""
+    library()
+    exit_code = 0
+    for name, program, deck in subjects():
+        comparison = compare(name, program, deck)
+        differences = list(comparison.differences())
+        cards, lines = map(len, comparison.emulator)
+        print(f"{name}: {cards} cards, {lines} lines, {len(differences)} different {comparison.error}".rstrip())
+        for pair in differences:
+            print("  library  [{}]\n  emulator [{}]".format(*pair))
+        exit_code = exit_code or int(bool(differences or comparison.error))
+    return exit_code
+
+
+def run_compile(options: argparse.Namespace) -> int:
+    """Compare a source with the program in the deck.  Return 1 if the object programs differ."""
+    positions, different, cards = against_deck(compile_deck(read_deck(options.source)), object_deck())
+    print(f"object program: {positions} positions, {different} different; symbol table: {cards} cards different")
+    return int(bool(different or cards))
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command.  Print a line and return 0 if the simulator or the deck is missing."""
+    options = parser().parse_args(arguments)
+    try:
+        match options.command:
+            case "show":
+                return show(options)
+            case "chapter6":
+                return run_chapter6(options)
+            case "programs":
+                return run_programs()
+            case _:
+                return run_compile(options)
+    except Unavailable as reason:
+        print(f"skipped: {reason}")
+        return 0
+    except (Failed, ValueError, EmulatorError, Refused) as error:
+        print(error, file=sys.stderr)
+        return 2
 
 
 if __name__ == "__main__":

@@ -77,6 +77,7 @@ def run(
     keys: Sequence[str] = (),
     switches: Sequence[int] = (),
     examine: Sequence[tuple[int, int]] = (),
+    starts: int = 0,
     seconds: float = SECONDS,
 ) -> Run:
     """Load a deck, continue at ``start`` (default: where the loader halts), and return the output.
@@ -93,6 +94,8 @@ def run(
         The sense switches that are on.
     examine
         Ranges of positions to return, first and last.
+    starts
+        The number of times that START is pressed after a PAUSE.
 
     Raises
     ------
@@ -107,6 +110,7 @@ def run(
     for address, positions in (stored or {}).items():
         script += [f"deposit {address + k} {position:X}" for k, position in enumerate(positions)]
     script.append("continue" if start is None else f"go {start}")
+    script += ["continue"] * starts
     script += [f"examine {first}-{last}" for first, last in examine]
     script += ["detach all", "quit"]
     with TemporaryDirectory(prefix="i1620-") as folder:

@@ -6,11 +6,10 @@ from hypothesis import strategies as st
 
 from emulator.errors import DeckError
 from emulator.numbers.arithmetic import TRUNCATING, ZERO, square_root
-from emulator.objectdeck.cards import numbered, object_cards, with_library
-from emulator.objectdeck.generator import generate
+from emulator.objectdeck.cards import END_OF_CODE, numbered, object_cards, with_library
 from emulator.objectdeck.square_root import square_root as routine
 from tests.support.core_1620 import Core
-from tests.support.deckwork import machine, program
+from tests.support.deckwork import program
 
 ARRAYS = "DIMENSION X(5),M(4,3),N(6)"
 FILL = ["DO 8 I=1,4", "DO 8 J=1,3", "8 M(I,J)=10*I+J", "DO 9 I=1,5", "9 X(I)=I"]
@@ -39,8 +38,8 @@ def punched(*lines: str) -> list[object]:
         ([ARRAYS, *FILL, "PUNCH 99,M"], [11, 21, 31, 41, 12, 22, 32, 42, 13, 23, 33, 43]),
         (["I=3", "K=2", "DO 5 J=I,9,K", "5 PUNCH 99,J"], [3, 5, 7, 9]),
         (["DO 5 J=4,2", "5 PUNCH 99,J", "PUNCH 99,J"], [4, 5]),
-        (["DO 5 I=1,3", "GO TO (1,2,3),I", "1 J=10", "GO TO 5", "2 J=20", "GO TO 5", "3 J=30", "5 PUNCH 99,J"], [10, 20, 30]),
-        (["DO 4 I=1,3", "IF (I-2) 1,2,3", "1 J=-1", "GO TO 4", "2 J=0", "GO TO 4", "3 J=1", "4 PUNCH 99,J"], [-1, 0, 1]),
+        (["DO 5 I=1,3", "GO TO (1,2,3),I", "1 J=1", "GO TO 5", "2 J=2", "GO TO 5", "3 J=3", "5 PUNCH 99,J"], [1, 2, 3]),
+        (["DO 4 I=1,3", "IF (I-2) 1,2,3", "1 J=4", "GO TO 4", "2 J=0", "GO TO 4", "3 J=1", "4 PUNCH 99,J"], [4, 0, 1]),
         (["A=-.5", "IF (A) 1,2,2", "1 PUNCH 99,A", "2 A=0.", "IF (-A) 3,4,3", "3 PUNCH 99,A", "4 CONTINUE"], [(-5, 0)]),
         (["A=SQRT(2.)", "B=SQRT(A*A+.25)", "PUNCH 99,A,B"], [(14142135, 1), (14999999, 1)]),
     ],
@@ -65,3 +64,43 @@ def test_the_root_of_zero_is_zero() -> None:
     core.set_fac((0, -100))
     core.run(9000)
     assert core.fac(60) == (0, ZERO)
+
+
+def test_the_symbol_table_has_the_fields_of_the_deck_of_1962() -> None:
+    """The last two cards of the table: names of variables, constants, statement numbers and temporaries."""
+    cards = object_cards(program("DIMENSION X(3),M(2,4)", "5 FORMAT(I3)", "A=2.5", "7 I=10*I", "END"), 20_000)
+    table = cards[cards.index(END_OF_CODE) + 2 :]
+    fields = [card[k : k + 10] for card in table for k in range(len(card) - 11, -1, -10)]
+    assert fields[12:] == [
+        *("O700000000", "]]003J9859", "N400000000", "]]002J9779"),
+        *(
+            "]8306K]005",
+            "]8322K]005",
+            "M100000000",
+            "K5000000]1",
+            "]8346]]007",
+            "M900000000",
+            "]00000]01]",
+            "]000000]00",
+        ),
+    ]
+
+
+def test_a_deck_with_the_library_keeps_the_loader_and_the_library() -> None:
+    cards = object_cards(program("A=1.", "END"), 20_000)
+    loader, library = [f"L{k}" for k in range(54)], ["B1", "B2"]
+    deck = numbered([*loader, *object_cards(program("I=1", "J=I", "END"), 20_000), *library], 1)
+    complete = with_library(cards, [*deck, "data"], "deck")
+    assert [card[:76].rstrip() for card in complete] == [*loader, *cards, *library]
+    assert complete[-1][76:] == "]" + f"{len(complete):03d}"
+    with pytest.raises(DeckError, match=r"deck: expected an object deck .* found 0 such cards"):
+        with_library(cards, ["data"], "deck")
+
+
+@pytest.mark.parametrize(
+    ("statement", "message"),
+    [("A=SIN(1.)", "no routine for SIN is known"), ("A=2.**B", "A[*][*]B"), ("DIMENSION X(1200)", "OVERLAP")],
+)
+def test_programs_without_an_object_deck_are_rejected(statement: str, message: str) -> None:
+    with pytest.raises(DeckError, match=message):
+        object_cards(program(statement, "END"), 20_000)

@@ -1,0 +1,137 @@
+"""Chapter 6 on IBM's library: every card that the programs punch is compared with the print.
+
+The programs are those that produced the examples.  Programs 2 and 3 read the cards that program 1 has punched on the
+library.  The verdicts are kept in ``transcripts/ibm1962``, with the means to verify them.
+"""
+
+import csv
+import hashlib
+import io
+import subprocess
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+
+from emulator.errors import EmulatorError
+from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Program
+from emulator.objectdeck.cards import object_cards
+from modern.bench.ibm1962.objectdecks import CORE, execute, library, punched
+from modern.bench.ibm1962.simulator import Failed, simulator
+from modern.edition import programs
+from modern.edition.chapter6 import EXAMPLES, Print, input_deck, prints
+
+FOLDER = "transcripts/ibm1962"
+NAMES = ("program1_examples", "program2", "program3")
+SAME, DIFFERENT = "same", "different"
+
+
+@dataclass(frozen=True, slots=True)
+class CardVerdict:
+    """The verdict on one punched card; ``card`` counts the cards of a program's run from 1."""
+
+    example: int
+    program: int
+    card: int
+    verdict: str
+
+
+def verdicts() -> Iterator[CardVerdict]:
+    """Run the examples and yield the verdict on each printed card."""
+    for example in EXAMPLES:
+        for printed in prints(example):
+            if printed.device == "punch":
+                cards = _cards(example, NAMES[printed.program - 1])
+                yield from _judged(example, printed, cards)
+
+
+def _judged(example: int, printed: Print, cards: Sequence[str]) -> Iterator[CardVerdict]:
+    """Yield the verdict on each printed card, and on the first card beyond them."""
+    for number in range(1, max(len(printed.lines), len(cards)) + 1):
+        pair = [lines[number - 1].rstrip() if number <= len(lines) else None for lines in (printed.lines, cards)]
+        yield CardVerdict(example, printed.program, number, SAME if pair[0] == pair[1] else DIFFERENT)
+
+
+@cache
+def _cards(example: int, name: str) -> tuple[str, ...]:
+    """Return the cards that a program punches on the library, from the cards of program 1 before it."""
+    return punched(execute(programs.program(name), _input(example, name)))
+
+
+def _input(example: int, name: str) -> Sequence[str]:
+    first = NAMES[0]
+    return [card.text for card in input_deck(example).cards] if name == first else _cards(example, first)
+
+
+def results() -> dict[str, str]:
+    """Run everything and return the committed files by name: the verdicts, the rows of the apparatus, and the means."""
+    cards = [(row.example, row.program, row.card, row.verdict) for row in verdicts()]
+    rows = [(name, *answer) for name in NAMES for answer in confirmed(name)]
+    return {
+        "chapter6.csv": _table(("example", "program", "card", "verdict"), cards),
+        "apparatus.csv": _table(("program", "row", "answer"), rows),
+        "means.toml": _means(),
+    }
+
+
+def _table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows((head, *rows))
+    return text.getvalue()
+
+
+def digest(cards: Sequence[str]) -> str:
+    """Return the SHA-256 of cards, each without blanks at its end and with a line feed."""
+    return hashlib.sha256("".join(f"{card.rstrip()}\n" for card in cards).encode("latin1")).hexdigest()
+
+
+def _means() -> str:
+    """Return the means of verification as TOML: the library's deck, the simulator, and the object programs."""
+    version = subprocess.run([simulator()], input=b"quit\n", capture_output=True, check=False).stdout.decode("latin1")
+    title = next((line.strip() for line in version.splitlines() if "1620" in line), "unknown")
+    lines = [f'library = "{digest(library())}"', f'simulator = "{" ".join(title.split())}"', "", "[programs]"]
+    lines += [f'{name} = "{program_digest(name)}"' for name in NAMES]
+    return "\n".join(lines) + "\n"
+
+
+def program_digest(name: str) -> str:
+    """Return the digest of a built-in program's object cards."""
+    return digest(object_cards(programs.program(name), CORE))
+
+
+def confirmed(name: str) -> Iterator[tuple[str, str]]:
+    """Yield each row of a program's apparatus and what the library answers if the row is left out.
+
+    The answers are ``compiler`` (the deck does not compile), ``no change`` (of the object program), ``library`` (the
+    cards differ from the print, or the run does not end), and ``nothing``.
+    """
+    entry = programs.built_in(name)
+    base = object_cards(programs.program(name), CORE)
+    for row in programs.text(entry.text).rows:
+        if row.layer not in entry.layers:
+            continue
+        try:
+            program = compile_deck(programs.built(name, without=(row.id,)))
+            cards = object_cards(program, CORE)
+        except (EmulatorError, ValueError):
+            yield row.id, "compiler"
+            continue
+        if cards == base:
+            yield row.id, "no change"
+            continue
+        yield row.id, "library" if _differs(name, program) else "nothing"
+
+
+def _differs(name: str, program: Program) -> bool:
+    """Return True if a program punches a card that differs from the print, or does not end."""
+    for example in EXAMPLES:
+        for printed in prints(example):
+            if printed.device != "punch" or NAMES[printed.program - 1] != name:
+                continue
+            try:
+                cards = punched(execute(program, _input(example, name)))
+            except Failed:
+                return True
+            if any(row.verdict == DIFFERENT for row in _judged(example, printed, cards)):
+                return True
+    return False

@@ -1,0 +1,138 @@
+"""Object decks of the project's programs, run on IBM's library and compared with the emulator."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from emulator.language.cards import Deck, deck_from_lines, read_deck
+from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import PAUSE, Program
+from emulator.language.statements import capitals
+from emulator.language.storage import OBJECT_PROGRAM
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options
+from emulator.numbers import numbers
+from emulator.objectdeck.cards import END_OF_CODE, object_cards, with_library
+from emulator.objectdeck.digits import card_text
+from emulator.objectdeck.generator import generate
+from modern.bench.ibm1962.simulator import Failed, Run, Unavailable, object_deck, run
+from modern.edition import programs
+from modern.edition.chapter6 import EXAMPLES, input_deck
+from modern.thesis.job import run_hull
+
+CORE = 40_000
+SECONDS = 120.0
+# Columns 78 to 80 of a punched card hold its number.
+COLUMNS = 72
+OPTIONS = Options(numbers("ibm1962"), core=CORE, bounds="core", hopper="any", limit=200_000)
+COUNTEREXAMPLES = "transcripts/counterexamples"
+FOLDERS = ("tests/data/period", "tests/data/programs")
+
+# A place that neither the library nor a program uses after loading.
+_HALT_AT = 60
+
+_PROBE = [
+    "      A=35.",
+    "      B=3.",
+    "      C=A-B",
+    "      PUNCH 1,C",
+    "    1 FORMAT(E14.8)",
+    "      STOP",
+    "      END",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """The cards and lines that both machines write, without blanks at their ends, and the error if one did not run."""
+
+    name: str
+    library: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
+    emulator: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
+    error: str = ""
+
+    def differences(self) -> Iterator[tuple[str, str]]:
+        """Yield each pair of different cards or lines, of the library and of the emulator."""
+        for library, emulator in zip(self.library, self.emulator, strict=True):
+            length = max(len(library), len(emulator))
+            padded = [(*side, *[""] * (length - len(side))) for side in (library, emulator)]
+            yield from ((a, b) for a, b in zip(*padded, strict=True) if a != b)
+
+
+@cache
+def library() -> tuple[str, ...]:
+    """Return the cards of the object deck.  Raise Unavailable if it, or a simulator that can run it, is missing.
+
+    Before 2015 the simulator's compare instruction set the overflow indicator, which the library's addition tests.
+    """
+    cards = tuple(object_deck())
+    punched = run(_complete(compile_deck(deck_from_lines("probe.f", _PROBE)), cards)).punched
+    if [card[:14] for card in punched] != [" .32000000E+02"]:
+        raise Unavailable("this simulator subtracts 3. from 35. wrongly; install SIMH of 2015 or later, and set I1620")
+    return cards
+
+
+def _complete(program: Program, cards: Sequence[str], core: int = 20_000) -> list[str]:
+    return with_library(object_cards(program, core), cards, "OBJECT_DECK")
+
+
+def execute(program: Program, cards: Sequence[str], starts: int = 0) -> Run:
+    """Run the object deck of a program with data cards.  Raise Failed, Unavailable or EmulatorError."""
+    return run(_complete(program, library(), CORE), core=CORE, cards=cards, starts=starts, seconds=SECONDS)
+
+
+def punched(result: Run) -> tuple[str, ...]:
+    """Return the punched cards without their numbers."""
+    return tuple(card[:COLUMNS].rstrip() for card in result.punched)
+
+
+def compare(name: str, program: Program, deck: Deck) -> Comparison:
+    """Run a program on IBM's library and on the emulator with the arithmetic ``ibm1962``."""
+    result = Machine(program, deck, OPTIONS).run()
+    pauses = sum(instruction.operation == PAUSE for instruction in program.code)
+    try:
+        executed = execute(program, [card.text for card in deck.cards], pauses)
+    except Failed as error:
+        return Comparison(name, error=str(error))
+    lines = tuple(line.rstrip() for line in executed.typed)
+    typed = tuple(line.rstrip() for line in result.typed if line.strip())
+    return Comparison(name, (punched(executed), lines), (tuple(card.rstrip() for card in result.punched), typed))
+
+
+def subjects() -> Iterator[tuple[str, Program, Deck]]:
+    """Yield the programs of the repository that end without an operator, each with an input deck."""
+    decks = {f"example {example}": input_deck(example) for example in EXAMPLES}
+    decks |= {path.name: read_deck(str(path)) for path in sorted(Path(COUNTEREXAMPLES).glob("*.deck"))}
+    for first in ("program1_examples", "program1"):
+        for title, deck in decks.items():
+            for step in run_hull(deck, programs.program, OPTIONS, first).steps:
+                # Program 3 does not end if its table of planes is too short (KNOWN-FAULTS).
+                if step.result.ending.kind == "limit":
+                    continue
+                yield f"{title}, {step.name} after {first}", step.program, step.deck
+    for path in sorted(path for folder in FOLDERS for path in Path(folder).glob("*.f")):
+        deck = path.with_suffix(".deck")
+        program = compile_deck(read_deck(str(path), capitals))
+        if deck.exists() or not program.uses("READ", "ACCEPT"):
+            yield path.name, program, read_deck(str(deck)) if deck.exists() else Deck("no deck", ())
+
+
+def against_deck(source: Program, cards: Sequence[str]) -> tuple[int, int, int]:
+    """Compare a program's object code and symbol table with the program in IBM's object deck.
+
+    Return the number of positions, the number of them that differ, and the number of cards of the table that differ.
+    """
+    made = generate(source, 20_000)
+    # The loader fills core storage, and the simulator then executes a halt.
+    core = run(
+        cards, start=_HALT_AT, stored={_HALT_AT: [4, 8, *[0] * 10]}, examine=[(OBJECT_PROGRAM, made.end - 1)]
+    ).core
+    different = sum(
+        card_text([core[unit.at + offset]]) != digit for unit in made.units for offset, digit in enumerate(unit.digits)
+    )
+    mine = object_cards(source, 20_000)
+    table = mine[mine.index(END_OF_CODE) + 1 :]
+    first = next(index for index, card in enumerate(cards) if card.startswith(END_OF_CODE)) + 1
+    pairs = zip(table, cards[first : first + len(table)], strict=True)
+    return made.end - OBJECT_PROGRAM, different, sum(card != other[:COLUMNS].rstrip() for card, other in pairs)
