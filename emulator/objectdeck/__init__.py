@@ -1,9 +1,9 @@
 """Object programs of a real 1620: the code that IBM's compiler of 1962 punched, for IBM's library of subroutines.
 
-``digits.py`` writes digits with flags, ``library.py`` names the entry points of the library's arithmetic,
-``addresses.py`` translates operands and subscripts, ``generator.py`` translates a program, ``extent.py`` measures it,
-and ``cards.py`` punches the object deck.  ``square_root.py`` is a routine of this project for a function that the
+``digits.py`` writes digits with flags and names the entry points of the library's arithmetic, ``addresses.py``
+translates operands and subscripts, ``generator.py`` translates a program, ``extent.py`` measures it, and ``cards.py``
+punches the object deck.  ``square_root.py`` is a routine of this project for a function that the
 library lacks.  The rules come from the only known object deck of IBM's compiler (docs/reference/object-decks.md).
 
-To add a library function: write its routine as ``square_root.py`` does, and add it to ``ROUTINES`` in ``library.py``.
+To add a library function: write its routine as ``square_root.py`` does, and add it to ``ROUTINES`` in ``generator.py``.
 """

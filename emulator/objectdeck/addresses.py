@@ -12,7 +12,6 @@ from emulator.language.objectcode import Program, Subscript
 from emulator.language.storage import FIELD, core_address
 from emulator.objectdeck import digits as d
 from emulator.objectdeck.digits import address
-from emulator.objectdeck.library import PRODUCT
 
 _INSTRUCTION = 12
 
@@ -78,15 +77,15 @@ class Addresses:
         if part.v2 >= 0:
             code = self._product(part.v2, part.rows * part.c2)
             if part.v1 >= 0 and part.c1 == 1:
-                return [(code + d.ADD + f"{PRODUCT:05d}" + address(self.units(part.v1)), PRODUCT)]
-            steps.append((code, PRODUCT))
+                return [(code + d.ADD + f"{d.PRODUCT:05d}" + address(self.units(part.v1)), d.PRODUCT)]
+            steps.append((code, d.PRODUCT))
         if part.v1 >= 0 and part.c1 == 1:
             steps.append(("", self.units(part.v1)))
         elif part.v1 >= 0:
-            steps.append((self._product(part.v1, part.c1), PRODUCT))
+            steps.append((self._product(part.v1, part.c1), d.PRODUCT))
         return steps
 
     def _product(self, variable: int, factor: int) -> str:
         """Return code that leaves the product of a variable and a constant as a field of four digits."""
         multiply = d.MULTIPLY_IMMEDIATE + address(self.units(variable)) + d.wide_immediate(factor)
-        return multiply + d.SET_FLAG + f"{PRODUCT - 3:05d}" + d.NONE
+        return multiply + d.SET_FLAG + f"{d.PRODUCT - 3:05d}" + d.NONE

@@ -1,12 +1,16 @@
-"""Digits of core storage in the code of the cards, with flags, and the instructions of the 1620 made of them.
+"""Digits of core storage in the code of the cards, instructions of the 1620, and entry points of IBM's arithmetic.
 
 One character stands for one position of core storage: ``0`` to ``9``, ``]`` for a zero with a flag, ``J`` to ``R`` for
 1 to 9 with a flag, and ``|`` for a record mark.  An instruction has twelve digits: two of operation code, five of
 address P and five of address Q.  An immediate instruction takes the digits of Q themselves as its second operand.
+
+A call transmits the address of its operand to the position before the entry.  Arithmetic works with the accumulator in
+positions 51 to 60: a floating-point number fills it, a fixed-point number takes its last four digits.
 """
 
 from collections.abc import Iterable
 
+from emulator.language import objectcode as op
 from emulator.language.ibm1962 import FLAG, character_code, digits
 
 PLAIN, FLAGGED = "0123456789|", "]JKLMNOPQR"
@@ -23,6 +27,36 @@ CALL_IMMEDIATE, CALL = "J7", "K7"
 # Indicators, as the Q address of a branch.
 HIGH, EQUAL, HIGH_OR_EQUAL = "01100", "01200", "01300"
 NONE = "00000"
+
+# The units positions of the accumulator's mantissa and of the whole accumulator.
+MANTISSA, ACCUMULATOR = 58, 60
+# The units position of a product, whose digits begin at position 80.
+PRODUCT = 99
+
+# Entries that the compiler punched without a flag.
+PLAIN_ENTRIES = {op.TOFAC: 1238, op.TOFIX: 1238, op.FMFAC: 1306, op.FMFIX: 1306, op.SEND: 1238, op.TRANSMIT: 1306}
+# Fixed-point entries are those of the deck.  The entries of floating point were found in the library's code.
+ENTRIES = {
+    op.XAD: 2644,
+    op.XSB: 2700,
+    op.XSBR: 2700,
+    op.XMP: 2748,
+    op.XDV: 2876,
+    op.XDVR: 2816,
+    op.FAD: 518,
+    op.FSB: 408,
+    op.FSBR: 408,
+    op.FMP: 1378,
+    op.FDV: 1862,
+    op.FDVR: 1756,
+    op.POWERX: 3670,
+}
+# Calls without an operand: reversal of sign, conversion to floating and to fixed point.
+REVERSE_SIGN = 2546
+CALLS = {op.RSGN: REVERSE_SIGN, op.RSGX: REVERSE_SIGN, op.FLOAT: 3222, op.FIX: 3494}
+
+# The last item of a list sets this field of two digits to zero.
+MORE_ITEMS = 5365
 
 
 def flagged(digits: str) -> str:

@@ -7,17 +7,21 @@ statement goes to the field of its number, which holds another branch.  The obje
 from dataclasses import dataclass, field
 
 from emulator.language import objectcode as op
+from emulator.language.expressions import LIBRARY
 from emulator.language.ibm1962 import ITEM, LAST_ITEM, VERBS, format_positions
 from emulator.language.objectcode import Instruction, Program
 from emulator.language.storage import CORES, OBJECT_PROGRAM
 from emulator.objectdeck import digits as d
-from emulator.objectdeck import library
 from emulator.objectdeck.addresses import Addresses
 from emulator.objectdeck.digits import address
+from emulator.objectdeck.square_root import square_root
 
 # Conditions of the code that tests a DO: it is repeated while the variable does not exceed the limit.
 _NOT_HIGH = "011" + d.RECORD_MARK + "0"
 _POSITION = "00060"
+
+# Routines of this project for functions that the library lacks.  Each is given the position of its first instruction.
+ROUTINES = {"SQRT": square_root}
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,11 +93,11 @@ class _Generator:
         functions = {}
         used = sorted({program.functions[i.address] for i in program.code if i.operation == op.FUNCTION})
         for name in used:
-            if name in library.ROUTINES:
+            if name in ROUTINES:
                 functions[name] = self.at
-                self._put(library.ROUTINES[name](self.at))
+                self._put(ROUTINES[name](self.at))
         powers = ["A**B"] if any(i.operation == op.POWER for i in program.code) else []
-        missing = tuple(name for name in used if name not in library.ROUTINES) + tuple(powers)
+        missing = tuple(name for name in used if name not in ROUTINES) + tuple(powers)
         return ObjectProgram(tuple(self.units), self.labels, functions, missing, self.at)
 
     def _put(self, digits: str) -> None:
@@ -165,18 +169,18 @@ class _Generator:
     def _code(self, instruction: Instruction, pc: int) -> str:
         """Return the code of one instruction of the emulator's object code."""
         operation = instruction.operation
-        if operation in library.PLAIN_ENTRIES:
-            return self._call(f"{library.PLAIN_ENTRIES[operation]:05d}", instruction)
-        if operation in library.ENTRIES:
-            code = self._call(address(library.ENTRIES[operation]), instruction)
+        if operation in d.PLAIN_ENTRIES:
+            return self._call(f"{d.PLAIN_ENTRIES[operation]:05d}", instruction)
+        if operation in d.ENTRIES:
+            code = self._call(address(d.ENTRIES[operation]), instruction)
             reversed_sign = operation in (op.FSBR, op.XSBR)
-            return code + (self._bare_call(library.REVERSE_SIGN) if reversed_sign else "")
-        if operation in library.CALLS:
-            return self._bare_call(library.CALLS[operation])
+            return code + (self._bare_call(d.REVERSE_SIGN) if reversed_sign else "")
+        if operation in d.CALLS:
+            return self._bare_call(d.CALLS[operation])
         match operation:
             case op.FUNCTION:
-                entry = library.function_entry(self.program.functions[instruction.address], self.addresses.core)
-                return d.CALL_IMMEDIATE + address(entry) + address(library.ACCUMULATOR)
+                entry = _function_entry(self.program.functions[instruction.address], self.addresses.core)
+                return d.CALL_IMMEDIATE + address(entry) + address(d.ACCUMULATOR)
             case op.BRANCH:
                 return d.BRANCH + self._targets(instruction.address)[0]
             case op.IF | op.IFX:
@@ -217,7 +221,7 @@ class _Generator:
 
     def _test(self, instruction: Instruction) -> str:
         negative, zero, positive = self._targets(instruction.address)
-        units = library.MANTISSA if instruction.operation == op.IF else library.ACCUMULATOR
+        units = d.MANTISSA if instruction.operation == op.IF else d.ACCUMULATOR
         compare = f"{d.COMPARE_IMMEDIATE}{units:05d}{d.immediate(0)}"
         to_zero = d.BRANCH_INDICATOR + zero + d.EQUAL
         return compare + to_zero + d.BRANCH_INDICATOR + positive + d.HIGH + d.BRANCH + negative
@@ -232,8 +236,8 @@ class _Generator:
         return (
             d.MULTIPLY_IMMEDIATE + selector + "000]M"
             + d.SET_FLAG + "00095" + d.NONE
-            + d.ADD_IMMEDIATE + f"{library.PRODUCT:05d}" + address(table + 4 * len(targets) + 3)
-            + d.TRANSMIT_FIELD + address(branch - 1) + f"{library.PRODUCT:05d}"
+            + d.ADD_IMMEDIATE + f"{d.PRODUCT:05d}" + address(table + 4 * len(targets) + 3)
+            + d.TRANSMIT_FIELD + address(branch - 1) + f"{d.PRODUCT:05d}"
             + d.TRANSMIT_FIELD + address(branch + 5) + d.NONE
             + d.BRANCH + d.NONE + d.RECORD_MARK
             + "".join(target[:4] for target in reversed(targets))
@@ -261,7 +265,7 @@ class _Generator:
             text += self._next_value(d.ADD_IMMEDIATE, d.ADD, step)
             text += self._next_value(d.COMPARE_IMMEDIATE, d.COMPARE, limit)
             text += d.BRANCH_NO_INDICATOR + address(past) + d.HIGH
-        return text + d.TRANSMIT_FIELD_IMMEDIATE + f"{library.MORE_ITEMS:05d}" + "000]0"
+        return text + d.TRANSMIT_FIELD_IMMEDIATE + f"{d.MORE_ITEMS:05d}" + "000]0"
 
     def _next_value(self, immediate: str, direct: str, bound: int) -> str:
         """Return an instruction on a copy of a loop's variable in the accumulator."""
@@ -269,6 +273,11 @@ class _Generator:
             return direct + _POSITION + address(self.addresses.units(bound))
         value = int(self.program.storage.immediates[bound - self.program.storage.fields][1])
         return immediate + _POSITION + d.immediate(value)
+
+
+def _function_entry(name: str, core: int) -> int:
+    """Return the position of the branch to a function: the first digit of the function's field above the data."""
+    return core - 20 * LIBRARY.index(name) - 10
 
 
 def _loops_closed_by_lists(program: Program) -> dict[int, tuple[int, ...]]:

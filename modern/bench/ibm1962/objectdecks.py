@@ -112,10 +112,12 @@ def subjects() -> Iterator[tuple[str, Program, Deck]]:
                     continue
                 yield f"{title}, {step.name} after {first}", step.program, step.deck
     for path in sorted(path for folder in FOLDERS for path in Path(folder).glob("*.f")):
-        deck = path.with_suffix(".deck")
+        data = path.with_suffix(".deck")
         program = compile_deck(read_deck(str(path), capitals))
-        if deck.exists() or not program.uses("READ", "ACCEPT"):
-            yield path.name, program, read_deck(str(deck)) if deck.exists() else Deck("no deck", ())
+        if path.with_suffix(".operator").exists():
+            continue
+        if data.exists() or not program.uses("READ"):
+            yield path.name, program, read_deck(str(data)) if data.exists() else Deck("no deck", ())
 
 
 def against_deck(source: Program, cards: Sequence[str]) -> tuple[int, int, int]:
@@ -135,4 +137,4 @@ def against_deck(source: Program, cards: Sequence[str]) -> tuple[int, int, int]:
     table = mine[mine.index(END_OF_CODE) + 1 :]
     first = next(index for index, card in enumerate(cards) if card.startswith(END_OF_CODE)) + 1
     pairs = zip(table, cards[first : first + len(table)], strict=True)
-    return made.end - OBJECT_PROGRAM, different, sum(card != other[:COLUMNS].rstrip() for card, other in pairs)
+    return made.end - OBJECT_PROGRAM, different, sum(card != of_deck[:COLUMNS].rstrip() for card, of_deck in pairs)
