@@ -1,7 +1,7 @@
 """Chapter 6 on IBM's library: every card that the programs punch is compared with the print.
 
 The programs are those that produced the examples.  Programs 2 and 3 read the cards that program 1 has punched on the
-library.  The verdicts are kept in ``transcripts/ibm1962``, with the means to verify them.
+library.  The verdicts are kept in ``docs/ibm1962``, with the means to verify them.
 """
 
 import csv
@@ -21,7 +21,7 @@ from modern.bench.ibm1962.simulator import Failed, simulator
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, Print, input_deck, prints
 
-FOLDER = "transcripts/ibm1962"
+FOLDER = "docs/ibm1962"
 NAMES = ("program1_examples", "program2", "program3")
 SAME, DIFFERENT = "same", "different"
 
