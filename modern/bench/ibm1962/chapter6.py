@@ -36,9 +36,9 @@ class CardVerdict:
     verdict: str
 
 
-def verdicts() -> Iterator[CardVerdict]:
-    """Run the examples and yield the verdict on each printed card."""
-    for example in EXAMPLES:
+def verdicts(examples: Sequence[int] = EXAMPLES) -> Iterator[CardVerdict]:
+    """Run examples and yield the verdict on each printed card."""
+    for example in examples:
         for printed in prints(example):
             if printed.device == "punch":
                 cards = _cards(example, NAMES[printed.program - 1])
