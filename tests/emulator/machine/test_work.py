@@ -48,8 +48,8 @@ def test_plain_programs_count_statements_passes_numbers_and_lines(arithmetic: st
 COSTLY = [
     ("truncating", "B=SIN(A)", 1, 4),
     ("truncating", "B=A**.3", 5, 8),
-    ("truncating", "B=A**9999", 300, 600),
-    ("truncating:28", "B=A**9999", 2_000, 5_000),
+    ("truncating", "B=A**9999", 0, 0),
+    ("truncating:28", "B=A**9999", 0, 0),
     ("ibm1962", "B=A**9999", 140, 160),
     ("truncating", "B=A" + "*A" * 199, 4, 6),
     ("float64", "B=A**9999", 0, 0),
