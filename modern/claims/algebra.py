@@ -1,0 +1,247 @@
+"""Exact polynomials and sign certificates: the calculus in which the proofs of theorems are checked.
+
+A :class:`Step` of a proof says that a polynomial has a sign if other polynomials have stated signs.  Its certificate is
+an identity::
+
+    multiplier * conclusion = sum of terms
+
+The multiplier is a product of positive hypotheses.  Each term is a product of hypotheses with a positive number, with
+a square, or, if one of the hypotheses is an equation, with any polynomial.  Expanding both sides therefore proves the
+step for all real numbers.  The sentences that connect the steps are not checked by computation.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+from itertools import product
+from operator import mul
+from random import Random
+from typing import Literal, TypeAlias
+
+Relation: TypeAlias = Literal[">", ">=", "="]
+Monomial: TypeAlias = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Polynomial:
+    """A polynomial with integer coefficients; ``terms`` maps the sorted variables of a monomial to its coefficient."""
+
+    terms: Mapping[Monomial, int]
+
+    def __add__(self, other: Polynomial | int) -> Polynomial:
+        total = defaultdict(int, self.terms)
+        for monomial, coefficient in polynomial(other).terms.items():
+            total[monomial] += coefficient
+        return Polynomial({monomial: c for monomial, c in total.items() if c})
+
+    def __mul__(self, other: Polynomial | int) -> Polynomial:
+        total: dict[Monomial, int] = defaultdict(int)
+        for (m, c), (n, d) in product(self.terms.items(), polynomial(other).terms.items()):
+            total[tuple(sorted(m + n))] += c * d
+        return Polynomial({monomial: c for monomial, c in total.items() if c})
+
+    def __neg__(self) -> Polynomial:
+        return self * -1
+
+    def __sub__(self, other: Polynomial | int) -> Polynomial:
+        return self + -polynomial(other)
+
+    def __rsub__(self, other: int) -> Polynomial:
+        return polynomial(other) - self
+
+    __radd__ = __add__
+    __rmul__ = __mul__
+
+    def at(self, values: Mapping[str, int]) -> int:
+        return sum(c * reduce(mul, (values[name] for name in m), 1) for m, c in self.terms.items())
+
+    def variables(self) -> set[str]:
+        return {name for monomial in self.terms for name in monomial}
+
+
+Point: TypeAlias = tuple[Polynomial, ...]
+
+
+def polynomial(value: Polynomial | int) -> Polynomial:
+    return value if isinstance(value, Polynomial) else Polynomial({(): value} if value else {})
+
+
+def variables(names: str) -> tuple[Polynomial, ...]:
+    return tuple(Polynomial({(name,): 1}) for name in names.split())
+
+
+def point(name: str, dimension: int) -> Point:
+    """Return a point with variable coordinates, for example ``a_x`` and ``a_y``."""
+    return variables(" ".join(f"{name}_{axis}" for axis in "xyz"[:dimension]))
+
+
+def total(values: Iterable[Polynomial]) -> Polynomial:
+    return sum(values, polynomial(0))
+
+
+def dot(u: Sequence[Polynomial], v: Sequence[Polynomial]) -> Polynomial:
+    return total(a * b for a, b in zip(u, v, strict=True))
+
+
+def minus(p: Point, q: Point) -> Point:
+    return tuple(a - b for a, b in zip(p, q, strict=True))
+
+
+def turn(u: Point, v: Point) -> Polynomial:
+    """Return the product of the lengths and the sine of the angle from u to v in the plane."""
+    return u[0] * v[1] - u[1] * v[0]
+
+
+def bracket(a: Point, b: Point, c: Point) -> Polynomial:
+    """Return twice the signed area of a triangle in the plane; positive if c is to the left of the way from a to b."""
+    return turn(minus(b, a), minus(c, a))
+
+
+@dataclass(frozen=True, slots=True)
+class Sign:
+    """A polynomial that is positive, not negative, or zero."""
+
+    value: Polynomial
+    relation: Relation
+
+    def holds_at(self, values: Mapping[str, int]) -> bool:
+        number = self.value.at(values)
+        return number > 0 if self.relation == ">" else number >= 0 if self.relation == ">=" else number == 0
+
+
+def positive(value: Polynomial) -> Sign:
+    return Sign(value, ">")
+
+
+def not_negative(value: Polynomial) -> Sign:
+    return Sign(value, ">=")
+
+
+def zero(value: Polynomial | int) -> Sign:
+    return Sign(polynomial(value), "=")
+
+
+IMPOSSIBLE = positive(polynomial(0))
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A product of hypotheses, given by name, with a factor that is squared unless one of them is an equation."""
+
+    names: tuple[str, ...]
+    factor: Polynomial
+
+
+def term(names: str, factor: Polynomial | int = 1) -> Term:
+    return Term(tuple(names.split()), polynomial(factor))
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A step of a proof: the hypotheses by name, the conclusion, and the certificate (see the module)."""
+
+    says: str
+    hypotheses: Mapping[str, Sign]
+    conclusion: Sign
+    terms: tuple[Term, ...] = ()
+    multiplier: tuple[str, ...] = ()
+
+    def is_valid(self) -> bool:
+        """Return True if the certificate proves that the conclusion follows from the hypotheses."""
+        names = {*self.multiplier, *(name for t in self.terms for name in t.names)}
+        if not names <= self.hypotheses.keys() or any(self.hypotheses[n].relation != ">" for n in self.multiplier):
+            return False
+        total = -self._product(self.multiplier) * self.conclusion.value
+        relations: list[Relation] = []
+        for t in self.terms:
+            used: set[Relation] = {self.hypotheses[name].relation for name in t.names}
+            is_nonzero = t.factor.terms.keys() == {()}
+            relations.append("=" if "=" in used else ">" if is_nonzero and ">=" not in used else ">=")
+            total += self._product(t.names) * (t.factor if "=" in used else t.factor * t.factor)
+        # A sum of terms is positive if one term is, and zero only if all terms are equations.
+        proved: Relation = ">" if ">" in relations else ">=" if ">=" in relations else "="
+        follows = {">": (">",), ">=": (">", ">=", "="), "=": ("=",)}[self.conclusion.relation]
+        return not total.terms and proved in follows
+
+    def _product(self, names: Sequence[str]) -> Polynomial:
+        return reduce(mul, (self.hypotheses[name].value for name in names), polynomial(1))
+
+    def refuting_values(self, seed: int, tries: int = 20000) -> Mapping[str, int] | None:
+        """Search small integers at which all hypotheses hold and the conclusion does not."""
+        random = Random(seed)
+        signs = (*self.hypotheses.values(), self.conclusion)
+        names = sorted(set[str]().union(*(sign.value.variables() for sign in signs)))
+        for _ in range(tries):
+            values = {name: random.choice((-2, -1, -1, 0, 0, 0, 1, 1, 2)) for name in names}
+            if not self.conclusion.holds_at(values) and all(s.holds_at(values) for s in self.hypotheses.values()):
+                return values
+        return None
+
+    def alterations(self) -> Iterator[tuple[str, Step]]:
+        """Yield altered statements: without a hypothesis that is used, and with the opposite conclusion."""
+        for name in sorted({*self.multiplier, *(n for t in self.terms for n in t.names)}):
+            rest = {key: sign for key, sign in self.hypotheses.items() if key != name}
+            yield f"without {name}", replace(self, hypotheses=rest)
+        if self.conclusion.value.terms:
+            opposite = Sign(-self.conclusion.value - (self.conclusion.relation == "="), ">")
+            yield "opposite conclusion", replace(self, conclusion=opposite)
+
+
+@dataclass(frozen=True, slots=True)
+class Proof:
+    """A theorem in our words, the argument that connects the steps, and the steps."""
+
+    theorem: str
+    argument: str
+    steps: tuple[Step, ...]
+
+
+def largest_value() -> Step:
+    """Return the step that a largest value of a linear function L is attained only by combinations of such points.
+
+    The weights may have any positive sum.  More than two points are combined one after the other.
+    """
+    w, w_p, w_q, l_x, l_p, l_q = variables("w w_p w_q L_x L_p L_q")
+    return Step(
+        "a largest value is no combination of two values of which one is smaller",
+        {
+            "p": positive(l_x - l_p),
+            "q": not_negative(l_x - l_q),
+            "w_p": positive(w_p),
+            "w_q": not_negative(w_q),
+            "total": zero(w_p + w_q - w),
+            "combined": zero(w * l_x - w_p * l_p - w_q * l_q),
+        },
+        IMPOSSIBLE,
+        (term("w_p p"), term("w_q q"), term("total", -l_x), term("combined", -1)),
+    )
+
+
+def combination_satisfies() -> tuple[Step, ...]:
+    """Return the steps that a linear inequality holds between two points where it holds; L is linear."""
+    p, q = point("p", 3), point("q", 3)
+    slope = variables("L_1 L_2 L_3")
+    level, share, l_p, l_q = variables("L_0 lambda L_p L_q")
+    mixed = tuple((1 - share) * a + share * b for a, b in zip(p, q, strict=True))
+    values = [dot(slope, x) + level for x in (p, q, mixed)]
+    return (
+        Step(
+            "L of a combination is the combination of L",
+            {},
+            zero(values[2] - (1 - share) * values[0] - share * values[1]),
+        ),
+        Step(
+            "a combination of values that are not positive is not positive",
+            {
+                "p": not_negative(-l_p),
+                "q": not_negative(-l_q),
+                "share": not_negative(share),
+                "rest": not_negative(1 - share),
+            },
+            not_negative(-(1 - share) * l_p - share * l_q),
+            (term("rest p"), term("share q")),
+        ),
+    )

@@ -1,0 +1,127 @@
+"""Proofs by exact instances of theorems 4.1, 4.2 and 4.8 of the thesis, which say that something exists."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import combinations, product
+
+from modern.claims.invariants import is_sphere
+from modern.claims.thesis.chapter4_examples import ADDED, theorem_of
+from modern.edition.chapter4 import Point
+from modern.exact_hull import exact_hull
+from modern.geometry.vectors import cross, dot, minus
+from modern.port import convex_hull
+
+# An extreme is a coordinate and the sign of the side: (0, 1) is the largest x.
+Extreme = tuple[int, int]
+EXTREMES: tuple[Extreme, ...] = tuple(product(range(3), (1, -1)))
+Lattice = tuple[int, int, int]
+# The coordinates of the points of theorem 4.1 are from -SIDE to SIDE, and only extreme points reach these.
+SIDE = 4
+# Planes A x + B y + C z = D that together contain points for every way in which the extremes can coincide.
+PLANES: tuple[tuple[Lattice, int], ...] = (
+    *(((1, b, c), -2) for b, c in ((1, -1), (1, 1))),
+    *((normal, 0) for normal in ((1, -2, -2), (1, -2, 2), (0, 1, -1), (0, 1, 1), (1, -1, 0), (1, 1, 0))),
+    *(((1, 0, c), 0) for c in (-1, 1)),
+    *((normal, d) for normal in ((2, -3, -2), (2, -3, 2), (2, -2, -3), (2, -2, 3)) for d in (4, -4)),
+)
+
+
+def coincidences(extremes: Sequence[Extreme] = EXTREMES) -> Iterator[tuple[frozenset[Extreme], ...]]:
+    """Yield the ways to divide the extremes among points.
+
+    No point has both extremes of a coordinate: all points of the set would have the same coordinate.
+    """
+    if not extremes:
+        yield ()
+        return
+    first, *rest = extremes
+    for division in coincidences(rest):
+        yield (frozenset([first]), *division)
+        for k, block in enumerate(division):
+            if (first[0], -first[1]) not in block:
+                yield (*division[:k], block | {first}, *division[k + 1 :])
+
+
+def _lattice(side: int) -> list[Lattice]:
+    numbers = range(-side, side + 1)
+    return [(x, y, z) for x in numbers for y in numbers for z in numbers]
+
+
+def coplanar_extremes() -> Iterator[bool]:
+    """Yield for each way to coincide whether a set that is not coplanar has exactly these extremes in a plane."""
+    on_planes: list[dict[frozenset[Extreme], Lattice]] = [
+        {_extremes_of(p): p for p in _lattice(SIDE) if dot(normal, p) == d} for normal, d in PLANES
+    ]
+    # The points of this cube are not coplanar and never extreme.
+    cube = _lattice(1)
+    for division in coincidences():
+        possible = [plane for plane in on_planes if {*division} <= {*plane}]
+        points = [possible[0][block] for block in division]
+        attained = {
+            (k, sign): [p for p in (*points, *cube) if sign * p[k] == max(sign * q[k] for q in points)]
+            for k, sign in EXTREMES
+        }
+        yield all(attained[e] == [p] for block, p in zip(division, points, strict=True) for e in block)
+
+
+def _extremes_of(p: Lattice) -> frozenset[Extreme]:
+    return frozenset((k, 1 if c > 0 else -1) for k, c in enumerate(p) if abs(c) == SIDE)
+
+
+def table_1() -> Iterator[bool]:
+    """Yield the facts that Table 1 of theorem 4.2 describes a polyhedron on six extremes that is not convex."""
+    theorem = theorem_of("4.2")
+    # The coordinates are multiples of 1/4.
+    at: dict[str, Lattice] = {p.name: tuple(int(4 * c) for c in p.at) for p in theorem.points}  # type: ignore[misc]
+    for label, name in theorem.extremes.items():
+        axis, sign = "xyz".index(label[1]), 1 if label[0] == "l" else -1
+        yield all(sign * at[name][axis] >= sign * p[axis] for p in at.values())
+    faces = [plane.vertices for plane in theorem.planes]
+    # Each side of a triangle belongs to one other triangle, and Euler's formula holds: the surface is a sphere.
+    yield is_sphere(faces) and {name for face in faces for name in face} == {*at}
+    yield all(plane.at(p) == 0 for plane in theorem.planes for p in theorem.points if p.name in plane.vertices)
+    # Two triangles have only their common corners in common.
+    yield from (_are_separate(a, b, at) for a, b in combinations(faces, 2))
+    # Faces 7 and 8 have corners of the polyhedron on both sides.
+    signs = [{plane.at(p) > 0 for p in theorem.points if plane.at(p)} for plane in theorem.planes]
+    yield sum(len(sides_of_face) == 2 for sides_of_face in signs) == 2
+
+
+def _are_separate(first: Sequence[str], second: Sequence[str], at: Mapping[str, Lattice]) -> bool:
+    """Return True if two triangles have only their common corners in common.
+
+    Two triangles with a common side must not be coplanar.  Otherwise some linear function must have a value that the
+    triangles attain at most at their common corner and that separates their other corners.
+    """
+    shared = {*first} & {*second}
+    rest = [[at[name] for name in face if name not in shared] for face in (first, second)]
+    if len(shared) == 2:
+        p, q = (at[name] for name in sorted(shared))
+        return dot(cross(minus(q, p), minus(rest[0][0], p)), minus(rest[1][0], p)) != 0
+    for normal in _lattice(2):
+        above, below = (sorted(dot(normal, p) for p in points) for points in rest)
+        between = [dot(normal, at[name]) for name in shared]
+        if below[-1] < above[0] and all(below[-1] < value < above[0] for value in between):
+            return True
+    return False
+
+
+def outside_several_planes() -> Iterator[bool]:
+    """Yield the facts of theorem 4.8: the procedure makes H_5, and the last point is outside six of its planes."""
+    theorem = theorem_of("4.8")
+    points = [point.at for point in theorem.points]
+    hull = convex_hull(points, history=True)
+    used = [k for stage in hull.history for k in stage.added]
+    yield [theorem.points[k].name for k in used[8:]] == ["Q9"]
+    yield {theorem.points[k].name for k in used[:8]} == {*ADDED}
+    # The exact hull of the first eight points, without the procedure.
+    judge = exact_hull([[*points[k]] for k in used[:8]])
+    planes = [judge.plane_of(facet) for facet in judge.facets]
+    yield len(judge.vertices) == 8
+    yield sum(_value(plane, theorem.points[used[8]]) > 0 for plane in planes) == 6
+
+
+def _value(plane: Sequence[int | Fraction], p: Point) -> Fraction:
+    return sum((Fraction(a) * x for a, x in zip(plane, (*p.at, Fraction(1)), strict=True)), Fraction(0))

@@ -1,0 +1,311 @@
+"""Proofs of theorems 4.1 to 4.8 of the thesis.
+
+Each proof is an argument in sentences and the steps and exact instances that it rests on; :mod:`modern.claims.algebra`
+checks the steps.  Points of the plane are a, b, c, ...; [a, b, c] is positive if c is to the left of the way from a to
+b.  The vertices of an H_j are named counterclockwise, so that h is outside the line a b if [a, b, h] is negative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from modern.claims.algebra import (
+    IMPOSSIBLE,
+    Polynomial,
+    Proof,
+    Step,
+    Term,
+    bracket,
+    combination_satisfies,
+    dot,
+    largest_value,
+    minus,
+    not_negative,
+    point,
+    positive,
+    term,
+    total,
+    turn,
+    variables,
+    zero,
+)
+
+
+def theorem_4_3() -> Proof:
+    """Prove that V orders points by their distance d from the line through p and q: d^2 D^2 = V."""
+    p, q, x = point("p", 3), point("q", 3), point("x", 3)
+    (t,) = variables("t")
+    u, w = minus(q, p), minus(q, x)
+    (ux, uy, uz), (wx, wy, wz) = u, w
+    # Page 42: V, with the coordinates of the point in the differences from P2.
+    rows = (wy * uz - wz * uy, wz * ux - wx * uz, wx * uy - wy * ux)
+    v, square, along = dot(rows, rows), dot(u, u), dot(u, w)
+    to_line = tuple(a - t * b for a, b in zip(w, u, strict=True))
+    foot = along - t * square
+    d_k, d_j, v_k, v_j, dd = variables("d_k^2 d_j^2 V_k V_j D^2")
+    return Proof(
+        "V_k >= V_j implies that the point k is at least as far from the line as the point j",
+        "D^2 is positive because the points differ in a coordinate. The square of the distance of x from any point of "
+        "the line, times D^2, is at least V, and equals V at the foot of the perpendicular. So d^2 D^2 is V, and "
+        "dividing by D^2 keeps the order.",
+        (
+            *(
+                Step("D^2 > 0", {"differ": positive(a * a)}, positive(square), _sum("differ", (b, c)))
+                for a, b, c in ((ux, uy, uz), (uy, uz, ux), (uz, ux, uy))
+            ),
+            Step(
+                "no point is nearer than V / D^2",
+                {},
+                not_negative(square * dot(to_line, to_line) - v),
+                (term("", foot),),
+            ),
+            Step(
+                "the foot has the distance V / D^2",
+                {"foot": zero(foot)},
+                zero(square * dot(to_line, to_line) - v),
+                (term("foot", foot),),
+            ),
+            Step(
+                "the distances have the order of V",
+                {"k": zero(d_k * dd - v_k), "j": zero(d_j * dd - v_j), "V": not_negative(v_k - v_j), "D": positive(dd)},
+                not_negative(d_k - d_j),
+                (term("k"), term("j", -1), term("V")),
+                ("D",),
+            ),
+        ),
+    )
+
+
+def _sum(name: str, squares: tuple[Polynomial, ...]) -> tuple[Term, ...]:
+    return (term(name), *(term("", factor) for factor in squares))
+
+
+def theorem_4_4() -> Proof:
+    """Prove that a projection along an axis that is not parallel to the plane of the points keeps the vertices."""
+    k, a, b = point("k", 3), point("a", 3), point("b", 3)
+    normal = variables("A B C")
+    d, share = variables("D lambda")
+    f_k, f_a, f_b = (dot(normal, x) + d for x in (k, a, b))
+    mixed = tuple(z - (1 - share) * x - share * y for x, y, z in zip(a, b, k, strict=True))
+    apart = minus(a, b)
+    steps = []
+    for axis in range(3):
+        i, j = (n for n in range(3) if n != axis)
+        lost = normal[axis]
+        plane = {"tilted": positive(lost * lost), "a": zero(f_a), "b": zero(f_b)}
+        steps += [
+            Step(
+                "a combination in the projection is a combination in the plane",
+                {**plane, "k": zero(f_k), "first": zero(mixed[i]), "second": zero(mixed[j])},
+                zero(mixed[axis]),
+                (
+                    term("k", lost),
+                    term("a", lost * (share - 1)),
+                    term("b", -lost * share),
+                    term("first", -lost * normal[i]),
+                    term("second", -lost * normal[j]),
+                ),
+                ("tilted",),
+            ),
+            Step(
+                "points with the same projection are equal",
+                {**plane, "first": zero(apart[i]), "second": zero(apart[j])},
+                zero(apart[axis]),
+                (
+                    term("a", lost),
+                    term("b", -lost),
+                    term("first", -lost * normal[i]),
+                    term("second", -lost * normal[j]),
+                ),
+                ("tilted",),
+            ),
+        ]
+    return Proof(
+        "if the plane of the points is not parallel to an axis, leaving out that coordinate keeps the vertices",
+        "A vertex is a point that is not between two others of the hull. Leaving out a coordinate maps points between "
+        "others to points between others. Conversely, a point whose projection is between two others is between them, "
+        "and different points have different projections.",
+        tuple(steps),
+    )
+
+
+def theorem_4_6() -> Proof:
+    """Prove that A x + B y + C orders points on its positive side by their distance: d^2 (A^2 + B^2) = value^2."""
+    (x, y), (s, t) = point("p", 2), point("foot", 2)
+    a, b, c, v_m, v_j, d_m, d_j, square = variables("A B C v_m v_j d_m^2 d_j^2 A^2+B^2")
+    value, on_line = a * x + b * y + c, a * s + b * t + c
+    across = b * (x - s) - a * (y - t)
+    scaled = (a * a + b * b) * ((x - s) * (x - s) + (y - t) * (y - t)) - value * value
+    return Proof(
+        "on the positive side of a line, the larger value of its equation has the larger distance",
+        "For every point of the line the square of the distance times A^2 + B^2 is at least the square of the value, "
+        "and equal to it at the foot of the perpendicular. A^2 + B^2 is positive, and values that are not negative "
+        "have the order of their squares.",
+        (
+            Step(
+                "no point of the line is nearer",
+                {"line": zero(on_line)},
+                not_negative(scaled),
+                (term("", across), term("line", on_line - 2 * value)),
+            ),
+            Step(
+                "the foot of the perpendicular has this distance",
+                {"line": zero(on_line), "foot": zero(across)},
+                zero(scaled),
+                (term("foot", across), term("line", on_line - 2 * value)),
+            ),
+            Step(
+                "the distances have the order of the values",
+                {
+                    "m": zero(d_m * square - v_m * v_m),
+                    "j": zero(d_j * square - v_j * v_j),
+                    "order": not_negative(v_m - v_j),
+                    "v_j": not_negative(v_j),
+                    "square": positive(square),
+                },
+                not_negative(d_m - d_j),
+                (term("m"), term("j", -1), term("", v_m - v_j), term("order v_j"), term("order v_j")),
+                ("square",),
+            ),
+        ),
+    )
+
+
+def _boundary_steps() -> Iterator[Step]:
+    """Yield the steps that a point with the largest value of a linear function is inside no triangle of points."""
+    yield largest_value()
+    p, q, r = point("p", 2), point("q", 2), point("r", 2)
+    slope = variables("L_1 L_2")
+    (ux, uy), (vx, vy) = minus(q, p), minus(r, p)
+    equal = {"pq": zero(dot(slope, (ux, uy))), "pr": zero(dot(slope, (vx, vy)))}
+    for k, (of_q, of_r) in enumerate(((vy, -uy), (-vx, ux))):
+        yield Step(
+            "a linear function that is not constant has equal values only at collinear corners",
+            {**equal, "slope": positive(slope[k] * slope[k])},
+            zero(bracket(p, q, r)),
+            (term("pq", slope[k] * of_q), term("pr", slope[k] * of_r)),
+            ("slope",),
+        )
+
+
+def theorem_4_7() -> Proof:
+    """Prove that no point of a flat set is outside two lines of an H_j."""
+    a, b, c, d, h, v = (point(name, 2) for name in "abcdhv")
+    between = turn(minus(b, a), minus(d, c))
+    weights = -bracket(a, b, h), -bracket(c, a, h), bracket(c, a, b)
+    corners = (c, b, h)
+    inside = [total(weights) * a[k] - total(w * x[k] for w, x in zip(weights, corners, strict=True)) for k in (0, 1)]
+    (kappa,) = variables("kappa")
+    quadrilateral = {
+        "abc": positive(bracket(a, b, c)),
+        "bcd": positive(bracket(b, c, d)),
+        "ab": positive(-bracket(a, b, h)),
+        "cd": positive(-bracket(c, d, h)),
+    }
+    sum_of_three = (term("abc bcd"), term("bcd ab"), term("abc cd"))
+    return Proof(
+        "a point of the set is outside at most one line of an H_j",
+        "Every vertex of an H_j has the largest value of a linear function on the set: the first two are extremes, "
+        "and the others have the largest value of a line. So no vertex is inside a triangle of points of the set. Let "
+        "h be outside the lines c a and a b that meet at a: then a is inside the triangle c b h. Let h be outside a b "
+        "and c d, which do not meet. If b, c, d or a, b, c are collinear, the lines a b and b d, or a c and c d, are "
+        "the same lines and meet. Otherwise let the boundary turn by less than 180 degrees between them, or exchange "
+        "the two lines: then h is outside b c as well, and b is inside a triangle. If they are parallel, h cannot be "
+        "outside both. If two edges are on one line, the middle one of their ends is between the others, and its "
+        "linear function is a multiple of the line; then h and a vertex v on the other side cannot both have smaller "
+        "values.",
+        (
+            *_boundary_steps(),
+            *(Step("a is a combination of c, b and h", {}, zero(equation)) for equation in inside),
+            Step(
+                "its weights are positive, and so is the area of c h b",
+                {
+                    "cab": positive(bracket(c, a, b)),
+                    "ca": positive(-bracket(c, a, h)),
+                    "ab": positive(-bracket(a, b, h)),
+                },
+                positive(bracket(c, h, b)),
+                (term("cab"), term("ca"), term("ab")),
+            ),
+            Step(
+                "outside a b and c d is outside b c",
+                {**quadrilateral, "turn": positive(between)},
+                positive(-bracket(b, c, h)),
+                sum_of_three,
+                ("turn",),
+            ),
+            Step(
+                "no point is outside parallel lines",
+                {**quadrilateral, "turn": zero(between)},
+                IMPOSSIBLE,
+                (*sum_of_three, term("turn", bracket(b, c, h))),
+            ),
+            *(
+                Step(
+                    "a multiple of the line is larger on one of its sides",
+                    {
+                        "kappa": positive(sign * kappa),
+                        "side": positive(sign * bracket(a, b, v)),
+                        "largest": not_negative(-kappa * bracket(a, b, v)),
+                    },
+                    IMPOSSIBLE,
+                    (term("kappa side"), term("largest")),
+                )
+                for sign in (1, -1)
+            ),
+        ),
+    )
+
+
+def theorem_4_5() -> Proof:
+    """Prove that each H_j in the plane is the hull of its vertices."""
+    a, b, c, d, p, v, x = (point(name, 2) for name in "abcdpvx")
+    outer = positive(-bracket(a, b, p))
+    weights = bracket(p, b, x), bracket(a, p, x), -bracket(a, b, x)
+    area = -bracket(a, b, p)
+    return Proof(
+        "the points that satisfy all lines of H_j are the convex combinations of its vertices",
+        "Combinations satisfy the inequalities that their points satisfy. For H_1, a triangle, and for the triangle "
+        "a b p added to H_k, a point has the weights [p, b, x], [a, p, x] and -[a, b, x] with the sum -[a, b, p]. They "
+        "are not negative in the triangle. By theorem 4.7 p is outside a b alone, and c a b and a b d are not "
+        "collinear, so all vertices v of H_k satisfy the new lines a p and p b. Hence H_k+1 contains all combinations. "
+        "A point of H_k+1 satisfies a b, and then it is in H_k, or it does not, and then it is in the triangle.",
+        (
+            *combination_satisfies(),
+            *(
+                Step(
+                    "a point is a combination of a, b and p",
+                    {},
+                    zero(area * x[k] - total(w * y[k] for w, y in zip(weights, (a, b, p), strict=True))),
+                )
+                for k in (0, 1)
+            ),
+            Step("the weights add up to the area", {}, zero(area - total(weights))),
+            Step(
+                "a vertex satisfies the new line a p",
+                {
+                    "cab": positive(bracket(c, a, b)),
+                    "cap": not_negative(bracket(c, a, p)),
+                    "outer": outer,
+                    "cav": not_negative(bracket(c, a, v)),
+                    "abv": not_negative(bracket(a, b, v)),
+                },
+                not_negative(bracket(a, p, v)),
+                (term("cap abv"), term("outer cav")),
+                ("cab",),
+            ),
+            Step(
+                "a vertex satisfies the new line p b",
+                {
+                    "abd": positive(bracket(a, b, d)),
+                    "bdp": not_negative(bracket(b, d, p)),
+                    "outer": outer,
+                    "bdv": not_negative(bracket(b, d, v)),
+                    "abv": not_negative(bracket(a, b, v)),
+                },
+                not_negative(bracket(p, b, v)),
+                (term("bdp abv"), term("outer bdv")),
+                ("abd",),
+            ),
+        ),
+    )

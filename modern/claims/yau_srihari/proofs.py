@@ -1,0 +1,83 @@
+"""Proofs of theorems 1 and 2 of Yau and Srihari; :mod:`modern.claims.algebra` checks the steps."""
+
+from __future__ import annotations
+
+from modern.claims.algebra import (
+    Proof,
+    Step,
+    combination_satisfies,
+    dot,
+    not_negative,
+    point,
+    positive,
+    term,
+    turn,
+    variables,
+    zero,
+)
+
+
+def theorem_1() -> Proof:
+    """Prove that the points between the envelopes of the floor and of the ceiling are the Euclidean hull."""
+    low, high, z, m, z_1, z_2, floor_1, floor_2 = variables("low high z m z_1 z_2 floor_1 floor_2")
+    return Proof(
+        "the hull consists of the points on or above the convex envelope of the floor and on or below the concave "
+        "envelope of the ceiling",
+        "A point of the hull is a combination of points of S. Each of these is on or above the floor, so that the "
+        "combination is on or above the same combination of floor points, and the envelope is the smallest of these. "
+        "The ceiling is treated in the same way with the opposite sign. Conversely, the envelopes are attained by "
+        "combinations of points of S, since S is finite, and so both of their points over X are in the hull. A point "
+        "over X between them is a combination of these two.",
+        (
+            *combination_satisfies(),
+            Step(
+                "a combination of points on or above the floor is on or above that of the floor",
+                {
+                    "first": not_negative(z_1 - floor_1),
+                    "second": not_negative(z_2 - floor_2),
+                    "m": not_negative(m),
+                    "rest": not_negative(1 - m),
+                },
+                not_negative((1 - m) * z_1 + m * z_2 - (1 - m) * floor_1 - m * floor_2),
+                (term("rest first"), term("m second")),
+            ),
+            Step(
+                "a point between the envelopes is a combination of their points with the weights high - z and z - low",
+                {},
+                zero((high - low) * z - (high - z) * low - (z - low) * high),
+            ),
+            Step("the weights have the sum high - low", {}, zero((high - z) + (z - low) - (high - low))),
+        ),
+    )
+
+
+def theorem_2() -> Proof:
+    """Prove theorem 2 for the interior dihedral angle, which is 180 degrees minus the angle of the outward normals."""
+    f, u, w = point("f", 2), point("u", 2), point("w", 2)
+    # Cotangents decrease from 0 to 180 degrees; this is their difference times both positive denominators.
+    cotangents = dot(f, w) * turn(f, u) - dot(f, u) * turn(f, w)
+    outward_p, outward_q = (f[1], -f[0]), (-u[1], u[0])
+    return Proof(
+        "a plane through an edge of a face p supports if and only if its interior dihedral angle with p is the largest",
+        "Project along the edge, so that p becomes the ray f and all points are on one side of it. The interior "
+        "dihedral angle of the plane through u is the angle from f to u, and w is inside of that plane if w turns to "
+        "u in the same sense. The two conditions differ by the factor f f, and so the largest angle has all points "
+        "inside, and conversely. The outward normals make the supplement of the angle, so that its smallest value, "
+        "and not its largest, belongs to the next face.",
+        (
+            Step(
+                "a point with a smaller angle is inside",
+                {"p": positive(dot(f, f)), "angles": not_negative(cotangents)},
+                not_negative(turn(w, u)),
+                (term("angles"),),
+                ("p",),
+            ),
+            Step(
+                "a point inside has a smaller angle",
+                {"inside": not_negative(turn(w, u))},
+                not_negative(cotangents),
+                tuple(term("inside", coordinate) for coordinate in f),
+            ),
+            Step("the normals make the supplement", {}, zero(dot(outward_p, outward_q) + dot(f, u))),
+        ),
+    )

@@ -1,0 +1,70 @@
+"""Every proof holds, and fails if a hypothesis or the conclusion of one of its steps is altered."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from modern.claims import algebra
+from modern.claims.algebra import Proof, Step, not_negative, positive, term, variables, zero
+from modern.claims.kovalevsky_schulz import proofs as kovalevsky_schulz
+from modern.claims.thesis import existence
+from modern.claims.thesis import proofs as thesis
+from modern.claims.yau_srihari import proofs as yau_srihari
+
+PROOFS: dict[str, Proof] = {
+    **{f"4.{n}": getattr(thesis, f"theorem_4_{n}")() for n in (3, 4, 5, 6, 7)},
+    **{name: getattr(kovalevsky_schulz, f"lemma_{name}")() for name in ("lz", "ch", "be")},
+    **{f"theorem {n}": getattr(yau_srihari, f"theorem_{n}")() for n in (1, 2)},
+}
+
+
+@pytest.mark.parametrize("name", PROOFS)
+def test_every_step_of_a_proof_is_valid(name: str) -> None:
+    assert [step.says for step in PROOFS[name].steps if not step.is_valid()] == []
+
+
+def _alterations(name: str) -> Iterator[tuple[str, Step]]:
+    for number, step in enumerate(PROOFS[name].steps):
+        for alteration, altered in step.alterations():
+            yield f"step {number} {alteration}", altered
+
+
+@pytest.mark.parametrize("name", PROOFS)
+def test_an_altered_step_is_not_proved_and_is_false(name: str) -> None:
+    altered = dict(_alterations(name))
+    assert [text for text, step in altered.items() if step.is_valid()] == []
+    assert [text for text, step in altered.items() if step.refuting_values(seed=1963) is None] == []
+
+
+def test_a_certificate_must_use_positive_multipliers_and_squares() -> None:
+    x, y = variables("x y")
+    assert not Step("", {"x": not_negative(x)}, not_negative(y), (term("x", y),), ("x",)).is_valid()
+    assert not Step("", {"x": not_negative(x)}, positive(x), (term("x"),)).is_valid()
+    assert not Step("", {}, not_negative(-x * x), (term("", x),)).is_valid()
+    assert not Step("", {"x": zero(x)}, positive(x), (term("x"),)).is_valid()
+    assert Step("", {"x": zero(x)}, zero(x * y), (term("x", y),)).is_valid()
+
+
+def test_theorems_that_something_exists_have_exact_instances() -> None:
+    assert [*existence.coplanar_extremes()] == [True] * 87
+    assert all(existence.table_1())
+    assert all(existence.outside_several_planes())
+
+
+def test_instances_are_checked(monkeypatch: pytest.MonkeyPatch) -> None:
+    # In a smaller cube the planes no longer contain points for every way to coincide.
+    monkeypatch.setattr(existence, "SIDE", 2)
+    with pytest.raises(IndexError):
+        assert all(existence.coplanar_extremes())
+    # Without the first eight points the last one is not outside of H_5.
+    monkeypatch.setattr(existence, "ADDED", existence.ADDED[:7])
+    assert not all(existence.outside_several_planes())
+
+
+def test_the_combination_step_needs_its_linear_function() -> None:
+    linear, _ = algebra.combination_satisfies()
+    (p,) = variables("p_x")
+    assert linear.is_valid()
+    assert not Step("", {}, zero(linear.conclusion.value + p * p)).is_valid()
