@@ -21,6 +21,8 @@ from operator import mul
 from random import Random
 from typing import Literal, TypeAlias
 
+from modern.claims.evidence import Check, proved
+
 Relation: TypeAlias = Literal[">", ">=", "="]
 Monomial: TypeAlias = tuple[str, ...]
 
@@ -197,6 +199,9 @@ class Proof:
     theorem: str
     argument: str
     steps: tuple[Step, ...]
+
+    def check(self) -> Check:
+        return proved(self.argument, (step.is_valid() for step in self.steps), self.theorem)
 
 
 def largest_value() -> Step:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from modern.claims.algebra import (
     Proof,
     Step,
@@ -14,6 +16,7 @@ from modern.claims.algebra import (
     term,
     zero,
 )
+from modern.claims.evidence import Check, claim
 
 
 def lemma_lz() -> Proof:
@@ -73,3 +76,10 @@ def lemma_be() -> Proof:
             Step("inner points are on the inner side", strictly, positive(-dot(normal, way)), terms),
         ),
     )
+
+
+@claim("kovalevsky-schulz.65", "kovalevsky-schulz.68", "kovalevsky-schulz.124", proof=lemma_lz)
+@claim("kovalevsky-schulz.69", "kovalevsky-schulz.121", proof=lemma_ch)
+@claim("kovalevsky-schulz.71", "kovalevsky-schulz.72", proof=lemma_be)
+def proof_of_lemma(proof: Callable[[], Proof]) -> Check:
+    return proof().check()

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import combinations, product
 
+from modern.claims.evidence import Check, claim, proved
 from modern.claims.invariants import is_sphere
 from modern.claims.thesis.chapter4_examples import ADDED, theorem_of
 from modern.edition.chapter4 import Point
@@ -125,3 +126,26 @@ def outside_several_planes() -> Iterator[bool]:
 
 def _value(plane: Sequence[int | Fraction], p: Point) -> Fraction:
     return sum((Fraction(a) * x for a, x in zip(plane, (*p.at, Fraction(1)), strict=True)), Fraction(0))
+
+
+@claim("thesis.107")
+def theorem_4_1() -> Check:
+    argument = (
+        "Two extremes of one coordinate that coincide make all points coplanar. For each other way in which the six "
+        "extremes can coincide there is a set that is not coplanar and has exactly these extremes in one plane"
+    )
+    return proved(argument, coplanar_extremes(), "the extremes are coplanar in all 87 ways to coincide")
+
+
+@claim("thesis.112", "thesis.114")
+def theorem_4_2() -> Check:
+    argument = (
+        "The surface of Table 1 is a sphere without self-intersection on six extremes, and two faces do not support"
+    )
+    return proved(argument, table_1(), "the polyhedron of Table 1 is not convex")
+
+
+@claim("thesis.146")
+def theorem_4_8() -> Check:
+    argument = "The procedure makes H_5 of the nine points, and the last point is outside six of its planes"
+    return proved(argument, outside_several_planes(), "a point is outside six planes of H_5")

@@ -7,7 +7,7 @@ b.  The vertices of an H_j are named counterclockwise, so that h is outside the 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from modern.claims.algebra import (
     IMPOSSIBLE,
@@ -29,6 +29,7 @@ from modern.claims.algebra import (
     variables,
     zero,
 )
+from modern.claims.evidence import Check, claim
 
 
 def theorem_4_3() -> Proof:
@@ -309,3 +310,12 @@ def theorem_4_5() -> Proof:
             ),
         ),
     )
+
+
+@claim("thesis.119", "thesis.122", "thesis.124", "thesis.235", proof=theorem_4_3)
+@claim("thesis.125", "thesis.130", proof=theorem_4_4)
+@claim("thesis.131", "thesis.132", "thesis.133", "thesis.238", "thesis.240", "thesis.258", proof=theorem_4_5)
+@claim("thesis.135", "thesis.136", proof=theorem_4_6)
+@claim("thesis.137", "thesis.143", "thesis.145", "thesis.259", "thesis.278", proof=theorem_4_7)
+def proof_of_theorem(proof: Callable[[], Proof]) -> Check:
+    return proof().check()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from modern.claims.algebra import (
     Proof,
     Step,
@@ -15,6 +17,7 @@ from modern.claims.algebra import (
     variables,
     zero,
 )
+from modern.claims.evidence import Check, claim
 
 
 def theorem_1() -> Proof:
@@ -81,3 +84,9 @@ def theorem_2() -> Proof:
             Step("the normals make the supplement", {}, zero(dot(outward_p, outward_q) + dot(f, u))),
         ),
     )
+
+
+@claim("yau-srihari.48", proof=theorem_1)
+@claim("yau-srihari.101", proof=theorem_2)
+def proof_of_theorem(proof: Callable[[], Proof]) -> Check:
+    return proof().check()
