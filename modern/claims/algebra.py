@@ -33,26 +33,26 @@ class Polynomial:
 
     terms: Mapping[Monomial, int]
 
-    def __add__(self, other: Polynomial | int) -> Polynomial:
+    def __add__(self, addend: Polynomial | int) -> Polynomial:
         total = defaultdict(int, self.terms)
-        for monomial, coefficient in polynomial(other).terms.items():
+        for monomial, coefficient in polynomial(addend).terms.items():
             total[monomial] += coefficient
         return Polynomial({monomial: c for monomial, c in total.items() if c})
 
-    def __mul__(self, other: Polynomial | int) -> Polynomial:
+    def __mul__(self, factor: Polynomial | int) -> Polynomial:
         total: dict[Monomial, int] = defaultdict(int)
-        for (m, c), (n, d) in product(self.terms.items(), polynomial(other).terms.items()):
+        for (m, c), (n, d) in product(self.terms.items(), polynomial(factor).terms.items()):
             total[tuple(sorted(m + n))] += c * d
         return Polynomial({monomial: c for monomial, c in total.items() if c})
 
     def __neg__(self) -> Polynomial:
         return self * -1
 
-    def __sub__(self, other: Polynomial | int) -> Polynomial:
-        return self + -polynomial(other)
+    def __sub__(self, subtrahend: Polynomial | int) -> Polynomial:
+        return self + -polynomial(subtrahend)
 
-    def __rsub__(self, other: int) -> Polynomial:
-        return polynomial(other) - self
+    def __rsub__(self, minuend: int) -> Polynomial:
+        return polynomial(minuend) - self
 
     __radd__ = __add__
     __rmul__ = __mul__
