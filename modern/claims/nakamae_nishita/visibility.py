@@ -4,7 +4,7 @@ from fractions import Fraction
 from functools import cache
 from itertools import combinations, permutations, product
 
-from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched
+from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
 from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, crosses, inside, lines_of, pairs, side, tables_of
 from modern.claims.sampled_sets import CASES, SETS, counterexample, counterexample_points, sampled_sets
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
@@ -155,19 +155,24 @@ def sense_of_intersection() -> Check:
     """Compare the printed product with (6) for a segment that enters."""
     p, q, a, b = (point[:2] for point in counterexample_points("sense.csv"))
     printed = (p[0] - q[0]) * (a[1] - b[1]) - (p[1] - q[1]) * (a[0] - b[0])
-    six = (q[0] - p[0]) * (a[1] - b[1]) - (q[1] - p[1]) * (a[0] - b[0])
-    goes_in = value(line_through((*p, 1), (*q, 1)), (*a, 1)) < 0 < value(line_through((*p, 1), (*q, 1)), (*b, 1))
-    message = f"for an entering segment the printed product is {printed}, and (6) gives {six}"
-    return refuted(goes_in and printed < 0 < six, message)
+    corrected = (q[0] - p[0]) * (a[1] - b[1]) - (q[1] - p[1]) * (a[0] - b[0])
+    enters = value(line_through((*p, 1), (*q, 1)), (*a, 1)) < 0 < value(line_through((*p, 1), (*q, 1)), (*b, 1))
+    message = f"for an entering segment the printed product is {printed}, and the corrected one is {corrected}"
+    return slip(printed > 0, enters and corrected > 0, "(P_i+1 - P_i) x (P_A - P_B), with the sign of (6)", message)
 
 
 @claim("nakamae-nishita.48")
 def edges_wholly_behind() -> Check:
-    """Check a box behind a wall, whose edges are hidden without an intersection."""
-    corrected, without = _scene("enclosed.toml"), _scene("enclosed.toml", "enclosed")
-    alone = any(passage == ENCLOSED for edge_passages in corrected.passages for _, passage in edge_passages.behind)
-    newly_visible = sum(p.visible for p in without.pieces) - sum(p.visible for p in corrected.pieces)
-    return refuted(alone and newly_visible > 0, f"{newly_visible} edges of the box would be visible through the wall")
+    """Check a box partly behind a wall, some of whose edges are hidden without an intersection.
+
+    The contours cross, so that this is case 2 of section 3 and not case 3, in which one contour encloses the other.
+    """
+    scenes = [_scene("partly_behind.toml", *without) for without in ((), ("enclosed",))]
+    correct, shown = ({(p.start, p.end) for p in scene.pieces if p.visible and p.solid == 1} for scene in scenes)
+    inner = {(edge.start, edge.end) for edge in scenes[0].solids[1].edges if edge.kind == INNER}
+    wrong = shown - correct
+    message = f"{len(wrong)} edges, {len(wrong & inner)} of them inner edges, would be visible through the wall"
+    return refuted(scenes[0].relations[0].by == "(4)" and wrong & inner, message)
 
 
 @claim("nakamae-nishita.66")
@@ -217,8 +222,8 @@ def table_by_formula_4() -> Check:
     flat = tuple((x, y) for x, y, _ in contour)
     by_1 = [[sign(value(line, (x, y, 1))) for line in lines_of(flat)] for x, y, _ in ends]
     goes_in = -1 in by_1[0] and -1 not in by_1[1]
-    wrong = by_4 == {-1} and goes_in
-    return refuted(wrong, "by (4) every element is -1 as if nothing intersected; by (1) the edge enters")
+    message = "by (4) every element is -1 as if nothing intersected; by (1) the edge enters"
+    return slip(by_4 != {-1}, goes_in, "the tables of section 3.2, by the sign of (1)", message)
 
 
 @claim("nakamae-nishita.61")

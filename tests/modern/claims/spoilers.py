@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from modern.claims.algebra import IMPOSSIBLE, Step
 from modern.claims.evidence import Check, Decision, exhibited
 from modern.claims.register import decisions
 from tests.support.caches import cleared
@@ -61,6 +62,10 @@ check_fails = always(exhibited(False, ""))
 def value(replacement: object) -> Spoiler:
     """Replace a constant."""
     return lambda _: replacement
+
+
+def invalid_step(_: Original) -> Callable[[], Step]:
+    return lambda: Step("", {}, IMPOSSIBLE)
 
 
 def identity(_: Original) -> object:

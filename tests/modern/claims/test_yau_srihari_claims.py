@@ -19,6 +19,7 @@ from tests.modern.claims.spoilers import (
     assert_verdict_changes,
     changed_result,
     identity,
+    invalid_step,
     negated,
     unspoiled,
 )
@@ -104,6 +105,7 @@ TABLE: Table = [
     (D + "103", "_hull", changed_result(upside_down)),
     (D + "36", "counterexample_points", neighbour_of_middle),
     (D + "36", "is_simple", always(True)),
+    (D + "48", "combination_satisfies", lambda _: lambda: (invalid_step(_)(),)),
     (D + "49", "is_simple", always(True)),
     (D + "90", "graph_side", lambda _: lambda tree, above: octree(np.ones((2, 2, 2), dtype=np.bool_))),
     (D + "41", "plane_value", negated),
