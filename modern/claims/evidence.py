@@ -65,6 +65,11 @@ class Check:
         """
         return replace(self, evidence=replace(self.evidence, violation=case)) if refutes else self
 
+    def misprinted(self, is_refuted: object, correction: str) -> Self:
+        """Return the check of a slip: the print is refuted, and this is the check of the corrected reading."""
+        evidence = replace(self.evidence, correction=correction if self.holds else "")
+        return replace(self, holds=False, evidence=evidence) if is_refuted else self
+
 
 @dataclass(frozen=True, slots=True)
 class Generator(Generic[T]):

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations, permutations
 
-from modern.claims.evidence import Check, claim, exhibited, refuted, searched
+from modern.claims.evidence import Check, claim, exhausted, exhibited, searched, slip
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -27,11 +27,14 @@ from modern.geometry.vectors import cross, dot, minus
 
 @claim("thesis.18")
 def weights_of_combination() -> Check:
-    """Check that weights must not be negative: 2 P_1 - P_2 has weights with the sum 1 and lies outside the segment."""
-    hull = exact_hull([(0, 0, 0), (1, 0, 0), (-1, 0, 0)])
-    between = 2 not in exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0)]).vertices
-    check = exhibited(between, "1/2 P + 1/2 Q is between P and Q")
-    return check.unless(0 not in hull.vertices, "2 P - Q, with the weights 2 and -1, which lies beyond P")
+    """Check which weights w / 4 with the sum 1 give a point of a triangle: those that are not negative."""
+    sides = [facet.plane for facet in exact_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0)]).facets]
+    weights = [(4 - x - y, x, y) for x in range(-3, 8) for y in range(-3, 8)]
+    outcomes = [(min(w) >= 0) == all(plane_value(side, (w[1], w[2], 0)) <= 0 for side in sides) for w in weights]
+    message = "a combination is in the triangle exactly if no weight is negative"
+    check = exhausted("three weights in quarters from -13/4 to 10/4 with the sum 1", outcomes, message)
+    beyond = any(plane_value(side, (-1, 0, 0)) > 0 for side in sides)
+    return check.misprinted(beyond, "weights that are not negative and have the sum 1")
 
 
 def _area(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
@@ -49,45 +52,34 @@ def vertex_formula_with_minus() -> Check:
         for sign, factor in (("+", 1), ("-", -1)):
             right = all((1 - share) * p[k] + factor * share * q[k] == middle[k] for k in (1, 2))
             pair_counts[sign] += 0 < share < 1 and right
-    wrong = 1 not in exact_hull(points).vertices and pair_counts == {"+": 2, "-": 0}
+    corrected = 1 not in exact_hull(points).vertices and pair_counts["+"] == 2
     message = (
         f"ordered pairs that give the middle point {middle}: {pair_counts['+']} with a plus, "
         f"{pair_counts['-']} with the printed minus"
     )
-    return refuted(wrong, message)
+    return slip(pair_counts["-"], corrected, "a plus", message)
 
 
-@claim("thesis.23")
-def vertex_of_hull() -> Check:
-    """Check that (1, 1), inside the triangle (0, 0), (3, 0), (0, 3), is no vertex, although it lies between no two
-    points.
-    """
-    points = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0)]
-    between = [(p, q) for p, q in combinations(points[:3], 2) if not any(cross(minus(q, p), minus(points[3], p)))]
-    passed = not between and 3 not in exact_hull(points).vertices
-    middle = 2 not in exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0)]).vertices
-    check = exhibited(middle, "a point between two others is not a vertex")
-    return check.unless(passed, "(1, 1) in the triangle (0, 0), (3, 0), (0, 3): it lies between no two points")
-
-
-@claim("thesis.200", full=400)
-def vertex_in_space(cases: int = CASES) -> Check:
+@claim("thesis.23", dimension=2, full=400)
+@claim("thesis.200", dimension=3, full=400)
+def vertex_of_hull(dimension: int, cases: int = CASES) -> Check:
     """Check that a point is between two points of the hull if and only if the hull of the other points contains it.
 
-    Among the given points alone, a point inside a tetrahedron lies between no two.
+    Among the given points alone, a point inside a triangle or a tetrahedron lies between no two.
     """
     checks = []
-    for sampled in sampled_sets(3, cases):
+    for sampled in sampled_sets(dimension, cases):
         for k, point in enumerate(sampled.points):
             rest = exact_hull([p for p in sampled.points if p != point])
             # The point is a combination of the others if no facet of their hull separates it.
-            held = rest.dimension == 3 and max(plane_value(f.plane, point) for f in rest.facets) <= 0
+            held = rest.dimension == dimension and max(plane_value(f.plane, point) for f in rest.facets) <= 0
             checks.append(held == (k not in sampled.judge.vertices))
-    points = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1)]
-    between = [1 for p, q in combinations(points[:4], 2) if not any(cross(minus(q, p), minus(points[4], p)))]
-    alone = not between and 4 not in exact_hull(points).vertices
-    check = searched(SETS[3], cases, checks, f"{len(checks)} points agree")
-    return check.unless(alone, "(1, 1, 1) in a tetrahedron, which lies between no two of the given points")
+    corners = [tuple(4 * (k == axis) for axis in range(3)) for k in (*range(dimension), 3)]
+    inner = tuple(int(axis < dimension) for axis in range(3))
+    between = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]  # type: ignore[arg-type]
+    alone = not between and len(corners) not in exact_hull([*corners, inner]).vertices
+    check = searched(SETS[dimension], cases, checks, f"{len(checks)} points agree")
+    return check.unless(alone, f"{inner} inside a triangle or tetrahedron: it lies between no two of the given points")
 
 
 @claim("thesis.202", "thesis.27", kind="planes", full=400)

@@ -1,15 +1,14 @@
-"""Checks of chapter 4 apart from its worked examples: theorems 4.3 to 4.7, steps of the proofs, and figures 1 to 4.
+"""Checks of chapter 4 apart from its worked examples and proofs: theorems on sets, steps of proofs, and figures 1 to 4.
 
-Theorems are checked on small sets. The equations of the proofs are transcribed as printed.
+The equations of the proofs are transcribed as printed.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations, product
+from itertools import product
 from random import Random
 
-from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, searched, slip
+from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, searched, slip
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -22,9 +21,9 @@ from modern.claims.sampled_sets import (
     random_triples,
     sampled_sets,
 )
+from modern.claims.thesis import proofs
 from modern.claims.thesis.chapter3_steps import value_v
 from modern.claims.thesis.chapter4_examples import theorem_of
-from modern.claims.thesis.projections import theorem_4_4
 from modern.edition.chapter4 import load_theorems
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
@@ -33,10 +32,10 @@ from modern.port import convex_hull
 
 @claim("thesis.5")
 def eight_theorems() -> Check:
-    """Check that theorems 4.1 to 4.8 each have a worked example or a check here."""
+    """Check that theorems 4.1 to 4.8 each have a worked example or a proof."""
     examples = {theorem.id for theorem in load_theorems()}
-    proofs = {"4.3": theorem_4_3, "4.4": theorem_4_4, "4.5": theorem_4_5, "4.6": theorem_4_6, "4.7": theorem_4_7}
-    check = exhibited(examples | proofs.keys() == {f"4.{k}" for k in range(1, 9)}, "all eight are checked")
+    proved = {name[8:].replace("_", ".") for name in vars(proofs) if name.startswith("theorem_")}
+    check = exhibited(examples | proved == {f"4.{k}" for k in range(1, 9)}, "all eight are checked")
     gap = gap_in_4_7()
     return check.unless(gap.evidence.violation, f"one step of the proof of 4.7: {gap.evidence.violation}")
 
@@ -73,16 +72,16 @@ def inequalities_without_z() -> Check:
     )
 
 
-@claim("thesis.119")
-def theorem_4_3() -> Check:
-    """Check that V orders points by their distance from the line: V is the distance squared times D squared."""
+@claim("thesis.287")
+def display_of_page_41() -> Check:
+    """Check V with the indices of the proof, and as displayed in our text of page 41, where it is 0."""
     value_check = value_v()
     as_text = []
     for (x1, y1, z1), (x2, y2, z2), _ in random_triples():
         first_term = (y2 - y1) * (z2 - z1) - (z2 - z1) * (y2 - y1)
         as_text.append(first_term**2 + ((z2 - z1) * (x2 - x1) - (x2 - x1) * (z2 - z1)) ** 2)
-    check = replace(value_check, evidence=replace(value_check.evidence, violation=""))
-    return check.unless(not any(as_text), "the display of our text (p. 41), in which V is 0 at every point")
+    check = searched(TRIPLES, 6, [value_check.evidence.correction], "with y_i and z_i V is as in the proof")
+    return check.misprinted(not any(as_text), "i for 1 in the differences from the point i")
 
 
 @claim("thesis.121", "thesis.122", "thesis.124", "thesis.235")
@@ -110,7 +109,7 @@ def display_of_page_42() -> Check:
         garbled = (w[1] * u[2] - u[2] * u[1]) ** 2 + 2 * (u[0] * u[1] - u[1] * u[2]) ** 2
         as_text.append(garbled == dot(across, across))
     check = distance_by_cosines()
-    return check.unless(not any(as_text), "the display of our text, which agrees for no triple")
+    return check.misprinted(not any(as_text), "three determinants or brackets, with the indices of V")
 
 
 @claim("thesis.123")
@@ -155,8 +154,8 @@ def proof_of_4_4(part: str) -> Check:
         terms.append(sorted(printed) == sorted([xa * yb, *substituted]))
     if part == "coefficient":
         return searched(SHARES, 6, coefficient, "they agree exactly in six cases")
-    check = searched(SHARES, 6, total, "the sum is 0, like the C of (3.4)")
-    return check.unless(not any(terms), "the terms, which are not those of the substitution")
+    check = searched(SHARES, 6, total, "the sum is 0, like the C of (3.4); its terms are not those of the substitution")
+    return check.misprinted(not any(terms), "x_b y_a in the terms that the print has without it")
 
 
 def _c_0(a: tuple[Fraction, ...], b: tuple[Fraction, ...], k: tuple[Fraction, ...]) -> Fraction:
@@ -196,38 +195,6 @@ def _touches(sampled: SampledSet, equations: Sequence[tuple[int, int, int, int]]
     return all(max(row) == 0 and row.count(0) >= 2 for row in values)
 
 
-@claim("thesis.132", full=400)
-def combinations_inside(cases: int = 1) -> Check:
-    """Check that convex combinations of the vertices of a hull have no positive value."""
-    random = Random(48)
-    checks = []
-    for sampled in sampled_sets(2, cases):
-        for _ in range(8):
-            weights = [random.randint(0, 5) + (k == 0) for k, _ in enumerate(sampled.judge.vertices)]
-            for facet in sampled.judge.facets:
-                mixed = sum(
-                    w * plane_value(facet.plane, sampled.points[k])
-                    for w, k in zip(weights, sampled.judge.vertices, strict=True)
-                )
-                checks.append(mixed <= 0)
-    return searched(SETS[2], cases, checks, f"none of {len(checks)} values of combinations is positive")
-
-
-@claim("thesis.71", "thesis.135", "thesis.136")
-def theorem_4_6() -> Check:
-    """Check that the values of a line order points by their distance from it, and that the printed formula gives it."""
-    checks = []
-    for (a, b, c), p, q in (((3, -2, 5), (1, 4), (3, 7)), ((4, -6, 2), (1, 1), (4, 3)), ((0, 5, -10), (0, 2), (1, 2))):
-        checks += [a * x + b * y + c == 0 for x, y in (p, q)]
-        points = [(x, y) for x, y in product(range(-3, 4), repeat=2) if a * x + b * y + c >= 0]
-        values = [a * x + b * y + c for x, y in points]
-        squares = [_distance_squared(point, p, q) for point in points]
-        both = [*zip(values, squares, strict=True)]
-        checks += [(v >= w) == (s >= t) for (v, s), (w, t) in combinations(both, 2)]
-        checks += [s * (a * a + b * b) == v * v for v, s in both]
-    return exhausted("points of a grid above three lines", checks, "all pairs of grid points are ordered correctly")
-
-
 @claim("thesis.242")
 def bars_of_page_50() -> Check:
     """Check the same, and the absolute value as our text closes it, after the first term."""
@@ -236,7 +203,7 @@ def bars_of_page_50() -> Check:
         _distance_squared((x, y), p, q) * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2
         for x, y in product(range(-3, 4), repeat=2)
     ]
-    return theorem_4_6().unless(not all(as_text), "bars that close after the first term")
+    return proofs.theorem_4_6().check().misprinted(not all(as_text), "bars around all three terms")
 
 
 def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]) -> Fraction:
