@@ -86,8 +86,6 @@ def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
     )
 
 
-@claim("yau-srihari.58", name="triangles")
-@claim("yau-srihari.61", "yau-srihari.122", "yau-srihari.105", name="angle")
 @claim("yau-srihari.66", name="bound")
 @claim("yau-srihari.71", name="corners")
 @claim("yau-srihari.83", name="start")
@@ -283,15 +281,23 @@ def integer_normals() -> Check:
     return exhibited(upright > 0 and all(checks), message)
 
 
-@claim("yau-srihari.100")
-def supporting_triangle() -> Check:
-    """Check the counterexample: a supporting plane contains a triangle of three corners that is not the whole face."""
-    points = counterexample_points("yau_triangles.csv")
-    judge = exact_hull(points)
-    larger = [f for f in judge.facets if f.plane[2] < 0 and len(f.polygon) > 3]
-    support = all(max(plane_value(f.plane, p) for p in points) == 0 for f in larger)
-    message = ", ".join(str(len(f.polygon)) for f in larger)
-    return refuted(larger and support, f"supporting planes that look down have {message} corners")
+@claim("yau-srihari.58", "yau-srihari.100", full=400)
+def triangles_of_a_hull(cases: int = CASES) -> Check:
+    """Check that three points are a face exactly if their plane supports, for sets without four coplanar points."""
+    outcomes = []
+    for sampled in sampled_sets(3, 4 * cases):
+        points = sampled.points[:6]
+        planes = {three: plane_through(*(points[k] for k in three)) for three in combinations(range(6), 3)}
+        values = {three: [plane_value(p, point) for point in points] for three, p in planes.items()}
+        # In a set without four coplanar points each plane is 0 at three points only.
+        if all(row.count(0) == 3 for row in values.values()):
+            faces = {frozenset(facet.polygon) for facet in exact_hull(points).facets}
+            outcomes += [
+                (frozenset(three) in faces) == (min(row) >= 0 or max(row) <= 0) for three, row in values.items()
+            ]
+    check = searched(SETS[3], 4 * cases, outcomes, f"{len(outcomes)} triangles agree")
+    as_printed = algorithm_as_printed("triangles")
+    return check.unless(not as_printed.holds, f"a solid with four coplanar points: {as_printed.message}")
 
 
 @claim("yau-srihari.101")

@@ -18,6 +18,7 @@ from modern.claims.algebra import (
     zero,
 )
 from modern.claims.evidence import Check, claim
+from modern.claims.yau_srihari.envelopes import algorithm_as_printed
 
 
 def theorem_1() -> Proof:
@@ -84,6 +85,13 @@ def theorem_2() -> Proof:
             Step("the normals make the supplement", {}, zero(dot(outward_p, outward_q) + dot(f, u))),
         ),
     )
+
+
+@claim("yau-srihari.61")
+def angle_of_theorem_2() -> Check:
+    """Check theorem 2 for the interior dihedral angle, and as printed, for the angle of the outward normals."""
+    as_printed = algorithm_as_printed("angle")
+    return theorem_2().check().misprinted(not as_printed.holds, "psi as the interior dihedral angle of p and q")
 
 
 @claim("yau-srihari.48", proof=theorem_1)
