@@ -6,12 +6,11 @@ from itertools import permutations, product
 
 import numpy as np
 
-from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
+from modern.claims.evidence import Check, claim, exhausted, exhibited, searched, slip
 from modern.claims.kovalevsky_schulz.polyhedra import hulls, polyhedron
 from modern.claims.published import PAPERS, printed_lines, produced_by
 from modern.claims.sampled_sets import CASES, SETS, Point
 from modern.digital.solids import Volume, half_ball, listed
-from modern.geometry.vectors import dot, minus
 from modern.papers.kovalevsky_schulz import (
     INVISIBLE,
     VERTICES,
@@ -97,11 +96,6 @@ def integers_of_triangles() -> Check:
     return exhausted("rows of Table 5", checks, f"{sum(checks)} of {len(checks)} rows agree")
 
 
-@cache
-def _half_ball() -> CellList:
-    return _straight(half_ball(10))
-
-
 def _straight(volume: Volume) -> CellList:
     return straightened(merged(polyhedron(local_corners(volume, VERTICES))))
 
@@ -133,23 +127,6 @@ def _moved(points: list[Point], order: tuple[int, ...] = (0, 1, 2), signs: tuple
     middle = [min(axis) + max(axis) for axis in zip(*points, strict=True)]
     turned = ([2 * p[k] - middle[k] for k in range(3)] for p in points)
     return [(signs[0] * p[order[0]], signs[1] * p[order[1]], signs[2] * p[order[2]]) for p in turned]
-
-
-@claim("kovalevsky-schulz.96")
-def symmetric_faces() -> Check:
-    """Count the faces of the half-ball of diameter 10 that some rotation or reflection maps to themselves."""
-    cells = _half_ball()
-    symmetric = [_is_symmetric([cells.vertices[v - 1].point for v in face.vertices]) for face in cells.faces]
-    return refuted(not all(symmetric), f"{sum(symmetric)} of {len(symmetric)} faces are symmetric")
-
-
-def _is_symmetric(ring: list[Point]) -> bool:
-    n = len(ring)
-    sides = [minus(ring[(k + 1) % n], ring[k]) for k in range(n)]
-    marks = [(dot(sides[k], sides[k]), dot(sides[k], sides[(k + 1) % n])) for k in range(n)]
-    back = [(dot(sides[-k], sides[-k]), dot(sides[-k], sides[-k - 1])) for k in range(n)]
-    turns = any(marks == marks[k:] + marks[:k] for k in range(1, n))
-    return turns or any(marks == back[k:] + back[:k] for k in range(n))
 
 
 @claim("kovalevsky-schulz.157")

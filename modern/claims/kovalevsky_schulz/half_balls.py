@@ -1,0 +1,115 @@
+"""Checks of Table 5 of Kovalevsky and Schulz, whose half-balls the paper does not define, and of its invariants.
+
+A digitisation of a half-ball has its centre at a voxel or halfway between voxels, in the plane and in height, contains
+the points of the sphere or not, and the layer through its centre or not.
+"""
+
+from collections.abc import Iterator
+from functools import cache
+from itertools import product
+
+import numpy as np
+
+from modern.claims.evidence import Check, claim, exhibited, refuted
+from modern.claims.invariants import HalfBall, half_balls, may_be_convex
+from modern.claims.sampled_sets import Point
+from modern.digital.solids import Volume, half_ball
+from modern.exact_hull import ExactHull, exact_hull
+from modern.geometry.vectors import dot, minus
+from modern.papers.kovalevsky_schulz import INVISIBLE, VERTICES, local_corners, voxel_hull
+from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size
+from modern.papers.kovalevsky_schulz.hull import straightened
+
+
+def digitisations(diameter: int) -> Iterator[Volume]:
+    """Yield the different half-balls of a diameter; coordinates are doubled, so that centres are integers."""
+    side = np.arange(-diameter, diameter + 1)
+    distinct: dict[bytes, Volume] = {}
+    for plane, height, closed, lowest in product((0, 1), (0, 1), (True, False), (0, 1)):
+        x, y, z = np.meshgrid(2 * side - plane, 2 * side - plane, 2 * side - height, indexing="ij")
+        squares = x * x + y * y + z * z
+        inside = (squares <= diameter**2) if closed else (squares < diameter**2)
+        # The lowest layer goes through the centre or is the next one above or, halfway between layers, below it.
+        array = inside & (z >= (2 * lowest if height == 0 else 1 - 2 * lowest))
+        distinct.setdefault(array.tobytes(), Volume(array, (0, 0, 0)))
+    yield from distinct.values()
+
+
+def _row(diameter: int) -> HalfBall:
+    return next(row for row in half_balls() if row.diameter == diameter)
+
+
+@cache
+def _cells(diameter: int, centre: str = "vertex") -> CellList:
+    """Return the merged cell list that reproduces the table: with vertices on straight edges."""
+    return voxel_hull(half_ball(diameter, centre), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
+
+
+def _size(cells: CellList) -> int:
+    return cell_list_size(len(cells.vertices), len(cells.faces))
+
+
+def _hull(volume: Volume) -> tuple[list[Point], ExactHull]:
+    corners: list[Point] = [(int(x), int(y), int(z)) for x, y, z in local_corners(volume, VERTICES)]
+    return corners, exact_hull(corners)
+
+
+@claim("kovalevsky-schulz.86")
+def diameter_8() -> Check:
+    """Check that 324 integers with 30 faces belong to no half-ball, by Euler's formula and by quarter turns."""
+    row = _row(8)
+    possible = may_be_convex(int(row.corners), row.faces)
+    message = f"(6) implies {row.corners} vertices with {row.faces} faces, which allow {2 * row.faces - 4}; "
+    turned = row.corners % 4 in (0, 1)
+    return refuted(not possible and not turned, f"{message}quarter turns move all points in groups of 4 except one")
+
+
+@claim("kovalevsky-schulz.87", diameter=10)
+@claim("kovalevsky-schulz.89", diameter=14)
+@claim("kovalevsky-schulz.90", diameter=16)
+@claim("kovalevsky-schulz.179", diameter=18)
+@claim("kovalevsky-schulz.92", diameter=20)
+@claim("kovalevsky-schulz.93", diameter=22)
+def row_of_table_5(diameter: int) -> Check:
+    """Compare a row with the half-ball that is centred on a corner of voxels, and with its hull in the strict sense."""
+    row, cells = _row(diameter), _cells(diameter)
+    hull = straightened(cells)
+    agrees = (len(cells.faces), _size(cells)) == (row.faces, row.integers)
+    check = exhibited(agrees, f"{len(cells.faces)} faces and {len(cells.vertices)} points need {_size(cells)} integers")
+    vertices = f"the {len(hull.vertices)} vertices of the hull without points on straight edges: {_size(hull)} integers"
+    centred = _cells(diameter, "voxel")
+    elsewhere = f"a half-ball centred on a voxel, which has {len(centred.faces)} faces"
+    return check.unless(
+        row.integers not in (_size(hull), _size(centred)) or len(centred.faces) != row.faces,
+        elsewhere if _size(hull) == row.integers else vertices,
+    )
+
+
+@claim("kovalevsky-schulz.88")
+def diameter_12() -> Check:
+    """Search a digitisation with the printed faces and integers, and compare that of the other rows."""
+    row = _row(12)
+    hulls = [hull for _, hull in map(_hull, digitisations(12))]
+    sizes = [(len(hull.facets), cell_list_size(len(hull.vertices), len(hull.facets))) for hull in hulls]
+    check = exhibited((row.faces, row.integers) in sizes, f"{len(sizes)} digitisations have {sorted(set(sizes))}")
+    faces = len(_cells(12).faces)
+    return check.unless(faces != row.faces, f"the half-ball centred on a corner of voxels, which has {faces} faces")
+
+
+@claim("kovalevsky-schulz.96")
+def symmetric_faces() -> Check:
+    """Check that all digitisations of the half-ball of diameter 20 have a face without any symmetry."""
+    asymmetric = []
+    for corners, hull in map(_hull, digitisations(20)):
+        asymmetric.append(sum(not _is_symmetric([corners[k] for k in facet.polygon]) for facet in hull.facets))
+    message = f"the {len(asymmetric)} digitisations of diameter 20 have {sorted(asymmetric)} faces without symmetry"
+    return refuted(min(asymmetric) > 0, message)
+
+
+def _is_symmetric(ring: list[Point]) -> bool:
+    n = len(ring)
+    sides = [minus(ring[(k + 1) % n], ring[k]) for k in range(n)]
+    marks = [(dot(sides[k], sides[k]), dot(sides[k], sides[(k + 1) % n])) for k in range(n)]
+    back = [(dot(sides[-k], sides[-k]), dot(sides[-k], sides[-k - 1])) for k in range(n)]
+    turns = any(marks == marks[k:] + marks[:k] for k in range(1, n))
+    return turns or any(marks == back[k:] + back[:k] for k in range(n))
