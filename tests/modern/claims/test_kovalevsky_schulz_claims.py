@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 import modern.claims.kovalevsky_schulz.sizes as sizes
-from modern.digital.solids import listed
+from modern.digital.solids import half_ball, listed
 from modern.papers.kovalevsky_schulz import CENTRES
 from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES
 from modern.papers.kovalevsky_schulz.hull import merged
@@ -192,6 +192,9 @@ TABLE: Table = [
     (S + "171", "triangulation_size", plus_one),
     (S + "95", "straightened", without_last_face),
     (S + "96", "_is_symmetric", always(True)),
+    (S + "86", "may_be_convex", always(True)),
+    (S + "87", "cell_list_size", always(0)),
+    (S + "88", "digitisations", lambda _: lambda diameter: [half_ball(diameter)]),
     (S + "157", "polyhedron", lambda original: lambda points: original(points[1:])),
 ]
 

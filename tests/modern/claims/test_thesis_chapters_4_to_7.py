@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 import modern.claims.thesis.chapter7 as chapter7
+from modern.claims.algebra import polynomial
 from modern.edition.chapter6 import input_deck
 from modern.formats.deck import data_deck
 from tests.modern.claims.spoilers import (
@@ -159,7 +160,7 @@ TABLE: Table = [
     (D + "148", "ADDED", lambda original: (*original[:-1], "Q9")),
     (D + "148", "ADDED", lambda original: original[:-1]),
     (D + "287", "value_v", check_fails),
-    (D + "135", "dot", always(zero(0).value)),
+    (D + "135", "dot", always(polynomial(0))),
     (D + "236", "exact_hull", all_points_vertices),
     (D + "238", "plane_value", negated),
     (D + "259", "plane_value", always(1)),
