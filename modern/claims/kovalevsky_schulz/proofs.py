@@ -43,6 +43,17 @@ def lemma_ch() -> Proof:
     )
 
 
+def symmetry() -> Proof:
+    """Prove that a symmetry of a set is one of its hull."""
+    return Proof(
+        "a rotation or reflection that maps the points to themselves maps their hull to itself",
+        "Each coordinate of the image is a linear function with a constant term, so that the image of a combination is "
+        "the combination of the images. So combinations of the points are mapped to combinations of them, and the "
+        "inverse map shows that all of them are images.",
+        combination_satisfies()[:1],
+    )
+
+
 def lemma_be() -> Proof:
     """Prove that the plane through a horizon edge and the new point supports, with a normal between two normals."""
     visible, hidden = point("v", 3), point("n", 3)
@@ -80,6 +91,7 @@ def lemma_be() -> Proof:
 
 @claim("kovalevsky-schulz.65", "kovalevsky-schulz.68", "kovalevsky-schulz.124", proof=lemma_lz)
 @claim("kovalevsky-schulz.69", "kovalevsky-schulz.121", proof=lemma_ch)
+@claim("kovalevsky-schulz.95", proof=symmetry)
 @claim("kovalevsky-schulz.71", "kovalevsky-schulz.72", proof=lemma_be)
 def proof_of_lemma(proof: Callable[[], Proof]) -> Check:
     return proof().check()

@@ -59,12 +59,13 @@ def coplanar_extremes() -> Iterator[bool]:
     cube = _lattice(1)
     for division in coincidences():
         possible = [plane for plane in on_planes if {*division} <= {*plane}]
-        points = [possible[0][block] for block in division]
+        points = [plane[block] for plane in possible[:1] for block in division]
         attained = {
-            (k, sign): [p for p in (*points, *cube) if sign * p[k] == max(sign * q[k] for q in points)]
+            (k, sign): [p for p in (*points, *cube) if sign * p[k] == max(sign * q[k] for q in (*points, *cube))]
             for k, sign in EXTREMES
         }
-        yield all(attained[e] == [p] for block, p in zip(division, points, strict=True) for e in block)
+        alone = [attained[e] == [p] for block, p in zip(division, points, strict=False) for e in block]
+        yield len(alone) == len(EXTREMES) and all(alone)
 
 
 def _extremes_of(p: Lattice) -> frozenset[Extreme]:
@@ -121,7 +122,7 @@ def outside_several_planes() -> Iterator[bool]:
     judge = exact_hull([[*points[k]] for k in used[:8]])
     planes = [judge.plane_of(facet) for facet in judge.facets]
     yield len(judge.vertices) == 8
-    yield sum(_value(plane, theorem.points[used[8]]) > 0 for plane in planes) == 6
+    yield [sum(_value(plane, theorem.points[k]) > 0 for plane in planes) for k in used[8:]] == [6]
 
 
 def _value(plane: Sequence[int | Fraction], p: Point) -> Fraction:

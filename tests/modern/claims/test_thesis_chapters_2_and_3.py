@@ -178,7 +178,7 @@ TABLE: Table = [
     (D + "24", "sampled_sets", judge_without_facet),
     (D + "200", "plane_value", negated),
     (D + "23", "exact_hull", all_points_vertices),
-    (D + "18", "exact_hull", all_points_vertices),
+    (D + "18", "plane_value", always(1)),
     (D + "48", "convex_hull", lambda original: lambda points: original(points[:3])),
     (D + "270", "convex_hull", lambda original: lambda points: original(points[:2])),
     (D + "46", "convex_hull", third_point_first),

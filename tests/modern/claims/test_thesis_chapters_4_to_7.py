@@ -2,12 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 from types import SimpleNamespace
 
 import pytest
 
 import modern.claims.thesis.chapter7 as chapter7
-from modern.claims.algebra import polynomial
 from modern.edition.chapter6 import input_deck
 from modern.formats.deck import data_deck
 from tests.modern.claims.spoilers import (
@@ -24,6 +24,7 @@ from tests.modern.claims.spoilers import (
     constant_plus_one,
     counterexample,
     flattened,
+    invalid_step,
     negated,
     plus_one,
     sum_instead_of_product,
@@ -160,7 +161,7 @@ TABLE: Table = [
     (D + "148", "ADDED", lambda original: (*original[:-1], "Q9")),
     (D + "148", "ADDED", lambda original: original[:-1]),
     (D + "287", "value_v", check_fails),
-    (D + "135", "dot", always(polynomial(0))),
+    (D + "137", "largest_value", invalid_step),
     (D + "236", "exact_hull", all_points_vertices),
     (D + "238", "plane_value", negated),
     (D + "259", "plane_value", always(1)),
@@ -214,8 +215,8 @@ TABLE: Table = [
     (D + "5", "gap_in_4_7", check_fails),
     (D + "139", "lines_of_figure_3", check_fails),
     (D + "243", "lines_of_figure_3", check_fails),
-    (D + "242", "_distance_squared", lambda _: lambda x, p, q: (3 * abs(x[0]) - 2 * x[1] + 5) ** 2),
-    (D + "107", "PLANES", without_last_point),
+    (D + "242", "_distance_squared", lambda _: lambda x, p, q: Fraction((3 * abs(x[0]) - 2 * x[1] + 5) ** 2, 13)),
+    (D + "107", "PLANES", lambda original: original[:-1]),
     (D + "248", "_misses", always([])),
     (D + "179", "_misses", always([])),
     (D + "145", "theorem_4_7", check_fails),
