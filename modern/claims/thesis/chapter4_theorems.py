@@ -74,7 +74,7 @@ def inequalities_without_z() -> Check:
 
 @claim("thesis.287")
 def display_of_page_41() -> Check:
-    """Check V with the indices of the proof, and as displayed in our text of page 41, where it is 0."""
+    """Check V with the indices of the proof, and the display of our text of page 41, which is 0."""
     value_check = value_v()
     as_text = []
     for (x1, y1, z1), (x2, y2, z2), _ in random_triples():
