@@ -191,8 +191,15 @@ def _with_position(scan: Scan, stated: Stated) -> Scan:
         raise VolumeError(f"{scan.source}: {error}") from None
 
 
+# The first word of a mesh in text, after comments.
+_MESH = re.compile(r"(\s|#[^\n]*\n)*((ST|C|N|4|n)*OFF|ply|solid|v|vn|vt|mtllib|o|g)\s")
+
+
 def _listed(text: str, source: str) -> Volume:
     """Return the voxels of a list with a line ``x,y,z`` (or ``x,y``) for each."""
+    # The heading of a mesh would pass for a heading of columns, and its counts for a voxel.
+    if _MESH.match(text):
+        raise VolumeError(f"{source}: expected voxels, found a mesh (OFF, OBJ, PLY or STL); hull1620 hull reads its points")
     voxels: list[tuple[int, ...]] = []
     for line, row in rows(text, source):
         if len(row) not in (2, 3) or (voxels and len(row) != len(voxels[0])):

@@ -165,6 +165,7 @@ HEADER = nrrd(STEPS.astype("u1"), "uchar")
         (b"x,y,z\n", "there are no voxels"),
         (b"1,2,3\n1,2\n", "line 2, column 1: expected 3 fields, found 2"),
         (b"1,2,3,4\n", "line 1, column 1: expected 3 (x,y,z) or 2 (x,y) fields, found 4"),
+        (b"OFF\n4 0 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n", "expected voxels, found a mesh"),
         (b"1,2,3.5\n", "line 1, field 3: '3.5' is not an integer"),
         (b"1,2,\n", "line 1, field 3: '' is not an integer"),
         (b"1,2,-1000000000000000000\n", "line 1, field 3: more than 18 digits"),
