@@ -199,7 +199,9 @@ def _listed(text: str, source: str) -> Volume:
     """Return the voxels of a list with a line ``x,y,z`` (or ``x,y``) for each."""
     # The heading of a mesh would pass for a heading of columns, and its counts for a voxel.
     if _MESH.match(text):
-        raise VolumeError(f"{source}: expected voxels, found a mesh (OFF, OBJ, PLY or STL); hull1620 hull reads its points")
+        raise VolumeError(
+            f"{source}: expected voxels, found a mesh (OFF, OBJ, PLY or STL); hull1620 hull reads its points"
+        )
     voxels: list[tuple[int, ...]] = []
     for line, row in rows(text, source):
         if len(row) not in (2, 3) or (voxels and len(row) != len(voxels[0])):

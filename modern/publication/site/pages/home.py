@@ -10,8 +10,10 @@ from modern.edition.reproduce import reproduce, summary
 from modern.edition.sources import sources
 from modern.publication.building import citation
 from modern.publication.facing import Card, facing
+from modern.publication.site.downloads import FOLDER, downloads
 from modern.publication.site.made import Made, Part, one_of
 from modern.publication.site.markup import (
+    HERE,
     bar,
     element,
     escape,
@@ -28,8 +30,8 @@ _SHOWN = ("105+3", "130", "131+2", "143", "167")
 
 
 def make(argument: str) -> Made:
-    """Return a part of the home page: ``pictures``, ``verdicts``, ``programs`` or ``cite``."""
-    parts = {"pictures": _pictures, "verdicts": _verdicts, "programs": _programs, "cite": _cite}
+    """Return a part of a page: ``pictures``, ``verdicts``, ``programs``, ``downloads`` or ``cite``."""
+    parts = {"pictures": _pictures, "verdicts": _verdicts, "programs": _programs, "downloads": _files, "cite": _cite}
     return Made((Part(html=parts[one_of(argument, parts)]()),))
 
 
@@ -94,6 +96,18 @@ def _programs() -> str:
         )
         rows.append((*cells, link(built_in.name.replace("program", "chart"), "", "flow chart")))
     return table(("program", "pages", "cards", "emendations", "control flow"), rows, "Programs")
+
+
+def _files() -> str:
+    """Return the table of downloads with their sizes and licences."""
+    rows = []
+    for item in downloads():
+        size = sum(map(len, item.files.values()))
+        megabytes = f"{size / 1e6:.1f} MB" if size >= 1e5 else f"{size / 1e3:.0f} kB"
+        content = f"{len(item.files)} files, {megabytes}" if item.packed else megabytes
+        file_link = text("a", item.name, href=f"{HERE}{FOLDER}/{item.name}", download=True)
+        rows.append((file_link, escape(item.title), content, escape(item.licence)))
+    return table(("file", "contents", "size unpacked", "licence"), rows, "Downloads")
 
 
 def _cite() -> str:
