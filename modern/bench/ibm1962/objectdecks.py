@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from emulator.errors import DeckError
 from emulator.language.cards import Deck, deck_from_lines, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import PAUSE, Program
@@ -27,7 +28,7 @@ SECONDS = 120.0
 COLUMNS = 72
 OPTIONS = Options(numbers("ibm1962"), core=CORE, bounds="core", hopper="any", limit=200_000)
 COUNTEREXAMPLES = "transcripts/counterexamples"
-FOLDERS = ("tests/data/period", "tests/data/programs")
+FOLDERS = ("tests/data/period", "tests/data/programs", "tests/data/compiler_runs")
 
 # A place that neither the library nor a program uses after loading.
 _HALT_AT = 60
@@ -93,7 +94,7 @@ def compare(name: str, program: Program, deck: Deck) -> Comparison:
     pauses = sum(instruction.operation == PAUSE for instruction in program.code)
     try:
         executed = execute(program, [card.text for card in deck.cards], pauses)
-    except Failed as error:
+    except (DeckError, Failed) as error:
         return Comparison(name, error=str(error))
     lines = tuple(line.rstrip() for line in executed.typed)
     typed = tuple(line.rstrip() for line in result.typed if line.strip())
