@@ -1,6 +1,8 @@
 """Checks of the steps of chapter 3 that find boundary points and remove duplicate equations."""
 
-from modern.claims.evidence import Check, claim, exhausted, exhibited, searched
+from collections.abc import Sequence
+
+from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, searched
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -52,21 +54,29 @@ def used_boundary_point() -> Check:
     return exhibited(bool(boundary_used), message)
 
 
-@claim("thesis.85")
-def duplicate_lines() -> Check:
+# Sets with many points on the same lines.
+LATTICE_SETS: Generator[tuple[Point, ...]] = Generator(
+    "subsets of a lattice of 4 by 4 points",
+    85,
+    lambda r: tuple(r.sample([(x, y, 0) for x in range(4) for y in range(4)], r.randint(5, 12))),
+)
+
+
+@claim("thesis.85", full=400)
+def duplicate_lines(cases: int = 3 * CASES) -> Check:
     """Check that a side with three used points has two equations before duplicates are removed."""
-    points = _POINT_ON_A_SIDE
-    hull = convex_hull(points, history=True)
-    last = hull.history[-1].equations
-    used = {k for stage in hull.history for k in stage.added}
-    sides = [{k for k in used if _on_side(points, face.polygon, k)} for face in hull.faces]
-    counted = [(len(side), sum(set(ends) <= side for ends in last)) for side in sides]
-    passed = all(equations >= 2 for used_count, equations in counted if used_count >= 3)
-    message = f"numbers of used points and of equations for each side: {counted}"
-    return exhibited(passed and any(used_count >= 3 for used_count, _ in counted), message)
+    outcomes = []
+    for points in (*LATTICE_SETS.cases(cases), _POINT_ON_A_SIDE):
+        hull = convex_hull(points, history=True)
+        last = hull.history[-1].equations
+        used = {k for stage in hull.history for k in stage.added}
+        for face in hull.faces:
+            side = {k for k in used if _on_side(points, face.polygon, k)}
+            outcomes += [sum({*ends} <= side for ends in last) >= 2] if len(side) > 2 else []
+    return searched(LATTICE_SETS, cases, outcomes, f"{len(outcomes)} sides with three used points have two equations")
 
 
-def _on_side(points: list[Point], ends: tuple[int, ...], k: int) -> bool:
+def _on_side(points: Sequence[Point], ends: tuple[int, ...], k: int) -> bool:
     p, q = points[ends[0]], points[ends[1]]
     return not any(cross(minus(q, p), minus(points[k], p)))
 

@@ -4,7 +4,7 @@ Each step that fails as printed has a counterexample in ``transcripts/counterexa
 """
 
 from collections.abc import Iterable, Iterator
-from itertools import combinations
+from itertools import combinations, permutations
 from typing import Any
 
 from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, searched, slip
@@ -155,10 +155,10 @@ def outside_convention() -> Check:
 def between_by_distances() -> Check:
     """Check that sums of distances tell which of three collinear points lies between the others."""
     checks = []
-    for a, b, c in ((0, 5, 2), (0, 2, 5), (5, 0, -3), (1, 0, 2)):
+    for a, b, c in permutations(range(-4, 5), 3):
         between = _between(a, b, c, *(5 * abs(p - q) for p, q in ((b, a), (a, c), (b, c))))
         checks.append(between == sorted((a, b, c))[1])
-    return exhausted("four orders of points (3t, 4t)", checks, "sums of distances decide all cases")
+    return exhausted("triples of nine points (3t, 4t) of a line", checks, "sums of distances decide all cases")
 
 
 def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:

@@ -1,19 +1,21 @@
 """Checks of chapters 5 and 6 and of the bibliography: messages, table sizes, printed hulls, and cited pages."""
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 
 from emulator.language.cards import deck_from_lines
 from emulator.language.formats import Literal
-from modern.claims.evidence import Check, claim, exhibited, refuted
+from modern.claims.evidence import Check, claim, exhausted, exhibited
 from modern.claims.sampled_sets import CASES
 from modern.claims.thesis.chapter3_equations import procedure_against_judge
-from modern.claims.thesis.chapter7 import PLACES, deck_of, run_of, two_kinds_of_error, typed, vertices_of
+from modern.claims.thesis.chapter7 import PLACES, deck_of, run_of, silent_loss, two_kinds_of_error, typed, vertices_of
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_card_hull, from_judge
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, Print, input_deck, prints
+from modern.edition.chapter6_cards import card_images, load_chapter
 from modern.exact_hull import exact_hull
 from modern.formats.deck import data_deck, exact_points
 from modern.port import convex_hull
@@ -43,8 +45,17 @@ def message_after_wrong_hull() -> Check:
     punched = run_of("silent.deck").final.result.punched
     punched_vertices, hull_vertices = vertices_of("silent.deck")
     announced = any("CONVEX HULL HAS BEEN DETERMINED" in card for card in punched)
-    wrong = announced and punched_vertices != hull_vertices
-    return refuted(wrong, f"the message is punched after {len(punched_vertices)} of {len(hull_vertices)} vertices")
+    message = f"the message is punched after {len(punched_vertices)} of {len(hull_vertices)} vertices"
+    endings = ["CONVEX HULL HAS BEEN DETERMINED" in prints_of[-1] for prints_of in _last_cards()]
+    check = exhausted("examples 4 to 6 of chapter 6", endings, "the examples end with the message")
+    return check.unless(announced and punched_vertices != hull_vertices, f"four points of five digits: {message}")
+
+
+def _last_cards() -> Iterator[list[str]]:
+    """Yield the cards of the final outputs of examples 4 to 6 that are not blank."""
+    chapter = load_chapter()
+    for example, program in ((4, 2), (5, 3), (6, 3)):
+        yield [card for card in card_images(chapter, example, program, "punch") if card.strip()]
 
 
 @cache
@@ -192,5 +203,5 @@ def cited_pages() -> Check:
 @claim("thesis.1", "thesis.8", "thesis.86", "thesis.106", full=300)
 def procedure_in_exact_arithmetic(cases: int = CASES) -> Check:
     """Check the procedure in exact arithmetic, and a deck for which the listing loses vertices in eight digits."""
-    wrong = message_after_wrong_hull()
+    wrong = silent_loss()
     return procedure_against_judge(cases).unless(not wrong.holds, f"eight digits: {wrong.message}")

@@ -357,16 +357,12 @@ def cost_of_translation(cases: int = CASES) -> Check:
 @claim("thesis.160", part="values")
 @claim("thesis.163", part="digits")
 @claim("thesis.161", part="columns")
-@claim("thesis.162", part="blank")
 def data_sheet(part: str) -> Check:
     """Check the sample cards of pages 58 and 59."""
     if part == "columns":
         points, _ = exact_points(deck_of("z_in_39.deck"))
         z = [point[2] for point in points.values()][-1]
         return slip(Fraction(z) == 1, _column_of_z() == 42, "29 to 42", f"a z of 1 in columns 39 to 52 is read as {z}")
-    if part == "blank":
-        last = _column_of_z()
-        return slip(last == 52, last == 42, "43 to 80", f"three fields of 14 columns end in column {last}")
     if part == "digits":
         printed = "+.3000000E+01"
         whole = coordinate_field("3")

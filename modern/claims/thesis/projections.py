@@ -147,12 +147,17 @@ def theorem_4_4(cases: int = CASES) -> Check:
     return searched(SETS[2], cases, checks, f"{sum(checks)} of {len(checks)} projections keep the vertices")
 
 
-@claim("thesis.273", "thesis.126")
-def constant_term_of_4_4() -> Check:
-    """Check the constant terms of the coordinate planes, and of planes parallel to two of them."""
+@claim("thesis.126")
+def constant_terms() -> Check:
+    """Check that the constant terms of the coordinate planes are 0, and so their products with D_0."""
     units = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-    constants = {plane_through((0, 0, 0), p, q)[3] for p, q in combinations(units, 2)}
-    plane_x, plane_z = plane_through((1, 0, 0), (1, 1, 0), (1, 0, 1)), plane_through((0, 0, 1), (1, 0, 1), (0, 1, 1))
-    wrong = dot(plane_x[:3], plane_z[:3]) == 0 != plane_x[3] * plane_z[3]
-    message = "D_C is 0 for a coordinate plane; x = 1 and z = 1 are perpendicular, and the product of their D is not 0"
-    return slip(not wrong, constants == {0}, "a condition without the product of the constant terms", message)
+    outcomes = [plane_through((0, 0, 0), p, q)[3] == 0 for p, q in combinations(units, 2)]
+    return exhausted("coordinate planes", outcomes, "D_C is 0")
+
+
+@claim("thesis.273")
+def sum_that_ends_with_plus() -> Check:
+    """Check that the plus at the end must be removed, or followed by a product that is 0."""
+    return slip(
+        False, constant_terms().holds, "a sum without the plus, or with D_0 D_C", "D_C is 0 for a coordinate plane"
+    )

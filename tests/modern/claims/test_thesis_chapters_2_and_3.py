@@ -233,7 +233,7 @@ TABLE: Table = [
     (D + "51", "plane_as_printed", constant_plus_one),
     (D + "62", "line_of_page_19", constant_plus_one),
     (D + "58", "plane_value", negated),
-    (D + "1", "message_after_wrong_hull", check_holds),
+    (D + "1", "silent_loss", check_holds),
     (D + "1", "procedure_against_judge", check_fails),
     (D + "98", "_same_places", always(True)),
     (D + "199", "visible_planes", check_fails),

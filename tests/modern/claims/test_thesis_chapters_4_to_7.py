@@ -79,10 +79,6 @@ def exact_arithmetic(original: Original) -> object:
     return lambda rows, name: original(rows, "exact")
 
 
-def full_card(_: Original) -> object:
-    return lambda rows, name: SimpleNamespace(cards=[SimpleNamespace(text="1" * 80)])
-
-
 def correct_z(_: Original) -> object:
     return lambda name: data_deck([["1", "1", "1"]] * 3, "right")
 
@@ -143,6 +139,7 @@ TABLE: Table = [
     (D + "38", "_four_times", lambda original: lambda numbers: original([abs(x) for x in numbers])),
     (D + "138", "plane_value", negated),
     (D + "126", "plane_through", constant_plus_one),
+    (D + "273", "constant_terms", check_fails),
     (D + "235", "cross", sum_instead_of_product),
     (D + "120", "cross", sum_instead_of_product),
     (D + "113", "theorem_of", changed_result(reversed_points)),
@@ -185,7 +182,6 @@ TABLE: Table = [
     (D + "178", "_first_run", large_exponent),
     (D + "195", "at", always(0)),
     (D + "196", "_equations_made", always(0)),
-    (D + "162", "data_deck", full_card),
     (D + "161", "deck_of", correct_z),
     (D + "160", "coordinate_field", always("+.3000000E+01")),
     (D + "181", "coordinate_field", always("+.12345678E+01")),
