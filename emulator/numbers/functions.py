@@ -1,8 +1,8 @@
 """Library functions and powers.
 
-The result is the exact value, truncated to the profile's digits, or rounded if the profile rounds quotients.  SIN, COS,
-ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  Executing IBM's code showed that SQRT truncates the
-exact value.  For the other functions this is an assumption (OPEN-QUESTIONS 9).  Error codes and results for invalid
+The result is the exact value, truncated to the profile's digits, or rounded if the profile rounds products (SQRT: if it
+rounds quotients).  SIN, COS, ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  Executing IBM's code
+showed that SQRT truncates the exact value.  For the other functions this is an assumption (OPEN-QUESTIONS 9).  Error codes and results for invalid
 arguments follow GOTRAN's table F1 to F6 (C26-5594 p. 28), and IBM FORTRAN II-D for SQRT of a negative number.
 """
 
@@ -231,10 +231,10 @@ def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
 
 
 def _cut(number: int, power_of_ten: int, rules: Rules) -> tuple[int, int]:
-    """Return ``number * 10**power_of_ten`` with P digits, truncated, or rounded half up if quotients are rounded."""
+    """Return ``number * 10**power_of_ten`` with P digits, truncated, or rounded half up if products are rounded."""
     mantissa, exponent = cut_decimal(abs(number), power_of_ten, rules.digits + 1)
     mantissa, last_digit = divmod(mantissa, 10)
-    if rules.round_quotients and last_digit >= 5:
+    if rules.round_products and last_digit >= 5:
         mantissa += 1
     if mantissa >= rules.limit:
         mantissa, exponent = mantissa // 10, exponent + 1
