@@ -2,8 +2,9 @@
 
 The result is the exact value, truncated to the profile's digits, or rounded if the profile rounds products (SQRT: if it
 rounds quotients).  SIN, COS, ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  Executing IBM's code
-showed that SQRT truncates the exact value.  For the other functions this is an assumption (OPEN-QUESTIONS 9).  Error codes and results for invalid
-arguments follow GOTRAN's table F1 to F6 (C26-5594 p. 28), and IBM FORTRAN II-D for SQRT of a negative number.
+showed that SQRT truncates the exact value.  For the other functions this is an assumption (OPEN-QUESTIONS 9).  Error
+codes and results for invalid arguments follow GOTRAN's table F1 to F6 (C26-5594 p. 28), and IBM FORTRAN II-D for SQRT
+of a negative number.
 """
 
 from __future__ import annotations
