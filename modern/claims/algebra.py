@@ -1,12 +1,12 @@
-"""Exact polynomials and sign certificates: the calculus in which the proofs of theorems are checked.
+"""Exact polynomials and certificates of their signs, with which the proofs of theorems are checked.
 
-A :class:`Step` of a proof says that a polynomial has a sign if other polynomials have stated signs.  Its certificate is
-an identity::
+A :class:`Step` of a proof states: if some polynomials (the hypotheses) have given signs, then another polynomial (the
+conclusion) has a given sign.  Its certificate is an identity::
 
     multiplier * conclusion = sum of terms
 
-The multiplier is a product of positive hypotheses.  Each term is a product of hypotheses with a positive number, with
-a square, or, if one of the hypotheses is an equation, with any polynomial.  Expanding both sides therefore proves the
+The multiplier is a product of positive hypotheses.  Each term is a product of hypotheses with a positive number, with a
+square, or, if one of the hypotheses is an equation, with any polynomial.  Expanding both sides therefore proves the
 step for all real numbers.  The sentences that connect the steps are not checked by computation.
 """
 
@@ -93,18 +93,18 @@ def minus(p: Point, q: Point) -> Point:
 
 
 def turn(u: Point, v: Point) -> Polynomial:
-    """Return the product of the lengths and the sine of the angle from u to v in the plane."""
+    """Return the cross product of two vectors in the plane: it is positive if v is counterclockwise from u."""
     return u[0] * v[1] - u[1] * v[0]
 
 
 def bracket(a: Point, b: Point, c: Point) -> Polynomial:
-    """Return twice the signed area of a triangle in the plane; positive if c is to the left of the way from a to b."""
+    """Return twice the signed area of the triangle a b c; it is positive if c is to the left of the line a b."""
     return turn(minus(b, a), minus(c, a))
 
 
 @dataclass(frozen=True, slots=True)
 class Sign:
-    """A polynomial that is positive, not negative, or zero."""
+    """A polynomial with the statement that it is positive, not negative, or zero."""
 
     value: Polynomial
     relation: Relation
@@ -131,7 +131,7 @@ IMPOSSIBLE = positive(polynomial(0))
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """A product of hypotheses, given by name, with a factor that is squared unless one of them is an equation."""
+    """A term of a certificate: a product of named hypotheses and a factor, squared if no hypothesis is an equation."""
 
     names: tuple[str, ...]
     factor: Polynomial
@@ -143,7 +143,7 @@ def term(names: str, factor: Polynomial | int = 1) -> Term:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A step of a proof: the hypotheses by name, the conclusion, and the certificate (see the module)."""
+    """A step of a proof: hypotheses by name, conclusion, and certificate (see :mod:`modern.claims.algebra`)."""
 
     says: str
     hypotheses: Mapping[str, Sign]
@@ -163,7 +163,7 @@ class Step:
             is_nonzero = t.factor.terms.keys() == {()}
             relations.append("=" if "=" in used else ">" if is_nonzero and ">=" not in used else ">=")
             total += self._product(t.names) * (t.factor if "=" in used else t.factor * t.factor)
-        # A sum of terms is positive if one term is, and zero only if all terms are equations.
+        # The sum is positive if at least one term is; it is known to be zero only if every term contains an equation.
         proved: Relation = ">" if ">" in relations else ">=" if ">=" in relations else "="
         follows = {">": (">",), ">=": (">", ">=", "="), "=": ("=",)}[self.conclusion.relation]
         return not total.terms and proved in follows
@@ -172,7 +172,7 @@ class Step:
         return reduce(mul, (self.hypotheses[name].value for name in names), polynomial(1))
 
     def refuting_values(self, seed: int, tries: int = 20000) -> Mapping[str, int] | None:
-        """Search small integers at which all hypotheses hold and the conclusion does not."""
+        """Search for small integers at which all hypotheses hold and the conclusion does not."""
         random = Random(seed)
         signs = (*self.hypotheses.values(), self.conclusion)
         names = sorted(set[str]().union(*(sign.value.variables() for sign in signs)))
@@ -183,7 +183,7 @@ class Step:
         return None
 
     def alterations(self) -> Iterator[tuple[str, Step]]:
-        """Yield altered statements: without a hypothesis that is used, and with the opposite conclusion."""
+        """Yield altered steps: one without each hypothesis that is used, and one with the opposite conclusion."""
         for name in sorted({*self.multiplier, *(n for t in self.terms for n in t.names)}):
             rest = {key: sign for key, sign in self.hypotheses.items() if key != name}
             yield f"without {name}", replace(self, hypotheses=rest)
@@ -194,7 +194,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """A theorem in our words, the argument that connects the steps, and the steps."""
+    """A theorem in our words, the steps of its proof, and the argument that connects the steps."""
 
     theorem: str
     argument: str
@@ -205,13 +205,13 @@ class Proof:
 
 
 def largest_value() -> Step:
-    """Return the step that a largest value of a linear function L is attained only by combinations of such points.
+    """Return the step that a combination of points is largest in a linear function L only if each of the points is.
 
-    The weights may have any positive sum.  More than two points are combined one after the other.
+    The weights may have any positive sum.  A combination of more than two points is formed by combining two at a time.
     """
     w, w_p, w_q, l_x, l_p, l_q = variables("w w_p w_q L_x L_p L_q")
     return Step(
-        "a largest value is no combination of two values of which one is smaller",
+        "a combination of two values of which one is smaller is not the largest value",
         {
             "p": positive(l_x - l_p),
             "q": not_negative(l_x - l_q),
@@ -226,7 +226,7 @@ def largest_value() -> Step:
 
 
 def combination_satisfies() -> tuple[Step, ...]:
-    """Return the steps that a linear inequality holds between two points where it holds; L is linear."""
+    """Return the steps: a linear inequality L <= 0 that holds at two points holds at every point between them."""
     p, q = point("p", 3), point("q", 3)
     slope = variables("L_1 L_2 L_3")
     level, share, l_p, l_q = variables("L_0 lambda L_p L_q")

@@ -1,9 +1,10 @@
 """All checks of ``hull1620 apparatus --check``, each reported as a :class:`Proof`.
 
-An emendation is checked twice: its kind must allow the change (:mod:`modern.edition.readings`), and its ground must
-fail without it. The grounds of chapter 4 and of the papers are checked here: ``sibling``, words that another line has
-too; ``arithmetic``, the four conditions of theorem 4.2 in full; and ``result``, a published result that is computed and
-is reproduced only with the emendation.
+An emendation (a correction of a transcribed text) is checked twice: its kind must permit the change
+(:mod:`modern.edition.readings`), and the ground that it gives must fail if the emendation is undone. This module checks
+the grounds of chapter 4 and of the papers: ``sibling``, another line has the same words; ``arithmetic``, the four
+conditions of theorem 4.2 must be printed in full; ``result``, a published result is reproduced only with the
+emendation.
 """
 
 from collections import Counter
@@ -25,7 +26,7 @@ from modern.papers import Lines
 
 
 def texts() -> dict[str, Text]:
-    """Return every text that has an apparatus, by its id."""
+    """Return the texts that have an apparatus, as a mapping from id to text."""
     loaded_texts = [programs.text(name) for name in programs.TEXTS]
     loaded_texts += [chapter4.load_text(), load_chapter().text]
     loaded_texts += [published.text_of(paper) for paper in published.PAPERS]
@@ -33,28 +34,28 @@ def texts() -> dict[str, Text]:
 
 
 def count_pair_uses(all_texts: Mapping[str, Text]) -> Counter[tuple[str, str]]:
-    """Count the uses of each pair of the table of confusables in all texts."""
+    """Count how often all texts together use each pair of the table of confusable characters."""
     return attested(row for text in all_texts.values() for row in text.rows)
 
 
 def check_sources(whole: str = "") -> Iterator[Proof]:
-    """Check the hashes of the sources, and the excerpts against ``whole``, the text of a document, if it is given."""
+    """Check the hashes of the source files, and compare the excerpts with ``whole``, a whole text, if given."""
     for file, holds, message in (*sources.check_files(), *(sources.check_against(whole) if whole else ())):
         yield Proof(file.removeprefix("fortran_src/").removeprefix("transcripts/"), holds, message)
 
 
 def check_listing(row: Row, pair_uses: Mapping[tuple[str, str], int]) -> Proof:
-    """Check that the kind of an emendation of a listing allows the change, and check its ground."""
+    """Check an emendation of a program listing: its kind must permit the change, and its ground must hold."""
     fault = next(reading_faults(row, pair_uses), "")
     return Proof(row.id, False, fault) if fault else check_row(row)
 
 
 def check_transcripts(pair_uses: Mapping[tuple[str, str], int]) -> Iterator[Proof]:
-    """Yield one proof for each of chapter 6, chapter 4 and the papers; it reports the first fault, if any."""
+    """Yield one proof each for chapter 6, chapter 4 and every paper; a failing proof reports the first fault."""
     chapter = load_chapter()
     faults = [*_kinds(chapter.text, pair_uses), *check_chapter(chapter)]
     files = len({(d.example, d.program, d.device) for d in chapter.layout.devices})
-    message = f"{files} device files equal witness, {len(chapter.text.rows)} rows and layout, and each row is needed"
+    message = f"{files} device files follow from witness, {len(chapter.text.rows)} rows and layout; each row is needed"
     yield _proof("chapter6", faults, message)
     text = chapter4.load_text()
     faults = [*_kinds(text, pair_uses), *(fault for row in text.rows for fault in chapter4_faults(text, row))]
@@ -78,16 +79,16 @@ def _kinds(text: Text, pair_uses: Mapping[tuple[str, str], int]) -> Iterator[str
 
 
 def chapter4_faults(text: Text, row: Row) -> tuple[str, ...]:
-    """Return the fault of a row of chapter 4, if any; each step of the row must be needed."""
+    """Return the fault of a row in the apparatus of chapter 4, if any: each of its changes must be needed."""
     holds = {"sibling": _sibling, "arithmetic": _arithmetic}[str(row.ground["kind"])]
     if not holds(row, build(text)):
-        return (f"row {row.id}: its ground does not hold",)
+        return (f"row {row.id}: the ground that it gives does not hold",)
     # Each step of a reading must be needed, and so must the row as a whole.
     for step in steps(row) or ():
         if holds(row, build(text, instead=without_step(row, step))):
-            return (f"row {row.id}: {step.pair.lemma!r} for {step.pair.witness!r} is not needed",)
+            return (f"row {row.id}: {step.pair.lemma!r} for {step.pair.witness!r} is not needed for its ground",)
     if holds(row, build(text, None, {row.id})):
-        return (f"row {row.id}: its ground holds without it",)
+        return (f"row {row.id}: its ground holds even without this row",)
     return ()
 
 
@@ -99,7 +100,7 @@ def _sibling(row: Row, lines: tuple[Line, ...]) -> bool:
 
 
 def _arithmetic(row: Row, lines: tuple[Line, ...]) -> bool:
-    """Return True if the conditions contain z and D, without which one fails at the point of the ground."""
+    """Return True if each condition prints z and D, and if leaving z and D out would falsify one at the named point."""
     theorem = next(t for t in chapter4.load_theorems() if t.id == row.ground["theorem"])
     plane, point = theorem.plane(row.ground["equation"]), theorem.point(row.ground["point"])
     assert point is not None
@@ -121,7 +122,7 @@ def _results(paper: published.Paper) -> tuple[published.PublishedResult, ...]:
 
 
 def paper_faults(paper: published.Paper, text: Text, row: Row) -> tuple[str, ...]:
-    """Return the fault of a row of a paper, if any: its results must be reproduced with the row and not without it."""
+    """Return the fault of a row of a paper, if any: its results must be reproduced with the row, and not without it."""
     if row.ground.get("kind") != "result":
         return (f"row {row.id}: unknown ground {row.ground.get('kind')!r}",)
     has_computed_result = False
@@ -131,16 +132,16 @@ def paper_faults(paper: published.Paper, text: Text, row: Row) -> tuple[str, ...
             continue
         has_computed_result = True
         computed_words = [line.split() for line in _produced(paper.name).get(result.id, ())]
-        # The lines of the result with all emendations, and without the one that is checked.
+        # The lines of the result with all emendations, and with all except the row being checked.
         with_row, without = (
             [line.text.split() for line in build(text, None, left_out) if line.id in span]
             for left_out in ((), {row.id})
         )
         if with_row != computed_words and not result.differs:
-            return (f"row {row.id}: result {result.id} is not reproduced with it",)
+            return (f"row {row.id}: result {result.id} is not reproduced with this row",)
         if without == computed_words:
-            return (f"row {row.id}: result {result.id} is reproduced without it",)
-    return () if has_computed_result else (f"row {row.id}: its lines do not belong to a computed result",)
+            return (f"row {row.id}: result {result.id} is reproduced even without this row",)
+    return () if has_computed_result else (f"row {row.id}: it changes no line of a computed result",)
 
 
 def _span(text: Text, row: Row, first: str, last: str) -> list[str]:
@@ -153,10 +154,10 @@ def _span(text: Text, row: Row, first: str, last: str) -> list[str]:
 
 
 def check_everything(rows: list[Row], transcripts: bool, whole: str = "", workers: int = 1) -> Iterator[Proof]:
-    """Run all checks in the order in which they are printed.
+    """Run all checks and return the proofs in the order in which they are printed.
 
-    Check only the ``rows`` of the listings unless ``transcripts`` is true, and the excerpts of a document if ``whole``
-    is its text. Raise ApparatusError if ``whole`` does not belong to a document.
+    If ``transcripts`` is false, check only the ``rows`` of the listings. If ``whole``, the text of a document, is
+    given, also compare the excerpts with it; raise ApparatusError if it is not the text of one of the documents.
     """
     pair_uses = count_pair_uses(texts())
     if workers == 1 or len(rows) < _MANY:
@@ -182,7 +183,7 @@ def check_everything(rows: list[Row], transcripts: bool, whole: str = "", worker
 
 # The number of rows submitted to a process at a time; neighbouring rows share a program.
 _CHUNK = 8
-# The number of rows from which on further processes save time.
+# The smallest number of rows for which starting further processes saves time.
 _MANY = 20
 
 

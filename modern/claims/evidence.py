@@ -1,9 +1,9 @@
-"""Evidence for statements: the result of a check, and the grade that follows from the way in which it was computed.
+"""Evidence for statements: the result of a check, and a grade that says how strong the evidence is.
 
-A check is a function that returns a :class:`Check`.  Only the constructors of this module make one, and each sets the
-grade from what it was given: :func:`proved` counts the steps of an argument, :func:`exhausted` the configurations of a
-whole domain, :func:`searched` the cases of a generator.  The decorator :func:`claim` names the statements that a check
-decides.
+A check is a function that computes whether a statement holds and returns a :class:`Check`.  Only the constructors of
+this module make a ``Check``, and each sets the grade from its arguments: :func:`proved` counts the steps of an
+argument, :func:`exhausted` the members of a whole domain, :func:`searched` the cases of a generator.  The decorator
+:func:`claim` names the statements that a check decides.
 """
 
 import inspect
@@ -18,18 +18,18 @@ from emulator.errors import EmulatorError
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., "Check"])
 Grade = Literal["proved", "exhausted", "searched", "exhibited", "used", "quoted"]
-# The grades, strongest first.
+# The grades of evidence, strongest first.
 GRADES: tuple[Grade, ...] = get_args(Grade)
 _ATTRIBUTE: Final = "decides"
 
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """How a check was computed.
+    """How the result of a check was obtained.
 
-    ``domain`` is the argument of a proof, the set that was exhausted, or the name of a generator; ``seed`` is that of
-    the generator.  ``violation`` is a case that violates the condition of the statement and refutes the statement.
-    ``correction`` is the reading with which a slip becomes true.
+    ``domain`` is the argument of a proof, the set whose members were all tested, or the name of a generator; ``seed``
+    is the seed of that generator.  ``violation`` is a case that violates the condition of the statement and refutes the
+    statement. ``correction`` is the reading that makes a misprinted statement true.
     """
 
     grade: Grade
@@ -40,12 +40,12 @@ class Evidence:
     correction: str = ""
 
     def describe(self) -> str:
-        """Return the grade with its cases, and the violation of the condition or the correction, in words."""
+        """Return a text with the grade, the number of cases, and the violation or the correction, if any."""
         parts = [f"proved: {self.domain} ({self.cases} steps)" if self.grade == "proved" else ""]
         if self.grade in ("exhausted", "searched"):
             seed = "" if self.seed is None else f", seed {self.seed}"
             parts = [f"{self.grade}: {self.domain}, {self.cases:,} cases{seed}"]
-        parts += [f"without the condition refuted by {self.violation}" if self.violation else ""]
+        parts += [f"without its condition, the statement is refuted by {self.violation}" if self.violation else ""]
         parts += [f"true when read as {self.correction}" if self.correction else ""]
         return "; ".join(part for part in parts if part) or self.grade
 
@@ -59,21 +59,18 @@ class Check:
     evidence: Evidence
 
     def unless(self, refutes: object, case: str) -> Self:
-        """Return the check of a statement with a condition: ``case`` violates the condition, and refutes.
-
-        If it does not refute, the condition is not needed, and the statement is reported to hold without one.
-        """
+        """Return this check for a statement with a condition; ``case`` violates the condition and the statement."""
         return replace(self, evidence=replace(self.evidence, violation=case)) if refutes else self
 
     def misprinted(self, is_refuted: object, correction: str) -> Self:
-        """Return the check of a slip: the print is refuted, and this is the check of the corrected reading."""
+        """Turn the check of a corrected reading into that of a slip if the printed reading is refuted."""
         evidence = replace(self.evidence, correction=correction if self.holds else "")
         return replace(self, holds=False, evidence=evidence) if is_refuted else self
 
 
 @dataclass(frozen=True, slots=True)
 class Generator(Generic[T]):
-    """A generator of cases; ``draw`` makes one from random numbers, and ``accepts`` excludes unsuitable ones."""
+    """A generator of cases: ``draw`` makes a case from random numbers, and ``accepts`` excludes unsuitable cases."""
 
     name: str
     seed: int
@@ -81,7 +78,7 @@ class Generator(Generic[T]):
     accepts: Callable[[T], bool] = lambda case: True
 
     def cases(self, count: int) -> Iterator[T]:
-        """Yield the first ``count`` accepted cases, always the same ones."""
+        """Yield the first ``count`` accepted cases. Every call yields the same cases."""
         random = Random(self.seed)
         while count:
             case = self.draw(random)
@@ -91,34 +88,36 @@ class Generator(Generic[T]):
 
 
 def proved(argument: str, steps: Iterable[object], message: str) -> Check:
-    """Return the check of a proof; ``steps`` are the truth values of the identities and cases that it consists of."""
+    """Return the check of a proof; ``steps`` holds one truth value for each identity or case that the proof needs."""
     return _all("proved", argument, steps, message)
 
 
 def identity(difference: Callable[..., int], degrees: Sequence[int], message: str) -> Check:
-    """Return the check of an identity of polynomials; ``degrees`` bounds the degree of each variable.
+    """Return the check of a polynomial identity; ``difference`` is one side minus the other, with the given degrees.
 
-    A polynomial of degree d in a variable that vanishes at d + 1 values vanishes for all; so it is 0 if it is 0 on the
-    grid of these values.
+    A polynomial of degree d in a variable that vanishes at d + 1 values of it vanishes at all values.  So the
+    difference is zero everywhere if it is zero on a grid with d + 1 values for each variable.
     """
     values = [difference(*point) == 0 for point in product(*(range(-(d // 2), d - d // 2 + 1) for d in degrees))]
-    argument = f"a polynomial in {len(degrees)} variables that is 0 on a grid of one value more than each degree is 0"
+    argument = (
+        f"a polynomial in {len(degrees)} variables that is 0 on a grid with one value more than its degree in each"
+    )
     return proved(argument, values, message)
 
 
 def exhausted(domain: str, outcomes: Iterable[object], message: str) -> Check:
-    """Return the check of a whole domain, with one truth value for each of its configurations."""
+    """Return the check of a statement about a whole domain; ``outcomes`` has one truth value for each member."""
     return _all("exhausted", domain, outcomes, message)
 
 
 def searched(generator: Generator[Any], cases: int, outcomes: Iterable[object], message: str) -> Check:
-    """Return the check of ``cases`` cases of a generator, each of which has any number of outcomes."""
+    """Return the check of ``cases`` cases of a generator; ``outcomes`` has any number of truth values for each case."""
     check = _all("searched", generator.name, outcomes, message)
     return replace(check, evidence=replace(check.evidence, cases=cases, seed=generator.seed))
 
 
 def search(generator: Generator[T], statement: Callable[[T], object], cases: int, message: str) -> Check:
-    """Return the check of a statement about every case of a generator; the first case that refutes it is shrunk."""
+    """Return the check of a statement about each case of a generator; the first case that refutes it is reduced."""
     for case in generator.cases(cases):
         if not statement(case):
             smallest = shrink(case, lambda smaller: generator.accepts(smaller) and not statement(smaller))
@@ -127,17 +126,17 @@ def search(generator: Generator[T], statement: Callable[[T], object], cases: int
 
 
 def exhibited(holds: object, message: str) -> Check:
-    """Return the check of an instance that shows the statement."""
+    """Return the check of a statement that one instance shows; ``holds`` tells whether the instance does show it."""
     return Check(bool(holds), message, Evidence("exhibited"))
 
 
 def refuted(by: object, message: str) -> Check:
-    """Return the check of a counterexample; ``by`` is true if it refutes the statement."""
+    """Return the check of a statement that a counterexample refutes; ``by`` is true if the counterexample does so."""
     return Check(not by, message, Evidence("exhibited"))
 
 
 def slip(as_printed: object, as_corrected: object, correction: str, message: str) -> Check:
-    """Return the check of a slip of the print: the printed reading is false and the corrected one true."""
+    """Return the check of a misprint; it is confirmed if the printed reading is false and the corrected one true."""
     evidence = Evidence("exhibited", 2, correction=correction if as_corrected else "")
     return Check(bool(as_printed), message, evidence)
 
@@ -148,7 +147,7 @@ def _all(grade: Grade, domain: str, outcomes: Iterable[object], message: str) ->
 
 
 def shrink(case: T, fails: Callable[[T], bool]) -> T:
-    """Return a smaller case that still fails: nested tuples of integers lose elements, and integers approach 0."""
+    """Return a smaller case that still fails: nested tuples lose elements, and integers are brought closer to 0."""
     while (smaller := next((c for c in _smaller(case) if _fails(c, fails)), None)) is not None:
         case = smaller
     return case
@@ -172,7 +171,7 @@ def _smaller(case: Any) -> Iterator[Any]:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A check with the arguments with which it decides a statement; ``full`` is the size of the full search, or 0."""
+    """A check with its arguments for one statement; ``full`` is the number of cases of the full search, or 0."""
 
     statement: str
     function: Callable[..., Check]
@@ -180,7 +179,7 @@ class Decision:
     full: int = 0
 
     def run_full(self) -> Check:
-        """Run the check at its full size."""
+        """Run the check with the number of cases of the full search."""
         return self.function(**dict(self.subject), cases=self.full)
 
 
@@ -188,13 +187,13 @@ def claim(*statements: str, full: int = 0, **subject: Any) -> Callable[[F], F]:
     """Name the statements that a check decides.
 
     statements: ids of rows of the register.
-    full: the number of cases of the full search, for a check with the parameter ``cases``.
-    subject: arguments that choose the subject of the check, for example a table; they never choose the verdict.
+    full: the number of cases of the full search; the check must then have a parameter ``cases``.
+    subject: arguments that select what is checked, for example which table; they never select the verdict.
     """
 
     def decorate(function: F) -> F:
         if full and "cases" not in inspect.signature(function).parameters:
-            raise TypeError(f"{function.__qualname__}: a check with a full size needs the parameter 'cases'")
+            raise TypeError(f"{function.__qualname__}: a check with a full search needs the parameter 'cases'")
         decisions = [Decision(name, function, tuple(subject.items()), full) for name in statements]
         function.__dict__.setdefault(_ATTRIBUTE, []).extend(decisions)
         return function
@@ -203,7 +202,7 @@ def claim(*statements: str, full: int = 0, **subject: Any) -> Callable[[F], F]:
 
 
 def decisions_in(module: object) -> Iterator[Decision]:
-    """Yield the decisions of the checks that a module defines, in their order."""
+    """Yield a :class:`Decision` for each statement that a check of the module decides, in the order of the source."""
     for value in vars(module).values():
         if inspect.isfunction(value) and value.__module__ == getattr(module, "__name__", ""):
             yield from reversed(getattr(value, _ATTRIBUTE, ()))

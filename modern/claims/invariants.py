@@ -1,7 +1,8 @@
-"""Invariants of the printed tables and figures: relations that hold for every body, whatever it was.
+"""Invariants of the printed tables and figures: relations that hold for every body, so that its shape need not be
+known.
 
-A convex polyhedron with V vertices and F faces has V <= 2 F - 4 and F <= 2 V - 4, and V - E + F = 2.  A row of a table
-that violates such a relation is wrong or counts something else, and no assumption about its body is needed.
+A convex polyhedron with V vertices, E edges and F faces has V <= 2 F - 4, F <= 2 V - 4, and V - E + F = 2.  If a row of
+a table violates such a relation, the row is wrong or counts something else.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ class Invariant:
 
 
 def _printed(paper: str) -> Lines:
-    """Return the corrected print, by result."""
+    """Return the printed lines of a paper, after our emendations, by the id of their result."""
     return printed_lines(next(p for p in PAPERS if p.name == paper))
 
 
@@ -50,7 +51,7 @@ def may_be_convex(corners: int, faces: int) -> bool:
 
 
 def is_sphere(faces: Iterable[Sequence[object]]) -> bool:
-    """Return True if every edge belongs to two faces and V - E + F = 2."""
+    """Return True if every edge belongs to two faces and V - E + F = 2, so that the faces form a closed surface."""
     rings = [[*face] for face in faces]
     edges = Counter(frozenset(pair) for ring in rings for pair in pairwise([*ring, ring[0]]))
     corners = {corner for ring in rings for corner in ring}
@@ -59,7 +60,7 @@ def is_sphere(faces: Iterable[Sequence[object]]) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class HalfBall:
-    """A row of Table 5 of Kovalevsky and Schulz."""
+    """A row of Table 5 of Kovalevsky and Schulz: a digitised half-ball and the sizes of its hull."""
 
     statement: str
     diameter: int
@@ -89,7 +90,7 @@ def _of_half_balls(holds: Callable[[HalfBall], bool]) -> Callable[[], Iterator[O
 
 
 def _has_quarter_turns(row: HalfBall) -> bool:
-    # A quarter turn moves all points except one apex on the axis, and all faces except the base and a face on top.
+    # A quarter turn leaves at most one vertex (an apex on the axis) and at most two faces (base and top) in place.
     top = row.faces % 4 - 1
     return top in (0, 1) and row.corners % 4 == 1 - top
 
@@ -123,13 +124,13 @@ def _cell_list() -> Iterator[Outcome]:
     signed = {
         n: {sign * e for e, pair in ends.items() for p, sign in zip(pair, (-1, 1), strict=True) if p == n} for n in at
     }
-    yield "kovalevsky-schulz.39", "every edge leaves one vertex and reaches another", at == signed
+    yield "kovalevsky-schulz.39", "every edge joins two different vertices", at == signed
     yield "kovalevsky-schulz.40", "every face has three edges", sides == dict.fromkeys(range(1, len(rings) + 1), 3)
     yield "kovalevsky-schulz.41", "the faces form a sphere", is_sphere(ring[::2] for ring in rings)
     passed = sorted(edge for ring in rings for edge in ring[1::2])
     yield (
         "kovalevsky-schulz.41",
-        "every edge is passed in both directions",
+        "the two faces of each edge pass it in opposite directions",
         passed == sorted((*ends, *(-e for e in ends))),
     )
 
@@ -156,7 +157,7 @@ def _figure_4() -> Iterator[Outcome]:
 
 
 def _columns(rows: Sequence[str]) -> list[list[int]]:
-    """Return the columns of a table whose cells are separated by tabs, without the labels in the first one."""
+    """Return the columns of a table whose cells are separated by tabs, without the column of row labels."""
     cells = [row.split("\t")[1:] for row in rows]
     return [[n for row in cells if k < len(row) for n in _numbers(row[k])] for k in range(len(cells[0]))]
 
@@ -166,13 +167,13 @@ def _lines_of(rows: Sequence[str]) -> dict[int, tuple[int, int]]:
 
 
 def _is_closed(loop: Sequence[int], lines: Mapping[int, tuple[int, int]]) -> bool:
-    """Return True if each signed line of a loop begins where the line before it ends."""
+    """Return True if each signed line of a loop begins at the end of the line before it."""
     ways = [lines[abs(n)][:: 1 if n > 0 else -1] for n in loop]
     return all(here[0] == before[1] for before, here in zip([ways[-1], *ways], ways, strict=False))
 
 
 def _figures_14_to_23() -> Iterator[Outcome]:
-    """Yield the outcomes for the lists of lines, the loops with their counts IUC, and the map of Fig. 23."""
+    """Yield the outcomes for Figs. 14, 22 and 23: the lists of lines, the loops with their counts IUC, and the map."""
     printed = _printed("appel-will")
     first, second = (printed[name] for name in ("fig22-loops-1-3", "fig22-loops-4-5"))
     fig22 = [_numbers(cell) for row in (first[0], second[0]) for cell in row.split("\t")[1::2]]
@@ -191,8 +192,8 @@ def _figures_14_to_23() -> Iterator[Outcome]:
         label, *rest = _numbers(row)
         yield "appel-will.111", f"IUC of line {label}", rest[::2] == [uses[label] for uses in uses_after]
     corners = [[lines[abs(n)][n < 0] for n in loop] for loop in fig23]
-    yield "appel-will.115", "the map follows from the loops", _columns(printed["fig23-map"]) == corners
-    yield "appel-will.115", "the map is a sphere", is_sphere(corners)
+    yield "appel-will.115", "the map in Fig. 23 follows from the loops", _columns(printed["fig23-map"]) == corners
+    yield "appel-will.115", "the surfaces of the map form a sphere", is_sphere(corners)
 
 
 def _examples() -> Iterator[Outcome]:
@@ -222,7 +223,7 @@ def _tables_of_chapter_4() -> Iterator[Outcome]:
     yield "thesis.115", "Table 1 is a sphere", is_sphere(plane.vertices for plane in table_1.planes)
     hull = [p for p in table_8.points if p.name != "Q9"]
     on = [sum(plane.at(p) == 0 for p in hull) for plane in table_8.planes]
-    # Each edge of H_5 is on two planes, so the numbers of vertices on the planes add up to 2 E.
+    # A face has as many edges as vertices, and each edge is on two planes: the vertex counts of the planes add to 2 E.
     yield "thesis.150", "V - E + F = 2", 2 * (len(hull) + len(on) - 2) == sum(on)
     yield "thesis.150", "V <= 2 F - 4", may_be_convex(len(hull), len(on))
 

@@ -1,8 +1,8 @@
-"""Published results of the later papers, and the verdict on each.
+"""Published results of the later papers, and the verdict on each result.
 
-The folder of a paper below ``transcripts`` holds a witness (the values as printed, with page marks), an apparatus and
-``results.toml``, which names the lines of the corrected print that form one published result. The output of a program
-is compared with the corrected print word by word; spacing is ignored.
+For each paper, a folder below ``transcripts`` holds a witness (the values as printed, with page marks), an apparatus
+(our emendations of the values), and ``results.toml``, which assigns the lines of the emended print to published
+results. Each result is compared word by word with the output of our program; spacing is ignored.
 """
 
 import tomllib
@@ -26,7 +26,7 @@ Kind = Literal["exact", "as corrected", "differs, explained", "not reproducible"
 
 @dataclass(frozen=True, slots=True)
 class Paper:
-    """A paper with published results; ``module`` provides ``produced`` (see :data:`modern.papers.Lines`)."""
+    """A paper with published results; ``module.produced`` computes them (see :data:`modern.papers.Lines`)."""
 
     name: str
     title: str
@@ -60,7 +60,7 @@ PAPERS: tuple[Paper, ...] = (
 class PublishedResult:
     """A published result.
 
-    ``printed`` are its lines as in the witness, ``corrected`` the lines after the emendations ``rows``, and ``span``
+    ``printed`` holds its lines as in the witness, ``corrected`` the lines after the emendations ``rows``, and ``span``
     the ids of its first and last line. ``differs`` explains why the computed result differs from the printed one, and
     ``cannot`` why nothing can be computed.
     """
@@ -87,24 +87,25 @@ class Finding:
 
     @property
     def holds(self) -> bool:
-        """Return True if the result is reproduced or the data explain why it is not."""
+        """Return True if the result is reproduced, or if ``results.toml`` explains why it is not."""
         return self.kind != DIFFERENT
 
     @property
     def excused(self) -> bool:
-        """Return True if the result is not reproduced and the data explain why."""
+        """Return True if the result is not reproduced and ``results.toml`` explains why."""
         return self.kind in (EXPLAINED, CANNOT)
 
 
 def text_of(paper: Paper, folder: Traversable | None = None) -> Text:
-    """Load the printed values of a paper: witness and apparatus."""
+    """Load the witness and the apparatus of a paper's printed values."""
     return load(folder or files("transcripts").joinpath(paper.folder), "apparatus")
 
 
 def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[PublishedResult, ...]:
     """Return the published results of a paper in the order of ``results.toml``.
 
-    Raise ApparatusError if a result names a line that does not exist, or if a line belongs to two results or to none.
+    Raise ApparatusError if a result names a line that does not exist, or if a line of the witness belongs to two
+    results or to none.
     """
     folder = folder or files("transcripts").joinpath(paper.folder)
     text = text_of(paper, folder)
@@ -114,11 +115,11 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
     results: list[PublishedResult] = []
     free = [line.id for line in corrected]
     for entry in data["result"]:
-        # Every line of the print belongs to one result.  The lines are assigned in the order of results.toml.
+        # Every printed line belongs to exactly one result; each result takes its lines from those that are left.
         first, last = str(entry["lines"][0]), str(entry["lines"][-1])
         if first not in free or last not in free:
             raise ApparatusError(
-                f"{text.id}: result {entry['id']}: lines {first} to {last} do not exist or belong to another result"
+                f"{text.id}: result {entry['id']}: lines {first} to {last} do not exist or are in another result"
             )
         span = free[free.index(first) : free.index(last) + 1]
         free = [name for name in free if name not in span]
@@ -142,7 +143,7 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
 
 
 def judge(paper: Paper, result: PublishedResult, produced: Sequence[str]) -> Finding:
-    """Compare produced lines with the corrected print.  If the data say that the result differs, it must differ."""
+    """Compare produced lines with the emended print.  If ``results.toml`` says that they differ, they must differ."""
     same = [line.split() for line in produced] == [line.split() for line in result.corrected]
     kind: Kind
     if result.cannot:
@@ -157,13 +158,13 @@ def judge(paper: Paper, result: PublishedResult, produced: Sequence[str]) -> Fin
 
 
 def printed_lines(paper: Paper) -> Lines:
-    """Return the corrected print, by result."""
+    """Return the printed lines of a paper, after our emendations, by the id of their result."""
     return {result.id: result.corrected for result in results_of(paper)}
 
 
 @cache
 def produced_by(paper: Paper) -> Lines:
-    """Return the output of the paper's module for the corrected print, by result."""
+    """Compute the results of a paper from its printed data; return the produced lines by the id of their result."""
     produced: Lines = import_module(paper.module).produced(printed_lines(paper))
     return produced
 

@@ -39,9 +39,9 @@ Verdict = Literal[
 ]
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 SLIPS: tuple[Verdict, ...] = VERDICTS[3:6]
-# The verdict of several pieces of evidence is the last of these.
+# If several pieces of evidence give different verdicts, the statement has the one that is last in this list.
 _FROM_BEST: tuple[Verdict, ...] = (USED, HOLDS, CONDITION, UNTESTABLE, *SLIPS, FAILS)
-# The columns in which statements are counted: slips of the print and repetitions are separate from wrong claims.
+# The columns in which statements are counted; misprints and repetitions are counted apart from wrong claims.
 SLIP: Final = "slip"
 REPETITION: Final = "repetition"
 COLUMNS = (HOLDS, CONDITION, FAILS, SLIP, USED, UNTESTABLE, REPETITION)
@@ -88,7 +88,7 @@ class Statement:
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """A statement with its computed verdict and grade and the evidence; without evidence the verdict is None."""
+    """A row with its computed verdict, grade and evidence; if no evidence could be computed, the verdict is None."""
 
     statement: Statement
     computed: Verdict | None
@@ -98,16 +98,16 @@ class Judged:
 
     @property
     def agrees(self) -> bool:
-        """Return True if the computed verdict equals the recorded one, or if no verdict was computed."""
+        """Return True if the computed verdict equals the recorded verdict, or if none was computed."""
         return self.computed in (None, self.statement.verdict)
 
 
-# Returns the verdict on a result by document and id, or None for an unknown id.
+# A function from document and id of a published result to its verdict, or to None if the id is unknown.
 Results = Callable[[str, str], Verdict | None]
 
 
 def statements_folder() -> Traversable:
-    """Return the data folder, in a checkout or an installed wheel."""
+    """Return the folder of the registers, in a checkout or in an installed wheel."""
     return files("transcripts").joinpath("statements")
 
 
@@ -119,7 +119,7 @@ def statements_of(document: str) -> tuple[Statement, ...]:
 
 
 def read_rows(document: str, text: str) -> Iterator[Statement]:
-    """Yield the rows of a register.  A repetition has the verdict of the row that it repeats.
+    """Yield the rows of a register.  A row that repeats another one gets the verdict of that row.
 
     Raise StatementError for an unknown or missing field, an unknown verdict, or fields that do not fit the verdict.
     """
@@ -130,14 +130,14 @@ def read_rows(document: str, text: str) -> Iterator[Statement]:
             continue
         origin = rows.get(row.same.partition(".")[2])
         if origin is None or origin.same:
-            raise StatementError(f"{row.id}: expected in 'same' the number of a row with a verdict; found {row.same}")
+            raise StatementError(f"{row.id}: expected in 'same' a row without 'same'; found {row.same}")
         yield replace(row, verdict=origin.verdict, why=origin.why, file=origin.file, run=origin.run)
 
 
 def _row(document: str, number: str, raw: Mapping[str, Any]) -> Statement:
     place = f"{document}.{number}"
     if not number.isdecimal() or not isinstance(raw, Mapping):
-        raise StatementError(f"{document}: expected tables with a number as name; found {number!r}")
+        raise StatementError(f"{document}: expected the number of a statement as name of each table; found {number!r}")
     unknown = raw.keys() - _FIELDS
     missing = (_REQUIRED if "same" in raw else _REQUIRED | {"verdict"}) - raw.keys()
     if unknown or missing:
@@ -145,10 +145,10 @@ def _row(document: str, number: str, raw: Mapping[str, Any]) -> Statement:
             f"{place}: {'unknown' if unknown else 'missing'} field: {', '.join(sorted(unknown or missing))}"
         )
     if len(raw["words"].split()) > MOST_WORDS:
-        raise StatementError(f"{place}: expected a quotation of at most {MOST_WORDS} words")
+        raise StatementError(f"{place}: expected in 'words' a quotation of at most {MOST_WORDS} words")
     if "same" in raw:
         if extra := raw.keys() & _OF_VERDICT:
-            raise StatementError(f"{place}: a repetition has no field {', '.join(sorted(extra))}")
+            raise StatementError(f"{place}: a row with the field 'same' must not have {', '.join(sorted(extra))}")
     else:
         _check_verdict(place, raw)
     simple = {name: raw[name] for name in _FIELDS - {"result", "same"} if name in raw}
@@ -166,7 +166,7 @@ def _check_verdict(place: str, raw: Mapping[str, Any]) -> None:
     if verdict == FAILS and not (raw.get("file") and raw.get("run")):
         raise StatementError(f"{place}: a row with the verdict {FAILS!r} needs a counterexample in 'file' and 'run'")
     if (verdict == USED) != bool(raw.get("code")):
-        raise StatementError(f"{place}: the field 'code' and the verdict {USED!r} belong together")
+        raise StatementError(f"{place}: a row must have both or neither of the field 'code' and the verdict {USED!r}")
 
 
 def _as_tuple(value: str | Iterable[str]) -> tuple[str, ...]:
@@ -196,9 +196,9 @@ def _run(function: Callable[..., Check], subject: tuple[tuple[str, Any], ...]) -
 def judge(statement: Statement, results: Results) -> Judged:
     """Compute the verdict and the grade of a row from its evidence.
 
-    The verdict is the worst of several, and the grade the strongest of the evidence for it.  A repetition is judged by
-    the row that it repeats.  Raise StatementError if the row has no evidence, if its evidence does not fit its verdict,
-    or if it names a result or code that does not exist.
+    The verdict is the worst one of all evidence, and the grade is the strongest among the evidence for that verdict.  A
+    repetition is judged by the row that it repeats.  Raise StatementError if the row has no evidence, if its evidence
+    does not fit its verdict, or if it names a result or code that does not exist.
     """
     own_id = statement.same or statement.id
     checks = tuple(_run(decision.function, decision.subject) for decision in decisions().get(own_id, ()))
@@ -210,7 +210,7 @@ def judge(statement: Statement, results: Results) -> Judged:
     for name in row.results:
         verdict = results(row.document, name)
         if verdict is None:
-            raise StatementError(f"{row.id}: there is no result {name}")
+            raise StatementError(f"{row.id}: the field 'results' names {name}, which is not a published result")
         graded.append((verdict, "quoted" if verdict == UNTESTABLE else "exhibited"))
     if row.results:
         messages.append(f"published results: {', '.join(row.results)}")
@@ -228,7 +228,7 @@ def judge(statement: Statement, results: Results) -> Judged:
 
 
 def _verdict(check: Check, statement: Statement) -> Verdict:
-    """Return the verdict of a check; which kind of slip a slip is, is a judgement about the page and in the row."""
+    """Return the verdict of a check.  The kind of a slip is a human judgement and is taken from the row."""
     if check.holds:
         return CONDITION if check.evidence.violation else HOLDS
     return (statement.verdict if statement.verdict in SLIPS else SLIPS[2]) if check.evidence.correction else FAILS
@@ -246,7 +246,7 @@ def resolve(row: Statement) -> object:
         except (ImportError, AttributeError):
             continue
         return value
-    raise StatementError(f"{row.id}: there is no code {row.code}")
+    raise StatementError(f"{row.id}: the field 'code' names {row.code}, which does not exist")
 
 
 @cache
@@ -262,16 +262,16 @@ def column(row: Statement) -> str:
 
 
 def counts(document: str) -> Counter[str]:
-    """Count the rows of a document by column; repetitions and slips are not counted with their verdicts."""
+    """Count the rows of a document by column; repetitions and slips have their own columns."""
     return Counter(map(column, statements_of(document)))
 
 
 def grades(judgements: Iterable[Judged]) -> Counter[Grade]:
-    """Count the statements that hold, with or without a condition, by grade."""
+    """Return the number of statements of each grade among those that hold, with or without a condition."""
     return Counter(row.grade for row in judgements if column(row.statement) in (HOLDS, CONDITION))
 
 
-# The prefix of the id of a result of chapter 6; the number of the example follows.
+# Ids of results of chapter 6 consist of this prefix and the number of the example.
 EXAMPLE: Final = "example "
 _VERDICT_OF_FINDING: Mapping[str, Verdict] = {
     EXACT: HOLDS,
@@ -283,14 +283,14 @@ _VERDICT_OF_FINDING: Mapping[str, Verdict] = {
 
 
 class Judgements:
-    """The verdicts on published results.  Some are given at the start; the others are computed at their first use."""
+    """The verdicts on published results.  Some are given in advance; the others are computed when first requested."""
 
     def __init__(self, reports: Iterable[Report] = ()) -> None:
         self.known: dict[tuple[str, str], Verdict] = {}
         self.add_examples(reports)
 
     def add_examples(self, reports: Iterable[Report]) -> None:
-        """Add the verdicts on complete examples of chapter 6."""
+        """Add the verdicts on the results of chapter 6 from reports that cover complete examples."""
         by_example: dict[int, list[Report]] = {}
         for report in reports:
             by_example.setdefault(report.example, []).append(report)
@@ -298,7 +298,7 @@ class Judgements:
             self.known[THESIS, f"{EXAMPLE}{example}"] = HOLDS if summary(group)[0] else FAILS
 
     def add_findings(self, paper_findings: Iterable[Finding]) -> None:
-        """Add the verdicts on results of the later papers."""
+        """Add the verdicts on published results of the later papers."""
         for finding in paper_findings:
             self.known[finding.paper, finding.result.id] = _VERDICT_OF_FINDING[finding.kind]
 

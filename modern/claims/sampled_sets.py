@@ -34,9 +34,9 @@ def _has_dimension(points: tuple[Point, ...], dimension: int) -> bool:
     return exact_hull(points).dimension == dimension
 
 
-# Sets in an oblique plane (2) or in space (3). The first two sets of each dimension contain the special cases that the
-# claims need: points inside the hull, a point on its boundary and, in space, a face with four corners. The few samples
-# that have another dimension, for example coplanar points in space, are skipped.
+# Generators by dimension: 2, sets in an oblique plane; 3, sets in space. The first two sets of each have the cases that
+# some checks need: points inside the hull, a point on its boundary and, in space, a face with four corners. Samples
+# of another dimension, for example coplanar points in space, are skipped.
 SETS = {
     dimension: Generator(
         f"sets of 7 to 11 points in {place}, coordinates from -5 to 5",
@@ -48,7 +48,7 @@ SETS = {
 }
 
 
-# As many sets in a plane as in space, each drawn with its own seed.
+# This generator draws the same number of sets in a plane and in space, with a separate seed for each kind.
 BOTH = Generator("as many sets of 7 to 11 points in a plane (seed 1965) as in space", SETS[3].seed, SETS[3].draw)
 
 
@@ -58,7 +58,7 @@ def counterexample(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Approximation:
-    """A hull H_j of the construction: its vertices, and its outward equations with their defining points."""
+    """A stage H_j in the construction of a hull: its vertices, and its outward equations with their defining points."""
 
     vertices: tuple[int, ...]
     equations: tuple[Plane, ...]
@@ -78,7 +78,7 @@ class SampledSet:
         return self.judge.dimension == 2
 
     def stages(self) -> tuple[Approximation, ...]:
-        """Return H_1, H_2, ... with integer equations."""
+        """Return the stages H_1, H_2, ... of the construction, each with integer equations."""
         approximations: list[Approximation] = []
         vertices: tuple[int, ...] = ()
         start = self.hull.history[0].added
@@ -90,12 +90,12 @@ class SampledSet:
 
 
 def plane_value(plane: Plane, point: Point) -> int:
-    """Return A x + B y + C z + D."""
+    """Return A x + B y + C z + D for the plane (A, B, C, D) and the point (x, y, z)."""
     return dot(plane[:3], point) + plane[3]
 
 
 def plane_through(p: Point, q: Point, r: Point) -> Plane:
-    """Return the plane through three points, computed by a cross product and not by equation (3.4) of the thesis."""
+    """Return the plane through three points by a cross product, independently of equation (3.4) of the thesis."""
     normal = cross(minus(q, p), minus(r, p))
     return (*normal, -dot(normal, p))
 
@@ -108,9 +108,10 @@ def reduced_plane(plane: Plane) -> Plane:
 
 
 def _outward(points: tuple[Point, ...], defining: tuple[int, ...], start: tuple[int, ...], flat: bool) -> Plane:
-    """Return an equation that is negative at the mean of the first points.
+    """Return the integer equation of the defining points that is negative at the mean of the first points.
 
-    In a flat set an equation is a line; it is represented by the plane through the line perpendicular to the set.
+    If the set is flat, the equation is that of an edge: the plane through the edge perpendicular to the plane of the
+    set.
     """
     if flat:
         p, q = (points[k] for k in defining)
@@ -130,7 +131,7 @@ def _normal(points: tuple[Point, ...], start: tuple[int, ...]) -> Point:
 
 @cache
 def sampled_sets(dimension: int, count: int) -> tuple[SampledSet, ...]:
-    """Return sets in space (3) or in an oblique plane (2); some have three collinear points."""
+    """Return ``count`` sets in space (dimension 3) or in an oblique plane (2); some have three collinear points."""
     generator, random = SETS[dimension], Random(SETS[dimension].seed)
     sets: list[SampledSet] = []
     while len(sets) < count:
@@ -142,12 +143,12 @@ def sampled_sets(dimension: int, count: int) -> tuple[SampledSet, ...]:
 
 
 def flat_and_spatial_sets(count: int) -> tuple[SampledSet, ...]:
-    """Return ``count`` sets in a plane followed by ``count`` sets in space."""
+    """Return ``count`` sets that lie in a plane, followed by ``count`` sets in space."""
     return (*sampled_sets(2, count), *sampled_sets(3, count))
 
 
 def counterexample_points(name: str) -> list[Point]:
-    """Return the integer points of a CSV file of ``transcripts/counterexamples``."""
+    """Return the points with integer coordinates of a CSV file in ``transcripts/counterexamples``."""
     rows, _ = csv_points(counterexample(name), name)
     return [(int(x), int(y), int(z)) for x, y, z in rows]
 
@@ -161,5 +162,5 @@ TRIPLES = Generator("triples of points with coordinates from -9 to 9", 3, _draw_
 
 
 def random_triples(count: int = 6) -> Iterator[tuple[Point, Point, Point]]:
-    """Return ``count`` triples of random points, always the same ones."""
+    """Return ``count`` triples of random points. Every call returns the same triples."""
     return TRIPLES.cases(count)

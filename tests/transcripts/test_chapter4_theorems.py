@@ -51,7 +51,7 @@ def test_row_is_needed(row: Row) -> None:
     """The words stand in the sibling line and, only with the row, in its own."""
     assert chapter4_faults(TEXT, row) == ()
     wrong = replace(row, ground={**row.ground, "words": ["no such words"]})
-    assert chapter4_faults(TEXT, wrong) == (f"row {row.id}: its ground does not hold",)
+    assert chapter4_faults(TEXT, wrong) == (f"row {row.id}: the ground that it gives does not hold",)
 
 
 def test_two_term_conditions_of_theorem_4_2_are_a_slip() -> None:

@@ -77,5 +77,5 @@ def test_full_size_needs_a_parameter_for_the_cases() -> None:
     def check() -> Check:
         return exhibited(True, "")
 
-    with pytest.raises(TypeError, match="a check with a full size needs the parameter 'cases'"):
+    with pytest.raises(TypeError, match="a check with a full search needs the parameter 'cases'"):
         claim("x.1", full=9)(check)

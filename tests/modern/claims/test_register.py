@@ -148,16 +148,16 @@ def test_wrong_verdict_is_reported(capsys: pytest.CaptureFixture[str], monkeypat
     ("original", "replacement", "message"),
     [
         ("kind", "sort", "x.1: unknown field: sort"),
-        ("[1]", "[first]", "x: expected tables with a number as name; found 'first'"),
+        ("[1]", "[first]", "x: expected the number of a statement as name of each table; found 'first'"),
         ('page = "1"\n', "", "missing field: page"),
         ('"holds"', '"perhaps"', "expected one of the verdicts holds"),
         ("some words", "one two three four five six seven eight nine", "at most 8 words"),
-        ('"holds"', '"used"', "the field 'code' and the verdict 'used' belong together"),
-        ('"holds"', '"holds"\ncode = "math.pi"', "the field 'code' and the verdict 'used' belong together"),
+        ('"holds"', '"used"', "a row must have both or neither of the field 'code' and the verdict 'used'"),
+        ('"holds"', '"holds"\ncode = "math.pi"', "both or neither of the field 'code' and the verdict 'used'"),
         ('"holds"', '"holds with a condition"', "needs a reason"),
         ('"holds"', '"does not hold"\nwhy = "so"', "needs a counterexample"),
-        ('"holds"', '"holds"\nsame = 2', "a repetition has no field verdict"),
-        ('verdict = "holds"', "same = 2", "expected in 'same' the number of a row with a verdict; found x.2"),
+        ('"holds"', '"holds"\nsame = 2', "a row with the field 'same' must not have verdict"),
+        ('verdict = "holds"', "same = 2", "expected in 'same' a row without 'same'; found x.2"),
     ],
 )
 def test_invalid_row_is_rejected(original: str, replacement: str, message: str) -> None:
@@ -174,13 +174,17 @@ def test_repetition_has_the_verdict_of_the_row_that_decides() -> None:
 
 def test_missing_evidence_is_named() -> None:
     row = BY_ID["thesis.47"]
-    with pytest.raises(StatementError, match=re.escape("there is no result example 9")):
+    with pytest.raises(
+        StatementError, match=re.escape("the field 'results' names example 9, which is not a published result")
+    ):
         judge(replace(row, results=("example 9",)), Judgements())
     with pytest.raises(StatementError, match=re.escape("thesis.999: the verdict is 'holds', and there is no check")):
         judge(replace(row, id="thesis.999"), Judgements())
     with pytest.raises(StatementError, match=re.escape("the verdict is 'not testable', and there is a check")):
         judge(replace(row, verdict=UNTESTABLE), Judgements())
-    with pytest.raises(StatementError, match=re.escape("there is no code modern.port.nothing")):
+    with pytest.raises(
+        StatementError, match=re.escape("the field 'code' names modern.port.nothing, which does not exist")
+    ):
         resolve(replace(row, code="modern.port.nothing"))
 
 

@@ -57,8 +57,8 @@ def test_verdicts(result: PublishedResult, produced: list[str], kind: str) -> No
 @pytest.mark.parametrize(
     ("lines", "message"),
     [
-        (('"1", "2"', '"2", "3"'), "two: result two: lines 2 to 3 do not exist or belong to another result"),
-        (('"1", "2"', '"3", "4"'), "two: result two: lines 3 to 4 do not exist or belong to another result"),
+        (('"1", "2"', '"2", "3"'), "two: result two: lines 2 to 3 do not exist or are in another result"),
+        (('"1", "2"', '"3", "4"'), "two: result two: lines 3 to 4 do not exist or are in another result"),
         (('"1", "1"', '"3", "3"'), "two: lines 2 do not belong to any result"),
     ],
 )
