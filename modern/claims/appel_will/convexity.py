@@ -294,14 +294,15 @@ def determinant(p: Flat, q: Flat, r: Flat) -> int:
 @claim("appel-will.52")
 def inside_triangle() -> Check:
     """Check that a grid point is inside a triangle if and only if its three senses are those of the corners."""
-    p, q, r = (0, 0), (5, 1), (1, 4)
+    lattice = [(x, y) for x in range(3) for y in range(3)]
     checks = []
-    for point in product((-1, 1, 2, 4), repeat=2):
-        x, y = point[0], point[1]
-        senses = {_area(a, b, (x, y)) > 0 and _area(a, b, (x, y)) != 0 for a, b in ((p, q), (q, r), (r, p))}
-        hull = exact_hull([(*t, 0) for t in (p, q, r, (x, y))])
-        checks.append((senses == {True}) == (3 in hull.inside))
-    return exhausted("16 grid points about a triangle", checks, f"{len(checks)} grid points agree with the exact hull")
+    for p, q, r in combinations(lattice, 3):
+        for point in lattice if _area(p, q, r) else []:
+            senses = {_area(a, b, point) for a, b in ((p, q), (q, r), (r, p))}
+            same = min(senses) > 0 or max(senses) < 0
+            checks.append(same == (3 in exact_hull([(*t, 0) for t in (p, q, r, point)]).inside))
+    domain = "points and triangles of a 3 x 3 lattice, with all orders of four points"
+    return exhausted(domain, checks, "the senses agree with the exact hull")
 
 
 @claim("appel-will.59")

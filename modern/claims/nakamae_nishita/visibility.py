@@ -82,7 +82,11 @@ def first_three_corners() -> Check:
     for face, front in zip(solid.polyhedron.faces, solid.signs, strict=True):
         a, b, c = ((solid.points[k][0], solid.points[k][1], solid.points[k][3]) for k in face[:3])
         outcomes.append(sign(value(line_through(a, b), c)) == front != 0)
-    check = exhausted("faces of a cuboid", outcomes, "the sign decides for all faces")
+    # A triangle is clockwise if its third corner is to the right of its first side.
+    for ring in permutations([(x, y) for x in range(3) for y in range(3)], 3):
+        outcomes.append(sign(value(line_through(*((*place, 1) for place in ring[:2])), (*ring[2], 1))) == -side(*ring))
+    domain = "faces of a cuboid, and triangles of a 3 x 3 lattice in both senses"
+    check = exhausted(domain, outcomes, "the sign decides")
     collinear = value(line_through((0, 0, 1), (1, 1, 1)), (2, 2, 1))
     return check.unless(collinear == 0, "three collinear corners, for which the value is 0")
 

@@ -1,40 +1,49 @@
 """Checks of the figures of chapter 4 and of the last points of theorem 4.8."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations, product
+from itertools import combinations
 
-from modern.claims.evidence import Check, claim, exhausted, exhibited, slip
+from modern.claims.algebra import Point, Polynomial, Step, Term, polynomial, positive, term, variables, zero
+from modern.claims.evidence import Check, claim, exhibited, proved, slip
 from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter4_examples import ADDED, theorem_of
 from modern.exact_hull import exact_hull
 
-# x_1, y_1 and y_2 of triangles with y_1 < y_2.
-TRIANGLES = ((3, -1, 2), (5, -4, -1), (2, 1, 6))
+# The coordinates of Fig. 3: P_3 is the origin, P_1 = (x_1, y_1) and P_2 = (x_1, y_2), with y_1 < y_2.
+X1, Y1, Y2 = variables("x_1 y_1 y_2")
+
+
+def _values(x: Polynomial, y: Polynomial) -> list[Polynomial]:
+    return [a * x + b * y + c for a, b, c in _printed_lines(X1, Y1, Y2)]
 
 
 @claim("thesis.140")
 def lines_of_figure_3() -> Check:
-    """Check that the printed lines are outward, with P_3 at the origin, P_1 = (x1, y1), P_2 = (x1, y2) and y1 < y2."""
-    checks = []
-    for x1, y1, y2 in TRIANGLES:
-        for a, b, c in _printed_lines(x1, y1, y2):
-            values = [a * x + b * y + c for x, y in ((0, 0), (x1, y1), (x1, y2))]
-            checks.append(max(values) == 0 and values.count(0) == 2)
-    return exhausted("lines of three triangles", checks, f"{len(checks)} lines are outward")
+    """Prove that each printed line contains two corners and is negative at the third."""
+    origin = polynomial(0)
+    third, first, second = _values(origin, origin), _values(X1, Y1), _values(X1, Y2)
+    on = [first[0], second[0], third[1], first[1], third[2], second[2]]
+    signs = {"x_1": positive(X1), "order": positive(Y2 - Y1)}
+    beside = [(third[0], term("x_1")), (second[1], term("x_1 order")), (first[2], term("x_1 order"))]
+    steps = [Step("the line contains the corner", {}, zero(value)) for value in on]
+    steps += [Step("the third corner is inside", signs, positive(-value), (by,)) for value, by in beside]
+    argument = "The equations vanish at two corners and are negative at the third if x_1 > 0 and y_1 < y_2"
+    return proved(argument, (step.is_valid() for step in steps), "all three lines are outward")
 
 
 @claim("thesis.141")
 def outside_of_two_lines() -> Check:
-    """Check that a point outside of lines 2 and 3 has a negative x if y_1 is less than y_2."""
-
-    def xs(x1: int, y1: int, y2: int) -> list[int]:
-        lines = _printed_lines(x1, y1, y2)[1:]
-        return [x for x, y in product(range(-6, 7), repeat=2) if all(a * x + b * y + c > 0 for a, b, c in lines)]
-
-    outcomes = [x < 0 for triangle in TRIANGLES for x in xs(*triangle)]
-    check = exhausted("points of a grid outside two lines of three triangles", outcomes, "all have a negative x")
-    return check.unless(max(xs(3, 2, -1)) > 0, "a triangle with y_1 greater than y_2")
+    """Prove that a point outside of lines 2 and 3 has a negative x if y_1 is less than y_2."""
+    x, y = variables("x y")
+    _, second, third = _values(x, y)
+    signs = {"order": positive(Y2 - Y1), "line 2": positive(second), "line 3": positive(third)}
+    terms = tuple(Term((name,), polynomial(1)) for name in ("line 2", "line 3"))
+    step = Step("x is negative", signs, positive(-x), terms, ("order",))
+    check = proved("The values of lines 2 and 3 add up to (y_1 - y_2) x", [step.is_valid()], "x is negative")
+    case = replace(step, hypotheses={**signs, "order": positive(Y1 - Y2)}).refuting_values(seed=1963)
+    return check.unless(case is not None, "points outside of both lines of a triangle with y_1 greater than y_2")
 
 
 @claim("thesis.243")
@@ -43,9 +52,10 @@ def third_equation() -> Check:
     return slip(False, lines_of_figure_3().holds, "a line", "the equation has x and y only, as the other two")
 
 
-def _printed_lines(x1: int, y1: int, y2: int) -> tuple[tuple[int, int, int], ...]:
+def _printed_lines(x1: Polynomial, y1: Polynomial, y2: Polynomial) -> tuple[Point, ...]:
     """Return the equations (1), (2) and (3) of page 53."""
-    return (1, 0, -x1), (y1, -x1, 0), (-y2, x1, 0)
+    one, none = polynomial(1), polynomial(0)
+    return (one, none, -x1), (y1, -x1, none), (-y2, x1, none)
 
 
 @claim("thesis.148")
