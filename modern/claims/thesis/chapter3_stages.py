@@ -41,12 +41,12 @@ from modern.port import convex_hull
 @claim("thesis.218", kind="renumbering", full=300)
 @claim("thesis.219", kind="netc_order", full=300)
 @claim("thesis.77", kind="largest_of_all", full=300)
-@claim("thesis.264", "thesis.228", "thesis.99", "thesis.258", kind="equations", full=300)
+@claim("thesis.228", "thesis.99", "thesis.258", kind="equations", full=300)
 @claim("thesis.221", "thesis.229", kind="vertices_used", full=300)
 @claim("thesis.222", "thesis.232", kind="vertex_when_added", full=300)
 @claim("thesis.227", "thesis.92", kind="convexity", full=300)
 @claim("thesis.266", kind="added_tetrahedra", full=300)
-@claim("thesis.239", "thesis.241", "thesis.240", kind="added_triangle", full=300)
+@claim("thesis.241", "thesis.240", kind="added_triangle", full=300)
 @claim("thesis.278", kind="two_new_lines", full=300)
 def stage_property(kind: str, cases: int = CASES) -> Check:
     """Check one property of H_1, H_2, ... (a key of ``_PROPERTIES``) in every stage of the sampled sets."""
@@ -61,6 +61,14 @@ def stage_property(kind: str, cases: int = CASES) -> Check:
     message = f"true in {sum(checks)} of {len(checks)} cases in the construction of {len(sets)} sets"
     generator = SETS[2] if kind in _FLAT else SETS[3] if kind in _SPACE else BOTH
     return searched(generator, len(sets), checks, message)
+
+
+@claim("thesis.264", "thesis.239", full=300)
+def number_of_the_hull(cases: int = CASES) -> Check:
+    """Check the hull of P_1 to P_NV for H_j and the step from H_k to H_k+1, and both for the number 1 in our text."""
+    first_alone = all(len(sampled.stages()) == 1 for sampled in sampled_sets(2, cases))
+    check, added = (stage_property(kind, cases) for kind in ("equations", "added_triangle"))
+    return (check if added.holds else added).misprinted(not first_alone, "j or k, for stages after the first")
 
 
 @claim("thesis.13", "thesis.224", "thesis.89", full=300)

@@ -21,9 +21,37 @@ from modern.claims.evidence import Check, claim
 from modern.claims.yau_srihari.envelopes import algorithm_as_printed
 
 
+def combination_above() -> Step:
+    """Return the step that a combination of points on or above a graph is on or above that of the graph's points."""
+    m, z_1, z_2, floor_1, floor_2 = variables("m z_1 z_2 floor_1 floor_2")
+    return Step(
+        "a combination of points on or above the floor is on or above that of the floor",
+        {
+            "first": not_negative(z_1 - floor_1),
+            "second": not_negative(z_2 - floor_2),
+            "m": not_negative(m),
+            "rest": not_negative(1 - m),
+        },
+        not_negative((1 - m) * z_1 + m * z_2 - (1 - m) * floor_1 - m * floor_2),
+        (term("rest first"), term("m second")),
+    )
+
+
+def convex_epigraph() -> Proof:
+    """Prove that a function is convex if and only if its epigraph is."""
+    return Proof(
+        "a function is convex if and only if the set on and above its graph is convex",
+        "If f is convex, a point between two points of the epigraph is on or above the combination of two points of "
+        "the graph, which is on or above the graph. Conversely, take two points of the graph itself: a point between "
+        "them is in the epigraph, and so f is at most their combination. A concave function is treated in the same way "
+        "with the opposite sign.",
+        (combination_above(),),
+    )
+
+
 def theorem_1() -> Proof:
     """Prove that the points between the envelopes of the floor and of the ceiling are the Euclidean hull."""
-    low, high, z, m, z_1, z_2, floor_1, floor_2 = variables("low high z m z_1 z_2 floor_1 floor_2")
+    low, high, z = variables("low high z")
     return Proof(
         "the hull consists of the points on or above the convex envelope of the floor and on or below the concave "
         "envelope of the ceiling",
@@ -34,17 +62,7 @@ def theorem_1() -> Proof:
         "over X between them is a combination of these two.",
         (
             *combination_satisfies(),
-            Step(
-                "a combination of points on or above the floor is on or above that of the floor",
-                {
-                    "first": not_negative(z_1 - floor_1),
-                    "second": not_negative(z_2 - floor_2),
-                    "m": not_negative(m),
-                    "rest": not_negative(1 - m),
-                },
-                not_negative((1 - m) * z_1 + m * z_2 - (1 - m) * floor_1 - m * floor_2),
-                (term("rest first"), term("m second")),
-            ),
+            combination_above(),
             Step(
                 "a point between the envelopes is a combination of their points with the weights high - z and z - low",
                 {},
@@ -94,6 +112,7 @@ def angle_of_theorem_2() -> Check:
     return theorem_2().check().misprinted(not as_printed.holds, "psi as the interior dihedral angle of p and q")
 
 
+@claim("yau-srihari.47", "yau-srihari.96", proof=convex_epigraph)
 @claim("yau-srihari.48", proof=theorem_1)
 @claim("yau-srihari.101", proof=theorem_2)
 def proof_of_theorem(proof: Callable[[], Proof]) -> Check:

@@ -17,6 +17,7 @@ PROOFS: dict[str, Proof] = {
     **{f"4.{n}": getattr(thesis, f"theorem_4_{n}")() for n in (3, 4, 5, 6, 7)},
     **{name: getattr(kovalevsky_schulz, f"lemma_{name}")() for name in ("lz", "ch", "be")},
     "symmetry": kovalevsky_schulz.symmetry(),
+    "epigraph": yau_srihari.convex_epigraph(),
     **{f"theorem {n}": getattr(yau_srihari, f"theorem_{n}")() for n in (1, 2)},
 }
 

@@ -140,6 +140,7 @@ TABLE: Table = [
     (D + "138", "plane_value", negated),
     (D + "126", "plane_through", constant_plus_one),
     (D + "273", "constant_terms", check_fails),
+    (D + "264", "stage_property", check_fails),
     (D + "235", "cross", sum_instead_of_product),
     (D + "120", "cross", sum_instead_of_product),
     (D + "113", "theorem_of", changed_result(reversed_points)),
