@@ -72,8 +72,9 @@ class Place:
 class Diagnostic:
     """A message of the compiler.
 
-    ``number`` is IBM's error type (C26-5619 p. 56), or 0.  ``about`` is the subject of the message: a name, or a
-    statement of another FORTRAN.  :func:`merge_repeated` combines the messages on one subject.
+    ``number`` is IBM's error type (C26-5619 p. 56), or 0.  ``about`` is the subject of the message: a name in the
+    program, or a kind of statement that only another FORTRAN has.  :func:`merge_repeated` merges the messages that have
+    the same subject.
     """
 
     card: int
@@ -92,7 +93,7 @@ class Diagnostic:
 def merge_repeated(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     """Yield the messages in the order of their cards.
 
-    One message replaces all those on one subject and lists their cards.
+    Messages that have the same subject are merged into one, which lists the cards of all of them.
     """
     ordered = sorted(dict.fromkeys(diagnostics), key=lambda d: (d.card, d.column))
     cards: dict[str, list[int]] = {}
@@ -138,8 +139,8 @@ class CompileError(EmulatorError):
 class Explanation:
     """An explanation of an error type of the compiler (``5``) or an error code of the machine (``E3``).
 
-    ``example`` is a deck that produces the error.  ``remedy`` says how to correct it.  ``source`` names the manual and
-    page, or the program that was executed.
+    ``example`` is a deck that produces the error.  ``remedy`` says how to correct it.  ``source`` says where the
+    explanation comes from: a page of a manual, or a program of IBM that was executed.
     """
 
     title: str
@@ -152,7 +153,7 @@ class Explanation:
 @cache
 def explanations() -> Mapping[str, Explanation]:
     """Return the explanations of all error types 5 to 13 (C26-5619 p. 56) and codes E1 to E8, F1 to F6 and F8."""
-    # Imported here because every command loads this module and few need explanations.
+    # These imports are inside the function because every command loads this module, but few commands need explanations.
     import tomllib
     from importlib.resources import files
 

@@ -20,14 +20,15 @@ from typing import Any, BinaryIO, TextIO
 
 from emulator.errors import FileError, quoted
 
-# The most bytes that are read from a pipe or a device: programs, plans and other text; points and decks; volumes.
+# The largest numbers of bytes that are read from a pipe or a device: the first for programs, plans and other text, the
+# second for points and decks, the third for volumes.
 TEXT_LIMIT, POINTS_LIMIT, VOLUME_LIMIT = 16 << 20, 256 << 20, 1 << 30
 _CHUNK = 1 << 20
 _MANY_DIGITS = 4000
 
 
 def source_name(path: str) -> str:
-    """Return the name that messages use for an input path."""
+    """Return the name that messages use for the input at ``path``."""
     return "standard input" if path == "-" else path
 
 
@@ -82,7 +83,7 @@ def decoded(data: bytes, source: str) -> str:
 
 def parse_toml(text: str, parse_float: Callable[[str], Any] = float) -> dict[str, Any]:
     """Return the data of a TOML text.  Raise ValueError with a one-line message that usually ends with the position."""
-    import tomllib  # imported here because few commands read TOML
+    import tomllib  # not at the top, because few commands read TOML
 
     try:
         return tomllib.loads(text, parse_float=parse_float)
@@ -123,7 +124,7 @@ def check_writable(*paths: str | None) -> None:
             raise FileError(f"{path}: permission denied")
         if os.path.realpath(path) in real:
             try:
-                # The file is written next to its final place, so that its folder must be writable too.
+                # A result is first written to a temporary file in the same folder, so the folder must be writable too.
                 tempfile.TemporaryFile(dir=os.path.dirname(os.path.realpath(path))).close()
             except OSError as error:
                 raise FileError(f"{path}: {reason(error)}") from None
@@ -132,7 +133,7 @@ def check_writable(*paths: str | None) -> None:
 
 
 def check_folder(path: str | None) -> None:
-    """Check before a long run that files can be written to a folder, which need not exist.  Raise FileError."""
+    """Check before a long run that files can be written to a folder, existing or new.  Raise FileError."""
     if not path:
         return
     folder = os.path.realpath(path)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import TextIO
 
 _REDRAW = 0.2
-# Seconds between two updates of the bar, and between two lines if there is no terminal.
+# Seconds between two updates of the bar on a terminal, and between two lines in a file.
 _LINES = 60.0
 
 
@@ -18,7 +18,7 @@ _LINES = 60.0
 class Progress:
     """A counter of completed samples, which shows the count on ``file``.
 
-    ``what`` names the things counted.  ``before`` of the ``total`` were complete before this run.
+    ``what`` names the samples in the display.  Of the ``total`` samples, ``before`` were completed by earlier runs.
     """
 
     total: int
@@ -37,7 +37,7 @@ class Progress:
         self._bar = not self.quiet and self.file.isatty()
 
     def add(self, samples: int) -> None:
-        """Count samples that are complete, and update the display if it is time."""
+        """Add to the count of completed samples, and update the display if the last update was long enough ago."""
         self.done += samples
         now = self.clock()
         if not self.quiet and now - self._shown >= (_REDRAW if self._bar else _LINES):

@@ -1,4 +1,4 @@
-"""The machine that runs compiled programs: interpreter, devices, operator, traces, machine time, and divergence.
+"""The machine that runs compiled programs: interpreter, devices, operator, traces, timing, and comparison of two runs.
 
 ``machine.py`` runs a program with an operator (``operator.py``).  Below it ``session.py`` runs a program in slices and
 drives ``interpreter.py`` and ``devices.py``.  ``divergence.py`` compares two runs.

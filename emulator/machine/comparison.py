@@ -1,4 +1,4 @@
-"""Compare two runs entry by entry: find the values and decisions that differ, and count the digits lost.
+"""Compare the journals of two runs entry by entry: find values and decisions that differ, and count the digits lost.
 
 emulator/machine/divergence.py states the rules and runs the programs.
 """
@@ -23,11 +23,12 @@ _DECISIONS = (op.IF, op.IFX, op.SELECT, op.DOTEST)
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """A value that differs.
+    """A value that differs between the studied run and the reference run.
 
     ``time`` counts the executions of the statement ``line``.  ``names`` and ``values`` are the variable and its value
-    in each run.  ``relative`` is the difference divided by the reference's value, or None if that is zero or not a
-    number. ``bound`` is the largest possible error of the reference's value, 0 if nothing was rounded.
+    in each run.  ``relative`` is the difference divided by the value in the reference run, or None if that value is
+    zero or not a number.  ``bound`` is the largest possible error of the value in the reference run, 0 if nothing was
+    rounded.
     """
 
     line: Line
@@ -40,7 +41,7 @@ class Difference:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A decision with different outcomes.
+    """A decision (IF, computed GO TO or end of a DO) that has different outcomes in the two runs.
 
     It holds the statement, the count of its executions, and the value and target of each run.
     """
@@ -53,7 +54,7 @@ class Decision:
 
 @dataclass(frozen=True, slots=True)
 class Loss:
-    """The digits that the values of one statement lost before the first decision that differs.
+    """The digits that the values of one statement lost, counted up to the first decision that differs between the runs.
 
     ``times`` values were compared, and ``differing`` of them differ.  ``worst`` and ``median`` are decimal digits lost.
     """
@@ -75,7 +76,7 @@ class _Tally:
 
 
 class Comparison:
-    """The state of a comparison."""
+    """The state of a comparison of two runs."""
 
     def __init__(self, program: Program, studied: Numbers, reference: Numbers) -> None:
         self._program, self._studied, self._reference = program, studied, reference
@@ -87,7 +88,8 @@ class Comparison:
         self._times: Counter[tuple[int, int]] = Counter()
         self._whole = [op.repeats(i) > 1 for i in program.code]
         self._tallies: dict[int, _Tally] = {}
-        # P of the formula in divergence.py.  It is 0 if both arithmetics are exact, because they cannot lose digits.
+        # The number of digits of the less precise arithmetic, P in the formula of divergence.py.  It is 0 if both
+        # arithmetics are exact, because they cannot lose digits.
         digits = min(studied.digits, reference.digits)
         self.digits = digits if math.isfinite(digits) else 0.0
         # Irrational exact values, such as roots, are compared with this many digits.
@@ -98,7 +100,7 @@ class Comparison:
         self.uncertain = ""
 
     def differs(self, entry: Entry, reference_entry: Entry) -> bool:
-        """Compare one entry of each run.  Return True if both record a decision and its outcomes differ."""
+        """Compare a journal entry of each run.  Return True if both record a decision, with different outcomes."""
         pc = entry[0]
         if self._counts[pc]:
             return False
@@ -111,7 +113,8 @@ class Comparison:
         self.tested += 1
         if entry[1] == reference_entry[1]:
             return False
-        # An IF compares with zero.  If zero lies within the error bound, the reference itself may have gone wrong.
+        # An IF compares with zero.  If zero lies within the error bound, the reference itself may have taken the wrong
+        # branch.
         bound, value = self._bound(reference_entry[2]), self._value(self._reference, reference_entry[2])
         if bound is None or (bound and (value is None or abs(Fraction(value)) <= bound)):
             self.uncertain = self._uncertainty(pc, reference_entry[2], bound)
@@ -151,7 +154,7 @@ class Comparison:
         if lost is not None:
             self.values_in_step += 1
             tally.differing += 1
-        # Tenths of a digit bound the memory: one counter for each, whatever the number of values.
+        # Losses are counted in tenths of a digit, so that the histogram stays small whatever the number of values.
         tally.tenths[round(10 * (lost or 0.0))] += 1
 
     def _bound(self, value: Number) -> Fraction | None:
@@ -161,16 +164,16 @@ class Comparison:
         return self._reference.error(value)
 
     def _uncertainty(self, pc: int, value: Number, bound: Fraction | None) -> str:
-        """Return the message for a decision that the reference cannot make."""
+        """Return the message for an IF whose value in the reference may have the wrong sign."""
         card, name, text = self._line(pc).place.card, self._reference.name, self._reference.text(value)
         size = "any amount" if bound is None else f"1E{math.ceil(_logarithm(bound)):+03d}"
         remedy = "use exact, or a reference of more digits"
         return f"at card {card} {name} has {text}, which its own rounding may have changed by {size}; {remedy}"
 
     def _lost(self, entry: Entry, reference_entry: Entry) -> tuple[float | None, float | None, bool]:
-        """Return the digits lost, the relative difference, and True if rounding explains it.
+        """Return the digits lost, the relative difference, and True if the reference's rounding explains it.
 
-        Equal values give None twice.
+        The first two are None if the values are equal or rounding explains their difference.
         """
         # If the entries change different fields, for example because a subscript differs, all digits count as lost.
         if entry[1] == reference_entry[1]:
@@ -199,7 +202,7 @@ class Comparison:
     def _texts(self, studied: Number, reference: Number, tested: bool = False) -> tuple[str, str]:
         """Return both values as text, with all digits if they would otherwise look the same.
 
-        With ``tested`` the sign of a zero is not shown, because an IF ignores it.
+        If ``tested`` is true, an IF tested the values.  The sign of a zero is then not shown, because an IF ignores it.
         """
         texts = []
         for wide in (False, True):
@@ -239,7 +242,7 @@ def _logarithm(value: Fraction) -> float:
 
 
 def _text(numbers: Numbers, value: Number, exact: Fraction | int | None) -> str:
-    """Return a value as its arithmetic prints it, or exactly.  Fixed-point values are integers in all of them."""
+    """Return ``exact`` as text if it is given, otherwise the value as its arithmetic prints it."""
     if value is None:
         return "undefined"
     if type(value) is int:

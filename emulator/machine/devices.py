@@ -99,8 +99,8 @@ class Devices:
         self._charge = self._charges[number]
         self.listed = []
         if verb == "READ":
-            # Every data set begins with the READ that the program executed first.  An empty hopper is a normal end at
-            # this READ, and with ``--hopper any`` at every READ.
+            # The READ that the program executed first is the one that begins each data set.  An empty hopper ends the
+            # run normally at this READ, and with ``--hopper any`` at any READ.
             begins = self._first_read in (-1, self.state.at)
             if begins:
                 self._first_read = self.state.at
@@ -136,8 +136,8 @@ class Devices:
         self.transfer.finish()
 
     def _count_item(self, address: int) -> None:
-        # Count one unit for the number, the cost of each repetition of the FORMAT, and the cost of converting a long
-        # number.
+        # Count the work: one unit for the number, the cost of each repetition of the FORMAT, and the cost of converting
+        # a long number.
         transfer, numbers = self.transfer, self.options.numbers
         assert transfer is not None
         self.state.work += 1 + self._charge * transfer.again
@@ -215,7 +215,8 @@ class Devices:
             if fixed:
                 read = read_fixed(columns)
                 value, remark = read.mantissa, read.remark
-            # If another program punched this field, its number with all digits replaces the columns.
+            # If another program punched this field with the option ``uncut``, its number with all digits replaces the
+            # columns.
             elif not typed and (card.number, column, spec.width) in self._whole:
                 value = self._whole[card.number, column, spec.width]
             else:

@@ -2,13 +2,13 @@
 
 Both runs read the same deck.  As long as every decision (IF, computed GO TO, the end of a DO) has the same outcome in
 both, they execute the same statements, and the values they store can be compared.  After a decision with different
-outcomes the runs have diverged.  They are compared again from the first statement that lies on every path from either
-branch (emulator/machine/postdominators.py).  The comparison ends if there is no such statement, or if a run ends before
-reaching it.
+outcomes the runs have diverged.  The comparison continues at the first statement that lies on every path from either
+branch (emulator/machine/postdominators.py).  The comparison ends if there is no such statement, or if one of the runs
+ends before reaching it.
 
-Lost digits are counted only up to the first decision that differs.  After it a value may differ because another point
-was chosen, although no digit was lost.  A value with the relative difference r from the reference has lost
-``P + log10(r)`` digits, at least 0 and at most P, where P is the number of digits of the less precise arithmetic.
+Lost digits are counted only up to the first decision that differs.  After that decision a value may differ because the
+program chose another point, although no digit was lost.  A value with the relative difference r from the reference has
+lost ``P + log10(r)`` digits, at least 0 and at most P, where P is the number of digits of the less precise arithmetic.
 
 A reference that rounds has an error of its own.  Its run computes a bound of that error for every number
 (emulator/numbers/shadowed.py derives it).  A difference within the bound is counted as ``within``, not as a difference.
@@ -37,7 +37,7 @@ from emulator.machine.state import Entry, Journal
 from emulator.numbers import Numbers
 from emulator.numbers.shadowed import ShadowedNumbers
 
-# The work that one run does before the other continues.
+# The units of work that one run does before the comparison switches to the other run.
 _STRIDE = 1_000
 
 
@@ -161,7 +161,7 @@ def diverge(
         if comparison.uncertain:
             apart = comparison.uncertain
             break
-        # Without values only the first decision that differs is of interest.
+        # If values are not compared, only the first decision that differs is of interest.
         if not values:
             break
         # The decision differs: skip both runs to the instruction where their branches join.
@@ -233,14 +233,14 @@ def _reached(entries: Iterator[Entry], junction: int) -> bool:
 
 
 def _raise_common_error(runs: list[_Run]) -> None:
-    """Raise the error in the deck if both runs have found one."""
+    """Raise the error in the deck if both runs have found an error in it."""
     first, second = (run.error for run in runs)
     if first is not None and second is not None:
         raise first
 
 
 def _ended(runs: list[_Run], entry: Entry | None, reference_entry: Entry | None) -> str:
-    """Return the endings of the runs that have no further entry, or "" if both runs ended in the same way."""
+    """Return the endings of the runs whose journals have no further entry, or "" if both runs ended in the same way."""
     if entry is None and reference_entry is None and runs[0].ending == runs[1].ending:
         return ""
     stopped = [run for run, last in zip(runs, (entry, reference_entry), strict=True) if last is None]

@@ -27,13 +27,14 @@ class Ending:
     - stop, end: normal ends, without other fields.
     - hopper: a normal end.  ``line`` is the READ that found the hopper empty.  ``any_read`` is True if the options
       allow this end at any READ, not only at the one that begins a data set.  A message then reports it.
-    - limit: ``count`` is the limit.  ``costly`` is the work of operations that take longer than a statement.  ``line``
-      is set if a single operation would exceed the limit.  ``loop`` holds the last statements in order of cards;
-      ``repeats`` means that each of them was executed more than once.
+    - limit: ``count`` is the limit.  ``costly`` is the part of it for operations that take longer than a statement.
+      ``line`` is set if a single operation would exceed the limit.  ``loop`` holds the last statements in order of
+      cards; ``repeats`` means that each of them was executed more than once.
     - bounds: the array ``name``, its ``shape`` and the ``subscripts``.
-    - outside: a subscript refers to a place outside the data.  No other fields are set.
+    - outside: a subscript refers to a position outside the data.  This kind sets no other fields.
     - undefined: the ``name`` of the field.  ``put_out`` is True if an output list contains it.
-    - select: the value of a computed GO TO, in ``subscripts``.
+    - select: a computed GO TO whose variable selects none of its statement numbers.  ``subscripts`` holds the
+      variable's value.
     - mode: the ``name`` of the field and the ``mode`` of its number.  If ``format`` holds the number of a FORMAT,
       ``field`` is its specification that does not fit the number, or None if the FORMAT has no fields.
     - undecided: ``trouble`` says what the numbers cannot decide.
@@ -93,7 +94,7 @@ class Ending:
 
 
 def _trouble_in(ending: Ending, line: Line) -> str:
-    """Return the message about a statement."""
+    """Return the message for an ending at the statement ``line``."""
     there = f"in {line.label} {line.text}" if line.label else f"in {line.text}"
     match ending.kind:
         case "limit":
@@ -135,15 +136,15 @@ def _loop(ending: Ending) -> str:
 
 
 def too_costly(program: Program, limit: int, at: int, decision: int, costly: int) -> Ending:
-    """Return the ending at an operation that needs more work than the limit allows."""
+    """Return the ending of a run at an operation that needs more work than the limit allows."""
     return replace(stopped(program, "limit", at, decision), count=limit, costly=costly)
 
 
 def looped(
     program: Program, limit: int, before: Sequence[int], counts: Sequence[int], decision: int, costly: int = 0
 ) -> Ending:
-    """Return the ending at the limit.  The last statements are those whose counts grew since ``before``."""
-    # A statement is part of the loop if its count has grown since ``before``.
+    """Return the ending of a run that reached its limit, with the loop of statements that it executed last."""
+    # A statement is part of the loop if its count has grown since ``before``, the counts shortly before the limit.
     ran = [
         (program.statements[counter.statement], new - old)
         for counter, old, new in zip(program.counters, before, counts, strict=True)
@@ -161,14 +162,14 @@ def looped(
 
 
 def out_of_bounds(program: Program, at: int, decision: int, address: int, subscripts: tuple[int, ...]) -> Ending:
-    """Return the ending at a subscript outside the array that begins at ``address``."""
+    """Return the ending of a run at a subscript outside the array that begins at ``address``."""
     entry = program.storage.entry_of(address)
     ending = stopped(program, "bounds", at, decision, subscripts[: len(entry.shape)])
     return replace(ending, name=entry.name, shape=entry.shape)
 
 
 def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> Ending:
-    """Return the ending at a field that no operation can use: by its ``kind`` it is undefined or has the wrong mode."""
+    """Return the ending of a run at a field that is undefined or, according to ``kind``, has the wrong mode."""
     ending = replace(stopped(program, "undefined", at, decision), name=program.storage.name_of(address))
     if kind == UNDEFINED:
         return ending
@@ -176,7 +177,7 @@ def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> 
 
 
 def stopped(program: Program, kind: Kind, at: int, decision: int, subscripts: tuple[int, ...] = ()) -> Ending:
-    """Return an ending at an instruction.  The subscripts are the only details it holds."""
+    """Return an ending of the given kind at the instruction ``at``, without further details except the subscripts."""
     return Ending(kind, program.source, program.line_at(at), decided(program, decision), subscripts=subscripts)
 
 

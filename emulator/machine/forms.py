@@ -18,7 +18,7 @@ from emulator.numbers.fields import Field
 
 
 class NoField(Exception):
-    """The FORMAT has no field for a number of the list."""
+    """Raised if a list has a number but its FORMAT has no field for numbers."""
 
 
 @dataclass

@@ -32,7 +32,7 @@ SEND, TRANSMIT, COUNT, BRANCH, IF, DOTEST = op.SEND, op.TRANSMIT, op.COUNT, op.B
 AT_LIMIT, AT_STATEMENT, AT_BEGIN, AT_ITEM, AT_FINISH, AT_FUNCTION, AT_POWER, AT_POWERX, AT_PAUSE = range(9)
 AT_STOP, AT_EVENT, AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_COSTLY = range(9, 16)
 
-# The units of work that a statement may do beyond the limit.
+# The units of work by which a statement may exceed the limit of the run.
 #
 # The limit is checked only when a statement begins.  SLACK allows a list of the largest possible array to finish.
 SLACK = 6_000
@@ -96,7 +96,7 @@ def run(
     decide = journal.entries.append if journal else None
     enter = journal.entries.append if journal and journal.stores else None
     if enter and state.listed:
-        # The session has read or written this number since the last call.
+        # Before this call the session transferred an element of a list, which has yet to be recorded.
         if enters[state.at]:
             enter((state.at, state.address, values[state.address]))
         state.listed = False
@@ -118,7 +118,7 @@ def run(
                 if columns == 0:
                     if strict and not 1 <= row <= rows:
                         # The hull programs copy element N+1 when they delete the last entry of a full table
-                        # (KNOWN-FAULTS).  The copy is never computed with, so it is only marked as undefined.
+                        # (KNOWN-FAULTS).  No statement computes with the copy, so the copy is only marked as undefined.
                         if operation == SEND and row == rows + 1:
                             sent, sent_kind = 0, UNDEFINED
                             pc += 1
@@ -163,7 +163,8 @@ def run(
                     fac = value
                     pc += 1
                     continue
-                # Work is counted before the operation, so that an operation that is far too long is never begun.
+                # The work of an operation is counted before the operation begins, so that one that is far too long
+                # never begins.
                 if weigh:
                     work += state.owe(weigh(_WORK_NAMES[operation], fac, value))
                     if work > most + SLACK:

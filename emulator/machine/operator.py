@@ -61,7 +61,7 @@ class Operator:
     def answer(self, session: Session, halt: Halt) -> Action:
         """Return an action for a halt.  The caller repeats the call until the machine runs.
 
-        Raise DeckError if no line is left.
+        Raise DeckError if an ACCEPT needs a typed line and no line of ``keyboard`` is left.
         """
         if halt.what == "accept":
             line = next(self._keyboard, None)
@@ -131,7 +131,8 @@ class FromFile(Operator):
                 raise DeckError(halt.trouble)
             return super().answer(session, halt)
         line = self._lines[0]
-        # A line for a later moment, or for ACCEPT, is no answer to a PAUSE: START is pressed automatically.
+        # If the next line belongs to a later moment or to an ACCEPT, it cannot answer a PAUSE: START is pressed
+        # automatically.
         if halt.what == "pause" and (line.at is not None or line.action.word == "ENTER"):
             return super().answer(session, halt)
         wrong = ("START", "ATTN") if halt.what == "accept" else ("ENTER", "ATTN")
@@ -178,7 +179,7 @@ class Logged(Operator):
         return self._operator.goal(session)
 
     def answer(self, session: Session, halt: Halt) -> Action:
-        # A halt is answered several times, for example by switches and START, but logged once.
+        # A halt may need several actions, for example SWITCH and then START, but it is logged once.
         if halt is not self._halt:
             self._halt = halt
             self._write(f"* {halt_line(halt)}")

@@ -13,7 +13,7 @@ from emulator.numbers import Number, Numbers, numbers
 DEFAULT_LIMIT = 5_000_000
 DEFAULT_CORE = 40_000
 
-# If a run reaches its limit, its last units of work, of this number, are examined for a loop.
+# If a run reaches its limit, the last LOOP_WINDOW units of its work are examined for a loop.
 LOOP_WINDOW = 2_000
 PUNCH_COLUMNS = 72
 TYPEWRITER_COLUMNS = 87

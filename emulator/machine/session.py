@@ -327,7 +327,7 @@ class Session:
         return stopped(self.program, "select", state.at, state.decision, state.index)
 
     def _pay(self, operation: str, first: Number, second: Number = 0) -> None:
-        """Count the work of an operation before it is done.  Raise Ended if it would exceed the limit by far."""
+        """Count the work of an operation before it begins.  Raise Ended if the work would exceed the limit by far."""
         state = self.state
         state.work += state.owe(self.options.numbers.work(operation, first, second))
         if state.work > self.options.limit + interpreter.SLACK:
@@ -340,7 +340,7 @@ class Session:
 
 
 class _Checkpoint:
-    """A copy of a session before a line is typed, which is restored if the line is bad."""
+    """A copy of a session before a line is typed.  It restores the session if the line is invalid."""
 
     def __init__(self, session: Session) -> None:
         devices = session.devices
@@ -355,7 +355,7 @@ class _Checkpoint:
         """Restore the session.  Output that the devices have already made stays."""
         devices = session.devices
         session._pending = self._pending
-        # The interpreter and the devices hold references to these lists, so that they are changed in place.
+        # The interpreter and the devices hold references to these lists, so the lists are changed in place.
         for part in fields(State):
             value = getattr(self._state, part.name)
             if isinstance(value, list):
@@ -376,7 +376,7 @@ def refuse_overlap(program: Program, core: int) -> None:
 
 
 def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]:
-    """Return core storage before a run, as values and kinds of fields.  All fields but the constants are undefined."""
+    """Return the values and kinds of all fields before a run.  Only the constants are defined."""
     values: list[Number] = [0] * program.storage.length
     kinds = [UNDEFINED] * program.storage.length
     for address, text in program.storage.constants + program.storage.immediates:

@@ -27,8 +27,8 @@ Entry = tuple[int, int, Number]
 class Journal:
     """The decisions of a run, in order.
 
-    With ``stores`` the journal also records every statement that begins and every field that changes.  The copy of an
-    undefined field is recorded with the value None.
+    With ``stores`` the journal also records every statement that begins and every field that changes.  If a statement
+    copies an undefined field, the value recorded for the copy is None.
     """
 
     stores: bool
@@ -68,7 +68,7 @@ class State:
     listed: True if an element has been transferred but not yet recorded in the journal.
 
     work: the work counted against the limit.  costly: the part of ``work`` for operations that take longer than a
-    statement.  owed: their steps that do not yet add up to a unit (emulator/numbers/work.py).
+    statement.  owed: the steps of such operations that do not yet add up to a unit (emulator/numbers/work.py).
 
     last_card: True if the last card has been read and no statement has tested this since (SENSE SWITCH 9).
 

@@ -24,7 +24,7 @@ TYPEWRITER_SECONDS = 1 / 10
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """The milliseconds of an operation, the row of the table it belongs to, and whether they are an estimate."""
+    """The milliseconds that an operation takes, its row in the time table, and whether the time is an estimate."""
 
     milliseconds: float
     cause: str
@@ -65,7 +65,7 @@ FIELD_COSTS = {
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A row of the time table: cause, count, seconds, and whether they include an estimate."""
+    """A row of the time table: cause, count, seconds, and whether the seconds include an estimate."""
 
     cause: str
     count: int

@@ -108,7 +108,7 @@ def place_of(line: Line) -> str:
 
 
 def notes(program: Program, result: Result, reported: Collection[tuple[int, int]] = ()) -> Iterator[str]:
-    """Yield the warnings of a run, a note if it ended for lack of cards, and its error codes.
+    """Yield the warnings of a run, a note if it ended because the hopper was empty at any READ, and its error codes.
 
     reported: fields, as pairs of card and column, that another part of the program has already warned about.
     """
