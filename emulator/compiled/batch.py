@@ -1,4 +1,4 @@
-"""One program over many decks, by the compiled engine if possible and otherwise by the interpreter.
+"""Run one program on many decks, with the compiled engine if possible and otherwise with the interpreter.
 
 The results are those of :class:`emulator.machine.machine.Machine` for each deck.  The decks are processed in blocks, so
 that memory does not grow with their number.

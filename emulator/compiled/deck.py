@@ -69,7 +69,8 @@ def run_decks(
         ends[dev.LOG_FROM] = used
         used = devices[dev.USED]
         ends[dev.LOG_TO] = used
-        # A message about an undefined field needs the kind of the field, which the next deck overwrites.
+        # Save the kind of the field, which a message about an undefined field needs, before the next deck overwrites
+        # it.
         address = registers[ADDRESS]
         ends[dev.HELD] = core.exponents[address] if 0 <= address < len(core.exponents) else 0
     return len(cards.first) - 1

@@ -55,7 +55,8 @@ ERROR_WORDS = b"ERROR E0"
 STAMP = 6
 
 
-# numba passes an array as seven or more numbers in every call, so each function receives as few arrays as possible.
+# The arrays are grouped in the tuples below, so that each function receives only those it needs: numba passes an array
+# as seven or more numbers in every call.
 class Marks(NamedTuple):
     """The parts of the object code that devices use: second operand and statement of each instruction, and verbs."""
 
@@ -142,8 +143,8 @@ def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
         return NOT_HERE
     if verb != READ:
         return GO_ON
-    # An empty hopper is a normal end at the first READ of the program (with ANY_READ at every one), but only after at
-    # least one card has been read.
+    # An empty hopper is a normal end at the READ that the program executed first (with ANY_READ at any READ), but only
+    # after at least one card of the deck has been read.
     empty = devices[NEXT] == devices[LAST_CARD] and devices[NEXT] > devices[FIRST_CARD]
     if devices[FIRST_READ] < 0 or devices[FIRST_READ] == pc:
         devices[FIRST_READ] = pc

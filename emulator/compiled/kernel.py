@@ -77,7 +77,8 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                 row += table[subscript + 1] * mantissas[variable]
             if columns == 0:
                 if strict and (row < 1 or row > rows):
-                    # A copy of element N+1 is undefined, and harmless unless it is computed with.
+                    # The copy of element N+1 of an array is undefined, which is harmless unless a statement computes
+                    # with the copy.
                     if operation == op.SEND and row == rows + 1:
                         sent = 0
                         sent_exponent = UNDEFINED

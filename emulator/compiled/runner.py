@@ -46,7 +46,7 @@ _CARD_CODES = "".join(sorted(CHARACTERS.difference(RECORD_MARKS))).encode("ascii
 
 
 def why_plain(options: Options) -> str:
-    """Return one line saying why these options need the interpreter, or "" if the compiled engine can run them.
+    """Return the reason, in one line, why these options need the interpreter, or "" if they do not.
 
     Only :class:`Runner` finds out whether the machine code can be compiled or loaded.
     """

@@ -56,7 +56,7 @@ class Compiled:
         self._entry.__qualname__ += "_" + digest(entry, repr(options))
         self._jit = numba.njit(**options)
         self.function: Any = self._jit(self._entry)
-        with suppress(RuntimeError):  # if no folder can be written, the code is for this process only
+        with suppress(RuntimeError):  # if no cache folder can be written, the compiled code serves this process only
             self.function = numba.njit(cache=True, **options)(self._entry)
 
     @property
@@ -79,7 +79,7 @@ class Compiled:
         import numba
 
         types = tuple(map(numba.typeof, arguments))
-        # Loading takes a fraction of a second, and is not reported.
+        # Loading from the cache takes only a fraction of a second, so it is not reported.
         fresh = types not in self.function.overloads and self.keeps and not self.kept
         with _shown(f"compiling {self._entry.__name__}, once: some seconds" if fresh else ""), _without_collecting():
             try:
@@ -120,7 +120,7 @@ def _shown(line: str) -> Iterator[None]:
 def _without_collecting() -> Iterator[None]:
     """Turn off the garbage collector.
 
-    It makes compiling a sixth slower, because a compiler creates millions of objects.
+    The collector makes compiling a sixth slower, because the compiler creates millions of objects.
     """
     on = gc.isenabled()
     gc.disable()

@@ -1,9 +1,9 @@
-"""A compiler pass that avoids compiling the helper functions of an entry separately.
+"""A compiler pass of numba that compiles an entry function together with the functions it calls, not each separately.
 
-numba optimises every function together with all functions it calls and generates machine code for it, before it does
-the same with the caller.  In a tree of fifty functions, the leaves are compiled five times.  Here the functions below
-an entry are only translated to LLVM's intermediate language; the entry is then compiled with all of them, once.  The
-results are the same, because no option here lets LLVM change an arithmetic result.
+By default numba optimises each function together with all functions it calls and generates machine code for it, and
+then does the same with the caller.  In a tree of fifty functions, the leaves are compiled five times.  With this pass
+the functions that an entry calls are only translated to LLVM's intermediate language; the entry is then compiled with
+all of them, once.  The results are the same, because no option here lets LLVM change an arithmetic result.
 
 This relies on internals of numba's code generator.  If a version of numba lacks them, :data:`AVAILABLE` is False, and
 numba compiles the functions in its usual way, which is slower but gives the same results.

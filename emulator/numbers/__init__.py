@@ -8,13 +8,13 @@ To add a decimal arithmetic, for example one that keeps ten digits and rounds:
    to ``PROFILES`` in ``arithmetic.py``, with its source, as ``ibm1962`` does: ``Profile("mine", "manual and page",
    rules_of(10, guard=2, sticky=1, sums=1, products=1, quotients=1))``.  For any number of digits add a function to
    ``_FAMILIES`` there.  The programs and the port then accept the name, and so does the compiled engine up to nine
-   digits.  (These ten digits exist already: ``rounding:10``.)
+   digits.  (Such a profile already exists as ``rounding:10``; it only serves as the example.)
 2. A rule that ``Rules`` cannot express is a new field of it and a new argument of ``rules_of``.  Implement it in
    ``arithmetic.py`` (digits) or ``accumulator.py`` (zeros, signs, overflow), and nowhere else.
 3. Add the name to the help of ``--arithmetic`` in ``modern/cli/shared/arguments.py`` and to the tables in
    ``docs/reference/machine.md`` and ``docs/how-to/own-arithmetic.md``.
-4. Tests: ``tests/emulator/numbers/test_arithmetic_laws.py``, measured results with their source in
-   ``tests/data/vectors/``, and the rules in ``tests/support/published/specification.py`` with the name in ``made.py``.
+4. Add tests: the name in ``tests/emulator/numbers/test_arithmetic_laws.py``, measured results with their source in
+   ``tests/data/vectors/``, the rules in ``tests/support/published/specification.py``, and the name in ``made.py``.
 
 To add numbers that are not decimal, write a subclass of :class:`~emulator.numbers.base.Numbers` in a new module here,
 add its name to :data:`HOSTED` and create it in :func:`hosted`.  Continue with steps 3 and 4, where the test is

@@ -1,8 +1,8 @@
 """The floating accumulator FAC of a decimal profile: zeros, signs, overflow and underflow of its operations.
 
 Every function accepts the mantissa and exponent in FAC, then those of the other operand (see
-emulator/numbers/arithmetic.py), and returns mantissa, exponent and event.  The event is 0 or the number n of the error
-code ERROR En, E1 to E7, that accompanies the result (C26-5619 p. 60, executed on IBM's code).  These rules are defined
+emulator/numbers/arithmetic.py), and returns mantissa, exponent and event.  The event is 0, or 1 to 7 for the error
+codes E1 to E7 that the machine typed with the result (C26-5619 p. 60, executed on IBM's code).  These rules are defined
 only here: the interpreter, the compiled kernel and the port all call these functions.
 
 The functions use only integers and loops, so that numba can compile them.
@@ -25,7 +25,7 @@ State = tuple[int, int, int]
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """Return FAC + number.  Adding zero changes nothing, except that the sum of two zeros is +0 in some profiles."""
-    # The subroutine tests for zero operands first, so a minus zero in FAC survives only as a left operand.
+    # IBM's subroutine tests for zero operands first: x + 0 is x unchanged, 0 + x is x, and profiles differ in 0 + 0.
     if mb == 0:
         if ma == 0 and not rules.keeps_left_zero:
             return 0, ZERO, 0
@@ -47,7 +47,8 @@ def subtract(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 
 def subtract_reversed(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """Return number - FAC as the subroutine FSBR computes it: FAC - number, with the sign of the result reversed."""
-    # The reversal makes a cancellation -0.  The thesis prints such zeros (emulator/language/expressions.py).
+    # If the operands cancel, the reversal turns the zero into -0.  The thesis prints such zeros
+    # (emulator/language/expressions.py).
     m, e, event = add(ma, ea, -mb, eb, rules)
     m, e = negate(m, e)
     return m, e, event
@@ -92,7 +93,7 @@ def largest(sign: int, rules: Rules) -> int:
 
 
 def vanished(sign: int, rules: Rules) -> int:
-    """Return the exponent that marks the zero to which a product or quotient underflows."""
+    """Return the exponent of the zero that replaces a product or quotient that underflows: that of +0 or -0."""
     return MINUS_ZERO if rules.signed_underflow and sign < 0 else ZERO
 
 

@@ -36,12 +36,13 @@ class Rules(NamedTuple):
     - ``limit``: ``10**P``, which every mantissa is below.
     - ``least``: ``10**(P - 1)``, the smallest normalized mantissa.
     - ``guard``: the digits beyond P that the smaller operand of a sum keeps.
-    - ``sticky``: the digits lost beyond the guard digits still affect rounding, as a fraction.
+    - ``sticky``: digits of the smaller operand beyond the guard digits still count as a positive fraction in rounding.
     - ``round_sums``, ``round_products``, ``round_quotients``: round the result half up instead of truncating it.
-    - ``keeps_left_zero``: zero plus zero keeps the sign of the zero in FAC.
+    - ``keeps_left_zero``: the sum of two zeros has the sign of the zero in FAC.
     - ``signed_underflow``, ``signed_sums``: a product or quotient, or a sum, that underflows keeps its sign.
     - ``signed_by_zero``: a number divided by zero keeps its sign.
-    - ``powers_multiply``: an integer power is a chain of truncated products instead of the exact power truncated once.
+    - ``powers_multiply``: an integer power is computed by products, each truncated, not as the exact power truncated
+      once.
     """
 
     digits: int
@@ -62,8 +63,8 @@ class Rules(NamedTuple):
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     """Return the sum of two numbers that are not zero.
 
-    The operand with the smaller exponent is shifted right and loses digits *before* the addition.  Here it loses all
-    digits that are shifted out.  :func:`add_guarded` keeps some of them.
+    The operand with the smaller exponent is shifted right *before* the addition and loses all digits that are shifted
+    out.  :func:`add_guarded` keeps some of them.
     """
     if rules.guard:
         return add_guarded(ma, ea, mb, eb, rules)
@@ -79,8 +80,8 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     total = ma + mb
     if total == 0:
         return 0, ZERO
-    # Normalize: remove the extra digit of a carry or the leading zeros of a cancellation.  Zeros fill the right end in
-    # place of the digits that guard digits would have kept.
+    # Normalize: remove the extra digit of a carry or the leading zeros of a cancellation.  Zeros fill the right end,
+    # where guard digits would have kept digits of the smaller operand.
     size = total if total > 0 else -total
     if size >= rules.limit:
         size = size // 10
@@ -201,12 +202,12 @@ def from_integer(value: int, rules: Rules) -> tuple[int, int]:
 
 
 def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
-    """Convert to fixed point: the four digits just left of the point, with the sign (C26-5619 p. 21)."""
+    """Convert a number to fixed point: keep the four digits just left of the point, and the sign (C26-5619 p. 21)."""
     if exponent <= 0:
         return 0
     size: int = mantissa if mantissa > 0 else -mantissa
     digits = rules.digits
-    # Multiples of 10**4 have zeros in these four places.
+    # If the number is a multiple of 10**4, its four digits left of the point are zeros.
     if exponent <= digits:
         size = size // 10 ** (digits - exponent)
     elif exponent - digits < 4:
@@ -265,7 +266,8 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
     for _ in range(times - 1):
         m_before, e_before = m, e
         m, e = multiply(m, e, size, exponent, rules)
-        # Stop early if the power no longer changes (the base is one) or can no longer return to the range.
+        # Stop early if the power no longer changes, because the base is one, or can no longer return to the exponent
+        # range.
         if m == m_before and e == e_before:
             break
         if e > MAX_EXPONENT + 1 or e < MIN_EXPONENT - 1:
@@ -287,7 +289,7 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """A decimal arithmetic: its number of digits, its rules for truncation and rounding, and its source.
+    """A decimal arithmetic: its number of digits, its rules for truncation and rounding, and the source of these rules.
 
     ``types_errors`` is True if every error of the arithmetic types its code (emulator.errors.explanations).
     """

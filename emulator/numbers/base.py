@@ -2,7 +2,7 @@
 
 Only the number system itself knows the representation of its numbers.  Three rules hold for every system:
 
-- Input uses every digit of the columns or of the constant.  Output truncates the decimal digits of a number to those of
+- Input uses all digits of the columns or of the constant.  Output truncates the decimal digits of a number to those of
   the field and never rounds (C26-5619 p. 38-40).
 - An error that the 1620's subroutines report with a code is reported with the same code (emulator.errors.explanations).
 - A result that a system cannot represent or decide ends the run with :class:`Undecided`.  It is never guessed.
@@ -21,7 +21,7 @@ from emulator.numbers.fields import FALLBACK, Field, Remark, read_floating, writ
 # A number of some number system.
 Number = Any
 
-# The number of digits shown to a reader.
+# The number of digits in the text of a number that is shown to a person.
 SHOWN = 20
 
 
@@ -65,7 +65,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def add(self, first: Number, second: Number) -> Number:
-        """Return the sum, or raise Trap."""
+        """Return the sum ``first + second``, or raise Trap with an error code."""
 
     @abstractmethod
     def subtract(self, first: Number, second: Number) -> Number:
@@ -80,7 +80,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def multiply(self, first: Number, second: Number) -> Number:
-        """Return the product, or raise Trap."""
+        """Return the product ``first * second``, or raise Trap with an error code."""
 
     @abstractmethod
     def divide(self, dividend: Number, divisor: Number) -> Number:
@@ -95,7 +95,7 @@ class Numbers(ABC):
         """Return -1, 0 or 1, for the three branches of an IF.  Raise Undecided if the sign is unknown."""
 
     def checked(self, value: Number) -> Number:
-        """Return a number that can be stored in a field.  Raise Undecided if it is too long."""
+        """Return a number in the form in which a field stores it.  Raise Undecided if it is too long for a field."""
         return value
 
     def from_integer(self, value: int) -> Number:
@@ -130,7 +130,7 @@ class Numbers(ABC):
         """
 
     def text(self, value: Number) -> str:
-        """Return the number in decimal, for a reader.  Dots follow it if digits are omitted."""
+        """Return the number as decimal text for a person.  Dots follow the digits if further digits are omitted."""
         exact = self.exact(value, SHOWN + 5)
         if exact is None:
             return str(value)
@@ -146,15 +146,15 @@ class Numbers(ABC):
 
     @property
     def is_costly(self) -> bool:
-        """True if an operation on FAC, a test or a card can take longer than with the decimal numbers."""
+        """True if an operation, a test, or reading or punching a number can take longer than with decimal numbers."""
         return False
 
     def work(self, operation: str, first: Number, second: Number = 0) -> int:
         """Return an estimate of the additional steps that an operation takes (:mod:`emulator.numbers.work`).
 
         ``operation`` is ``add``, ``subtract``, ``multiply``, ``divide``, ``sign``, ``to_integer``, ``card``, the name
-        of a library function, ``power`` or ``integer_power``.  For systems that are not costly only functions and
-        powers are estimated.
+        of a library function, ``power`` or ``integer_power``.  For a system that is not costly, only library functions
+        and powers have additional steps.
         """
         return 0
 
@@ -203,7 +203,7 @@ def decimal_text(whole: int, power: int) -> str:
     """Return ``whole * 10**power``, which is not zero, as text: written out if that is short, or with an exponent."""
     sign, digits = ("-" if whole < 0 else ""), str(abs(whole)).rstrip("0")
     point = decimal_length(whole) + power
-    # Up to twenty digits before the point are written out, and up to four zeros after it.
+    # Numbers with at most twenty digits before the point, or at most three zeros right after it, have no exponent.
     if 0 < point <= SHOWN:
         body = digits.ljust(point, "0")
         return f"{sign}{body[:point]}" + (f".{body[point:]}" if body[point:] else "")

@@ -3,8 +3,8 @@
 A decimal is converted to the nearest double.  For single precision, that double is then rounded to single precision.
 Overflow gives an infinity and an invalid operation gives NaN, each reported with the 1620's error code.  An IF cannot
 determine the sign of NaN.  Output is the shortest decimal that reads back as the same number, truncated to the field,
-so .3 is punched as .30000000E+00 although the number held is slightly smaller.  Single precision is double precision
-rounded after every operation, which for + - * / and SQRT is the correctly rounded result.
+so .3 is punched as .30000000E+00 although the number held is slightly smaller.  A single-precision result is the
+double-precision result rounded to single precision, which for + - * / and SQRT equals the correctly rounded result.
 """
 
 from __future__ import annotations
@@ -63,7 +63,8 @@ class FloatNumbers(Numbers):
         total = first + second
         if self._single:
             total = _single(total)
-        # x - x is 0 for finite x only: an infinite result of finite operands is an overflow.
+        # x - x is 0 only for a finite x.  So if the operands are finite and the result is not, the operation
+        # overflowed.
         if total - total != 0 and first - first == second - second == 0:
             raise Trap(accumulator.SUM_OVER, total)
         return total

@@ -26,10 +26,11 @@ E_COLUMNS, E_DECIMALS = 14, 8
 def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
     """Move a number to the left end of its field and resolve its blanks.  Return its length, and FINE or a warning.
 
-    Leading blanks are ignored.  If the field has a point or an exponent, trailing blanks are ignored too.  Read as
-    zeros, they would change nothing after the point, but would multiply an exponent by ten.  Blanks inside such a
-    number are zeros, unless they may belong to an exponent: then they are dropped.  A sign after the first character
-    begins an exponent as an E does.  In any other number blanks are zeros (OPEN-QUESTIONS 6).
+    Leading blanks are ignored.  If the field has a point or an exponent, trailing blanks are ignored too: as zeros they
+    would change nothing after the point, but would multiply an exponent by ten.  Blanks inside such a number count as
+    zeros, except that blanks which may belong to an exponent are dropped.  A sign after the first character begins an
+    exponent as an E does.  In a number without point and exponent, blanks after the first digit count as zeros
+    (OPEN-QUESTIONS 6).
     """
     first = 0
     while first < width and columns[first] == BLANK:
@@ -246,8 +247,9 @@ def write_f(
         columns[k] = DIGIT
     columns[point] = POINT
     size = -mantissa if mantissa < 0 else mantissa
-    # The digit for 10**p stands p+1 columns left of the point, or -p columns right of it if p is negative.  The first
-    # digit of the mantissa is that for 10**(exponent-1).  Digits beyond the decimals are not written: output truncates.
+    # The digit with the value 10**p stands p+1 columns left of the point, or -p columns right of it if p is negative.
+    # The first digit of the mantissa has the value 10**(exponent-1).  Digits beyond the decimals are not written,
+    # because output truncates.
     for digit in range(rules.digits - 1, -1, -1):
         p = exponent - 1 - digit
         if -decimals <= p:

@@ -20,7 +20,7 @@ Exact = Rational | RootSum
 
 
 class _SignedZero(int):
-    """Zero with a minus sign.  Every operation on it except negation gives a plain number."""
+    """Zero with a minus sign.  Any operation on it except negation gives a number without this sign."""
 
 
 _MINUS = _SignedZero(0)
@@ -96,7 +96,8 @@ class ExactNumbers(Numbers):
             return _power_steps(first, second)
         if operation == "power":
             return _power_steps(first, second.numerator) if not isinstance(second, RootSum) else 0
-        # Sums of roots have their own estimate.  Rational numbers are estimated by their longest part.
+        # Sums of roots have a separate estimate.  That for rational numbers depends on the longest numerator or
+        # denominator.
         if isinstance(first, RootSum) or isinstance(second, RootSum):
             return _root_steps(operation, first, second)
         if operation in ("add", "subtract", "multiply", "divide"):
@@ -105,7 +106,7 @@ class ExactNumbers(Numbers):
             return work.fractions(a, b)
         if operation == "SQRT":
             return 5 + work.quotient(2 * a, 2 * a)
-        # A test needs only the sign.  The integer part and output to a card need a division.
+        # Testing a number needs only its sign, which takes no extra steps.  FIX and output to a card need a division.
         return 0 if operation == "sign" else 2 + 4 * work.product(a, a) + work.quotient(a, a)
 
     def to_integer(self, value: Exact) -> int:
@@ -166,7 +167,7 @@ class ExactNumbers(Numbers):
 
 
 def _too_long(base: Exact, count: int) -> bool:
-    """Return True if a power of a rational number is certainly too long.  A part of n bits is at least 2**(n - 1)."""
+    """Return True if a power of a rational number is certainly too long: a part of n bits is at least 2**(n - 1)."""
     return not isinstance(base, RootSum) and (_longest(base) - 1) * abs(count) > MAX_BITS
 
 
@@ -185,7 +186,7 @@ def _longest(value: Exact) -> int:
 
 
 def _root_steps(operation: str, first: Exact, second: Exact) -> int:
-    """Return the steps of an operation with a sum of roots: every pair of terms, compared with every kind of root."""
+    """Return the steps of an operation with a sum of roots, which compares each pair of terms with each root."""
     a, b, terms_first, terms_second = _longest(first), _longest(second), len(_parts(first)), len(_parts(second))
     radicands = [n.bit_length() for n, _ in (*_parts(first), *_parts(second))]
     # To find the kind of a term, one integer square root is computed for each root that the sum already contains.

@@ -28,7 +28,8 @@ from emulator.numbers.arithmetic import (
 )
 from emulator.numbers.base import cut_decimal, decimal_length
 
-# The digits that an integer power is computed with beyond those of its result, and a width that keeps all digits.
+# The number of digits that intermediate products of an integer power keep beyond those of the result, and a number of
+# digits so large that the products keep all digits.
 GUARD, _ALL = 20, 10**9
 
 
@@ -51,7 +52,7 @@ def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
     if name == "LOG" and mantissa < 0:
         value = function("LOG", -mantissa, exponent, rules)
         return Value(value.mantissa, value.exponent, "F3")
-    # An angle without digits after its point cannot be reduced (GOTRAN's F1).
+    # An angle so large that it has no digits after its point cannot be reduced (GOTRAN's error code F1).
     if name in ("SIN", "COS") and exponent > rules.digits:
         return Value(rules.limit - 1, MAX_EXPONENT, "F1")
     if name == "EXP" and exponent > 3:
@@ -88,7 +89,8 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
     elif far < 0:
         m, e = 1, MIN_EXPONENT - 1
     else:
-        # Without the zeros at its end, a base of few digits keeps all digits of its powers for longer.
+        # Remove the zeros at the end of the base.  More powers of a base with few digits then fit into the width
+        # exactly.
         zeros = len(str(size)) - len(str(size).rstrip("0"))
         m, e = _exact_power(size // 10**zeros, exponent - rules.digits + zeros, count, rules)
     value = _in_range(-m if minus else m, e, rules, "E3", "E4")
@@ -173,7 +175,7 @@ def _power(mb: int, eb: int, mx: int, ex: int, rules: Rules) -> Value:
 
 @lru_cache(maxsize=256)
 def _context(digits: int) -> Any:
-    from mpmath import MPContext  # imported here because most programs use none of these functions
+    from mpmath import MPContext  # not at the top, because most programs use none of these functions
 
     context = MPContext()
     context.dps = digits
@@ -208,7 +210,7 @@ def _digits(value: Any, context: Any) -> tuple[int, int]:
 
 
 def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | None:
-    """Return the value with P digits, or None if only nines or only zeros follow, so that rounding is undecided."""
+    """Return the value with P digits, or None if only nines or zeros follow, which leaves the rounding undecided."""
     if not value:
         return 0, ZERO
     number, power_of_ten = _digits(value, context)

@@ -1,7 +1,7 @@
 """``mp:BITS``: binary floating point with any number of bits, rounded to nearest, computed by mpmath.
 
 Binary exponents range from -100,000 to 100,000.  A number outside this range overflows to an infinity or underflows to
-zero, with the 1620's error code.  Input and output are those of the other binary numbers (:mod:`.binary`).
+zero, with the 1620's error code.  Input and output follow the rules of the other binary numbers (:mod:`.binary`).
 """
 
 from __future__ import annotations

@@ -10,10 +10,10 @@ and if the shadow is at least twice as near to t as x is, |y - t| <= |x - y|, so
 
     |x - t| <= 2 |x - y|.
 
-:meth:`ShadowedNumbers.error` returns this bound.  The condition holds unless a computation has lost all b bits of x and
-64 more.  No assumption about the growth of errors is needed: a cancellation in x also occurs in y.  (Bounds that are
-carried from operand to result, as in N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., 2002,
-section 3.3, need no condition, but they double in each step of a loop even if its errors do not accumulate.)
+:meth:`ShadowedNumbers.error` returns this bound.  The condition on the shadow holds unless a computation has lost all b bits of x
+and 64 bits more.  No assumption about the growth of errors is needed: a cancellation in x also occurs in y.  (Bounds
+that are carried from operand to result, as in N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed.,
+2002, section 3.3, need no condition, but they double in each step of a loop even if its errors do not accumulate.)
 
 A number computed without rounding from numbers that were not rounded, starting with cards and constants, has no shadow
 and the bound 0.  FIX gives an integer, which is compared as an integer.
@@ -33,11 +33,11 @@ from emulator.numbers.exact import ExactNumbers
 from emulator.numbers.fields import Field, Remark
 from emulator.numbers.multiprecision import MultiprecisionNumbers
 
-# Bits of a shadow beyond twice those of its number.
+# The number of bits of a shadow beyond twice the bits of its number.
 _CARE = 64
-# The cost of the test for rounding, in steps of work.
+# The steps of work that it costs to test if a result was rounded.
 _STEPS = 4
-# The longest number, in bits, that is tested. A longer one counts as rounded.
+# The length in bits up to which a result is tested for rounding.  A longer result counts as rounded.
 _LONGEST = 4_096
 
 
@@ -72,7 +72,7 @@ class ShadowedNumbers(Numbers):
         return ExactNumbers()
 
     def error(self, number: Shadowed) -> Fraction | None:
-        """Return a bound for the distance of a number from the exact one, or None if unknown, e.g. for an infinity."""
+        """Return a bound for the error of a number against exact arithmetic, or None if unknown (as for infinities)."""
         if number.shadow is None:
             return Fraction(0)
         x, y = self.inner.exact(number.value, 0), self._finer.exact(number.shadow, 0)
@@ -230,7 +230,7 @@ def _length(value: Fraction) -> int:
 
 
 def _shadow_operation(operation: Callable[[Any, Any], Any], first: Any, second: Any) -> Any:
-    """Apply an operation to shadows.  If its result is out of range, return the number that replaces it."""
+    """Apply an operation to shadows.  Replace a result out of range by the number with which the program continues."""
     try:
         return operation(first, second)
     except Trap as trap:

@@ -1,9 +1,9 @@
 """Estimates of the work of costly operations, from the sizes of their numbers.
 
 A run is limited by a number of statements.  Each statement counts 1, and so does each pass of an indexed list, each
-number and each line.  A statement on one card has at most STEPS - 1 operations.  A longer operation counts as the
-number of statements that would take the same time.  STEPS steps are one unit of work.  The estimate is made before the
-operation, in integers, so that a run ends at the same statement on every machine.
+number and each line.  A statement on one card has at most STEPS - 1 operations.  An operation that takes longer than a
+statement counts as the number of statements that would take the same time.  STEPS steps are one unit of work.  The
+estimate is made before the operation, in integers, so that a run ends at the same statement on every machine.
 
 Times were measured in microseconds with CPython 3.11 on one core of an AMD EPYC.  A step is an operation of the
 eight-digit arithmetics.  It takes 0.9 to 1.5 microseconds and is counted as 1.2.  A unit of work takes 41 microseconds,
@@ -39,7 +39,7 @@ def product(first: int, second: int) -> int:
 
 
 def quotient(bits: int, divisor: int) -> int:
-    """Return the steps of a quotient with the given numbers of bits, of a greatest common divisor or a square root."""
+    """Return the steps of a quotient or gcd of integers with the given numbers of bits, or of a square root."""
     return bits * divisor // _QUOTIENT
 
 
@@ -54,7 +54,7 @@ def decimal(bits: int) -> int:
 
 
 def fractions(first: int, second: int) -> int:
-    """Return the steps of a sum, product or quotient of fractions with the given bits: two gcds and four products."""
+    """Return the steps of + - * / on fractions with the given numbers of bits: two gcds and four products."""
     return 3 + 2 * quotient(first, second) + 4 * product(first, second)
 
 
@@ -64,7 +64,7 @@ def decimal_function(exponent: int) -> int:
 
 
 def decimal_power(exponent: int) -> int:
-    """Return the steps of ``A**B`` for an exponent B with the given decimal exponent."""
+    """Return the steps of ``A**B`` of decimal numbers, where ``exponent`` is the decimal exponent of B."""
     return 200 + 4 * max(-exponent, 0)
 
 

@@ -1,8 +1,9 @@
 """Operands in the object program: the address of a field, and the code that computes the address of an array element.
 
-Element 1 of an array has the highest address.  The code writes the address of element 0 into the instruction that
-follows it, and subtracts the subscript one digit further left, that is ten times.  A second subscript, or a factor, is
-multiplied first.
+Element 1 of an array has the highest address, and each element takes ten positions.  The code for a subscript writes
+the address of element 0 into the next instruction and subtracts ten times the subscript from it, by placing the
+subtraction one digit further left.  Before that, it multiplies the variable by its factor or, for the second subscript,
+by the number of rows.
 """
 
 from dataclasses import dataclass
@@ -38,11 +39,11 @@ class Addresses:
         return self.labels[str(label)] - FIELD + 1
 
     def format(self, label: int) -> int:
-        """Return the last position of the address in the field of a FORMAT's number."""
+        """Return the position at which the address stored in the field of a FORMAT's number ends."""
         return self.labels[str(label)] - 3
 
     def operand(self, call: str, field: int, subscript: int, at: int) -> str:
-        """Return an instruction with its operand, preceded by the code for its subscript.
+        """Return an instruction with its operand, preceded by the code that computes the operand's subscript, if any.
 
         Parameters
         ----------
@@ -56,23 +57,24 @@ class Addresses:
         if subscript < 0:
             return call + address(self.units(field))
         part = self.program.subscripts[subscript]
-        # Element 0 in each dimension that has a variable.
+        # The address for subscripts of which the variables are 0.
         base = self.units(part.array) - FIELD * (part.o1 - 1 + (part.rows * (part.o2 - 1) if part.columns else 0))
         steps = self._steps(part)
         if not steps:
             return call + address(base)
-        # Each step has an instruction that subtracts, and one more sets the address of element 0.
+        # Each step ends with an instruction that subtracts.  One more instruction first sets the address of element 0.
         length = sum(len(code) for code, _ in steps) + _INSTRUCTION * (len(steps) + 1)
         place = at + length + _INSTRUCTION - 1
         text = steps[0][0] + d.TRANSMIT_FIELD_IMMEDIATE + address(place) + address(base)
         for number, (code, subtrahend) in enumerate(steps):
             text += (code if number else "") + d.SUBTRACT + address(place - 1) + address(subtrahend)
-        # Before the code has run, the operand is the variable, as in the deck.
+        # The code replaces the address in the instruction.  Until it runs, IBM's compiler put the address of the
+        # variable there.
         variable = part.v2 if part.v2 >= 0 else part.v1
         return text + call + address(self.units(variable))
 
     def _steps(self, part: Subscript) -> list[tuple[str, int]]:
-        """Return the steps that compute a subscript: code, and the position of the number to be subtracted."""
+        """Return the steps for a subscript: for each, code, and the position of the number that is then subtracted."""
         steps = []
         if part.v2 >= 0:
             code = self._product(part.v2, part.rows * part.c2)

@@ -1,9 +1,9 @@
 """The object deck: the cards of an object program, and their place among the cards of a deck with IBM's library.
 
 A card of the program holds four control digits, the length of its code, the code and a record mark.  IBM's loader
-precedes it in the deck.  It puts the code behind what it has loaded, and advances by the length.  A card of lengths and
-the symbol table follow, with six fields on a card, from the top of core storage downward.  Columns 77 to 80 number all
-cards of a deck.
+precedes it in the deck.  The loader stores the code of a card behind that of the card before, and then advances by the
+length.  The code is followed by a card with the lengths of program and data, and by the symbol table, which has six
+fields on a card, from the top of core storage downward.  Columns 77 to 80 number all cards of a deck.
 """
 
 from collections.abc import Iterator, Sequence
@@ -82,7 +82,7 @@ def _fields(entry: Entry, addresses: Addresses, code: ObjectProgram, formats: se
     name = entry.name
     if entry.kind == "statement number":
         label = name.removeprefix("after ")
-        # A number that is never defined has no field, because the program does not compile.
+        # No field belongs to a statement number that is used but not defined, because such a program does not compile.
         yield _label(code.labels[name], int(label), "K" if label in formats else "]")
     elif entry.kind == "constant":
         yield _constant(name.removeprefix("constant "))
@@ -127,7 +127,7 @@ def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> l
 
 
 def numbered(cards: Sequence[str], first: int) -> list[str]:
-    """Return cards with their numbers in columns 77 to 80, in place of other numbers."""
+    """Return the cards numbered from 1 in columns 77 to 80, which replaces any other numbers there."""
     return [f"{card[:_NUMBER_COLUMN]:<{_NUMBER_COLUMN}}{_number(index)}" for index, card in enumerate(cards, first)]
 
 

@@ -22,7 +22,7 @@ ADD_IMMEDIATE, SUBTRACT_IMMEDIATE, MULTIPLY_IMMEDIATE, COMPARE_IMMEDIATE = "11",
 TRANSMIT_DIGIT_IMMEDIATE, TRANSMIT_FIELD_IMMEDIATE = "15", "16"
 SET_FLAG, CLEAR_FLAG, BRANCH_BACK, BRANCH_ON_DIGIT, BRANCH_NO_FLAG = "32", "33", "42", "43", "44"
 BRANCH_INDICATOR, BRANCH_NO_INDICATOR, HALT, BRANCH = "46", "47", "48", "49"
-# The compiler set a flag over the first digit of these when they call the library.
+# The operation codes 17 and 27, which call the library, with the flag that the compiler set over their first digit.
 CALL_IMMEDIATE, CALL = "J7", "K7"
 # Indicators, as the Q address of a branch.
 HIGH, EQUAL, HIGH_OR_EQUAL = "01100", "01200", "01300"
@@ -33,9 +33,10 @@ MANTISSA, ACCUMULATOR = 58, 60
 # The units position of a product, whose digits begin at position 80.
 PRODUCT = 99
 
-# Entries that the compiler punched without a flag.
+# Entry points of the library that the compiler punched without a flag.
 PLAIN_ENTRIES = {op.TOFAC: 1238, op.TOFIX: 1238, op.FMFAC: 1306, op.FMFIX: 1306, op.SEND: 1238, op.TRANSMIT: 1306}
-# Fixed-point entries are those of the deck.  The entries of floating point were found in the library's code.
+# Further entry points.  The known object deck shows those for fixed point.  Those for floating point were found in the
+# library's code.
 ENTRIES = {
     op.XAD: 2644,
     op.XSB: 2700,
@@ -51,7 +52,7 @@ ENTRIES = {
     op.FDVR: 1756,
     op.POWERX: 3670,
 }
-# Calls without an operand: reversal of sign, conversion to floating and to fixed point.
+# Entry points that are called without an operand: reversal of sign, conversion to floating and to fixed point.
 REVERSE_SIGN = 2546
 CALLS = {op.RSGN: REVERSE_SIGN, op.RSGX: REVERSE_SIGN, op.FLOAT: 3222, op.FIX: 3494}
 

@@ -13,24 +13,24 @@ from emulator.language.objectcode import Program
 from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.objectdeck.generator import ObjectProgram, generate
 
-# What is inferred in an instruction beyond the twelve digits that it needs in any case.
+# The positions of an instruction's code that are inferred, beyond the twelve that it needs in any case.
 _INFERRED = {op.IF: 32, op.STOP: 8}
 
 
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """Positions of core: the data, the object program, and the part of both that is only inferred."""
+    """The positions of core that data and object program need, and how many of them are inferred without evidence."""
 
     data: int
     code: int
     inferred: int
 
     def excess(self, core: int) -> int:
-        """Return the positions by which program and data exceed a machine.  Negative: the positions that are free."""
+        """Return by how many positions program and data exceed a machine, negative if positions remain free."""
         return self.data + self.code - _room(core)
 
     def overlap(self, core: int) -> str:
-        """Return the compiler's message if program and data exceed a machine, else an empty string."""
+        """Return the compiler's message if program and data do not fit a machine, else an empty string."""
         excess, need = self.excess(core), self.data + self.code
         if excess <= 0:
             return ""
@@ -51,7 +51,7 @@ class Extent:
 
 
 def _room(core: int) -> int:
-    """Return the positions between IBM's subroutines and tables, and the names of the library functions."""
+    """Return the number of positions between IBM's subroutines below and the names of library functions above."""
     return core - OBJECT_PROGRAM - FUNCTION_NAMES
 
 

@@ -1,7 +1,8 @@
 """The translation of a program into the code of IBM's compiler, as the object deck of 1962 shows it.
 
-Every statement begins at an even position.  What would end at an odd position ends with a record mark.  A branch to a
-statement goes to the field of its number, which holds another branch.  The object program begins at 08300.
+Every statement begins at an even position; a record mark fills the odd position before it, if any.  A branch to a
+statement goes to the field of the statement's number, which holds a second branch, to the statement.  The object
+program begins at 08300.
 """
 
 from dataclasses import dataclass, field
@@ -16,11 +17,13 @@ from emulator.objectdeck.addresses import Addresses
 from emulator.objectdeck.digits import address
 from emulator.objectdeck.square_root import square_root
 
-# Conditions of the code that tests a DO: it is repeated while the variable does not exceed the limit.
+# The Q address of the branch at the end of a DO, which repeats the DO while the variable does not exceed the limit, and
+# the position of the variable's copy.
 _NOT_HIGH = "011" + d.RECORD_MARK + "0"
 _POSITION = "00060"
 
-# Routines of this project for functions that the library lacks.  Each is given the position of its first instruction.
+# Routines of this project for functions that the library lacks.  Each function returns the code of its routine for the
+# position at which the routine begins.
 ROUTINES = {"SQRT": square_root}
 
 
@@ -36,8 +39,8 @@ class Unit:
 class ObjectProgram:
     """An object program: its digits, the positions of its statement numbers and functions, and its end.
 
-    ``labels`` has the names of the storage map.  ``missing`` names the functions that neither the library nor this
-    project supplies.
+    ``labels`` has the names of the storage map.  ``missing`` names the functions of the program that neither the
+    library nor this project supplies.
     """
 
     units: tuple[Unit, ...]
@@ -106,7 +109,7 @@ class _Generator:
             self.at += len(self.units[-1].digits)
 
     def _count(self, instruction: Instruction) -> None:
-        """Begin a statement: FORMATs that stand before it come first, and its number is the present position."""
+        """Begin a statement: put the FORMATs that precede it, and record the position of its statement number."""
         counter = self.program.counters[instruction.address]
         if counter.begins:
             self._formats_before(counter.statement)
@@ -128,7 +131,8 @@ class _Generator:
         variable = self.program.loops[loop][0]
         first = self.program.code[self.program.loops[loop][3] - 2].address
         code = self._with_bound(d.TRANSMIT_FIELD_IMMEDIATE, d.TRANSMIT_FIELD, variable, first)
-        # The digit to the left of a constant was left in the compiler's buffer by the address of a variable, if any.
+        # IBM's compiler punched an unused digit to the left of a constant: the last digit of an earlier address in its
+        # buffer.
         if code.startswith(d.TRANSMIT_FIELD_IMMEDIATE):
             code = code[:7] + self.unused + code[8:]
         else:
@@ -197,10 +201,11 @@ class _Generator:
                 entry = VERBS[self.program.verbs[instruction.address]]
                 return d.CALL + address(entry) + address(self.addresses.format(label))
             case op.PAUSE:
-                # The operands are those of the last arithmetic, left in the compiler's buffer.
+                # PAUSE uses no operands.  IBM's compiler punched those of the last call, which were still in its
+                # buffer.
                 return "M8" + self.operands
             case op.STOP:
-                # After a halt START would execute what follows, so that the halt is repeated.
+                # After a halt, START executes the next instruction, so a branch back to the halt follows it.
                 return d.HALT + d.NONE + d.NONE + d.BRANCH + address(self.at)
             case _:
                 return ""
@@ -232,7 +237,7 @@ class _Generator:
         selector = address(self.addresses.units(instruction.address))
         branch = self.at + 60
         table = branch + 8
-        # Four times the variable is subtracted from the end of the table.
+        # The position of an entry is computed by subtracting four times the variable from the end of the table.
         return (
             d.MULTIPLY_IMMEDIATE + selector + "000]M"
             + d.SET_FLAG + "00095" + d.NONE
@@ -244,7 +249,7 @@ class _Generator:
         )  # fmt: skip
 
     def _items(self, instruction: Instruction, loops: tuple[int, ...] | None) -> None:
-        """Put the calls for the elements of a list.  ``loops`` are those that end with the list, or None."""
+        """Put the calls that transfer the elements of a list item.  ``loops`` are those that end after it, or None."""
         count = op.repeats(instruction)
         for element in range(count):
             is_last = loops is not None and element == count - 1
@@ -255,7 +260,9 @@ class _Generator:
             self._put(self.addresses.operand(call, instruction.address + element, instruction.subscript, self.at))
 
     def _last_pass(self, loops: tuple[int, ...]) -> str:
-        """Return code that announces the last item of the list if every loop around it makes its last pass."""
+        """Return code that tells the library that the last item of a list follows, if all ``loops`` make their last
+        pass.
+        """
         length = 48 * len(loops) + 12
         past = self.at + length
         text = ""
@@ -268,7 +275,9 @@ class _Generator:
         return text + d.TRANSMIT_FIELD_IMMEDIATE + f"{d.MORE_ITEMS:05d}" + "000]0"
 
     def _next_value(self, immediate: str, direct: str, bound: int) -> str:
-        """Return an instruction on a copy of a loop's variable in the accumulator."""
+        """Return an instruction that combines a copy of a loop's variable, in the accumulator, with a bound of the
+        loop.
+        """
         if bound < self.program.storage.fields:
             return direct + _POSITION + address(self.addresses.units(bound))
         value = int(self.program.storage.immediates[bound - self.program.storage.fields][1])
@@ -281,7 +290,7 @@ def _function_entry(name: str, core: int) -> int:
 
 
 def _loops_closed_by_lists(program: Program) -> dict[int, tuple[int, ...]]:
-    """Return, for the last item of each list, the loops of the list that are closed after it."""
+    """Return for the last item of each list, by its instruction, the loops within the list that end after this item."""
     closing: dict[int, tuple[int, ...]] = {}
     for pc, instruction in enumerate(program.code):
         if instruction.operation != op.FINISH:

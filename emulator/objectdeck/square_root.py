@@ -1,11 +1,13 @@
 """A square root routine for the 1620, written for this project: no known deck contains IBM's own.
 
 It replaces the number in the accumulator, positions 51 to 60, by its square root truncated to eight digits.  The sign
-of the number is ignored, and a zero becomes +0.  The exponent is halved; if it is odd, the point moves first.
+of the number is ignored, and a zero becomes +0.  The exponent is halved; if it is odd, the decimal point of the
+mantissa is moved by one digit first.
 
-The digits come from subtraction alone.  ``b`` is 5 at first.  It is subtracted from five times the number as often as
-possible, and each time it grows by ten.  Then ``b`` moves one digit to the right with a zero before its last digit, and
-the next digit follows.  The digits of ``b`` before the 5 are those of the root.  The routine needs indirect addressing.
+The digits come from subtraction alone.  A number ``b`` is 5 at first.  It is subtracted from five times the number as
+often as the result stays positive, and grows by ten after each subtraction.  Then ``b`` moves one digit to the right,
+with a zero inserted before its last digit, and the same steps give the next digit of the root.  The digits of ``b``
+before the 5 are those of the root.  The routine needs indirect addressing.
 """
 
 from emulator.objectdeck import digits as d
@@ -41,7 +43,8 @@ _LINES = (
     ("", d.TRANSMIT_FIELD_IMMEDIATE, "last+4", "=number+3"),
     ("", d.TRANSMIT_FIELD_IMMEDIATE, "unit+4", "=root+2"),
     ("", d.TRANSMIT_FIELD_IMMEDIATE, "ten+4", "=root+1"),
-    # Subtract while the number is not smaller, and count in the digit before the 5.
+    # Subtract ``b`` while the number is not smaller than ``b``.  The digit of ``b`` before the 5 counts the
+    # subtractions.
     ("compare", d.COMPARE, "@last+4", "@unit+4"),
     ("", d.BRANCH_NO_INDICATOR, "next", d.HIGH_OR_EQUAL),
     ("", d.SUBTRACT, "@last+4", "@unit+4"),
@@ -74,7 +77,7 @@ _INSTRUCTION = 12
 
 
 def square_root(start: int) -> str:
-    """Return the digits of the routine for a place in core storage.  It is entered at its first position."""
+    """Return the digits of the routine for a place in core storage.  A program calls it at its first position."""
     places = {name: start + _INSTRUCTION * index for index, (name, *_) in enumerate(_LINES)}
     at = start + _INSTRUCTION * len(_LINES)
     for name, digits in _FIELDS:
