@@ -10,10 +10,10 @@ and if the shadow is at least twice as near to t as x is, |y - t| <= |x - y|, so
 
     |x - t| <= 2 |x - y|.
 
-:meth:`ShadowedNumbers.error` returns this bound.  The condition on the shadow holds unless a computation has lost all b bits of x
-and 64 bits more.  No assumption about the growth of errors is needed: a cancellation in x also occurs in y.  (Bounds
-that are carried from operand to result, as in N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed.,
-2002, section 3.3, need no condition, but they double in each step of a loop even if its errors do not accumulate.)
+:meth:`ShadowedNumbers.error` returns this bound.  The condition on the shadow holds unless a computation has lost all b
+bits of x and 64 bits more.  No assumption about the growth of errors is needed: a cancellation in x also occurs in y.
+(Bounds that are carried from operand to result, as in N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd
+ed., 2002, section 3.3, need no condition, but they double in each step of a loop even if its errors do not accumulate.)
 
 A number computed without rounding from numbers that were not rounded, starting with cards and constants, has no shadow
 and the bound 0.  FIX gives an integer, which is compared as an integer.
