@@ -7,7 +7,7 @@ JOBS ?= 2
 EPOCH := $(shell $(PYTHON) -c "import re, datetime as d; day = re.search('date-released: (.+)', open('CITATION.cff').read())[1]; print(int(d.datetime.fromisoformat(day + 'T00:00+00:00').timestamp()))")
 PIP = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: reproduce test lint format coverage wheel benchmark mutants tei-check edition book archive serve upgrade hooks clean
+.PHONY: reproduce test lint format coverage wheel benchmark mutants claims tei-check edition book archive serve upgrade hooks clean
 
 reproduce: $(VENV)/.run
 	$(BIN)/hull1620 reproduce
@@ -37,6 +37,10 @@ benchmark: $(VENV)/.dev
 
 mutants: $(VENV)/.dev
 	$(BIN)/python -m tests.mutants --jobs $(JOBS)
+
+# The full searches of the claims; the results are committed, and an interrupted run continues.
+claims: $(VENV)/.dev
+	$(BIN)/python -m modern.claims.full --jobs $(JOBS)
 
 # The TEI documents against a schema: SCHEMA=tei_all.rng, or the project's own.
 tei-check: $(VENV)/.dev

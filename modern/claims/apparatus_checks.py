@@ -20,7 +20,7 @@ from modern.edition import chapter4, programs, sources
 from modern.edition.apparatus import Line, Row, Text, build
 from modern.edition.chapter6_cards import load_chapter
 from modern.edition.chapter6_checks import check_chapter
-from modern.edition.grounds import Proof, check_decks, check_row
+from modern.edition.grounds import Proof, check_decks, check_layers, check_row
 from modern.edition.readings import attested, reading_faults, solid, steps, without_step
 from modern.papers import Lines
 
@@ -164,6 +164,7 @@ def check_everything(rows: list[Row], transcripts: bool, whole: str = "", worker
         if transcripts:
             yield from check_sources(whole)
         yield from check_decks()
+        yield from check_layers()
         yield from (check_listing(row, pair_uses) for row in rows)
         yield from check_transcripts(pair_uses) if transcripts else ()
         return
@@ -175,6 +176,7 @@ def check_everything(rows: list[Row], transcripts: bool, whole: str = "", worker
         if transcripts:
             yield from check_sources(whole)
         yield from check_decks()
+        yield from check_layers()
         yield from proofs
         yield from transcript_proofs.result() if transcript_proofs else ()
     finally:

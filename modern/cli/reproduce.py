@@ -210,11 +210,11 @@ def _summary_lines(
         counts = (
             f"{len(exact)} of {len(punched)} printed results exact, {cards} of {all_cards} cards, {numbers} numbers"
         )
-        yield f"As the examples were run: {counts}."
         kinds = Counter(r.verdict.kind for r in listed)
         yield f"As listed: {', '.join(f'{kinds[k]} {k}' for k in (EXACT, ORDER, SPACING, DIFFERENT) if kinds[k])}."
+        yield f"With program 1 in the state that was rebuilt from these results: {counts}."
     if theorems:
-        yield f"Chapter 4: {sum(judged.agrees for judged in theorems)} of {len(theorems)} claims hold."
+        yield f"Chapter 4: {sum(judged.agrees for judged in theorems)} of {len(theorems)} verdicts are as recorded."
     if paper_findings:
         yield _finding_summary(paper_findings)
     has_results = reports or theorems or paper_findings

@@ -18,6 +18,7 @@ The result with all rows of the layer is compared with the result without this r
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cache
 
 from emulator.errors import CompileError, EmulatorError
@@ -28,10 +29,15 @@ from emulator.language.parser import parse
 from emulator.language.statements import sources
 from emulator.machine.endings import Ending
 from emulator.machine.result import LOOP_WINDOW, Options
+from modern.comparison.difference import disagreement
+from modern.comparison.outcome import from_cards, from_judge
 from modern.edition import chapter6, programs
+from modern.edition import sources as provenance
 from modern.edition.apparatus import Row, built_without
 from modern.edition.readings import Step, steps, without_step
 from modern.edition.reproduce import EXACT, State, reproduce
+from modern.exact_hull import exact_hull
+from modern.formats.deck import exact_points
 from modern.thesis.job import run_hull
 
 LISTED = Options(limit=200_000)
@@ -63,6 +69,42 @@ def check_decks() -> Iterator[Proof]:
             f"{len(built.cards)} cards {'equal' if same else 'DIFFER from'} witness and {rows} rows"
             + ("" if compiles else ", and do NOT compile"),
         )
+
+
+def check_layers() -> Iterator[Proof]:
+    """Check the programs with each optional layer, whose decks are not committed, card by card by their hashes.
+
+    With the layer ``corrected`` the programs must also give the exact hull of each deck that a correction names.
+    """
+    table = provenance.sources().layered
+    for layer in dict.fromkeys(layer for _, layer, _ in table):
+        of_layer = [(name, sha) for name, found, sha in table if found == layer]
+        cards = {name: programs.deck(name, (layer,)).text() for name, _ in of_layer}
+        faults = [f"{name} has other cards" for name, sha in of_layer if provenance.digest(cards[name]) != sha]
+        decks = _decks_of(layer) if layer == "corrected" else ()
+        faults += [f"deck {name} does not give the exact hull" for name in decks if not _exact_with(layer, name)]
+        message = f"{len(of_layer)} programs have the cards of SOURCES.toml"
+        message += f", and {len(decks)} decks give the exact hull" if decks else ""
+        yield Proof(f"layer {layer}", not faults, faults[0] if faults else message)
+
+
+def _decks_of(layer: str) -> tuple[str, ...]:
+    all_rows = (row for name in programs.TEXTS for row in programs.text(name).rows)
+    rows = (row for row in all_rows if row.layer == layer and row.kind == "correction")
+    named = (str(row.ground["deck"]) for row in rows if row.ground.get("kind") == "deck")
+    return tuple(dict.fromkeys((*named, *(f"example{number}" for number in chapter6.EXAMPLES))))
+
+
+def _exact_with(layer: str, name: str) -> bool:
+    deck = ground_deck(name)
+    assert deck is not None
+    points = [tuple(map(Fraction, point)) for point in exact_points(deck)[0].values()]
+    try:
+        run = run_hull(deck, programs.loader((layer,)), LAYERED)
+    except EmulatorError:
+        return False
+    outcome, judge = from_cards(layer, run, points), from_judge(exact_hull(points), points)
+    return outcome.determined and disagreement(outcome, judge, points).agrees
 
 
 def _compiles(name: str, built: Deck, same: bool) -> bool:

@@ -68,11 +68,16 @@ class Excerpt:
 
 @dataclass(frozen=True, slots=True)
 class Sources:
-    """The contents of SOURCES.toml; ``decks`` are the data decks of grounds with their hashes."""
+    """The contents of SOURCES.toml.
+
+    ``decks`` are the data decks of grounds with their hashes, and ``layered`` the programs with an optional layer:
+    program, layer and hash of the cards.
+    """
 
     documents: tuple[Document, ...]
     excerpts: tuple[Excerpt, ...]
     decks: tuple[tuple[str, str], ...]
+    layered: tuple[tuple[str, str, str], ...]
 
     def document(self, name: str) -> Document:
         return next(document for document in self.documents if document.id == name)
@@ -113,6 +118,7 @@ def sources() -> Sources:
             for raw in data["excerpt"]
         ),
         tuple((raw["file"], raw["sha256"]) for raw in data["deck"]),
+        tuple((raw["program"], raw["layer"], raw["sha256"]) for raw in data["layered"]),
     )
 
 

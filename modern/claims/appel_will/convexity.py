@@ -86,7 +86,7 @@ RINGS: Generator[tuple[Flat, ...]] = Generator(
 )
 
 
-@claim("appel-will.10", full=50_000)
+@claim("appel-will.10", full=20_000)
 def deletion_passes(cases: int = 12) -> Check:
     """Check that passes that delete all nonconvex points of a simple polygon end with its hull."""
 
@@ -135,7 +135,7 @@ def jarvis_start_as_printed() -> Check:
     return refuted(inside, f"{points[first][:2]} is taken first and lies inside the hull")
 
 
-@claim("appel-will.16", full=400)
+@claim("appel-will.16", full=150)
 def jarvis_deletions(cases: int = CASES) -> Check:
     """Check that a point inside a triangle of vertices is not a vertex of the hull."""
     checks = []

@@ -104,14 +104,14 @@ def keeps_vertices(ring: tuple[Flat, ...], rule: Rule) -> bool:
     return not {*preprocess(solid.points, solid.surfaces, rule).deleted} & {*exact_hull(solid.points).vertices}
 
 
-@claim("appel-will.72", "appel-will.75", "appel-will.136", rule="any", full=5_000)
-@claim("appel-will.74", rule="two", full=5_000)
+@claim("appel-will.72", "appel-will.75", "appel-will.136", rule="any", full=2_000)
+@claim("appel-will.74", rule="two", full=2_000)
 def deletion_in_prisms(rule: Rule, cases: int = 10) -> Check:
     """Check that a rule deletes no vertex of the hull of a prism, at whose points three planes meet."""
     return search(RINGS, lambda ring: keeps_vertices(ring, rule), cases, "no vertex of a hull is deleted")
 
 
-@claim("appel-will.43", full=5_000)
+@claim("appel-will.43", full=2_000)
 def inside_corners_deleted(cases: int = 10) -> Check:
     """Check the same, and the crown, which is not well behaved."""
     crown_ = inside_corner_at_vertex()

@@ -64,7 +64,7 @@ def combination_of_three() -> Check:
     )
 
 
-@claim("kovalevsky-schulz.69", full=20_000)
+@claim("kovalevsky-schulz.69", full=4_000)
 def lemma_ch(cases: int = 10) -> Check:
     """Check that a polyhedron with corners among the local corners that contains all of these contains all voxels."""
 
@@ -107,7 +107,7 @@ def smaller_polyhedron(vertices: str) -> Check:
     )
 
 
-@claim("kovalevsky-schulz.151", "kovalevsky-schulz.126", full=5_000)
+@claim("kovalevsky-schulz.151", "kovalevsky-schulz.126", full=1_000)
 def vertices_are_local_corners(cases: int = 10) -> Check:
     """Check that the polyhedron constructed from the local corners has the vertices of the hull of all voxels."""
 

@@ -228,7 +228,7 @@ def collinear_edges(treatment: Treatment = EXTENDED) -> Check:
     return exhibited(passed, f"{treated.straightened} edges become collinear; (4, 0, 0) is no longer a vertex")
 
 
-@claim("kovalevsky-schulz.44", "kovalevsky-schulz.160", "kovalevsky-schulz.144", full=5_000)
+@claim("kovalevsky-schulz.44", "kovalevsky-schulz.160", "kovalevsky-schulz.144", full=1_000)
 def economical_encoding(cases: int = 10) -> Check:
     """Check that coordinates and the vertices of the faces determine the whole cell list, with edges in their order."""
 
@@ -255,7 +255,7 @@ def reconstruction_by_corners() -> Check:
     return check.unless(added, "a test of centres: that of (1, 0, 0) is in the hull of (0, 0, 0) and (1, 1, 0)")
 
 
-@claim("kovalevsky-schulz.99", full=2_000)
+@claim("kovalevsky-schulz.99", full=500)
 def reconstruction(cases: int = 10) -> Check:
     """Check that the reconstruction from the hull of the centres is the filled hull, and so a convex object."""
 

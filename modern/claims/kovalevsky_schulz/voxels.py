@@ -38,7 +38,7 @@ def _local(solid: Voxels, of: Of = CENTRES, neighbours: int = 26) -> set[Point]:
     return {(x, y, z) for x, y, z in local_corners(listed(solid), of, neighbours).tolist()}
 
 
-@claim("kovalevsky-schulz.7", "kovalevsky-schulz.11", "kovalevsky-schulz.125", full=20_000)
+@claim("kovalevsky-schulz.7", "kovalevsky-schulz.11", "kovalevsky-schulz.125", full=4_000)
 def vertices_among_local_corners(cases: int = 10) -> Check:
     """Check that the vertices of the hull of voxels are among their local corners."""
     return search(
@@ -67,15 +67,15 @@ def local_corner_inside_hull() -> Check:
     return refuted(wrong, f"{middle} is a local corner and a convex combination of its {len(around)} neighbours")
 
 
-@claim("kovalevsky-schulz.18", full=20_000)
+@claim("kovalevsky-schulz.18", full=4_000)
 def fewer_corners_with_more_neighbours(cases: int = 10) -> Check:
     """Check that a test of 26 neighbours keeps a part of the corners that a test of 6 keeps."""
     message = "26 neighbours leave a part of the corners that 6 neighbours leave"
     return search(SOLIDS, lambda solid: _local(solid) <= _local(solid, CENTRES, 6), cases, message)
 
 
-@claim("kovalevsky-schulz.23", of=CENTRES, full=20_000)
-@claim("kovalevsky-schulz.34", of=VERTICES, full=20_000)
+@claim("kovalevsky-schulz.23", of=CENTRES, full=4_000)
+@claim("kovalevsky-schulz.34", of=VERTICES, full=4_000)
 def local_corners_by_definition(of: Of, cases: int = 5) -> Check:
     """Compare the program's local corners of voxels, or of their corners, with the definition by 13 pairs."""
 
@@ -130,14 +130,14 @@ def printed_faces() -> Check:
     )
 
 
-@claim("kovalevsky-schulz.24", "kovalevsky-schulz.25", full=20_000)
+@claim("kovalevsky-schulz.24", "kovalevsky-schulz.25", full=4_000)
 def corners_of_voxels(cases: int = 10) -> Check:
     """Check that the elements labelled for the corners are the corners of the voxels, and no others."""
     message = "the labelled corners are exactly those of the voxels"
     return search(SOLIDS, lambda solid: _placed(solid, VERTICES) == _corners(solid), cases, message)
 
 
-@claim("kovalevsky-schulz.12", "kovalevsky-schulz.13", full=10_000)
+@claim("kovalevsky-schulz.12", "kovalevsky-schulz.13", full=1_000)
 def corners_against_centres(cases: int = 5) -> Check:
     """Check that the hull of the corners contains the centres, and is that of cubes about the outermost voxels."""
 
@@ -234,7 +234,7 @@ def farthest_voxel_of_corner(dimensions: int = 3) -> Check:
     return exhausted(f"corners of a raster of {len(raster)} cells", [*within, len(within) == len(raster)], message)
 
 
-@claim("kovalevsky-schulz.174", full=20_000)
+@claim("kovalevsky-schulz.174", full=4_000)
 def additional_labels(cases: int = 5) -> Check:
     """Check that exactly the elements behind a voxel, seen from the origin, become labelled in addition."""
 

@@ -72,13 +72,13 @@ def _agrees(boxes: tuple[Box, ...]) -> bool:
     return all(visible != any(_behind(at, box) for box in boxes) for visible, at in _samples(drawing))
 
 
-@claim("nakamae-nishita.11", "nakamae-nishita.49", "appel-will.151", full=3_000)
+@claim("nakamae-nishita.11", "nakamae-nishita.49", "appel-will.151", full=600)
 def pieces_against_rays(cases: int = 3) -> Check:
     """Check that exactly those pieces of edges are visible whose middle no box hides."""
     return search(SCENES, _agrees, cases, "the pieces that are visible are those that no box hides")
 
 
-@claim("nakamae-nishita.3", "nakamae-nishita.15", full=3_000)
+@claim("nakamae-nishita.3", "nakamae-nishita.15", full=600)
 def unrelated_polyhedra(cases: int = 3) -> Check:
     """Check that boxes whose contours do not overlap, and which are not compared, hide nothing of each other."""
 

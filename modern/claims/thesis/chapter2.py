@@ -82,7 +82,7 @@ def vertex_of_hull(dimension: int, cases: int = CASES) -> Check:
     return check.unless(alone, f"{inner} inside a triangle or tetrahedron: it lies between no two of the given points")
 
 
-@claim("thesis.202", "thesis.27", kind="planes", full=400)
+@claim("thesis.202", "thesis.27", kind="planes", full=200)
 @claim("thesis.201", kind="lines", full=400)
 def gift_wrapping(kind: str, cases: int = CASES) -> Check:
     """Check that planes turned about points and edges, or lines turned about points, find all facets of the hull."""

@@ -108,24 +108,24 @@ def minimum_not_unique() -> Check:
     return exhibited(all(least) and not is_simple(array_of(both)), "either of two voxels makes a convex solid of three")
 
 
-@claim("yau-srihari.2", "yau-srihari.48", "yau-srihari.51", "yau-srihari.53", "yau-srihari.54", full=2_000)
-@claim("yau-srihari.59", "yau-srihari.120", full=2_000)
+@claim("yau-srihari.2", "yau-srihari.48", "yau-srihari.51", "yau-srihari.53", "yau-srihari.54", full=500)
+@claim("yau-srihari.59", "yau-srihari.120", full=500)
 def envelopes_against_judge(cases: int = 5) -> Check:
     """Check that the envelopes are faces of the exact hull, with its digital points between them."""
     message = "the envelopes of all solids are the faces of the exact hull that look down or up"
     return search(SOLIDS, _envelopes_agree, cases, message)
 
 
-@claim("yau-srihari.4", "yau-srihari.38", "yau-srihari.49", full=2_000)
+@claim("yau-srihari.4", "yau-srihari.38", "yau-srihari.49", full=500)
 def digital_hull_by_envelopes(cases: int = 5) -> Check:
     """Check the same, and the counterexample, a hull whose digital points do not form a digital solid."""
     disconnected = disconnected_hull()
     return envelopes_against_judge(cases).unless(not disconnected.holds, disconnected.message)
 
 
-@claim("yau-srihari.121", "yau-srihari.68", "yau-srihari.70", name="bound", full=2_000)
-@claim("yau-srihari.67", name="start", full=2_000)
-@claim("yau-srihari.125", "yau-srihari.106", name="marks", full=2_000)
+@claim("yau-srihari.121", "yau-srihari.68", "yau-srihari.70", name="bound", full=400)
+@claim("yau-srihari.67", name="start", full=400)
+@claim("yau-srihari.125", "yau-srihari.106", name="marks", full=400)
 def corrected_step(name: str, cases: int = 2) -> Check:
     """Check that the corrected algorithm gives the digital points of the hull, and as printed it does not."""
     as_printed = algorithm_as_printed(name)
@@ -133,7 +133,7 @@ def corrected_step(name: str, cases: int = 2) -> Check:
     return check.unless(not as_printed.holds, f"the step as printed: {as_printed.message}")
 
 
-@claim("yau-srihari.5", full=2_000)
+@claim("yau-srihari.5", full=500)
 def deficiency_of_solid(cases: int = 10) -> Check:
     """Check that the hull without the convex deficiency is the solid."""
 
@@ -254,7 +254,7 @@ def _upper_heights() -> tuple[set[Point], set[Point]]:
     return envelope, {SOLID[k] for f in judge.facets if f.plane[2] > 0 for k in f.polygon}
 
 
-@claim("yau-srihari.55", "yau-srihari.56", "yau-srihari.64", full=2_000)
+@claim("yau-srihari.55", "yau-srihari.56", "yau-srihari.64", full=500)
 def extreme_points(cases: int = 10) -> Check:
     """Check that the vertices of the lower envelope are points of the floor and of the reduced set."""
 

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from modern.claims.evidence import GRADES
+from modern.claims.full import recorded_for
 from modern.claims.register import (
     COLUMNS,
     CONDITION,
@@ -78,6 +79,8 @@ def statement_lines(judgements: Sequence[Judged], paint: Paint, indented: Indent
         for check in judged.checks:
             if (description := check.evidence.describe()) != "exhibited":
                 yield from indented(description)
+        for full in recorded_for(row.same or row.id):
+            yield from indented(f"full search: {int(full.cases):,} cases, seed {full.seed}: {full.result}")
         if row.run:
             yield from indented(f"run: {row.run}")
         if not judged.agrees:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from emulator.errors import DeckError
-from emulator.language.cards import deck_from_lines
+from emulator.language.cards import Deck, deck_from_lines, deck_from_text
 from modern.edition import chapter6, grounds, programs
 from modern.edition.apparatus import ApparatusError, Change, Row, build, built_without, load
 from modern.edition.grounds import check_decks, check_row
@@ -168,6 +168,30 @@ def test_a_deck_that_differs_from_its_build_fails(line: str, message: str, monke
     assert message in proof.message
     assert proof.message.endswith(", and do NOT compile") == (line == "GO TO")
     assert all(other_proof.holds for other_proof in others[:2])
+
+
+@pytest.mark.parametrize(
+    ("program", "layer", "lemma", "altered"),
+    [
+        ("program2", "corrected", "BL=(R(I1)-R(I3))", "BL=(R(I3)-R(I3))"),
+        ("program2", "corrected", "2157,1157,1157", "1157,1157,1157"),
+        ("program3", "epsilon", "EPS", "EPT"),
+    ],
+)
+def test_altered_row_of_an_optional_layer_is_noticed(
+    program: str, layer: str, lemma: str, altered: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The layers that no committed deck contains are compared by their hashes, and by the hulls of their decks."""
+    deck = programs.deck
+
+    def changed(name: str, layers: tuple[str, ...] = ()) -> Deck:
+        text = deck(name, layers).text()
+        return deck_from_text(f"{name}.f", text.replace(lemma, altered, 1) if name == program and layers else text)
+
+    assert all(proof.holds for proof in grounds.check_layers())
+    assert lemma in deck(program, (layer,)).text()
+    monkeypatch.setattr(programs, "deck", changed)
+    assert [proof.subject for proof in grounds.check_layers() if not proof.holds] == [f"layer {layer}"]
 
 
 def test_a_layer_without_rows_is_rejected() -> None:

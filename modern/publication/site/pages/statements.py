@@ -3,6 +3,7 @@
 The page contains all statements.  The script ``data.js`` hides those that the reader's choice excludes.
 """
 
+from modern.claims.full import FullSearch, recorded_for
 from modern.claims.register import COLUMNS, DOCUMENTS, UNTESTABLE, USED, Judged, Statement, column, counts, judged
 from modern.claims.sampled_sets import counterexample
 from modern.publication.site.made import Made, Part, Target, one_of, slug
@@ -58,6 +59,7 @@ def _statement(judgement: Judged) -> str:
             ("reason", escape(row.why)),
             ("check", escape(judgement.message)),
             ("evidence", "<br>".join(escape(check.evidence.describe()) for check in judgement.checks)),
+            ("full search", "<br>".join(_full(result) for result in recorded_for(row.same or row.id))),
             ("counterexample", _counterexample(row)),
         ),
         cls="facts",
@@ -65,6 +67,10 @@ def _statement(judgement: Judged) -> str:
     body = details("evidence", facts) if facts else ""
     inner = element("div", head, cls="statement-head") + text("p", row.says) + body
     return element("li", inner, id=row.id, cls=_CLASSES[name])
+
+
+def _full(search: FullSearch) -> str:
+    return escape(f"{int(search.cases):,} cases of {search.generator}, seed {search.seed}: {search.result}")
 
 
 def _counterexample(row: Statement) -> str:

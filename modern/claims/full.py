@@ -1,0 +1,137 @@
+"""The full searches of ``make claims``: each check with a full size runs at that size, and its result is recorded.
+
+The results are in ``transcripts/statements/full.csv`` with the generator, its seed and the number of cases.  A result
+is kept as long as the module of its check does not change, so that an interrupted run continues where it stopped.
+"""
+
+import csv
+import hashlib
+import io
+import sys
+from argparse import ArgumentParser
+from collections.abc import Iterator, Mapping
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import astuple, dataclass, fields
+from functools import cache
+from importlib import import_module
+from importlib.resources import files
+from inspect import getsource
+from multiprocessing import get_context
+from pathlib import Path
+
+from emulator.files import write_text
+from modern.claims.evidence import Decision
+from modern.claims.register import decisions, statements_folder
+
+NAME = "full.csv"
+
+
+@dataclass(frozen=True, slots=True)
+class FullSearch:
+    """The result of one check at its full size.
+
+    ``statements`` are the ids that the check decides, separated by spaces, and ``sources`` is a digest of the modules
+    that it was computed with.
+    """
+
+    check: str
+    statements: str
+    generator: str
+    seed: str
+    cases: str
+    result: str
+    sources: str
+
+
+@cache
+def recorded() -> tuple[FullSearch, ...]:
+    """Return the committed results."""
+    return read_results(statements_folder().joinpath(NAME).read_text(encoding="utf-8"))
+
+
+def read_results(text: str) -> tuple[FullSearch, ...]:
+    return tuple(FullSearch(**row) for row in csv.DictReader(io.StringIO(text)))
+
+
+@cache
+def recorded_for(statement: str) -> tuple[FullSearch, ...]:
+    """Return the committed results of the checks that decide a statement."""
+    return tuple(result for result in recorded() if statement in result.statements.split())
+
+
+def searches() -> Mapping[str, tuple[Decision, tuple[str, ...]]]:
+    """Return the checks with a full size and the statements that each decides, by the name of the check."""
+    grouped: dict[str, tuple[Decision, tuple[str, ...]]] = {}
+    for statement, of_statement in decisions().items():
+        for decision in of_statement:
+            if decision.full:
+                first, ids = grouped.get(_name(decision), (decision, ()))
+                grouped[_name(decision)] = first, (*ids, statement)
+    return grouped
+
+
+def _name(decision: Decision) -> str:
+    subject = "".join(f" {value}" for _, value in decision.subject)
+    return f"{decision.function.__module__.removeprefix('modern.claims.')}.{decision.function.__name__}{subject}"
+
+
+def sources_of(decision: Decision) -> str:
+    """Return a digest of the module of a check and of the modules with evidence and samples."""
+    names = (decision.function.__module__, "modern.claims.evidence", "modern.claims.sampled_sets")
+    text = "".join(getsource(import_module(name)) for name in names)
+    return hashlib.sha256(f"{decision.full} {text}".encode()).hexdigest()[:12]
+
+
+def run(name: str) -> FullSearch:
+    """Run one check at its full size."""
+    decision, ids = searches()[name]
+    check = decision.run_full()
+    evidence = check.evidence
+    result = ("holds with a condition" if evidence.violation else "holds") if check.holds else check.message
+    seed = "" if evidence.seed is None else str(evidence.seed)
+    return FullSearch(name, " ".join(ids), evidence.domain, seed, str(evidence.cases), result, sources_of(decision))
+
+
+def _table(results: Mapping[str, FullSearch]) -> str:
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(field.name for field in fields(FullSearch))
+    writer.writerows(astuple(results[name]) for name in sorted(results))
+    return out.getvalue()
+
+
+def outstanding(results: Mapping[str, FullSearch]) -> Iterator[str]:
+    """Yield the names of the searches that have no result, or one from other sources."""
+    for name, (decision, ids) in searches().items():
+        done = results.get(name)
+        if done is None or done.sources != sources_of(decision) or done.statements != " ".join(ids):
+            yield name
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = ArgumentParser(prog="python -m modern.claims.full", description="Run the full searches of all claims.")
+    parser.add_argument("--jobs", type=int, default=2, help="number of processes (default: 2)")
+    jobs = parser.parse_args(arguments).jobs
+    path = Path(str(files("transcripts").joinpath("statements", NAME)))
+    results = (
+        {result.check: result for result in read_results(path.read_text(encoding="utf-8"))} if path.exists() else {}
+    )
+    results = {name: result for name, result in results.items() if name in searches()}
+    names = [*outstanding(results)]
+    print(f"{len(searches())} searches, {len(names)} to run", flush=True)
+    with ProcessPoolExecutor(jobs, get_context("spawn")) as pool:
+        for done in as_completed(pool.submit(run, name) for name in names):
+            result = done.result()
+            results[result.check] = result
+            # Every result is written at once, so that an interrupted run can be continued.
+            write_text(str(path), _table(results))
+            print(f"{result.check}: {result.cases} cases: {result.result}", flush=True)
+    write_text(str(path), _table(results))
+    refuted = [result.check for result in results.values() if not result.result.startswith("holds")]
+    if refuted:
+        print(f"refuted: {', '.join(refuted)}", file=sys.stderr)
+    return int(bool(refuted))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
