@@ -9,6 +9,7 @@ from random import Random
 from modern.claims.evidence import Check, Generator, claim, exhibited, search, searched
 from modern.claims.nakamae_nishita.tables import side
 from modern.claims.sampled_sets import CASES, SETS, sampled_sets
+from modern.drawing.visible import sign
 from modern.geometry.vectors import dot
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.nearness import BY_FACE, BY_PLANE
@@ -138,5 +139,5 @@ def front_faces_turn_clockwise(cases: int = CASES) -> Check:
         images = [(x + 31 * z, y + 17 * z) for x, y, z in sampled.points]
         for face in sampled.judge.facets:
             a, b, c = (images[k] for k in face.polygon[:3])
-            outcomes.append(side(a, b, c) * dot(face.plane[:3], (-31, -17, 1)) > 0)
+            outcomes.append(side(a, b, c) == sign(dot(face.plane[:3], (-31, -17, 1))))
     return searched(SETS[3], cases, outcomes, f"{len(outcomes)} faces agree")

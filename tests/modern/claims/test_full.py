@@ -1,0 +1,35 @@
+"""The full searches: every check with a full size has a committed result, and an interrupted run continues."""
+
+from dataclasses import replace
+
+import pytest
+
+from modern.claims import full
+from modern.claims.register import CONDITION, DOCUMENTS, HOLDS, statements_of
+
+ROWS = {row.id: row for document in DOCUMENTS for row in statements_of(document)}
+
+
+def test_every_search_has_a_result_that_is_the_verdict_of_its_rows() -> None:
+    results = {result.check: result for result in full.recorded()}
+    assert results.keys() == full.searches().keys()
+    for name, (decision, ids) in full.searches().items():
+        assert int(results[name].cases) >= decision.full
+        assert results[name].result in (HOLDS, CONDITION)
+        assert all(ROWS[row].verdict == CONDITION for row in ids if results[name].result == CONDITION)
+
+
+def test_search_is_outstanding_without_a_result_or_after_a_change() -> None:
+    results = {result.check: result for result in full.recorded()}
+    name = next(iter(results))
+    changed = {name: replace(results[name], sources=""), **{k: v for k, v in results.items() if k != name}}
+    assert name in full.outstanding(changed)
+    assert name in full.outstanding({})
+
+
+def test_run_records_a_refuted_check(monkeypatch: pytest.MonkeyPatch) -> None:
+    name, (decision, ids) = next(iter(full.searches().items()))
+    monkeypatch.setattr(full, "searches", lambda: {name: (replace(decision, full=1), ids)})
+    result = full.run(name)
+    assert (result.check, result.statements) == (name, " ".join(ids))
+    assert full.read_results(full._table({name: result})) == (result,)
