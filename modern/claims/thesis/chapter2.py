@@ -27,7 +27,7 @@ from modern.geometry.vectors import cross, dot, minus
 
 @claim("thesis.18")
 def weights_of_combination() -> Check:
-    """Check which weights w / 4 with the sum 1 give a point of a triangle: those that are not negative."""
+    """Check that a combination of a triangle's corners lies in the triangle if and only if no weight is negative."""
     sides = [facet.plane for facet in exact_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0)]).facets]
     weights = [(4 - x - y, x, y) for x in range(-3, 8) for y in range(-3, 8)]
     outcomes = [(min(w) >= 0) == all(plane_value(side, (w[1], w[2], 0)) <= 0 for side in sides) for w in weights]
@@ -43,7 +43,7 @@ def _area(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
 
 @claim("thesis.22")
 def vertex_formula_with_minus() -> Check:
-    """Check that the formula with the printed minus does not give the middle of three collinear points."""
+    """Check that the formula with the printed minus cannot give the middle one of three collinear points."""
     points = counterexample_points("middle.csv")
     middle = points[1]
     pair_counts = {"+": 0, "-": 0}
@@ -63,9 +63,10 @@ def vertex_formula_with_minus() -> Check:
 @claim("thesis.23", dimension=2, full=400)
 @claim("thesis.200", dimension=3, full=400)
 def vertex_of_hull(dimension: int, cases: int = CASES) -> Check:
-    """Check that a point is between two points of the hull if and only if the hull of the other points contains it.
+    """Check that a point of a set is a vertex of the hull if and only if it is outside the hull of the other points.
 
-    Among the given points alone, a point inside a triangle or a tetrahedron lies between no two.
+    The counterexample shows why two given points are not enough: a point inside a triangle or tetrahedron is no vertex,
+    but lies between no two of the given points.
     """
     checks = []
     for sampled in sampled_sets(dimension, cases):
@@ -78,19 +79,19 @@ def vertex_of_hull(dimension: int, cases: int = CASES) -> Check:
     inner = tuple(int(axis < dimension) for axis in range(3))
     between = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]  # type: ignore[arg-type]
     alone = not between and len(corners) not in exact_hull([*corners, inner]).vertices
-    check = searched(SETS[dimension], cases, checks, f"{len(checks)} points agree")
-    return check.unless(alone, f"{inner} inside a triangle or tetrahedron: it lies between no two of the given points")
+    check = searched(SETS[dimension], cases, checks, f"true for {len(checks)} points")
+    return check.unless(alone, f"{inner} inside a triangle or tetrahedron, which lies between no two given points")
 
 
 @claim("thesis.202", "thesis.27", kind="planes", full=200)
 @claim("thesis.201", kind="lines", full=400)
 def gift_wrapping(kind: str, cases: int = CASES) -> Check:
-    """Check that planes turned about points and edges, or lines turned about points, find all facets of the hull."""
+    """Check that turning planes about edges (in a plane: lines about points) finds exactly the facets of the hull."""
     checks = []
     for sampled in sampled_sets(2 if kind == "lines" else 3, cases):
         expected = {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
         checks.append((_turned_lines(sampled) if kind == "lines" else _turned_planes(sampled.points)) == expected)
-    message = f"in {sum(checks)} of {len(checks)} sets turning finds all supporting {kind} and nothing else"
+    message = f"turning finds exactly the supporting {kind} of {sum(checks)} of {len(checks)} sets"
     return searched(SETS[2 if kind == "lines" else 3], cases, checks, message)
 
 
@@ -145,7 +146,7 @@ def _turned_lines(sampled: SampledSet) -> set[frozenset[int]]:
 
 @claim("thesis.24", full=400)
 def planes_from_triples(cases: int = CASES) -> Check:
-    """Compare the supporting planes among the planes of all triples with the facets of the exact hull."""
+    """Check that the supporting ones of the planes through all triples of points are the facets of the exact hull."""
     agreeing = 0
     sets = sampled_sets(3, cases)
     for sampled in sets:
@@ -160,13 +161,13 @@ def planes_from_triples(cases: int = CASES) -> Check:
         SETS[3],
         cases,
         [agreeing == len(sets)],
-        f"the planes of {agreeing} of {len(sets)} sets agree",
+        f"the supporting planes of {agreeing} of {len(sets)} sets are the facets",
     )
 
 
 @claim("thesis.25", full=400)
 def lines_from_pairs(cases: int = CASES) -> Check:
-    """Compare the supporting lines among the lines of all pairs with the edges of the exact hull."""
+    """Check that the supporting ones of the lines through all pairs of points are the edges of the exact hull."""
     agreeing = 0
     sets = sampled_sets(2, cases)
     for sampled in sets:
@@ -178,16 +179,13 @@ def lines_from_pairs(cases: int = CASES) -> Check:
                 lines.add(frozenset(k for k, side in enumerate(sides) if not side))
         agreeing += len(lines) == len(sampled.judge.facets)
     return searched(
-        SETS[2],
-        cases,
-        [agreeing == len(sets)],
-        f"the lines of {agreeing} of {len(sets)} sets agree",
+        SETS[2], cases, [agreeing == len(sets)], f"the supporting lines of {agreeing} of {len(sets)} sets are the edges"
     )
 
 
 @claim("thesis.26")
 def cost_of_triples() -> Check:
-    """Count the cost of testing all triples: C(N, 3) planes with N substitutions each."""
+    """Count the work of testing the planes through all triples of N points: C(N, 3) planes, N substitutions each."""
     cost = {n: math.comb(n, 3) * n for n in (8, 16, 51)}
     message = ", ".join(f"{n} points: {math.comb(n, 3):,} planes, {cost[n]:,} substitutions" for n in cost)
     return exhibited(cost[16] > 2**3 * cost[8], message)

@@ -1,4 +1,8 @@
-"""Checks of the steps of chapter 3 that find boundary points and remove duplicate equations."""
+"""Checks of the steps of chapter 3 that find boundary points and remove duplicate equations.
+
+A *used* point is a point that the procedure has added to the hull under construction; it need not be a vertex at the
+end. *Eliminated* points lie inside that hull.
+"""
 
 from collections.abc import Sequence
 
@@ -15,9 +19,9 @@ from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
 
-# A triangle, and a point on one of its sides that the procedure uses.
+# A triangle, and a point on one of its sides that the procedure adds to the hull under construction.
 _POINT_ON_A_SIDE: list[Point] = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]
-# A pyramid over nine points of a square.
+# A pyramid whose square base contains nine of the points.
 PYRAMID: list[Point] = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
 # A set in space for which the procedure uses a point that is not a vertex of the last hull.
 _TWO_PLANES: list[Point] = [(2, 1, 1), (1, 1, 3), (0, 1, 3), (0, 0, 0), (0, 2, 3), (0, 0, 2), (0, 1, 2)]
@@ -45,12 +49,12 @@ def remaining_points(dimension: str) -> Check:
 
 @claim("thesis.81")
 def used_boundary_point() -> Check:
-    """Check four points, one of which is used for a hull although it lies between two others."""
+    """Check that the procedure may use a point that lies between two others: one of four points shows this."""
     points = _POINT_ON_A_SIDE
     hull = convex_hull(points, history=True)
     used = {k for stage in hull.history for k in stage.added}
     boundary_used = used & {*hull.boundary}
-    message = f"points used that lie on one line only: {', '.join(str(points[k]) for k in sorted(boundary_used))}"
+    message = f"used points on only one line: {', '.join(str(points[k]) for k in sorted(boundary_used))}"
     return exhibited(bool(boundary_used), message)
 
 
@@ -64,7 +68,7 @@ LATTICE_SETS: Generator[tuple[Point, ...]] = Generator(
 
 @claim("thesis.85", full=400)
 def duplicate_lines(cases: int = 3 * CASES) -> Check:
-    """Check that a side with three used points has two equations before duplicates are removed."""
+    """Check that a side with three used points has at least two equations before duplicates are removed."""
     outcomes = []
     for points in (*LATTICE_SETS.cases(cases), _POINT_ON_A_SIDE):
         hull = convex_hull(points, history=True)
@@ -83,16 +87,16 @@ def _on_side(points: Sequence[Point], ends: tuple[int, ...], k: int) -> bool:
 
 @claim("thesis.103")
 def duplicate_planes() -> Check:
-    """Check that a pyramid over nine points of a square keeps one equation of each plane."""
+    """Check that one equation of each plane is left for a pyramid whose square base contains nine points."""
     hull = convex_hull(PYRAMID, history=True)
     equation_count = len(hull.history[-1].equations)
-    message = f"{equation_count} equations were made, and {len(hull.faces)} planes remain"
+    message = f"of {equation_count} equations, {len(hull.faces)} are left, one for each plane"
     return exhibited(len(hull.faces) == 5 < equation_count, message)
 
 
 @claim("thesis.104", full=300)
 def planes_at_vertex(cases: int = CASES) -> Check:
-    """Check how many planes of the exact hull contain each point."""
+    """Check that a vertex lies in three or more planes of the exact hull, and any other point in at most two."""
     checks = []
     for points in (*(sampled.points for sampled in sampled_sets(3, cases)), tuple(PYRAMID)):
         judge = exact_hull(points)
@@ -107,17 +111,17 @@ def planes_at_vertex(cases: int = CASES) -> Check:
 
 @claim("thesis.105", full=300)
 def planes_without_duplicates(cases: int = CASES) -> Check:
-    """Check the same, and a point of a pyramid's square that satisfies more than two equations with duplicates."""
+    """Check that only vertices satisfy three or more equations, unless there are duplicate equations."""
     equations = convex_hull(PYRAMID, history=True).history[-1].equations
     planes = [plane_through(*(PYRAMID[k] for k in ends)) for ends in equations]
     most = max(sum(not plane_value(p, PYRAMID[k]) for p in planes) for k in exact_hull(PYRAMID).boundary)
     check = planes_at_vertex(cases)
-    return check.unless(most > 2, f"duplicates, with which a point that is not a vertex satisfies {most} equations")
+    return check.unless(most > 2, f"duplicate equations, {most} of which hold at a point that is not a vertex")
 
 
 @claim("thesis.223")
 def duplicates_removed() -> Check:
-    """Check a triangle with a used point on a side: three of four vertices and of four equations remain."""
+    """Check a triangle with a used point on a side: the removal of duplicates leaves three vertices and equations."""
     hull = convex_hull(_POINT_ON_A_SIDE, history=True)
     used = [k for stage in hull.history for k in stage.added]
     equation_count, kept_equations = len(hull.history[-1].equations), [face.lowest for face in hull.faces]
@@ -131,17 +135,17 @@ def duplicates_removed() -> Check:
 
 @claim("thesis.231", "thesis.256")
 def used_points_in_planes() -> Check:
-    """Count the planes of the last hull that contain each used point that is not a vertex."""
+    """Count, for each used point that is not a vertex, the planes of the last hull that contain it: one or two."""
     hull, judge = convex_hull(_TWO_PLANES, history=True), exact_hull(_TWO_PLANES)
     used = {k for stage in hull.history for k in stage.added} - {*judge.vertices}
     planes = {_TWO_PLANES[k]: sum(not plane_value(f.plane, _TWO_PLANES[k]) for f in judge.facets) for k in sorted(used)}
     passed = bool(planes) and {*planes.values()} <= {1, 2} and {*hull.vertices} == {*judge.vertices}
-    return exhibited(passed, ", ".join(f"{point} is in planes of the last hull: {n}" for point, n in planes.items()))
+    return exhibited(passed, ", ".join(f"{point} is in {n} planes of the last hull" for point, n in planes.items()))
 
 
 @claim("thesis.230")
 def boundary_points_on_edges() -> Check:
-    """Check that surface points of a pyramid in two planes lie between the ends of the common edge."""
+    """Check that a surface point of a pyramid that is in two planes lies between the ends of their common edge."""
     points = [(x, y, 0) for x in (0, 2, 4) for y in (0, 2, 4)] + [(2, 2, 4), (1, 1, 2)]
     judge = exact_hull(points)
     checks, in_one_plane = [], 0

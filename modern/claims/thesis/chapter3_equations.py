@@ -13,7 +13,7 @@ Line = tuple[int, int, int]
 
 
 def procedure_against_judge(cases: int = CASES) -> Check:
-    """Compare the procedure in exact arithmetic with the exact hull: vertices, other points and planes."""
+    """Check that the procedure in exact arithmetic finds the vertices, other points and planes of the exact hull."""
     right = sets = 0
     for sampled in flat_and_spatial_sets(cases):
         sets += 1
@@ -35,18 +35,18 @@ def procedure_against_judge(cases: int = CASES) -> Check:
 
 @claim("thesis.6", full=400)
 def reversed_order(cases: int = CASES) -> Check:
-    """Check that the exact hull does not depend on the order of the points."""
+    """Check that the exact hull has the same vertices if the points are listed in reverse order."""
     same = [
         {sampled.points[k] for k in sampled.judge.vertices}
         == {sampled.points[::-1][k] for k in exact_hull(sampled.points[::-1]).vertices}
         for sampled in flat_and_spatial_sets(cases)
     ]
-    return searched(BOTH, 2 * cases, same, f"{sum(same)} of {len(same)} sets have the same vertices if reversed")
+    return searched(BOTH, 2 * cases, same, f"{sum(same)} of {len(same)} sets have the same vertices in reverse order")
 
 
 @claim("thesis.7", "thesis.48")
 def collinear_points() -> Check:
-    """Check the two ends and the two equations of points on each of five lines."""
+    """Check that the procedure finds the two ends and two equations for the points of each of five lines."""
     passed = 0
     lines: tuple[Point, ...] = ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2))
     for x, y, z in lines:
@@ -67,7 +67,7 @@ def few_points() -> Check:
 
 @claim("thesis.211", "thesis.46")
 def first_two_points() -> Check:
-    """Check that the first two points are the largest and the smallest in x, or in y if all x are equal, or in z."""
+    """Check that the first two points have the largest and smallest x; if all x are equal, y; if all y are too, z."""
     base = [(3, 1), (-2, 5), (4, 0), (0, 2), (4, 4)]
     sets = {
         0: [(a, b, (3 * a + b) % 5) for a, b in base],
@@ -87,18 +87,18 @@ def first_two_points() -> Check:
 
 @claim("thesis.40", "thesis.41", "thesis.43")
 def equation_of_line() -> Check:
-    """Check that (3.1), (3.2) and (3.3), one formula for two of the coordinates, are 0 on the line only."""
+    """Check that (3.1), (3.2) and (3.3), the equation of a line in two coordinates, are 0 only on the line."""
 
     def difference(u1: int, v1: int, u: int, v: int, along: int, right: int) -> int:
         a, b, c = line_as_printed(u1, v1, u1 + u, v1 + v)
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
 
-    return identity(difference, (2, 2, 2, 2, 1, 1), "the value is the distance to the right times the squared length")
+    return identity(difference, (2, 2, 2, 2, 1, 1), "the value is the distance from the line times the squared length")
 
 
 @claim("thesis.51")
 def equation_of_plane() -> Check:
-    """Check each coefficient of (3.4), which is linear in each coordinate, against the cross product."""
+    """Check that equation (3.4), which is linear in each coordinate, has the coefficients of the cross product."""
 
     def difference(*numbers: int) -> int:
         p, q, r = numbers[:3], numbers[3:6], numbers[6:]
@@ -109,7 +109,7 @@ def equation_of_plane() -> Check:
 
 @claim("thesis.62")
 def equation_of_page_19() -> Check:
-    """Check that (3.5) is minus (3.1) with the points in the other order, a polynomial of the same degrees."""
+    """Check that (3.5) is (3.1) with the two points exchanged and the sign reversed."""
 
     def difference(xk: int, yk: int, xm: int, ym: int) -> int:
         return int(line_of_page_19((xk, yk, 0), (xm, ym, 0)) != line_as_printed(xm, ym, xk, yk))

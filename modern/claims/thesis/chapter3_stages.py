@@ -1,4 +1,4 @@
-"""Checks of the approximations H_1, H_2, ... in the construction of small sets.
+"""Checks of the stages H_1, H_2, ... through which the construction of a hull goes by adding points.
 
 A property is a function that examines the stages of one set and yields True or False for each case. NV and NE are the
 numbers of vertices and equations of a stage, and NETC is the number of the first equation that a point is outside of.
@@ -49,7 +49,7 @@ from modern.port import convex_hull
 @claim("thesis.241", "thesis.240", kind="added_triangle", full=300)
 @claim("thesis.278", kind="two_new_lines", full=300)
 def stage_property(kind: str, cases: int = CASES) -> Check:
-    """Check one property of H_1, H_2, ... (a key of ``_PROPERTIES``) in every stage of the sampled sets."""
+    """Check one property (a key of ``_PROPERTIES``) of all stages H_1, H_2, ... in the construction of sampled sets."""
     sets = (
         sampled_sets(2, cases)
         if kind in _FLAT
@@ -73,7 +73,10 @@ def number_of_the_hull(cases: int = CASES) -> Check:
 
 @claim("thesis.13", "thesis.224", "thesis.89", full=300)
 def replaced_plane(cases: int = CASES) -> Check:
-    """Check that a step replaces one plane by three if the new point is outside no other plane, and otherwise more."""
+    """Check that a step replaces one plane by three if the new point is outside that plane only.
+
+    If the point is outside several planes, the step must replace all of them.
+    """
     several = [
         len({*map(frozenset, before.defining)} - {*map(frozenset, after.defining)}) > 1
         for sampled in sampled_sets(3, cases)
@@ -86,17 +89,17 @@ def replaced_plane(cases: int = CASES) -> Check:
 
 @claim("thesis.226")
 def third_new_plane() -> Check:
-    """Check the three new planes of a step: each has two of MM, NN and KK, and so none repeats another one."""
+    """Check that each of a step's three new planes contains a different pair of the points MM, NN and KK."""
     outcomes = [ok for sampled in sampled_sets(3, CASES) for ok in _replaced_facet(sampled)]
     pairs = [*combinations(("MM", "NN", "KK"), 2)]
     printed = [("MM", "NN"), ("MM", "KK"), ("MM", "KK")]
-    message = f"{len(outcomes)} facts of steps need the planes {', '.join(map(' and '.join, pairs))}"
+    message = f"the new planes contain {', '.join(map(' and '.join, pairs))}: {len(outcomes)} cases"
     return slip({*printed} == {*pairs}, all(outcomes) and outcomes, "NN and KK", message)
 
 
 @claim("thesis.205", full=300)
 def eliminated_points(cases: int = CASES) -> Check:
-    """Check the points eliminated at each stage, and a square in which the midpoint of a side is not eliminated."""
+    """Check that each stage eliminates the points inside it, and no boundary point such as the midpoint of a side."""
     points = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, 0, 0), (1, 1, 0)]
     hull = convex_hull(points, history=True)
     stays = hull.boundary == (4,) and {k for stage in hull.history for k in stage.struck} == {5}
@@ -105,14 +108,14 @@ def eliminated_points(cases: int = CASES) -> Check:
 
 
 def _steps(sampled: SampledSet) -> Iterator[tuple[Approximation, Approximation, Stage, int]]:
-    """Yield each stage after the first: the stage before, the stage, the record of the port, and the point added."""
+    """Yield, for each stage except the first: the previous stage, the stage, the port's record, and the point added."""
     stages = sampled.stages()
     for before, after, record in zip(stages, stages[1:], sampled.hull.history[1:], strict=False):
         yield before, after, record, record.added[0]
 
 
 def _nested(sampled: SampledSet) -> Iterator[bool]:
-    """H_j lies in H_j+1, and the added point does not lie in H_j, so H_j+1 is larger."""
+    """H_j+1 contains H_j and is larger, because the added point is not in H_j."""
     for before, after, _, added in _steps(sampled):
         yield all(plane_value(plane, sampled.points[k]) <= 0 for plane in after.equations for k in before.vertices)
         yield any(plane_value(plane, sampled.points[added]) > 0 for plane in before.equations)
@@ -125,7 +128,7 @@ def _equations(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _last_hull(sampled: SampledSet) -> Iterator[bool]:
-    """All equations of a stage support if and only if they are those of the hull of all points."""
+    """All equations of a stage support the set if and only if they are the equations of the hull of all points."""
     hull_planes = {facet.plane for facet in sampled.judge.facets}
     stages = sampled.stages()
     for stage in stages:
@@ -139,7 +142,7 @@ def _struck_points(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _struck_inside(sampled: SampledSet) -> Iterator[bool]:
-    """A stage eliminates exactly the remaining points inside it; those on its boundary remain."""
+    """Each stage eliminates exactly those remaining points that are inside it; points on its boundary remain."""
     eliminated_points: set[int] = set()
     for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
         remaining = set(range(len(sampled.points))) - eliminated_points - {*stage.vertices}
@@ -149,7 +152,7 @@ def _struck_inside(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _contained_points(sampled: SampledSet) -> Iterator[bool]:
-    """A point inside or on the boundary of an H_j that is not one of its vertices is not a vertex of the last hull."""
+    """A point of H_j, inside or on its boundary, that is not a vertex of H_j is not a vertex of the last hull."""
     for stage in sampled.stages():
         for k, point in enumerate(sampled.points):
             if k not in stage.vertices and all(plane_value(plane, point) <= 0 for plane in stage.equations):
@@ -187,14 +190,14 @@ def _farthest_outside(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _largest_of_all(sampled: SampledSet) -> Iterator[bool]:
-    """The largest value among the remaining points is the largest among all points: eliminated points are negative."""
+    """The remaining point that is largest in an equation is the largest of all: eliminated points are negative."""
     for before, _, record, added in _steps(sampled):
         plane = before.equations[record.checked - 1]
         yield plane_value(plane, sampled.points[added]) == max(plane_value(plane, point) for point in sampled.points)
 
 
 def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
-    """If a point is outside one equation only, that facet is removed and each of its sides gets a new facet."""
+    """If a new point is outside one facet only, that facet is removed, and each of its edges gets a new facet."""
     for before, after, record, added in _steps(sampled):
         if record.outside == 1:
             replaced = {*before.defining[record.checked - 1]}
@@ -209,7 +212,7 @@ def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _two_new_lines(sampled: SampledSet) -> Iterator[bool]:
-    """No point is outside both new lines; they meet in the new vertex."""
+    """No point is outside both of a step's two new lines; the lines meet in the new vertex."""
     for _, after, _, added in _steps(sampled):
         lines = [plane for plane, ends in zip(after.equations, after.defining, strict=True) if added in ends]
         yield len(lines) == 2
@@ -217,7 +220,7 @@ def _two_new_lines(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _counts(sampled: SampledSet) -> Iterator[bool]:
-    """In a plane NV and NE are 3 for H_1 and grow by one at each stage; in space both are 4 for H_1."""
+    """NV and NE of H_1 are 3 in a plane and 4 in space; in a plane each stage increases both by one."""
     first = sampled.judge.dimension + 1
     for number, stage in enumerate(sampled.stages()):
         yield len(stage.vertices) == first + number
@@ -226,14 +229,14 @@ def _counts(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _renumbering(sampled: SampledSet) -> Iterator[bool]:
-    """The equations after the removed one move up by one number, and the two new ones come last."""
+    """Equations that follow the removed one move up by one number, and the two new equations come last."""
     for before, after, record, _ in _steps(sampled):
         kept_lines = [d for k, d in enumerate(before.defining) if k != record.checked - 1]
         yield [{*d} for d in after.defining[:-2]] == [{*d} for d in kept_lines]
 
 
 def _netc_order(sampled: SampledSet) -> Iterator[bool]:
-    """NETC never decreases from one stage to the next."""
+    """NETC, the number of the first equation that a point is outside of, never decreases between stages."""
     yield all(a.checked <= b.checked for a, b in pairwise(sampled.hull.history))
 
 
@@ -295,7 +298,7 @@ def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
 
 
 def _convexity(sampled: SampledSet) -> Iterator[bool]:
-    """If only equation NETC is replaced, the polyhedron is convex if and only if no other equation was positive."""
+    """If only equation NETC is replaced, the result is convex if and only if the new point is outside no other one."""
     inner = [sampled.points[k] for k in sampled.hull.history[0].added]
     for before, after, record, added in _steps(sampled):
         # Page 30: replace only equation NETC, by the planes through its sides and the new point.

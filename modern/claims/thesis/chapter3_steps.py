@@ -32,7 +32,7 @@ from modern.port.arithmetic import moments
 
 
 def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], message: str) -> Check:
-    """Return the check of outcomes; the message starts with their number."""
+    """Return the check that all outcomes are true; its message starts with the numbers of true and of all outcomes."""
     checks = list(outcomes)
     return searched(generator, cases, checks, f"{sum(map(bool, checks))} of {len(checks)} {message}")
 
@@ -41,7 +41,7 @@ def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], 
 @claim("thesis.44", which="2")
 @claim("thesis.45", which="3")
 def line_pairs(which: str) -> Check:
-    """Check that the two equations of a line of each kind hold at its points and have independent normals."""
+    """Check that both equations that define a line in space hold at its points and have independent normals."""
     ends = {"1": ((1, 2, 3), (4, 0, 5)), "2": ((1, 2, 3), (1, 0, 5)), "3": ((1, 2, 3), (1, 2, 5))}[which]
     lines = convex_hull(ends).lines
     planes = [(int(a), int(b), int(c), int(d)) for a, b, c, d in lines]
@@ -52,12 +52,12 @@ def line_pairs(which: str) -> Check:
 
 @claim("thesis.49", full=400)
 def third_point(cases: int = CASES) -> Check:
-    """Check that no point is farther from the line of the first two points than the third point of H_1."""
+    """Check that no point is farther from the line through the first two points than the third point of H_1."""
     return all_hold(
         BOTH,
         2 * cases,
         list(_farthest(flat_and_spatial_sets(cases))),
-        "sets: no point is farther than the third of H_1",
+        "sets: no point is farther from the line of the first two than the third point",
     )
 
 
@@ -74,26 +74,24 @@ def _square(u: Point) -> int:
 
 @claim("thesis.50")
 def value_v() -> Check:
-    """Check that V by the formula of the proof is the square of a vector product, and by the display of our text is
-    not.
-    """
+    """Check that V is the square of a vector product by the formula of the proof, but not as page 14 displays it."""
     right = all(
         sum(o * o for o in moments(x, p, q)) == _square(cross(minus(q, p), minus(x, p))) for p, q, x in random_triples()
     )
     p, q, x = counterexample_points("v_as_our_text.csv")
     on_line = not any(cross(minus(q, p), minus(x, p)))
     (x1, y1, z1), (x2, y2, z2), (xi, yi, zi) = p, q, x
-    # The display of page 14 in our text: the first and third factors have the index 1 for i.
+    # Page 14 of our text prints the index 1 instead of i in the first and third factors.
     as_text = ((y2 - y1) * (z2 - z1) - (z2 - zi) * (y2 - y1)) ** 2
     as_text += ((z2 - z1) * (x2 - x1) - (x2 - xi) * (z2 - z1)) ** 2
     as_text += ((x2 - x1) * (y2 - y1) - (y2 - yi) * (x2 - x1)) ** 2
-    message = "with y_i and z_i V is the square of the distance times that of D"
+    message = "with y_i and z_i, V is the square of the distance from the line times D squared"
     return searched(TRIPLES, 6, [right], message).misprinted(on_line and as_text, "y_i, z_i and x_i in all factors")
 
 
 @claim("thesis.52", full=300)
 def coplanarity_test(cases: int = CASES) -> Check:
-    """Check that all values of (3.4) are 0 in the flat sets and in no others."""
+    """Check that the values of (3.4) at all points are 0 if and only if the set is flat."""
     checks = []
     for sampled in flat_and_spatial_sets(cases):
         first = plane_as_printed(*(sampled.points[k] for k in sampled.hull.history[0].added[:3]))
@@ -103,35 +101,35 @@ def coplanarity_test(cases: int = CASES) -> Check:
 
 @claim("thesis.53", full=300)
 def common_first_steps(cases: int = CASES) -> Check:
-    """Check that flat sets and sets with one more point outside their plane start with the same three points."""
+    """Check that a flat set keeps its first three points if one more point, outside its plane, is added to it."""
     checks = []
     for sampled in sampled_sets(2, cases):
-        # Scale the set so that its mean moved by one unit is an integer point near the plane.
+        # Multiply the coordinates so that the mean moved by one unit, a point just outside the plane, has integers.
         size = 9 * len(sampled.points)
         flat = [(size * x, size * y, size * z) for x, y, z in sampled.points]
         x, y, z = (9 * sum(point[axis] for point in sampled.points) for axis in range(3))
         hulls = [convex_hull(points, history=True) for points in (flat, [*flat, (x, y, z + 1)])]
         firsts = [[hull.points[k] for k in hull.history[0].added[:3]] for hull in hulls]
         checks.append([hull.dimension for hull in hulls] == [2, 3] and firsts[0] == firsts[1])
-    return all_hold(SETS[2], cases, checks, "sets start with the same three points, whose plane decides")
+    return all_hold(SETS[2], cases, checks, "sets start with the same three points in or out of a plane")
 
 
 @claim("thesis.213", "thesis.58", "thesis.59", full=300)
 def classification_by_signs(cases: int = CASES) -> Check:
-    """Check the classification into vertices, boundary and inside points by the signs of the exact equations."""
+    """Check that the signs of the exact equations classify vertices, boundary points and inside points correctly."""
     checks = []
     some_boundary = bool(exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0), (0, 2, 0)]).boundary)
     for sampled in flat_and_spatial_sets(cases):
         for k, point in enumerate(sampled.points):
             largest = max(plane_value(facet.plane, point) for facet in sampled.judge.facets)
             checks.append(largest <= 0 and (largest == 0) == (k not in sampled.judge.inside))
-    message = f"{sum(checks)} of {len(checks)} points are classified correctly; the midpoint of a side is not a vertex"
+    message = f"{sum(checks)} of {len(checks)} points are classified correctly; the midpoint of a side is no vertex"
     return searched(BOTH, 2 * cases, [*checks, some_boundary], message)
 
 
 @claim("thesis.215", "thesis.61", "thesis.63", "thesis.64", "thesis.88", full=300)
 def mean_of_first_hull(cases: int = CASES) -> Check:
-    """Check that the equations of H_1 are those of the exact hull and are negative at the mean of its points."""
+    """Check that H_1 has the equations of the exact hull of its points, negative at their mean, the inside point C."""
     checks = []
     for sampled in flat_and_spatial_sets(cases):
         first = sampled.stages()[0]
@@ -140,12 +138,12 @@ def mean_of_first_hull(cases: int = CASES) -> Check:
         vertex_count = len(first.vertices)
         checks.append({reduced_plane(plane) for plane in first.equations} == {f.plane for f in judge.facets})
         checks += [dot(f.plane[:3], (x, y, z)) + vertex_count * f.plane[3] < 0 for f in judge.facets]
-    return all_hold(BOTH, 2 * cases, checks, "equations are exact and negative at C")
+    return all_hold(BOTH, 2 * cases, checks, "equations are those of the exact hull and negative at the inside point C")
 
 
 @claim("thesis.67")
 def outside_convention() -> Check:
-    """Check a point that is inside the line x = 0 and by the printed definition also outside it."""
+    """Check that the printed definition of "outside" also calls a point outside that is inside the line x = 0."""
     ((x, _, _),) = counterexample_points("both_sides.csv")
     message = f"at the point x is {x}: by the printed definition it is both inside and outside the line x = 0"
     return slip(x >= 0, x < 0, "a positive value", message)
@@ -158,7 +156,7 @@ def between_by_distances() -> Check:
     for a, b, c in permutations(range(-4, 5), 3):
         between = _between(a, b, c, *(5 * abs(p - q) for p, q in ((b, a), (a, c), (b, c))))
         checks.append(between == sorted((a, b, c))[1])
-    return exhausted("triples of nine points (3t, 4t) of a line", checks, "sums of distances decide all cases")
+    return exhausted("triples of nine points (3t, 4t) of a line", checks, "sums of distances tell which is between")
 
 
 def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:
@@ -167,7 +165,7 @@ def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:
 
 @claim("thesis.87")
 def fourth_point_by_largest() -> Check:
-    """Check a tetrahedron whose fourth corner is on the negative side of the first three: the largest value U is 0."""
+    """Check a tetrahedron whose fourth corner is on the negative side, so that the largest value is 0."""
     points = counterexample_points("negative_side.csv")
     plane = plane_as_printed(*points[:3])
     values = [plane_value(plane, point) for point in points]
@@ -183,9 +181,9 @@ def fourth_point_by_largest() -> Check:
 @claim("thesis.94", subject="counts", full=300)
 @claim("thesis.97", subject="pairs", full=300)
 def visible_planes(subject: str, cases: int = CASES) -> Check:
-    """Check how the planes that a new point is outside of are replaced.
+    """Check how a step replaces the planes that the new point is outside of.
 
-    subject: the ``counts`` of planes, or ``pairs`` of planes with a common edge.
+    subject: ``counts``, the number of planes after the step; ``pairs``, two of these planes that have a common edge.
     """
     checks: list[bool] = []
     for sampled, before, after, visible in _visible(cases):
@@ -196,13 +194,13 @@ def visible_planes(subject: str, cases: int = CASES) -> Check:
         else:
             point = sampled.points[after.vertices[-1]]
             checks += [_separated(sampled.points, before, i, m, edge, point) for i, m, edge in shared]
-    words = "stages have the expected number of planes"
-    words = words if subject == "counts" else "pairs: the third points are on opposite sides"
+    words = "stages have the number of planes that the rule predicts"
+    words = words if subject == "counts" else "pairs of planes have third points on opposite sides"
     return all_hold(SETS[3], cases, checks, words)
 
 
 def _visible(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximation, list[int]]]:
-    """Yield each step with the planes that the added point is outside of (page 31)."""
+    """Yield each step together with the planes that the added point is outside of (page 31)."""
     for sampled in sampled_sets(3, cases):
         for before, after in zip(sampled.stages(), sampled.stages()[1:], strict=False):
             point = sampled.points[after.vertices[-1]]
@@ -211,23 +209,23 @@ def _visible(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximat
 
 @claim("thesis.199")
 def planes_i_and_m() -> Check:
-    """Check that the planes i and m have two points in common; j is the index of a point and names no plane."""
+    """Check that planes i and m have two common points; the printed j is the index of a point and names no plane."""
     pairs = [edge for _, before, _, visible in _visible(CASES) for _, _, edge in _shared(before, visible)]
     right = bool(pairs) and all(len(edge) == 2 for edge in pairs)
     right &= visible_planes("pairs").holds
-    return slip(False, right, "i and m", f"{len(pairs)} pairs of planes i and m agree")
+    return slip(False, right, "i and m", f"{len(pairs)} pairs of planes i and m have two common points")
 
 
 @claim("thesis.98", full=300)
 def planes_of_same_points(cases: int = CASES) -> Check:
-    """Check that the common points of two planes are found in any order, and not always at equal positions."""
+    """Check that the two common points of planes are found although the planes list them at different positions."""
     positions = [
         _same_places(before.defining[i], before.defining[m], edge)
         for _, before, _, visible in _visible(cases)
         for i, m, edge in _shared(before, visible)
     ]
     check = visible_planes("pairs", cases)
-    case = f"names at equal positions, which {positions.count(False)} of {len(positions)} pairs do not have"
+    case = f"a search at equal positions, which misses {positions.count(False)} of {len(positions)} pairs"
     return check.unless(not all(positions), case)
 
 
@@ -251,23 +249,23 @@ def _separated(points: tuple[Point, ...], before: Approximation, i: int, m: int,
 
 @claim("thesis.95", full=300)
 def order_of_replacement(cases: int = CASES) -> Check:
-    """Check that the text and the listing find the same planes in their own orders."""
+    """Check that the text and the listing of the program find the same planes, each in its own order."""
     outcomes, reordered = [], 0
     for sampled in sampled_sets(3, cases):
         text = convex_hull(sampled.points, text=True, on_refusal="return")
         if text.determined:
             outcomes.append({f.lowest for f in text.faces} == {f.lowest for f in sampled.hull.faces})
             reordered += [f.lowest for f in text.faces] != [f.lowest for f in sampled.hull.faces]
-    check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} sets get the same planes")
+    check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} sets get the same planes by both")
     return check.unless(reordered, f"the order of the listing: {reordered} sets get their planes in another order")
 
 
 @claim("thesis.96")
 def without_constant_term() -> Check:
-    """Check the centre of a cube away from the origin: without D it is outside a plane that it is inside of."""
+    """Check that leaving out D makes the centre of a cube away from the origin appear to be outside a plane."""
     *corners, middle = counterexample_points("without_d.csv")
     planes = [facet.plane for facet in exact_hull(corners).facets]
     values = [(dot(plane[:3], middle), plane_value(plane, middle)) for plane in planes]
     wrong = sum(without > 0 for without, _ in values)
-    message = f"without D {wrong} of {len(planes)} planes are positive at the centre, and with D none is"
-    return slip(not wrong, max(value for _, value in values) < 0, "a condition with D_g", message)
+    message = f"without D {wrong} of {len(planes)} planes are positive at the centre of the cube, and with D none is"
+    return slip(not wrong, max(value for _, value in values) < 0, "a condition that includes D_g", message)

@@ -1,4 +1,4 @@
-"""Checks of chapters 1 and 3 as worded: the steps of the text against the listing, and other ways to start."""
+"""Checks of chapters 1 and 3 as worded: steps of the text compared with the listings, and other ways to start."""
 
 import math
 import re
@@ -38,7 +38,7 @@ _ELIMINATE_CHECK_GROW = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3
 
 @claim("thesis.267")
 def text_against_listing() -> Check:
-    """Check the four steps that differ from the listing: two lose the hull or a line, two only change an order."""
+    """Check the four steps of the text that differ from the listings: two change only an order, two also the result."""
     losing = (fourth_point_by_largest(), line_duplicates_as_printed())
     reordering = (order_of_replacement(), plane_duplicates_as_printed())
     check = exhibited(all(step.holds for step in reordering), "two steps differ only in the order of planes")
@@ -47,7 +47,7 @@ def text_against_listing() -> Check:
 
 @claim("thesis.275")
 def line_duplicates_as_printed() -> Check:
-    """Check the removal of duplicate lines on page 28: it removes both equations of a side with three used points."""
+    """Check that page 28 removes both equations of a side with three used points, so that the line is lost."""
     points = counterexample_points("line_lost.csv")
     judge, hull = exact_hull(points), convex_hull(points, history=True)
     used = [k for stage in hull.history for k in stage.added]
@@ -61,7 +61,7 @@ def line_duplicates_as_printed() -> Check:
 def _duplicates_removed_as_worded(
     points: Sequence[Point], used: Sequence[int], equations: Sequence[Pair]
 ) -> list[Pair]:
-    """Apply pages 26 to 28: remove equation k for each point that satisfies but does not define it."""
+    """Apply pages 26 to 28: remove equation k if some point satisfies it that is not one of its two defining points."""
     remaining = list(equations)
     for i in used:
         for pair in [*remaining]:
@@ -77,7 +77,7 @@ def _indices_on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
 
 @claim("thesis.276", full=300)
 def plane_duplicates_as_printed(cases: int = CASES) -> Check:
-    """Check the removal of duplicate planes: page 34 keeps the last equation of each plane, the listing the first."""
+    """Check that the text (page 34) keeps the last equation of each plane, whereas the listing keeps the first."""
     checks, differing = [], 0
     for points in (PYRAMID, *(list(sampled.points) for sampled in sampled_sets(3, cases))):
         last = convex_hull(points, history=True).history[-1].equations
@@ -109,20 +109,20 @@ def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
 @claim("thesis.79", dimension="2", full=300)
 @claim("thesis.101", dimension="3", full=300)
 def last_equation_accepted(dimension: str, cases: int = CASES) -> Check:
-    """Check a set with an H_j whose last equation, NETC = NE, is not supporting; at the end all equations are."""
+    """Check that the last equation of a stage (NETC = NE) may be no support, although all are at the end."""
     flat = dimension == "2"
     points = [(0, 3, 0), (0, 2, 0), (4, 4, 0), (4, 3, 0)]
     if not flat:
         points = [(2, 4, 4), (0, 3, 4), (1, 4, 4), (1, 3, 0), (3, 2, 4)]
     history = convex_hull(points, history=True).history
     equal = [before.number for before, after in pairwise(history) if after.checked == len(before.equations)]
-    case = f"H_{', H_'.join(map(str, equal))} of a set, which has NETC = NE although a point is outside that equation"
+    case = f"H_{', H_'.join(map(str, equal))} of a set: NETC = NE, but a point is outside equation NE"
     return stage_property("last_hull", cases).unless(equal, case)
 
 
 @claim("thesis.47")
 def collinearity_test() -> Check:
-    """Check on a lattice that both equations of a line are 0 on the line only, for five kinds of lines."""
+    """Check, for five kinds of lines, that lattice points satisfy both equations of a line only if they are on it."""
     checks = []
     for direction in ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2)):
         p: Point = (1, 2, 3)
@@ -131,16 +131,12 @@ def collinearity_test() -> Check:
         for x in ((x, y, z) for x in range(-3, 6) for y in range(-1, 5) for z in range(-1, 8)):
             satisfies_both = not any(plane_value((a, b, c, d), x) for a, b, c, d in lines)
             checks.append(satisfies_both == (not any(cross(direction, minus(x, p)))))
-    return exhausted(
-        "432 lattice points about five lines",
-        checks,
-        f"{len(checks)} lattice points agree",
-    )
+    return exhausted("432 lattice points about five lines", checks, f"true for {len(checks)} lattice points")
 
 
 @claim("thesis.272")
 def program3_against_program2() -> Check:
-    """Compare program 3 with program 2: the size of its code, and the step that the plane does not need."""
+    """Check that program 3 has more code than program 2, and a step that a flat set does not need."""
     two, three = (programs.deck(f"program{k}").text() for k in (2, 3))
     code = [code_positions(programs.program(f"program{k}")) for k in (2, 3)]
     passed = code[0] < code[1] and "ELIMINATING INSIDE PLANES" in three and "ELIMINATING INSIDE" not in two
@@ -150,8 +146,9 @@ def program3_against_program2() -> Check:
 
 @claim("thesis.268")
 def substitution_counts() -> Check:
-    """Count substitutions if all points are vertices: at most two of every remaining point into every equation of each
-    H_j.
+    """Count substitutions into equations if all points are vertices, and compare them with testing all planes.
+
+    A stage H_j needs at most two substitutions of every remaining point into each of its equations.
     """
     needed = {}
     for n in (12, 24, 48):
@@ -160,7 +157,7 @@ def substitution_counts() -> Check:
         needed[n] = sum(2 * n * len(stage.equations) for stage in history), math.comb(n, 3) * n
     shares = [substitutions / all_substitutions for substitutions, all_substitutions in needed.values()]
     message = ", ".join(
-        f"{n} points: at most {substitutions:,} substitutions instead of {all_substitutions:,}"
+        f"{n} points: at most {substitutions:,} substitutions, against {all_substitutions:,} for all planes"
         for n, (substitutions, all_substitutions) in needed.items()
     )
     return exhibited(shares == sorted(shares, reverse=True) and shares[-1] < 1 / 3, message)
@@ -168,7 +165,7 @@ def substitution_counts() -> Check:
 
 @claim("thesis.269")
 def consecutive_hulls() -> Check:
-    """Check that H_1 to H_f make f - 1 pairs H_j, H_j+1, so that j + 1 starts at 2."""
+    """Check that stages H_1 to H_f make f - 1 pairs (H_j, H_j+1), so that the index j + 1 starts at 2."""
     checks = []
     for sampled in (*sampled_sets(2, CASES), *sampled_sets(3, CASES)):
         sizes = [len(stage.vertices) for stage in sampled.stages()]
@@ -180,7 +177,7 @@ def consecutive_hulls() -> Check:
 
 @claim("thesis.286")
 def order_of_elimination() -> Check:
-    """Check by a trace that programs 2 and 3 eliminate inside points before they check a hull or add a point."""
+    """Check by a trace that programs 2 and 3 eliminate the inside points of each hull before any other step."""
     sequences = []
     for example in (4, 5, 6):
         steps: list[str] = []
@@ -199,7 +196,7 @@ def order_of_elimination() -> Check:
 
 @claim("thesis.271")
 def coplanar_extremes() -> Check:
-    """Check sets whose six extreme points are coplanar: their hull has no volume although the set has."""
+    """Check that a set in space may have coplanar extreme points, so that the hull of these has no volume."""
     checks = []
     for points in EXTREMES_IN_A_PLANE:
         six, whole = exact_hull(_extreme_points(points)), exact_hull(points)
@@ -213,9 +210,9 @@ def coplanar_extremes() -> Check:
 
 @claim("thesis.39", full=400)
 def first_hull_against_extremes(cases: int = 12) -> Check:
-    """Compare H_1 with the hull of the six extreme points by volume and number of planes.
+    """Compare H_1 with the hull of the six extreme points: volume and number of planes.
 
-    The sets are sampled sets, sets whose extreme points are coplanar, and a counterexample in which H_1 is larger.
+    The sets are sampled sets, sets with coplanar extreme points, and a counterexample in which H_1 is larger.
     """
     within, fewer = [], []
     for sampled in sampled_sets(3, cases):
@@ -227,8 +224,8 @@ def first_hull_against_extremes(cases: int = 12) -> Check:
     first, six_extremes = _volumes_and_planes(counterexample_points("first_hull.csv"), None)
     passed = [volume >= 0 for volume in within] + [any(within), *fewer]
     larger = all(own[0] > of_six[0] == 0 for own, of_six in flat) and first[0] > six_extremes[0] > 0
-    message = f"in {len(within)} of {len(fewer)} sets H_1 uses only extreme points, and is not larger"
-    case = f"points that are not extreme: six times the volumes are {first[0]} for H_1 and {six_extremes[0]}"
+    message = f"in {len(within)} of {len(fewer)} sets H_1 uses only extreme points and is not larger than their hull"
+    case = f"points of H_1 that are not extreme: 6 volumes are {first[0]}, and {six_extremes[0]} for the extremes"
     return searched(SETS[3], cases, passed, message).unless(larger, case)
 
 
@@ -244,7 +241,7 @@ def _volumes_and_planes(points: Sequence[Point], sampled: SampledSet | None) -> 
 
 
 def _extreme_points(points: Sequence[Point]) -> list[Point]:
-    """Return the extreme points of a set; among equals the last one, as in program 1 (statements 134 to 146)."""
+    """Return the extreme points of a set; of several equal ones the last, as in program 1 (statements 134 to 146)."""
     extreme = {choose(reversed(points), key=lambda p, k=k: p[k]) for choose in (min, max) for k in range(3)}  # type: ignore[misc]
     return [point for point in points if point in extreme]
 

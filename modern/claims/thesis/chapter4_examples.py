@@ -1,6 +1,7 @@
-"""Checks of the worked examples of chapter 4: every equation and every claim, and their point sets in the programs.
+"""Checks of the worked examples of chapter 4: each equation and claim, and the programs' hulls of their point sets.
 
-The claims are computed exactly from the printed points. The programs read them from cards, truncated to eight digits.
+The claims are computed exactly from the printed points. The programs read the points from cards, on which each number
+is truncated to eight digits.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -24,17 +25,17 @@ from modern.port import convex_hull
 from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
 
-# The precision of a number on a card: eight significant digits, the rest truncated.
+# A number on a card has eight significant digits; further digits are truncated.
 _CARD = Context(prec=8, rounding=ROUND_DOWN)
 
 
 def theorem_of(name: str) -> Theorem:
-    """Return a theorem that has a worked example. Raise KeyError for any other."""
+    """Return a theorem of chapter 4 that has a worked example. Raise KeyError for any other."""
     return {theorem.id: theorem for theorem in load_theorems()}[name]
 
 
 def worked_example_checks(theorem: Theorem, load: Load = programs.program) -> Mapping[str, Check]:
-    """Check every claim of a worked example, by the name of its function. ``load`` returns the programs."""
+    """Run all checks of a worked example; return them by function name. ``load`` returns a program by its name."""
     checks: list[Callable[[Theorem], Check]] = [_equations, *([_signs] if theorem.signs else [])]
     checks += {"4.1": [_six_extremes], "4.2": [_not_supporting], "4.8": [_growing, _supporting, _last_outside]}[
         theorem.id
@@ -62,11 +63,11 @@ def _computed(theorem: str) -> Mapping[str, Check]:
 @claim("thesis.149", theorem="4.8", claim="equations")
 @claim("thesis.151", theorem="4.8", claim="signs")
 def worked_example(theorem: str, claim: str) -> Check:
-    """Return the check of a claim such as ``4.1 six_extremes``."""
+    """Return the check of a claim such as ``4.1 six_extremes``: a theorem, and the function that checks its example."""
     return _computed(theorem)[claim]
 
 
-# Sets in space whose three to six distinct extreme points are coplanar; only the last point is not in their plane.
+# Each set in space has three to six distinct extreme points, all in one plane; its last point is not in this plane.
 EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
     ((0, 3, 3), (2, 4, 2), (4, 1, -3), (1, 2, -2)),
     ((0, 2, -2), (3, 0, -3), (4, 2, -6), (1, 4, -5), (1, 1, -5)),
@@ -77,25 +78,25 @@ EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
 
 @claim("thesis.107", claim="six_extremes")
 def number_of_extremes(claim: str) -> Check:
-    """Check theorem 4.1 for three to six distinct extreme points that are coplanar, and its example."""
+    """Check theorem 4.1 on its example, and on sets with three to six distinct extreme points, which are coplanar."""
     checks = []
     for points in EXTREMES_IN_A_PLANE:
         extreme = {f(points, key=lambda p, k=k: p[k]) for f in (min, max) for k in range(3)}  # type: ignore[misc]
         checks.append(extreme == {*points[:-1]})
         checks.append((exact_hull(points[:-1]).dimension, exact_hull(points).dimension) == (2, 3))
     example = worked_example("4.1", claim)
-    message = f"three to six distinct extreme points are coplanar; the example: {example.message}"
+    message = f"sets with three to six coplanar extreme points exist; the worked example: {example.message}"
     return exhibited(all(checks) and example.holds, message)
 
 
 def _equations(theorem: Theorem) -> Check:
-    """Check that the printed equations are 0 at the points that they contain according to the text."""
+    """Check that each printed equation is 0 at the points that its plane contains according to the text."""
     faults = theorem_faults(theorem, load_text())
-    return exhibited(not faults, faults[0] if faults else "the printed equations are 0 at the named points")
+    return exhibited(not faults, faults[0] if faults else "each printed equation is 0 at the points named in its row")
 
 
 def _signs(theorem: Theorem) -> Check:
-    """Check that the points lie outside or inside the equations as stated."""
+    """Check that the text states correctly which points are outside and which inside the planes of its equations."""
     right = sum((theorem.plane(n).at(_point(theorem, p)) > 0) == (sign == "+") for n, p, sign in theorem.signs)
     return exhibited(right == len(theorem.signs), f"{right} of {len(theorem.signs)} signs are as stated")
 
@@ -107,7 +108,10 @@ def _point(theorem: Theorem, name: str) -> Point:
 
 
 def lost_candidates(theorem: Theorem) -> list[Vector]:
-    """Return the possible lost points P3 of theorem 4.1: integers in the plane, largest y, x and z not extreme."""
+    """Return the possible values of the lost point P3 of theorem 4.1.
+
+    They are points of the given plane with integer coordinates, the largest y, and extreme neither in x nor in z.
+    """
     (plane,) = theorem.planes
     known = [point.at for point in theorem.points]
     low = [min(p[k] for p in known) for k in range(3)]
@@ -123,7 +127,7 @@ def lost_candidates(theorem: Theorem) -> list[Vector]:
 
 
 def _six_extremes(theorem: Theorem) -> Check:
-    """Check that six extreme points are coplanar and the others are not in their plane, for every possible P3."""
+    """Check, for each possible value of the lost point P3, that six extreme points are coplanar and others are not."""
     candidates = lost_candidates(theorem)
     off = [_point(theorem, name) for name in theorem.outside_plane]
     nonplanar = 0
@@ -132,7 +136,7 @@ def _six_extremes(theorem: Theorem) -> Check:
         nonplanar += exact_hull([*map(list, points)]).dimension == 3
     return exhibited(
         bool(candidates) and nonplanar == len(candidates) and all(theorem.planes[0].at(point) for point in off),
-        f"P3 is lost in the OCR text; the claim holds for all {len(candidates)} integer points that P3 can have been",
+        f"P3 is lost in the OCR text; the claim holds for each of its {len(candidates)} possible integer values",
     )
 
 
@@ -142,7 +146,7 @@ def _faces(points: Sequence[Vector]) -> set[Vector]:
 
 
 def _not_supporting(theorem: Theorem) -> Check:
-    """Check that equations 7 and 8 of Table 1 are not supporting planes."""
+    """Check that equations 7 and 8 of Table 1 are not among the planes of the exact hull; equations 1 to 6 are."""
     faces = _faces([point.at for point in theorem.points])
     table = [scaled(plane.coefficients, True) for plane in theorem.planes]
     inside = [number for number, plane in enumerate(table, 1) if plane in faces]
@@ -160,7 +164,7 @@ ADDED = ("Q1", "Q6", "Q7", "Q2", "Q8", "Q5", "Q3", "Q4")
 def _growing(theorem: Theorem) -> Check:
     points = [_point(theorem, name).at for name in ADDED]
     vertices = [len(exact_hull([*map(list, points[:n])]).vertices) for n in range(4, 9)]
-    return exhibited(vertices == [4, 5, 6, 7, 8], f"the hulls have {', '.join(map(str, vertices))} vertices")
+    return exhibited(vertices == [4, 5, 6, 7, 8], f"H_1 to H_5 have {', '.join(map(str, vertices))} vertices")
 
 
 def _supporting(theorem: Theorem) -> Check:
@@ -173,7 +177,7 @@ def _supporting(theorem: Theorem) -> Check:
 
 
 def _last_outside(theorem: Theorem) -> Check:
-    """Check that the last point is outside equations 3 to 8."""
+    """Check that the last point of theorem 4.8 is outside equations 3 to 8 and no others."""
     points = [_point(theorem, name).at for name in ADDED]
     outside = [plane.number for plane in theorem.planes if plane.at(_point(theorem, "Q9")) > 0]
     passed = outside == [3, 4, 5, 6, 7, 8] and _point(theorem, "Q9").at not in points
@@ -181,7 +185,10 @@ def _last_outside(theorem: Theorem) -> Check:
 
 
 def _programs(theorem: Theorem, load: Load) -> Check:
-    """Check that the listing finds the exact hull of the printed points, or rejects them if cards truncate them."""
+    """Check that the listing finds the exact hull of the printed points.
+
+    If the cards truncate coordinates, the listing must reject the points instead.
+    """
     truncated_points = [[_CARD.divide(x.numerator, x.denominator) for x in point.at] for point in theorem.points]
     points: list[Vector] = [tuple(map(Fraction, point)) for point in truncated_points]
     deck = data_deck([list(map(str, point)) for point in truncated_points], "theorem")
@@ -198,9 +205,10 @@ def _programs(theorem: Theorem, load: Load) -> Check:
 @claim("thesis.146", subject="theorem")
 @claim("thesis.245")
 def procedure_of_4_8(subject: str = "hulls") -> Check:
-    """Check that the procedure makes H_1, H_2 and H_5 of the text, but takes other points for H_3 and H_4.
+    """Check that the procedure makes H_1, H_2 and H_5 as in the text, but adds other points for H_3 and H_4.
 
-    By the text of page 29 there is no H_1. subject: ``theorem``, the last point is outside six planes of H_5.
+    By the wording of page 29 it makes no H_1. subject: with ``theorem``, check only that the last point is outside six
+    planes of H_5.
     """
     theorem = theorem_of("4.8")
     points = [point.at for point in theorem.points]
@@ -213,13 +221,13 @@ def procedure_of_4_8(subject: str = "hulls") -> Check:
         return exhibited(outside_six, "the last point is outside six planes of the H_5 that the procedure makes")
     check = exhibited(outside_six and [same[0], same[1], same[4]] == [True] * 3, "the procedure makes H_1, H_2 and H_5")
     others = not same[2] and not same[3] and not as_worded.determined
-    return check.unless(others, "H_3 and H_4, for which it takes other points, and page 29, by which there is no H_1")
+    return check.unless(others, "H_3 and H_4, which use other points, and the wording of page 29, which makes no H_1")
 
 
 @claim("thesis.246", which="list")
 @claim("thesis.247", which="table")
 def slips_of_4_8(which: str) -> Check:
-    """Check the two points as page 56 prints them: (-4, -4, 2) in the list and (3, 4, -1) in the table."""
+    """Check two misprinted points of page 56: (-4, -4, 2) in the list and (3, 4, -1) in the table."""
     theorem = theorem_of("4.8")
     printed_points, _ = csv_points(counterexample("slips_4_8.csv"), "slips_4_8.csv")
     listed, in_table = (Point("", tuple(map(Fraction, map(str, p))), "", "") for p in printed_points)
@@ -229,19 +237,19 @@ def slips_of_4_8(which: str) -> Check:
             nonzero != [1, 2, 7],
             _is_one("Q1", (-4, 4, 2)),
             "(-4, 4, 2)",
-            f"equations {', '.join(map(str, nonzero))} are not 0 at (-4, -4, 2)",
+            f"equations {', '.join(map(str, nonzero))}, which name Q1, are not 0 at (-4, -4, 2)",
         )
     nonzero = [plane.number for plane in theorem.planes if "Q6" in plane.vertices and plane.at(in_table)]
     not_a_point = in_table.at not in [point.at for point in theorem.points]
     message = (
-        f"(3, 4, -1) is not one of the nine points, and equations {', '.join(map(str, nonzero))} of (3, 4, 1) are "
+        f"(3, 4, -1) is none of the nine points, and equations {', '.join(map(str, nonzero))} of (3, 4, 1) are "
         "not 0 there"
     )
     return slip(not (not_a_point and nonzero == [1, 6]), _is_one("Q6", (3, 4, 1)), "(3, 4, 1)", message)
 
 
 def _is_one(name: str, at: tuple[int, int, int]) -> bool:
-    """Return True if a point of theorem 4.8 has these coordinates and is in all equations that name it."""
+    """Return True if a point of theorem 4.8 has these coordinates and satisfies each equation that names it."""
     theorem = theorem_of("4.8")
     point = _point(theorem, name)
     values = [plane.at(point) for plane in theorem.planes if name in plane.vertices]

@@ -48,8 +48,8 @@ def outside_of_two_lines() -> Check:
 
 @claim("thesis.243")
 def third_equation() -> Check:
-    """Check the third equation of H_1, which has no z: it is that of a line of the plane."""
-    return slip(False, lines_of_figure_3().holds, "a line", "the equation has x and y only, as the other two")
+    """Check that the third equation of H_1 has no z and therefore is the equation of a line in the plane."""
+    return slip(False, lines_of_figure_3().holds, "a line", "the third equation has x and y only, as the other two")
 
 
 def _printed_lines(x1: Polynomial, y1: Polynomial, y2: Polynomial) -> tuple[Point, ...]:
@@ -60,7 +60,7 @@ def _printed_lines(x1: Polynomial, y1: Polynomial, y2: Polynomial) -> tuple[Poin
 
 @claim("thesis.148")
 def single_point_outside() -> Check:
-    """Check that exactly one of the nine points is outside H_5 and that the other eight are its vertices."""
+    """Check that only one of the nine points of theorem 4.8 is outside H_5 and the other eight are its vertices."""
     theorem = theorem_of("4.8")
     eight = [[*point.at] for point in theorem.points if point.name in ADDED]
     hull = exact_hull(eight)

@@ -48,7 +48,7 @@ def three_points_coplanar() -> Check:
 
 @claim("thesis.113")
 def extremes_4_2() -> Check:
-    """Check that the six points are the extremes in x, y and z in the order of the theorem."""
+    """Check that P1 to P6 of theorem 4.2 are, in this order, the points with the largest and smallest x, y and z."""
     points = [point.at for point in theorem_of("4.2").points]
     passed = all(
         points[2 * k][k] == max(p[k] for p in points) and points[2 * k + 1][k] == min(p[k] for p in points)
@@ -59,7 +59,7 @@ def extremes_4_2() -> Check:
 
 @claim("thesis.117")
 def inequalities_without_z() -> Check:
-    """Check the printed inequality A x + B y + C < 0 for point 6 and equation 7."""
+    """Check that the printed inequality A x + B y + C < 0, which lacks z and D, is false at point 6 for equation 7."""
     (point,) = counterexample_points("point_6.csv")
     a, b, c, d = theorem_of("4.2").plane(7).coefficients
     as_printed, right = a * point[0] + b * point[1] + c, plane_value((int(a), int(b), int(c), int(d)), point)
@@ -68,25 +68,25 @@ def inequalities_without_z() -> Check:
         not passed,
         right < 0,
         "A x + B y + C z + D",
-        f"at point 6: {as_printed} as printed, {right} with z and D",
+        f"at point 6: {as_printed} as printed, {right} with the terms in z and D",
     )
 
 
 @claim("thesis.287")
 def display_of_page_41() -> Check:
-    """Check V with the indices of the proof, and the display of our text of page 41, which is 0."""
+    """Check that V is right with the indices of the proof, and that the formula as our text of page 41 has it is 0."""
     value_check = value_v()
     as_text = []
     for (x1, y1, z1), (x2, y2, z2), _ in random_triples():
         first_term = (y2 - y1) * (z2 - z1) - (z2 - z1) * (y2 - y1)
         as_text.append(first_term**2 + ((z2 - z1) * (x2 - x1) - (x2 - x1) * (z2 - z1)) ** 2)
-    check = searched(TRIPLES, 6, [value_check.evidence.correction], "with y_i and z_i V is as in the proof")
+    check = searched(TRIPLES, 6, [value_check.evidence.correction], "with y_i and z_i, V is as in the proof")
     return check.misprinted(not any(as_text), "i for 1 in the differences from the point i")
 
 
 @claim("thesis.121", "thesis.122", "thesis.124", "thesis.235")
 def distance_by_cosines() -> Check:
-    """Check that d squared, by three determinants with direction cosines, times (e D)^2 is V."""
+    """Check that V is (e D)^2 times d^2, the square of the distance by three determinants with direction cosines."""
     checks = []
     for p, q, x in random_triples():
         u, w = minus(q, p), minus(q, x)
@@ -96,12 +96,12 @@ def distance_by_cosines() -> Check:
         d_squared = sum((Fraction(a * f - b * e) ** 2 / square for a, b, e, f in rows), Fraction(0))
         across = cross(u, minus(x, p))
         checks.append(d_squared * square == dot(across, across) and square == sum(k * k for k in u))
-    return searched(TRIPLES, 6, checks, "the formula agrees exactly for six triples of points")
+    return searched(TRIPLES, 6, checks, "the formula gives the exact distance for six triples of points")
 
 
 @claim("thesis.120", "thesis.234")
 def display_of_page_42() -> Check:
-    """Check the same, and the display of our text, which has lost signs and indices and agrees for no triple."""
+    """Check the distance by direction cosines, and that the display of our text, with lost signs, is wrong."""
     as_text = []
     for p, q, x in random_triples():
         u, w = minus(q, p), minus(q, x)
@@ -114,14 +114,14 @@ def display_of_page_42() -> Check:
 
 @claim("thesis.123")
 def sign_e() -> Check:
-    """Check the sign e of the counterexample's line, chosen as page 42 says."""
+    """Check that the sign e, chosen as page 42 says, is not always 1: it is -1 for the line of the counterexample."""
     p, q = counterexample_points("e_minus_one.csv")
     first = next(k for k in (q[2] - p[2], q[1] - p[1], q[0] - p[0]) if k)
     e = 1 if first > 0 else -1
     return slip(e == 1, e * e == 1, "e squared", f"e is {e} if z decreases from P1 to P2; its square is 1")
 
 
-# Points of a plane and a share, drawn inside the check.
+# The generator of proof_of_4_4, which itself draws two points and a point that divides their segment.
 SHARES: Generator[int] = Generator("two points of a plane and a share between them", 44, lambda r: r.randint(1, 9))
 
 
@@ -129,10 +129,10 @@ SHARES: Generator[int] = Generator("two points of a plane and a share between th
 @claim("thesis.129", part="sum")
 @claim("thesis.130", part="letters")
 def proof_of_4_4(part: str) -> Check:
-    """Check C_0 as page 46 prints it for two points and a point k between them: it is the C of (3.4), and 0.
+    """Check that C_0 of page 46 is the C of (3.4), and is 0 for a point k between two others.
 
-    ``letters``: with z for y the formula gives -B, and with z for x it gives -A. The sign does not matter because both
-    must be 0.
+    part: ``coefficient``, C_0 equals C; ``sum``, the ten printed terms add up to 0; ``letters``, with z for y the
+    formula gives -B, and with z for x it gives -A. These signs do not matter because both must be 0.
     """
     if part == "letters":
         message = "the formulas give -B and -A for six triples of points"
@@ -146,16 +146,16 @@ def proof_of_4_4(part: str) -> Check:
         c = _c_0((xa, ya), (xb, yb), (xk, yk))
         coefficient.append(c == (xb - xa) * (yk - ya) - (yb - ya) * (xk - xa))
         rest = 1 - share
-        # Page 46: the ten terms as printed, and the four that the substitution gives.
+        # Page 46: the ten printed terms, and the four terms that substituting the coordinates of k gives.
         printed = [xa * yb, -xa * yb * share, -xa * yb * rest, xa * yb * rest, xa * yb * share, -xa * yb]
         printed += [xa * ya * share, -xa * ya * share, xb * yb * rest, -xb * yb * rest]
         total.append(sum(printed) == 0 == c)
         substituted = [xb * ya * rest, xb * yb * share, ya * xa * rest, ya * xb * share]
         terms.append(sorted(printed) == sorted([xa * yb, *substituted]))
     if part == "coefficient":
-        return searched(SHARES, 6, coefficient, "they agree exactly in six cases")
-    check = searched(SHARES, 6, total, "the sum is 0, like the C of (3.4); its terms are not those of the substitution")
-    return check.misprinted(not any(terms), "x_b y_a in the terms that the print has without it")
+        return searched(SHARES, 6, coefficient, "C_0 equals the C of (3.4) in six cases")
+    check = searched(SHARES, 6, total, "the printed sum is 0, like the C of (3.4), with other terms")
+    return check.misprinted(not any(terms), "x_b y_a in the terms that lack it in print")
 
 
 def _c_0(a: tuple[Fraction, ...], b: tuple[Fraction, ...], k: tuple[Fraction, ...]) -> Fraction:
@@ -165,7 +165,7 @@ def _c_0(a: tuple[Fraction, ...], b: tuple[Fraction, ...], k: tuple[Fraction, ..
 
 
 def _letters(p: Point, q: Point, r: Point) -> bool:
-    """Compare C_0 with y replaced by z, and with x replaced by z, with the plane through the points."""
+    """Return True if C_0 with z for y is -B, and with z for x is -A, of the plane through the points."""
 
     def printed(u: int, v: int) -> int:
         (ua, va), (ub, vb), (uk, vk) = ((point[u], point[v]) for point in (p, q, r))
@@ -177,7 +177,7 @@ def _letters(p: Point, q: Point, r: Point) -> bool:
 
 @claim("thesis.74", "thesis.131", "thesis.238", full=400)
 def theorem_4_5(cases: int = CASES) -> Check:
-    """Check that each H_j of a flat set is the hull of its vertices and that its edges are the lines."""
+    """Check that each H_j of a flat set is bounded by its lines: each has two vertices on it and none beyond it."""
     checks = []
     for sampled in sampled_sets(2, cases):
         for stage in sampled.stages():
@@ -197,7 +197,7 @@ def _touches(sampled: SampledSet, equations: Sequence[tuple[int, int, int, int]]
 
 @claim("thesis.242")
 def bars_of_page_50() -> Check:
-    """Check the same, and the absolute value as our text closes it, after the first term."""
+    """Check the distance from a line as page 50 gives it: it needs absolute value bars around all three terms."""
     a, b, c, p, q = 3, -2, 5, (1, 4), (3, 7)
     as_text = [
         _distance_squared((x, y), p, q) * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2
@@ -227,7 +227,7 @@ def theorem_4_7(cases: int = CASES) -> Check:
 
 @claim("thesis.138")
 def choice_of_first_triangle() -> Check:
-    """Check a triangle that is not chosen by the rule: a further point is outside two of its lines."""
+    """Check that a point may be outside two lines of a triangle that is not chosen by the rule for H_1."""
     triangle, point = [(0, 0, 0), (2, 0, 0), (0, 2, 0)], (-1, -1, 0)
     outside = sum(plane_value(facet.plane, point) > 0 for facet in exact_hull(triangle).facets)
     return exhibited(outside == 2, "(-1, -1) is outside two lines of the triangle (0, 0), (2, 0), (0, 2)")
@@ -235,12 +235,12 @@ def choice_of_first_triangle() -> Check:
 
 @claim("thesis.145")
 def gap_in_4_7() -> Check:
-    """Check a case that the proof does not exclude: a point outside one line of H_k and two lines of H_k+1."""
+    """Check a case that the proof of 4.7 does not exclude: outside one line of H_k, but two lines of H_k+1."""
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
     lines = [facet.plane for facet in exact_hull(square).facets]
     after = [facet.plane for facet in exact_hull([*square, (5, 2, 0)]).facets]
     new = [plane for plane in after if plane not in lines]
-    # Search a point outside at most one line of the square that is outside a new line and another one.
+    # Search for a point outside at most one line of the square, but outside a new line and another line.
     point = next(
         (x, y, 0)
         for x in range(-9, 14)
@@ -255,7 +255,7 @@ def gap_in_4_7() -> Check:
 
 @claim("thesis.260")
 def outside_unreplaced_line() -> Check:
-    """Check the counterexample: a point is outside a line of H_1 that is not replaced and so remains a line of H_2."""
+    """Check the counterexample: a point is outside a line of H_1 that is not replaced and so is a line of H_2 too."""
     points = counterexample_points("line_stays.csv")
     sampled = SampledSet(tuple(points), convex_hull(points, history=True), exact_hull(points))
     before, after = sampled.stages()[:2]
@@ -272,7 +272,7 @@ def outside_unreplaced_line() -> Check:
 
 @claim("thesis.244", full=400)
 def origin_is_third_point(cases: int = CASES) -> Check:
-    """Check that no point has a negative x if P_3 is the origin and P_1 P_2 is parallel to the y axis."""
+    """Check that no point has a negative x if P_3 is the origin and the line P_1 P_2 is parallel to the y axis."""
     checks = []
     for sampled in sampled_sets(2, cases):
         p, q, r = sampled.hull.history[0].added
@@ -288,4 +288,4 @@ def origin_is_third_point(cases: int = CASES) -> Check:
             == 0
             > plane_value(line, sampled.points[r])
         )
-    return searched(SETS[2], cases, checks, f"{len(checks)} conditions hold")
+    return searched(SETS[2], cases, checks, f"{len(checks)} conditions on points and their x hold")

@@ -33,22 +33,22 @@ _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
 
 @claim("thesis.280")
 def error_in_program() -> Check:
-    """Check two decks that end with the message: one meets a fault of program 3, the other has too many digits."""
+    """Check that ERROR IN PROGRAM ends two runs: one meets a fault of program 3, the other has too many digits."""
     names = ("throughc.deck", "zeroplane.deck")
     ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
     hulls = [convex_hull([*exact_points(deck_of(name))[0].values()]) for name in names]
-    check = exhibited(ended[0] and hulls[0].corrected, f"one deck needs {', '.join(hulls[0].corrected)} to be right")
+    check = exhibited(ended[0] and hulls[0].corrected, f"one hull needs {', '.join(hulls[0].corrected)} to be right")
     right = all(ended) and all(hull.determined for hull in hulls) and not hulls[1].corrected
-    return check.unless(right, "a deck with too many digits, for which the steps are right in exact arithmetic")
+    return check.unless(right, "a deck with too many digits, whose hull is right in exact arithmetic")
 
 
 @claim("thesis.282")
 def message_after_wrong_hull() -> Check:
-    """Check the last cards of a run that has lost vertices."""
+    """Check that a run that has lost vertices still punches CONVEX HULL HAS BEEN DETERMINED."""
     punched = run_of("silent.deck").final.result.punched
     punched_vertices, hull_vertices = vertices_of("silent.deck")
     announced = any("CONVEX HULL HAS BEEN DETERMINED" in card for card in punched)
-    message = f"the message is punched after {len(punched_vertices)} of {len(hull_vertices)} vertices"
+    message = f"success is punched after {len(punched_vertices)} of {len(hull_vertices)} vertices"
     endings = ["CONVEX HULL HAS BEEN DETERMINED" in prints_of[-1] for prints_of in _last_cards()]
     check = exhausted("examples 4 to 6 of chapter 6", endings, "the examples end with the message")
     return check.unless(announced and punched_vertices != hull_vertices, f"four points of five digits: {message}")
@@ -69,16 +69,16 @@ def _first_run(exponent: str) -> HullRun:
 
 @claim("thesis.281")
 def points_are_coplanar() -> Check:
-    """Check that points in space are reported as coplanar if their squared differences underflow."""
+    """Check that the program reports points in space as coplanar if the squares of their differences underflow."""
     typed_coplanar = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-16", "E-17")]
-    check = exhibited(typed_coplanar[:2] == [False, False], "five points in space do not get the message")
+    check = exhibited(typed_coplanar[:2] == [False, False], "five points in space are not reported as coplanar")
     wrong = typed_coplanar[2] and exact_hull(_SPACE).dimension == 3
-    return check.unless(wrong, "the same points with coordinates of about 1E-18, which get it")
+    return check.unless(wrong, "the same points scaled to about 1E-18, which are reported as coplanar")
 
 
 @claim("thesis.178")
 def underflow() -> Check:
-    """Check that the result for one-digit coordinates depends on the power of ten that multiplies them."""
+    """Check that multiplying one-digit coordinates by a power of ten can change the result, because of underflow."""
     hulls = [_first_run(exponent) for exponent in ("E+01", "E-17")]
     names = [run.final.name for run in hulls]
     check = two_kinds_of_error()
@@ -87,7 +87,7 @@ def underflow() -> Check:
 
 @claim("thesis.158")
 def ninth_digit_of_product() -> Check:
-    """Check that a product that needs nine digits loses the ninth."""
+    """Check that a product that needs more than eight digits loses its ninth digit."""
     arithmetic, (coordinates, *_) = take([("99999999", "0", "0"), ("11", "0", "0")], "truncating")
     product = Fraction(arithmetic.exact(coordinates[0] * coordinates[1], 2))
     passed = product == 1_099_999_900 == 99_999_999 * 11 - 89
@@ -96,7 +96,10 @@ def ninth_digit_of_product() -> Check:
 
 @claim("thesis.284")
 def plane_table_size() -> Check:
-    """Check the 98 entries of the plane table, 2N - 4 for 51 points, although intermediate hulls need more."""
+    """Check that the 98 entries of the plane table are enough for any hull of 51 points: 2 N - 4 planes.
+
+    Intermediate hulls can need more entries.
+    """
     size = next(entry.size for entry in programs.program("program3").storage.arrays() if entry.name == "KK")
     hull = exact_hull([(k, k**2, k**3) for k in range(MOST_POINTS)])
     planes = len(hull.facets)
@@ -106,13 +109,13 @@ def plane_table_size() -> Check:
         for before, after in zip(overrun.history, overrun.history[1:], strict=False)
     )
     fits = len(hull.vertices) == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES
-    check = exhibited(fits, f"a hull of {len(hull.vertices)} vertices with {planes} planes fits")
-    return check.unless(most > size, f"intermediate hulls: table.deck needs {most} entries")
+    check = exhibited(fits, f"a hull of {len(hull.vertices)} vertices with {planes} planes fits the table")
+    return check.unless(most > size, f"the intermediate hulls of table.deck, which need {most} entries")
 
 
 @claim("thesis.283")
 def line_table_size() -> Check:
-    """Check the 51 entries of the line table of program 2 with points on a parabola, all of which are vertices."""
+    """Check that the 51 entries of program 2's line table are enough for 50 points, all vertices, but not for 51."""
     size = next(entry.size for entry in programs.program("program2").storage.arrays() if entry.name == "MM")
     most = {}
     for n in (MOST_POINTS - 1, MOST_POINTS):
@@ -124,7 +127,7 @@ def line_table_size() -> Check:
 
 @claim("thesis.285")
 def printed_hulls() -> Check:
-    """Compare the hulls of examples 1 to 6 as printed in chapter 6 with the exact hulls."""
+    """Check that the hulls of examples 1 to 6, as printed in chapter 6, are the exact hulls."""
     checks = []
     for example in EXAMPLES:
         points = [tuple(map(Fraction, point)) for point in exact_points(input_deck(example))[0].values()]
@@ -140,7 +143,7 @@ def printed_hulls() -> Check:
 
 @claim("thesis.17")
 def possible_output() -> Check:
-    """Compare the headings and messages in the listings with those on the cards printed in chapter 6."""
+    """Check which headings and messages of the listings occur on the cards printed in chapter 6."""
     missing: dict[str, set[str]] = {"PUNCH": set(), "PRINT": set()}
     for number in (1, 2, 3):
         program = programs.program(f"program{number}")
@@ -155,8 +158,8 @@ def possible_output() -> Check:
             }
             lacking |= {heading for heading in headings if not any(heading in card for card in cards)}
     typed_only = {"ERROR IN PROGRAM", "DATA NOT ACCEPTABLE", "POINTS ARE COPLANAR", "POINTS ARE NOT COPLANAR"}
-    check = exhibited(not missing["PUNCH"], "all punched headings are printed")
-    return check.unless(missing["PRINT"] == typed_only, f"typed messages: {', '.join(sorted(missing['PRINT']))}")
+    check = exhibited(not missing["PUNCH"], "chapter 6 prints all headings that the listings punch")
+    return check.unless(missing["PRINT"] == typed_only, f"the typed messages {', '.join(sorted(missing['PRINT']))}")
 
 
 def _punched(result: Print) -> tuple[str, ...]:
@@ -164,13 +167,13 @@ def _punched(result: Print) -> tuple[str, ...]:
 
 
 def _heading(item: object) -> str:
-    """Return the text of a FORMAT item if it is longer than a column heading."""
+    """Return the text of a FORMAT item, or an empty text if it is no longer than a column heading."""
     return item.text if isinstance(item, Literal) and len(item.text.strip()) > len("NO.") else ""
 
 
 @claim("thesis.279")
 def first_card() -> Check:
-    """Check that N is in columns 1 and 2, read by FORMAT 1, and that one card for each point follows."""
+    """Check that the first card of a deck has N in columns 1 and 2 (FORMAT 1) and that N cards for points follow."""
     deck = data_deck([["1", "2", "3"]] * 8, "eight")
     cards = [card.text.rstrip() for card in deck.cards]
     listing = programs.deck("program1").text()
@@ -178,7 +181,7 @@ def first_card() -> Check:
     return exhibited(passed, f"a deck of 8 points has {len(cards)} cards, and its first card is {cards[0]!r}")
 
 
-# Numbers of pages of the works of the bibliography (p. 121), except work 10 on pages 51 to 73 of its volume.
+# The number of pages of each work of the bibliography (p. 121), except work 10, pages 51 to 73 of a volume.
 _WORKS = {1: 73, 2: 180, 3: 38, 4: 136, 5: 297, 6: 290, 7: 94, 8: 302, 9: 329, 11: 306, 12: 301}
 # The pages that the text cites (p. 2 to 50), by the number of the work.
 _CITED = {
@@ -195,7 +198,7 @@ _CITED = {
 
 @claim("thesis.252")
 def cited_pages() -> Check:
-    """Check that every cited page exists in its work and which works are cited by number."""
+    """Check that each page that the text cites exists in the cited work, and that four works are never cited so."""
     within = [page <= _WORKS[work] for work, pages in _CITED.items() for page in pages]
     uncited = sorted({*_WORKS, 10} - {*_CITED})
     works = ", ".join(map(str, uncited))
@@ -205,7 +208,7 @@ def cited_pages() -> Check:
 
 @claim("thesis.1", "thesis.8", "thesis.86", "thesis.106", full=300)
 def procedure_in_exact_arithmetic(cases: int = CASES) -> Check:
-    """Check the procedure in exact arithmetic, and a deck for which the listing loses vertices in eight digits."""
+    """Check that the procedure is right in exact arithmetic; in eight digits a deck loses vertices."""
     wrong = silent_loss()
     return procedure_against_judge(cases).unless(not wrong.holds, f"eight digits: {wrong.message}")
 

@@ -32,7 +32,7 @@ _THREE: tuple[Point, ...] = ((-220, -492, 405), (-70, -270, -113), (-452, 485, -
 
 
 def deck_of(name: str) -> Deck:
-    """Return a counterexample that is a data deck."""
+    """Return a counterexample of ``transcripts/counterexamples`` that is a data deck."""
     return deck_from_text(name, counterexample(name))
 
 
@@ -51,7 +51,7 @@ def typed(run: HullRun) -> str:
 def programs_compile() -> Check:
     cards = {name: len(programs.deck(name).cards) for name in THREE}
     compiled = all(programs.program(name).code for name in THREE)
-    message = "the decks compile: " + ", ".join(f"{name} with {n} cards" for name, n in cards.items())
+    message = "all three decks compile: " + ", ".join(f"{name} with {n} cards" for name, n in cards.items())
     return exhibited(compiled, message)
 
 
@@ -62,15 +62,15 @@ def _positions(name: str) -> int:
 
 @claim("thesis.4", "thesis.153")
 def program_sizes() -> Check:
-    """Check that each program and its data fit 40,000 positions, and not 20,000, by the estimated size of the code."""
+    """Check that each program with its data fits 40,000 positions but not 20,000; the code size is estimated."""
     sizes = [_positions(name) for name in THREE]
-    message = f"the programs take about {', '.join(f'{n:}' for n in sizes)} positions"
+    message = f"the three programs take about {', '.join(f'{n:}' for n in sizes)} positions"
     return exhibited(SMALLER_CORE < max(sizes) <= CORE, message)
 
 
 @claim("thesis.193")
 def three_programs_needed() -> Check:
-    """Check that a single program would need more than 40,000 positions for all code and the largest data."""
+    """Check that one program with all code and the largest data would not fit 40,000 positions."""
     code = sum(code_positions(programs.program(name)) for name in THREE)
     data = max(programs.program(name).storage.fields * FIELD for name in THREE)
     total = OBJECT_PROGRAM + FUNCTION_NAMES + code + data
@@ -80,7 +80,7 @@ def three_programs_needed() -> Check:
 
 @claim("thesis.14", "thesis.33", "thesis.157")
 def fifty_one_points() -> Check:
-    """Check the arrays for 51 points, and a deck of fewer points that overflows the plane table."""
+    """Check that the arrays hold 51 points, and that a deck of fewer points overflows the plane table."""
     points, _ = exact_points(deck_of("table.deck"))
     sizes = {entry.size for entry in programs.program("program3").storage.arrays()}
     most = _most_planes(np.array([[int(Fraction(x)) for x in point] for point in points.values()], dtype=np.int64))
@@ -90,9 +90,10 @@ def fifty_one_points() -> Check:
 
 
 def _most_planes(points: np.ndarray) -> int:
-    """Return the largest number of table entries in use at once.
+    """Return the largest number of entries of the plane table in use at once.
 
-    Each step keeps the planes of the previous hull, adds three for each replaced plane and removes that plane.
+    Each step keeps the planes of the previous hull, adds three for each replaced plane and then removes the replaced
+    one.
     """
     hull = convex_hull(points, history=True)
     pairs = zip(hull.history, hull.history[1:], strict=False)
@@ -101,7 +102,7 @@ def _most_planes(points: np.ndarray) -> int:
 
 @claim("thesis.93")
 def plane_through_c() -> Check:
-    """Check the deck of KNOWN-FAULTS 3: it ends with an error message although its exact hull exists."""
+    """Check that a run ends with an error (KNOWN-FAULTS 3) if a plane contains the inside point C; a hull exists."""
     message = typed(run_of("throughc.deck"))
     points = [[*map(Fraction, point)] for point in exact_points(deck_of("throughc.deck"))[0].values()]
     judge = exact_hull(points)
@@ -112,15 +113,15 @@ def plane_through_c() -> Check:
 
 @claim("thesis.83", "thesis.84")
 def truncated_roots() -> Check:
-    """Check that the listing punches wrong vertices for the deck of KNOWN-FAULTS 14."""
+    """Check that truncated square roots make the listing punch wrong vertices for the deck of KNOWN-FAULTS 14."""
     punched, judge = vertices_of("between.deck")
-    message = f"{len(punched ^ judge)} points differ between the punched vertices and the exact ones"
+    message = f"{len(punched ^ judge)} points are either punched or exact vertices, not both"
     check = between_by_distances()
     return check.unless(punched != judge, f"square roots of eight digits: {message}")
 
 
 def vertices_of(name: str) -> tuple[set[int], set[int]]:
-    """Return the vertices that the listing punches for a counterexample and the exact ones, by index."""
+    """Return the vertices that the listing punches for a counterexample, and its exact vertices, as sets of indices."""
     points = [tuple(map(Fraction, point)) for point in exact_points(deck_of(name))[0].values()]
     outcome = from_cards("listing", run_of(name), points)
     return set(outcome.vertices), set(exact_hull([*map(list, points)]).vertices)
@@ -137,13 +138,13 @@ def silent_loss() -> Check:
 
 @claim("thesis.65")
 def notation() -> Check:
-    """Check that programs 2 and 3 use the names of chapter 3 for their variables."""
+    """Check that programs 2 and 3 use the variable names of chapter 3."""
     names = {entry.name for entry in programs.program("program3").storage.arrays()}
     text = programs.deck("program3").text() + programs.deck("program2").text()
     names_of_chapter_3 = ("NETC", "NE", "NV", "MM", "NN", "KK")
     return exhibited(
         {"MM", "NN", "KK"} <= names and all(f"{name}=" in text or name in names for name in names_of_chapter_3),
-        f"the listings use {', '.join(names_of_chapter_3)}",
+        f"the listings use the names {', '.join(names_of_chapter_3)} of chapter 3",
     )
 
 
@@ -165,7 +166,7 @@ def eight_digits() -> Check:
         coordinate_field("1.23456789")
     except ValueError as error:
         return exhibited(coordinate_field("1.2345678") == "+.12345678E+01", str(error))
-    return exhibited(False, "a ninth digit fits")
+    return exhibited(False, "a ninth digit fits in a card field")
 
 
 @claim("thesis.182")
@@ -177,32 +178,31 @@ def quotient_truncated() -> Check:
 
 @claim("thesis.180", "thesis.249")
 def two_kinds_of_error() -> Check:
-    """Check that truncation changes coordinates, and also coefficients."""
+    """Check that eight-digit arithmetic truncates coordinates and also the coefficients of a plane."""
     third = coordinate_field("0.333333333", truncate=True)
     cut, exact = (_coefficients(_THREE, arithmetic) for arithmetic in ("truncating", "exact"))
     exact_coefficients = [*map(Fraction, plane_through(*_THREE))]
     differ = [a != b for a, b in zip(cut, exact_coefficients, strict=True)]
     passed = third == "+.33333333E+00" and any(differ) and exact == exact_coefficients
     return exhibited(
-        passed,
-        f"a card truncates 1/3; of a plane's coefficients {sum(differ)} are truncated, and none in exact arithmetic",
+        passed, f"a card truncates 1/3; {sum(differ)} of a plane's coefficients are truncated, none in exact arithmetic"
     )
 
 
 @claim("thesis.248")
 def errors_of_machine() -> Check:
-    """Check that three points miss their plane in eight digits, and do not in exact arithmetic."""
+    """Check that three points do not satisfy the plane through them in eight digits, but do in exact arithmetic."""
     passed = bool(_misses(_THREE)) and not _misses(_THREE, "exact")
-    return exhibited(passed and two_kinds_of_error().holds, "three points miss their plane in eight digits only")
+    return exhibited(passed and two_kinds_of_error().holds, "three points miss their own plane in eight digits only")
 
 
 @claim("thesis.179")
 def errors_on_any_computer() -> Check:
-    """Check that binary numbers of 53 bits have the errors too; exact arithmetic has none."""
+    """Check that binary numbers of 53 bits have such errors too, whereas exact arithmetic has none."""
     thirds = [(Fraction(1, 3), Fraction(1, 7), Fraction(k, 11)) for k in range(3)]
     as_floats = [Fraction(float(x)) != x for point in thirds for x in point if x.denominator > 1]
     check = exhibited(_misses(_THREE) and all(as_floats), "eight digits and 53 bits truncate or round numbers")
-    return check.unless(not _misses(_THREE, "exact"), "exact arithmetic, in which three points satisfy their plane")
+    return check.unless(not _misses(_THREE, "exact"), "exact arithmetic, in which three points satisfy their own plane")
 
 
 def _coefficients(points: tuple[Point, ...], name: str) -> list[Fraction]:
@@ -212,7 +212,7 @@ def _coefficients(points: tuple[Point, ...], name: str) -> list[Fraction]:
 
 
 def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
-    """Return the points that do not satisfy the plane of the first three in the given arithmetic."""
+    """Return the indices of the points that do not satisfy the plane through the first three points."""
     arithmetic, rows = take(points, name)
     all_points = [tuple(rows[axis][k] for axis in range(3)) for k in range(len(points))]
     equation = plane(*all_points[:3])
@@ -221,14 +221,14 @@ def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
 
 @claim("thesis.183")
 def points_off_own_plane() -> Check:
-    """Check three points of three digits that do not satisfy the plane through them."""
+    """Check three points with three-digit coordinates that do not all satisfy the plane through them."""
     missed = _misses(_THREE)
     return exhibited(bool(missed), f"the plane through three points misses {', '.join(str(_THREE[k]) for k in missed)}")
 
 
 @claim("thesis.185")
 def fourth_point_off_plane() -> Check:
-    """Check that a fourth point in the plane of three points can miss it in eight digits."""
+    """Check that in eight digits a fourth point that lies in the plane of three others can miss that plane."""
     exactly = not any(
         sum(a * x for a, x in zip(plane_through(*_FOURTH[:3]), (*_FOURTH[3], 1), strict=True)) for _ in (0,)
     )
@@ -238,24 +238,24 @@ def fourth_point_off_plane() -> Check:
 
 @claim("thesis.184")
 def programs_rejecting_data() -> Check:
-    """Check which programs contain the message."""
+    """Check which of the three programs can type DATA NOT ACCEPTABLE."""
     has = [name for name in THREE if "DATA NOT ACCEPTABLE" in programs.deck(name).text()]
-    check = exhibited({*has} >= {"program2", "program3"}, f"the message is in {' and '.join(has)}")
+    check = exhibited({*has} >= {"program2", "program3"}, f"DATA NOT ACCEPTABLE is in {' and '.join(has)}")
     return check.unless("program1" not in has, "program 1, which has no such test")
 
 
 @claim("thesis.250", "thesis.187")
 def vertex_within_interval() -> Check:
-    """Check that e = 20 hides a vertex that is about a tenth above a plane."""
+    """Check that a tolerance e = 20 makes the program miss a vertex that is about a tenth above a plane."""
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
     exact, with_epsilon = convex_hull(points), convex_hull(points, epsilon="20")
-    message = "(1.4, 1.4, 1.4) is a vertex in exact arithmetic, and not with e = 20"
+    message = "(1.4, 1.4, 1.4) is a vertex in exact arithmetic, but not with the tolerance e = 20"
     return exhibited(4 in exact.vertices and 4 not in with_epsilon.vertices, message)
 
 
 @claim("thesis.186")
 def interval_instead_of_rejection() -> Check:
-    """Check that e = 10 gives the right hull instead of a rejection, and e = 10,000,000 a wrong hull."""
+    """Check that the tolerance e = 10 turns a rejection into the right hull, and e = 10,000,000 into a wrong one."""
     points = [*_THREE, (101, 77, -340), (250, 333, 90)]
     whole = [tuple(map(str, point)) for point in points]
     hulls = [convex_hull(whole, "truncating", epsilon=e, on_refusal="return") for e in (None, "10", "10000000")]
@@ -267,7 +267,7 @@ def interval_instead_of_rejection() -> Check:
 
 @claim("thesis.188")
 def value_against_distance() -> Check:
-    """Check that the value of an equation is not the distance: a point at the distance 1 has the value 1/100."""
+    """Check that the value of a plane's equation at a point may differ from the distance: 1/100 at the distance 1."""
     csv_rows, _ = csv_points(counterexample("short_normal.csv"), "short_normal.csv")
     p, q, r, x = (tuple(map(Fraction, map(str, point))) for point in csv_rows)
     a, b, c, d = plane(p, q, r)  # type: ignore[arg-type]
@@ -276,12 +276,15 @@ def value_against_distance() -> Check:
     unit = at((Fraction(1), Fraction(0), Fraction(0), Fraction(0)), (Fraction(1, 100), Fraction(5), Fraction(7)))
     check = exhibited(unit == Fraction(1, 100), "for a unit normal the value is the distance")
     short = distance == 1 and abs(value) == Fraction(1, 100)
-    return check.unless(short, "a plane through points that are close together: the value is 1/100 at the distance 1")
+    return check.unless(short, "a plane through points close together, whose value is 1/100 at the distance 1")
 
 
 @claim("thesis.189", full=300)
 def orientation_by_c(cases: int = CASES) -> Check:
-    """Check that the outward planes of each H_j are negative at C; a plane eliminated later may pass through C."""
+    """Check that all planes of each H_j, oriented outward, are negative at the inside point C.
+
+    A plane that the program makes and eliminates later may pass through C.
+    """
     checks = []
     for sampled in sampled_sets(3, cases):
         added = sampled.hull.history[0].added
@@ -290,8 +293,8 @@ def orientation_by_c(cases: int = CASES) -> Check:
             planes = [f.plane for f in exact_hull([sampled.points[k] for k in stage.vertices]).facets]
             checks += [dot(plane[:3], total) + plane[3] * len(added) < 0 for plane in planes]
     fault = plane_through_c()
-    check = searched(SETS[3], cases, checks, f"{len(checks)} planes of all H_j are negative at C")
-    return check.unless(not fault.holds, f"a plane that is eliminated later: {fault.message}")
+    check = searched(SETS[3], cases, checks, f"{len(checks)} planes of all H_j are negative at the inside point C")
+    return check.unless(not fault.holds, f"a plane that is made and eliminated later: {fault.message}")
 
 
 def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, int]:
@@ -301,22 +304,23 @@ def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, i
 
 @claim("thesis.190", full=300)
 def orientation_by_constant_term(cases: int = CASES) -> Check:
-    """Check that, with the origin at C, the constant term has the sign of the value at C.
+    """Check that moving the origin to the inside point C gives a plane's constant term the sign of its value at C.
 
-    If a plane passes through C, both are 0. The planes are those of all H_j and of all triples of five points.
+    If a plane passes through C, both are 0. The planes are those of all H_j and of all triples of the first five
+    points.
     """
     checks = []
     for sampled in sampled_sets(3, cases):
         added = sampled.hull.history[0].added
         x, y, z = total = _sum(sampled.points, added)
         moved = [tuple(len(added) * x - t for x, t in zip(point, total, strict=True)) for point in sampled.points]
-        # Compare the value at C, times the number of points, with the constant term after the translation.
+        # Compare the value at C, times the number of points of which C is the mean, with the translated constant term.
         for defining in {*combinations(range(5), 3), *(d for stage in sampled.stages() for d in stage.defining)}:
             a, b, c, d = plane_through(*(sampled.points[k] for k in defining))
             there, constant = a * x + b * y + c * z + d * len(added), plane_through(*(moved[k] for k in defining))[3]  # type: ignore[arg-type]
             checks.append((constant > 0, constant < 0) == (there > 0, there < 0))
     check = searched(SETS[3], cases, checks, f"{len(checks)} constant terms have the sign of the value at C")
-    return check.unless(not plane_through_c().holds, "a plane through C, where both are 0")
+    return check.unless(not plane_through_c().holds, "a plane through C, for which both are 0")
 
 
 def _equations_made(sampled: SampledSet) -> int:
@@ -327,7 +331,7 @@ def _equations_made(sampled: SampledSet) -> int:
 
 @claim("thesis.195")
 def cost_of_orientation() -> Check:
-    """Count the operations that substitute C into an equation; with the origin at C the constant term needs none."""
+    """Count the operations to evaluate an equation at the inside point C; none are needed if C is the origin."""
     operations: list[str] = []
 
     class Counted(int):
@@ -341,16 +345,16 @@ def cost_of_orientation() -> Check:
 
     at(tuple(map(Counted, (1, -2, 3, -4))), tuple(map(Counted, (5, 6, 7))))
     products, sums = operations.count("product"), operations.count("sum")
-    message = f"{products} products and {sums} sums for each equation, and none with the origin at C"
+    message = f"{products} products and {sums} sums for each equation at C, and none if C is the origin"
     return exhibited(products > 0 < sums, message)
 
 
 @claim("thesis.251", "thesis.196", full=300)
 def cost_of_translation(cases: int = CASES) -> Check:
-    """Compare the sums saved, three for each equation, with the sums of the translation, six for each point."""
+    """Compare the sums that the translation saves, three for each equation, with the six that each point costs."""
     few = [3 * _equations_made(sampled) - 6 * len(sampled.points) for sampled in sampled_sets(3, cases)]
     many = 3 * 4 - 6 * 51
-    message = f"balance of sums saved: {', '.join(map(str, few))}; for 51 points with a tetrahedron as hull {many}"
+    message = f"sums saved: {', '.join(map(str, few))}; {many} for 51 points whose hull is a tetrahedron"
     return searched(SETS[3], cases, [max(few) > 0, many < 0], message)
 
 
@@ -358,7 +362,10 @@ def cost_of_translation(cases: int = CASES) -> Check:
 @claim("thesis.163", part="digits")
 @claim("thesis.161", part="columns")
 def data_sheet(part: str) -> Check:
-    """Check the sample cards of pages 58 and 59."""
+    """Check the sample cards of pages 58 and 59.
+
+    part: ``values``, the numbers; ``digits``, the number of digits; ``columns``, the columns of the fields.
+    """
     if part == "columns":
         points, _ = exact_points(deck_of("z_in_39.deck"))
         z = [point[2] for point in points.values()][-1]
@@ -367,10 +374,10 @@ def data_sheet(part: str) -> Check:
         printed = "+.3000000E+01"
         whole = coordinate_field("3")
         passed = len(printed) == len(whole) - 1 and printed.replace("E", "0E") == whole
-        check = exhibited(coordinate_field("12") == "+.12000000E+02", "12 is read as printed")
+        check = exhibited(coordinate_field("12") == "+.12000000E+02", "the sample card for 12 is read as 12")
         return check.unless(passed, f"{printed}, which has {len(printed)} characters instead of {len(whole)}")
     numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
-    message = f"read as printed: {', '.join(numbers)}"
+    message = f"the sample cards are read as {', '.join(numbers)}"
     return exhibited(all(coordinate_field(value) == field for value, field in numbers.items()), message)
 
 

@@ -1,4 +1,4 @@
-"""Proofs by exact instances of theorems 4.1, 4.2 and 4.8 of the thesis, which say that something exists."""
+"""Proofs by exact instances of theorems 4.1, 4.2 and 4.8 of the thesis, which claim that something exists."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
 
-# An extreme is a coordinate and the sign of the side: (0, 1) is the largest x.
+# An extreme is an axis and a sign: (0, 1) is the largest x, (0, -1) the smallest.
 Extreme = tuple[int, int]
 EXTREMES: tuple[Extreme, ...] = tuple(product(range(3), (1, -1)))
 Lattice = tuple[int, int, int]
 # The coordinates of the points of theorem 4.1 are from -SIDE to SIDE, and only extreme points reach these.
 SIDE = 4
-# Planes A x + B y + C z = D that together contain points for every way in which the extremes can coincide.
+# Planes A x + B y + C z = D: for each way in which extremes can coincide, one of them has suitable points.
 PLANES: tuple[tuple[Lattice, int], ...] = (
     *(((1, b, c), -2) for b, c in ((1, -1), (1, 1))),
     *((normal, 0) for normal in ((1, -2, -2), (1, -2, 2), (0, 1, -1), (0, 1, 1), (1, -1, 0), (1, 1, 0))),
@@ -30,9 +30,9 @@ PLANES: tuple[tuple[Lattice, int], ...] = (
 
 
 def coincidences(extremes: Sequence[Extreme] = EXTREMES) -> Iterator[tuple[frozenset[Extreme], ...]]:
-    """Yield the ways to divide the extremes among points.
+    """Yield each way to divide the extremes into groups that one point has in common.
 
-    No point has both extremes of a coordinate: all points of the set would have the same coordinate.
+    No group contains both the largest and the smallest value of a coordinate: all points would then be equal in it.
     """
     if not extremes:
         yield ()
@@ -51,7 +51,7 @@ def _lattice(side: int) -> list[Lattice]:
 
 
 def coplanar_extremes() -> Iterator[bool]:
-    """Yield for each way to coincide whether a set that is not coplanar has exactly these extremes in a plane."""
+    """Yield, for each way in which extremes can coincide, whether a set in space has such coplanar extremes."""
     on_planes: list[dict[frozenset[Extreme], Lattice]] = [
         {_extremes_of(p): p for p in _lattice(SIDE) if dot(normal, p) == d} for normal, d in PLANES
     ]
@@ -73,7 +73,7 @@ def _extremes_of(p: Lattice) -> frozenset[Extreme]:
 
 
 def table_1() -> Iterator[bool]:
-    """Yield the facts that Table 1 of theorem 4.2 describes a polyhedron on six extremes that is not convex."""
+    """Yield the facts that show: Table 1 of theorem 4.2 describes a nonconvex polyhedron on six extreme points."""
     theorem = theorem_of("4.2")
     # The coordinates are multiples of 1/4.
     at: dict[str, Lattice] = {p.name: tuple(int(4 * c) for c in p.at) for p in theorem.points}  # type: ignore[misc]
@@ -81,10 +81,10 @@ def table_1() -> Iterator[bool]:
         axis, sign = "xyz".index(label[1]), 1 if label[0] == "l" else -1
         yield all(sign * at[name][axis] >= sign * p[axis] for p in at.values())
     faces = [plane.vertices for plane in theorem.planes]
-    # Each side of a triangle belongs to one other triangle, and Euler's formula holds: the surface is a sphere.
+    # Each side belongs to two triangles, and Euler's formula holds: the surface is a sphere.
     yield is_sphere(faces) and {name for face in faces for name in face} == {*at}
     yield all(plane.at(p) == 0 for plane in theorem.planes for p in theorem.points if p.name in plane.vertices)
-    # Two triangles have only their common corners in common.
+    # No two triangles meet except in their common corners and sides.
     yield from (_are_separate(a, b, at) for a, b in combinations(faces, 2))
     # Faces 7 and 8 have corners of the polyhedron on both sides.
     signs = [{plane.at(p) > 0 for p in theorem.points if plane.at(p)} for plane in theorem.planes]
@@ -92,7 +92,7 @@ def table_1() -> Iterator[bool]:
 
 
 def _are_separate(first: Sequence[str], second: Sequence[str], at: Mapping[str, Lattice]) -> bool:
-    """Return True if two triangles have only their common corners in common.
+    """Return True if two triangles do not meet except in their common corners and sides.
 
     Two triangles with a common side must not be coplanar.  Otherwise some linear function must have a value that the
     triangles attain at most at their common corner and that separates their other corners.
@@ -111,14 +111,14 @@ def _are_separate(first: Sequence[str], second: Sequence[str], at: Mapping[str, 
 
 
 def outside_several_planes() -> Iterator[bool]:
-    """Yield the facts of theorem 4.8: the procedure makes H_5, and the last point is outside six of its planes."""
+    """Yield the facts of theorem 4.8: the procedure makes H_5, and its last point is outside six planes of H_5."""
     theorem = theorem_of("4.8")
     points = [point.at for point in theorem.points]
     hull = convex_hull(points, history=True)
     used = [k for stage in hull.history for k in stage.added]
     yield [theorem.points[k].name for k in used[8:]] == ["Q9"]
     yield {theorem.points[k].name for k in used[:8]} == {*ADDED}
-    # The exact hull of the first eight points, without the procedure.
+    # The exact hull of the first eight points is computed without the procedure.
     judge = exact_hull([[*points[k]] for k in used[:8]])
     planes = [judge.plane_of(facet) for facet in judge.facets]
     yield len(judge.vertices) == 8
@@ -135,7 +135,7 @@ def theorem_4_1() -> Check:
         "Two extremes of one coordinate that coincide make all points coplanar. For each other way in which the six "
         "extremes can coincide there is a set that is not coplanar and has exactly these extremes in one plane"
     )
-    return proved(argument, coplanar_extremes(), "the extremes are coplanar in all 87 ways to coincide")
+    return proved(argument, coplanar_extremes(), "the extremes can be coplanar in all 87 ways to coincide")
 
 
 @claim("thesis.112", "thesis.114")

@@ -18,13 +18,13 @@ from modern.claims.thesis.chapter4_examples import theorem_of
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
 
-# A direction in which a ray from the sampled points meets no edge of the polyhedron.
+# Rays in this direction from the sampled points meet no edge of the polyhedron.
 _RAY: Point = (101, 37, 11)
 
 
 @claim("thesis.277")
 def coordinate_planes() -> Check:
-    """Check that the equation of a coordinate plane, from three of its points, has one nonzero coefficient."""
+    """Check that the equation of a coordinate plane through three of its points has only one nonzero coefficient."""
     checks = []
     for zero in range(3):
         for three in random_triples():
@@ -40,9 +40,9 @@ def _with_0(point: Point, axis: int) -> Point:
 
 @claim("thesis.274", full=400)
 def hull_of_projection(cases: int = CASES) -> Check:
-    """Check that projections of flat sets keep the vertices, boundary and inside points, and the points of each line.
+    """Check that projections of flat sets keep vertices, boundary points, inside points, and the points of each line.
 
-    The exact hull represents a line of a set in space by the plane through it perpendicular to the set.
+    The exact hull represents a line of a flat set by the plane through the line perpendicular to the set.
     """
     checks = []
     for sampled in sampled_sets(2, cases):
@@ -62,9 +62,9 @@ def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
 
 @claim("thesis.38")
 def inside_nonconvex_polyhedron() -> Check:
-    """Check that points inside the polyhedron of theorem 4.2 can be positive in an equation of a face.
+    """Check that points inside the polyhedron of theorem 4.2 can be outside the plane of one of its faces.
 
-    A point is inside if its ray meets an odd number of faces.
+    A point is inside if a ray from it meets an odd number of faces.
     """
     theorem = theorem_of("4.2")
     at = {point.name: _four_times(point.at) for point in theorem.points}
@@ -96,7 +96,7 @@ def _goes_through(start: Point, face: Sequence[Point]) -> bool:
 
 @claim("thesis.55", "thesis.237")
 def perpendicular_projection() -> Check:
-    """Check that a triangle projects to a segment if and only if its plane is perpendicular to the coordinate plane."""
+    """Check that a triangle's image in a coordinate plane is a segment if and only if the planes are perpendicular."""
     checks = [(_image_area(normal, axis) == 0) == (normal[axis] == 0) for normal in _normals() for axis in range(3)]
     message = "the image of a triangle is a segment if and only if its plane is perpendicular to the coordinate plane"
     return exhausted("26 normals and three coordinate planes", checks, message)
@@ -116,7 +116,7 @@ def _image_area(normal: Point, axis: int) -> int:
 
 @claim("thesis.198")
 def projection_along_axis() -> Check:
-    """Check that setting one coordinate to 0 gives the foot of the perpendicular on the coordinate plane."""
+    """Check that setting one coordinate of a point to 0 gives the foot of its perpendicular on a coordinate plane."""
     checks = []
     for point in (p for triple in random_triples() for p in triple):
         for axis in range(3):
@@ -128,14 +128,14 @@ def projection_along_axis() -> Check:
 
 @claim("thesis.56")
 def choice_of_projection() -> Check:
-    """Check that a triangle keeps a positive area on the coordinate plane that the rule chooses."""
+    """Check that a triangle's projection on the coordinate plane that the rule chooses has a positive area."""
     chosen = [(normal, 0 if normal[0] else 1 if normal[1] else 2) for normal in _normals()]
     return exhausted("26 normals", [_image_area(normal, axis) for normal, axis in chosen], "no image is a segment")
 
 
 @claim("thesis.54", "thesis.197", "thesis.125", "thesis.127", "thesis.236", full=400)
 def theorem_4_4(cases: int = CASES) -> Check:
-    """Check that projections of flat sets along a coordinate that their plane is not parallel to keep the vertices."""
+    """Check that dropping a coordinate keeps the vertices of a flat set unless the axis is parallel to its plane."""
     checks = []
     for sampled in sampled_sets(2, cases):
         plane = sampled.judge.plane

@@ -1,8 +1,8 @@
-"""Proofs of theorems 4.1 to 4.8 of the thesis.
+"""Proofs of theorems 4.3 to 4.7 of the thesis.
 
-Each proof is an argument in sentences and the steps and exact instances that it rests on; :mod:`modern.claims.algebra`
-checks the steps.  Points of the plane are a, b, c, ...; [a, b, c] is positive if c is to the left of the way from a to
-b.  The vertices of an H_j are named counterclockwise, so that h is outside the line a b if [a, b, h] is negative.
+Each proof is an argument in sentences and the steps on which the argument rests; :mod:`modern.claims.algebra` checks
+the steps.  Points of the plane are a, b, c, ...; [a, b, c] is positive if c is to the left of the line from a to b.
+The vertices of an H_j are named counterclockwise, so that h is outside the line a b if [a, b, h] is negative.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def theorem_4_3() -> Proof:
     (t,) = variables("t")
     u, w = minus(q, p), minus(q, x)
     (ux, uy, uz), (wx, wy, wz) = u, w
-    # Page 42: V, with the coordinates of the point in the differences from P2.
+    # Page 42 defines V by differences of coordinates between the point and P2.
     rows = (wy * uz - wz * uy, wz * ux - wx * uz, wx * uy - wy * ux)
     v, square, along = dot(rows, rows), dot(u, u), dot(u, w)
     to_line = tuple(a - t * b for a, b in zip(w, u, strict=True))
@@ -55,13 +55,13 @@ def theorem_4_3() -> Proof:
                 for a, b, c in ((ux, uy, uz), (uy, uz, ux), (uz, ux, uy))
             ),
             Step(
-                "no point is nearer than V / D^2",
+                "the square of no distance is less than V / D^2",
                 {},
                 not_negative(square * dot(to_line, to_line) - v),
                 (term("", foot),),
             ),
             Step(
-                "the foot has the distance V / D^2",
+                "the square of the distance of the foot is V / D^2",
                 {"foot": zero(foot)},
                 zero(square * dot(to_line, to_line) - v),
                 (term("foot", foot),),
@@ -82,7 +82,7 @@ def _sum(name: str, squares: tuple[Polynomial, ...]) -> tuple[Term, ...]:
 
 
 def theorem_4_4() -> Proof:
-    """Prove that a projection along an axis that is not parallel to the plane of the points keeps the vertices."""
+    """Prove that dropping a coordinate keeps the vertices unless its axis is parallel to the plane of the points."""
     k, a, b = point("k", 3), point("a", 3), point("b", 3)
     normal = variables("A B C")
     d, share = variables("D lambda")
@@ -131,7 +131,7 @@ def theorem_4_4() -> Proof:
 
 
 def theorem_4_6() -> Proof:
-    """Prove that A x + B y + C orders points on its positive side by their distance: d^2 (A^2 + B^2) = value^2."""
+    """Prove that the value of A x + B y + C orders the points on its positive side by their distance from the line."""
     (x, y), (s, t) = point("p", 2), point("foot", 2)
     a, b, c, v_m, v_j, d_m, d_j, square = variables("A B C v_m v_j d_m^2 d_j^2 A^2+B^2")
     value, on_line = a * x + b * y + c, a * s + b * t + c
@@ -144,13 +144,13 @@ def theorem_4_6() -> Proof:
         "have the order of their squares.",
         (
             Step(
-                "no point of the line is nearer",
+                "no point of the line is nearer than the foot of the perpendicular",
                 {"line": zero(on_line)},
                 not_negative(scaled),
                 (term("", across), term("line", on_line - 2 * value)),
             ),
             Step(
-                "the foot of the perpendicular has this distance",
+                "d^2 (A^2 + B^2) is the square of the value at the foot of the perpendicular",
                 {"line": zero(on_line), "foot": zero(across)},
                 zero(scaled),
                 (term("foot", across), term("line", on_line - 2 * value)),
@@ -173,7 +173,7 @@ def theorem_4_6() -> Proof:
 
 
 def _boundary_steps() -> Iterator[Step]:
-    """Yield the steps that a point with the largest value of a linear function is inside no triangle of points."""
+    """Yield the steps: a point where a linear function is largest is not inside a triangle of points of the set."""
     yield largest_value()
     p, q, r = point("p", 2), point("q", 2), point("r", 2)
     slope = variables("L_1 L_2")
@@ -190,7 +190,7 @@ def _boundary_steps() -> Iterator[Step]:
 
 
 def theorem_4_7() -> Proof:
-    """Prove that no point of a flat set is outside two lines of an H_j."""
+    """Prove that no point of a flat set is outside two lines of the same H_j."""
     a, b, c, d, h, v = (point(name, 2) for name in "abcdhv")
     between = turn(minus(b, a), minus(d, c))
     weights = -bracket(a, b, h), -bracket(c, a, h), bracket(c, a, b)
@@ -219,7 +219,7 @@ def theorem_4_7() -> Proof:
             *_boundary_steps(),
             *(Step("a is a combination of c, b and h", {}, zero(equation)) for equation in inside),
             Step(
-                "its weights are positive, and so is the area of c h b",
+                "the weights of c, b and h are positive, and so is the area of c h b",
                 {
                     "cab": positive(bracket(c, a, b)),
                     "ca": positive(-bracket(c, a, h)),
@@ -229,21 +229,21 @@ def theorem_4_7() -> Proof:
                 (term("cab"), term("ca"), term("ab")),
             ),
             Step(
-                "outside a b and c d is outside b c",
+                "a point outside a b and c d is outside b c",
                 {**quadrilateral, "turn": positive(between)},
                 positive(-bracket(b, c, h)),
                 sum_of_three,
                 ("turn",),
             ),
             Step(
-                "no point is outside parallel lines",
+                "no point is outside both of two parallel lines",
                 {**quadrilateral, "turn": zero(between)},
                 IMPOSSIBLE,
                 (*sum_of_three, term("turn", bracket(b, c, h))),
             ),
             *(
                 Step(
-                    "a multiple of the line is larger on one of its sides",
+                    "a multiple of a line's equation is larger on one of its sides",
                     {
                         "kappa": positive(sign * kappa),
                         "side": positive(sign * bracket(a, b, v)),
