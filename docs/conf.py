@@ -24,6 +24,8 @@ templates_path = ["_templates"]
 myst_enable_extensions = ["colon_fence", "deflist", "attrs_inline", "attrs_block"]
 myst_heading_anchors = 4
 nitpicky = True
+# The lexer of FORTRAN does not know the record marks of old decks.
+suppress_warnings = ["misc.highlighting_failure"]
 smartquotes_action = "q"  # only quotation marks: two hyphens begin an option and are no dash
 # Docstrings name classes and functions that have no page. Such a name is printed as code, without a link.
 nitpick_ignore_regex = [("py:.*", ".*")]
