@@ -9,7 +9,8 @@ How to add a command:
    ``--help``.  Import nothing there that only a run needs.
 3. ``modern/cli/shared/``: put here whatever two commands share.  No command imports another command.
 4. ``modern/cli/shared/console.py``: add the names of new arguments that are files to ``_INPUTS`` or ``_OUTPUTS``, so
-   that an output never overwrites an input, and is checked before the work.  ``print_report`` prints what is not data.
+   that ``check_outputs`` rejects, before the command runs, an output that cannot be written or is also an input.
+   Print the report of the command with ``print_report``, which uses standard error if the data go to standard output.
    The names of examples that the shell completes are in ``NAMES`` of ``modern/cli/shared/arguments.py``.
 5. ``tests/modern/cli/``: test the exit codes and messages.  ``docs/reference/commands.md`` describes the command
    automatically.

@@ -19,7 +19,7 @@ from modern.edition.grounds import Proof
 from modern.edition.sources import place
 
 _MOST_PROCESSES = 4
-"""More processes than these do not make a check faster."""
+"""The greatest number of processes for ``--check``; more processes do not make it faster."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -57,7 +57,7 @@ def _line(proof: Proof) -> str:
 
 
 def show(row: Row, width: int) -> Iterator[str]:
-    """Yield a row of the apparatus as lines of at most ``width`` columns."""
+    """Yield an emendation with its documentation, as lines of at most ``width`` columns."""
     yield f"{row.id}  {row.text}  p. {row.page}  {programs.cards_of(row)}  [{row.layer}, {row.kind}, {row.certainty}]"
     line = row.changes[0].line
     yield from _folded("source", f"{place(row.text, line) or f'after row {line}'}; cause: {row.cause}", width)

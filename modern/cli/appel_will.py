@@ -45,7 +45,7 @@ PREMISES: dict[Rule, str] = {
     "two": "a vertex of the hull lies on at least three outside corners",
     "concave": "a surface has an angle below 180 degrees at a vertex of the hull",
 }
-"""The premise of each rule for inside corners."""
+"""The assumption under which each rule of ``--inside-corners`` deletes no vertex of the hull."""
 
 MOST_POINTS = 50
 """The number of points above which each table is summarized in one line."""
@@ -90,7 +90,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _check_options(args: argparse.Namespace) -> None:
-    """Raise UsageError for the options of a picture without a picture."""
+    """Raise UsageError if an option applies only to a picture and the output is not that picture."""
     draws = args.output is not None and (args.output == "-" or args.output.lower().endswith(".svg"))
     for option, argument in (("--map", args.map), ("--star-of", args.star_of)):
         if argument and not draws:
@@ -124,7 +124,7 @@ def _written(
 
 
 def _pair(text: str) -> tuple[int, int]:
-    """Return the two points, counted from 0, of a text such as ``3-7``, which counts from 1.  Raise UsageError."""
+    """Return the indices (2, 6) for the text ``3-7``, which counts the points from 1.  Raise UsageError."""
     match = re.fullmatch(r"([0-9]{1,9})[-,]([0-9]{1,9})", text.strip())
     if not match:
         raise UsageError(f"--star-of: expected a line I-J by the numbers of its points, found {quoted(text)}")
@@ -132,12 +132,12 @@ def _pair(text: str) -> tuple[int, int]:
 
 
 def _names(args: argparse.Namespace) -> Sequence[str]:
-    """Return the names of the rules to use as printed."""
+    """Return the names of the rules of the paper that ``--literal`` or ``--printed`` applies as printed."""
     return PRINTED if args.literal else [name.strip() for name in (args.printed or "").split(",") if name.strip()]
 
 
 def _method(args: argparse.Namespace) -> Method:
-    """Return the method with these rules.  Raise UsageError for an unknown rule."""
+    """Return the method, with the rules that the options name applied as printed.  Raise UsageError."""
     try:
         return printed(*_names(args))
     except ValueError as error:
@@ -208,7 +208,7 @@ def _summary(source: Input, given: Sequence[Surface], hull: Assembled, joined: J
 
 
 def _sizes(loops: Sequence[Sequence[int]]) -> str:
-    """Return the number of loops by the number of their lines."""
+    """Return how many loops have each number of lines: `` (4 of 3 lines, 1 of 5 lines)``."""
     sizes = Counter(map(len, loops))
     return f" ({', '.join(f'{sizes[size]} of {size} lines' for size in sorted(sizes))})" if sizes else ""
 
@@ -224,7 +224,7 @@ def _kind(hull: Assembled) -> str:
 
 
 def _compared(given: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Fates:
-    """Return the fates of the input surfaces."""
+    """Return what happened to each input surface: kept, respecified or deleted."""
     if joined is None:
         return hull.fates(given)
     return fates_by_points(given, joined_points(hull, joined), joined_surfaces(hull, joined))
@@ -243,7 +243,7 @@ def _preprocessing(preprocessing: Preprocessing) -> Iterator[str]:
 
 
 def _growth(loop: Loop, width: int) -> Iterator[str]:
-    """Yield the start of a loop and the use of every edge after it, in as many columns as fit the width."""
+    """Yield the start of a loop, and how often each edge has been used after the loop, in tables that fit the width."""
     yield f"  type {loop.kind}, SP {loop.start + 1}, MP {loop.match + 1}"
     cell = len(str(len(loop.uses))) + 1
     columns = max(1, (width - len("  IUC(L)")) // cell)
@@ -266,13 +266,14 @@ def _fates(given: Sequence[Surface], fates: Fates) -> Iterator[str]:
 
 
 def _false_edges(source: Input, hull: Assembled) -> Iterator[str]:
-    """Yield the lines that the printed star polygon test mistakes for edges."""
+    """Yield a report of the lines between points that the star polygon test as printed mistakes for edges."""
     edges = set(appel_will(source.points).edges)
     false = [label for label, edge in enumerate(hull.edges, 1) if edge not in edges]
     if false:
         yield ""
         labels = ", ".join(map(str, false))
-        yield f"{len(false)} of {len(hull.edges)} lines are not edges of the hull, by images on one ray: {labels}"
+        yield f"{len(false)} of {len(hull.edges)} lines are not edges of the hull: {labels}"
+        yield "the star polygon test as printed accepts them, because images of two points lie on one ray"
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:

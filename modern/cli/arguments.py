@@ -1,8 +1,8 @@
 """The commands with their arguments and their lines in ``--help``.
 
 The arguments of the commands on points and on volumes are defined in ``modern/cli/shared/point_arguments.py`` and
-``modern/cli/shared/volume_arguments.py``.  These modules import nothing that only a run needs, which keeps ``--help``
-fast.
+``modern/cli/shared/volume_arguments.py``.  These modules import nothing that is needed only to run a command, so that
+``--help`` is fast.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def _reproduce(parser: ArgumentParser) -> None:
         help="an example 1 to 6, a theorem such as 4.1, a document (thesis, yau-srihari, ...) or the id of a statement "
         "(default: everything)",
     )
-    parser.add_argument("--show", action="store_true", help="show each print next to the result and mark differences")
+    parser.add_argument("--show", action="store_true", help="show each printed result next to the computed one")
     json_argument(parser, "verdicts")
 
 
@@ -61,7 +61,7 @@ def _hull(parser: ArgumentParser) -> None:
         help="pass numbers from program 1 to the next program with all their digits instead of the eight that a card "
         "holds",
     )
-    epsilon_argument(parser, "punch", "after N, and add the layer epsilon, which reads it")
+    epsilon_argument(parser, "punch", "on the first card, after N, and apply the layer epsilon, which reads it")
     parser.add_argument("--explain", action="store_true", help="if a run gives no hull, explain the reason at length")
     result_arguments(parser)
 
@@ -72,17 +72,17 @@ def _diverge(parser: ArgumentParser) -> None:
         "deck",
         metavar="DECK",
         nargs="?",
-        help="the data cards; for program2 and program3, the cards that program 1 punches (default: none, if the "
-        "program reads none)",
+        help="a file of data cards; for program2 and program3, of the cards that program 1 punched (may be omitted if "
+        "the program reads no cards)",
     )
     parser.add_argument(
         "--against",
         metavar="NAME",
         default="exact",
-        help="the reference arithmetic; differences that its own rounding may explain do not count "
+        help="compare --arithmetic with this arithmetic, and ignore differences that its rounding may explain "
         "(default: %(default)s)",
     )
-    parser.add_argument("--first", action="store_true", help="stop at the first different decision; compare no values")
+    parser.add_argument("--first", action="store_true", help="stop at the first branch that differs; compare no values")
     json_argument(parser, "comparison")
     compared_machine(parser)
 
@@ -94,9 +94,10 @@ def _listing(parser: ArgumentParser) -> None:
         "--against",
         metavar="NAME",
         default="exact",
-        help="count the digits lost against this arithmetic, or none to skip the comparison (default: %(default)s)",
+        help="count the digits that --arithmetic loses compared with this arithmetic; none skips the comparison "
+        "(default: %(default)s)",
     )
-    parser.add_argument("--operator", metavar="=FILE", help="answer ACCEPT and PAUSE from a file or a log")
+    parser.add_argument("--operator", metavar="=FILE", help="answer ACCEPT and PAUSE from FILE, or from a log of --log")
     parser.add_argument(
         "--commentary",
         action="store_true",
@@ -110,7 +111,7 @@ def _study(parser: ArgumentParser) -> None:
     parser.add_argument("name", metavar="NAME", nargs="?", help="a built-in study, or a plan file NAME.toml")
     parser.add_argument("--list", action="store_true", help="list the built-in studies")
     parser.add_argument("--families", action="store_true", help="list the families of point sets for plan files")
-    parser.add_argument("--measures", action="store_true", help="list the measures for the treatments of a plan file")
+    parser.add_argument("--measures", action="store_true", help="list the measures that a plan file can name")
     parser.add_argument(
         "--samples", metavar="N", type=int, help="draw N samples (default: depends on the study; see --list)"
     )
@@ -134,22 +135,24 @@ def _apparatus(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--check",
         action="store_true",
-        help="prove that the witness and the rows yield the decks, and that each reading is allowed and necessary",
+        help="check that the OCR text and the emendations yield the decks, and that each emendation is allowed and "
+        "necessary",
     )
     parser.add_argument(
-        "--text", metavar="FILE", help="with --check: compare the excerpts with this OCR text of a document"
+        "--text", metavar="FILE", help="with --check: compare the project's excerpts with FILE, a whole OCR text"
     )
     parser.add_argument(
         "--weigh",
         metavar="FOLDER",
-        help="alter every token of the listings and record the checks that notice it; continue a FOLDER begun earlier",
+        help="alter the tokens of the listings one at a time, and record in FOLDER the first check that detects each "
+        "alteration; results already in FOLDER are kept",
     )
-    parser.add_argument("--runs", metavar="FOLDER", help="with --weigh: folders of known decks, each with a deck.cards")
+    parser.add_argument("--runs", metavar="FOLDER", help="with --weigh: also run each data deck FOLDER/*/deck.cards")
     parser.add_argument(
         "--workers", metavar="N", type=int, default=1, help="with --weigh: use N processes (default: 1)"
     )
     parser.add_argument(
-        "--most", metavar="N", type=int, default=0, help="with --weigh: try only the first N variants (default: all)"
+        "--most", metavar="N", type=int, default=0, help="with --weigh: try only the first N alterations (default: all)"
     )
 
 
@@ -186,7 +189,7 @@ def _flowchart(parser: ArgumentParser) -> None:
     output_argument(parser, "FILE.svg")
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--page", metavar="N", type=int, help="draw page N only (default: all pages in one picture)")
-    which.add_argument("--table", action="store_true", help="write every path between two boxes as a text table")
+    which.add_argument("--table", action="store_true", help="write a text table of the paths from box to box")
     parser.set_defaults(endings=(".svg",))
 
 
@@ -204,9 +207,9 @@ def _tei(parser: ArgumentParser) -> None:
         help="validate TEXT, or every text, against a RELAX NG schema in XML (default: the project's own)",
     )
     which.add_argument("--read", metavar="FILE.xml", help="write the corrected text or deck that a document contains")
-    parser.add_argument("--layers", metavar="L,...", help="with --read: apply these layers (default: the edition's)")
-    parser.add_argument("--witness", action="store_true", help="with --read: write the uncorrected witness")
-    parser.add_argument("--part", metavar="NAME", help="with --read: write one device file, as example1/program1.deck")
+    parser.add_argument("--layers", metavar="L,...", help="with --read: apply these layers of emendations")
+    parser.add_argument("--witness", action="store_true", help="with --read: write the uncorrected OCR text")
+    parser.add_argument("--part", metavar="NAME", help="with --read: write only a deck such as example1/program1.deck")
     parser.set_defaults(endings=(".xml", ".f", ".txt", ".deck", ".punch", ".typewriter", ".rng"))
 
 
@@ -221,8 +224,8 @@ def _punched(parser: ArgumentParser) -> None:
         "--output",
         metavar="FILE.svg",
         default="-",
-        help="draw one picture, or one per card if the name has a place for its number: 'card-%%03d.svg' "
-        "(default: '-')",
+        help="draw all cards in one picture, or one picture per card if the name contains a place for the card number, "
+        "such as 'card-%%03d.svg' (default: '-', standard output)",
     )
     parser.add_argument("--across", metavar="N", type=int, default=1, help="draw N cards per row (default: 1)")
     parser.set_defaults(endings=(".svg",))
@@ -245,11 +248,11 @@ def _bench(parser: ArgumentParser) -> None:
 COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "reproduce": ("compute the printed results of the thesis and the later papers, and compare them", _reproduce),
     "run": ("run a FORTRAN program on the emulated 1620", _run),
-    "hull": ("find the hull of a data deck: run program 1, then program 2 or 3 as the typewriter tells", _hull),
+    "hull": ("find the hull of a data deck: run program 1, then the program that it names on the typewriter", _hull),
     "cards": ("punch points as a data deck", point_arguments.cards),
     "diff": ("compare the hulls of the 1963 programs, the port and the exact hull", point_arguments.diff),
-    "diverge": ("run a program in two arithmetics, and report the first value and decision that differ", _diverge),
-    "study": ("judge the hulls of many samples, and report a table, plots and conclusions", _study),
+    "diverge": ("run a program in two arithmetics, and report the first value and branch that differ", _diverge),
+    "study": ("find and judge the hulls of many point sets, and report a table, plots and conclusions", _study),
     "export": ("write the exact hull of points as a mesh or as JSON", point_arguments.export),
     "draw": ("draw the exact hull of points as SVG", point_arguments.draw),
     "appel-will": ("find the hull of a polyhedron from its convex edges, by Appel & Will", point_arguments.appel_will),

@@ -23,7 +23,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _deck(program: Program, core: int, library: str | None) -> list[str]:
-    """Return the numbered cards of an object program, with the library if its deck is named."""
+    """Return the numbered cards of an object program, inserted into the deck ``library`` if it is named."""
     cards = object_cards(program, core)
     if library is None:
         return numbered(cards, LOADER_CARDS + 1)

@@ -37,7 +37,7 @@ _HEAD = ("route", "status", "vertices", "misfiled", "planes", "error", "excluded
 class Route:
     """The outcome of one program or of the port, and its difference from the exact hull.
 
-    obstacle: why it could not be run, or empty.  cause: why it gave no hull.
+    obstacle: why the program could not be run, or empty.  cause: why the run gave no hull, or None.
     """
 
     outcome: Outcome
@@ -92,7 +92,7 @@ def _routes(args: argparse.Namespace, source: Input, points: list[Vector]) -> It
             yield Route(Outcome(name, _NOT_RUN, -1), obstacle=deck)
             continue
         if "epsilon" in applied and (args.epsilon or "").startswith("rel:"):
-            yield Route(Outcome(name, _NOT_RUN, -1), obstacle="cards hold only an absolute e")
+            yield Route(Outcome(name, _NOT_RUN, -1), obstacle="a card holds an absolute e, not rel:E")
             continue
         try:
             data = with_epsilon(deck, args.epsilon or "0") if "epsilon" in applied else deck
@@ -141,7 +141,7 @@ def _table(routes: list[Route], exact: Outcome, source: Input) -> Iterator[str]:
 
 
 def _notes(outcome: Outcome) -> list[str]:
-    """Return notes on an outcome for below the table."""
+    """Return the notes on an outcome that are printed below the table."""
     notes = [] if outcome.ending is None else [outcome.ending.message]
     if outcome.faulty:
         notes.append(f"equations {', '.join(map(str, outcome.faulty))} do not vanish at their points")

@@ -98,7 +98,7 @@ def _compared(
 
 
 def _commentary(args: argparse.Namespace) -> tuple[dict[int, list[str]], list[str]]:
-    """Return the lines above each card that begins a block, and the lines that explain the variables."""
+    """Return the lines to print above each card that begins a block, by card, and those that explain the variables."""
     if args.program not in programs.NAMES or args.layers:
         raise UsageError(
             f"--commentary: expected a program of the thesis without further layers: {', '.join(programs.NAMES)}"

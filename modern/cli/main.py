@@ -63,7 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if stream is not None:
                 stream.flush()
         except OSError as error:
-            # Python must not fail again when it flushes the stream at exit.
+            # Send the rest of the stream to the null device; otherwise Python would fail again when it exits.
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
             code = code if isinstance(error, BrokenPipeError) else BAD_INPUT
     return code

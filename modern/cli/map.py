@@ -56,7 +56,7 @@ def map_lines(program: Program, core: int) -> Iterator[str]:
 
 
 def capacity_line(program: Program, core: int) -> str:
-    """Return the line on the number of points that fit the machine."""
+    """Return a line that reports how many points the program could process in a machine of ``core`` positions."""
     points = largest(program, core)
     arrays = f"  with arrays of {' and '.join(array_lengths(program))} fields"
     if points:

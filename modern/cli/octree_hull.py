@@ -60,7 +60,7 @@ def _in_space(volume: Volume) -> Volume:
 
 
 def _printed(args: argparse.Namespace) -> Printed:
-    """Return the statements to use as printed.  Raise UsageError for an unknown name."""
+    """Return which statements of the paper to apply as printed instead of corrected.  Raise UsageError."""
     if args.literal:
         return LITERAL
     try:

@@ -44,7 +44,7 @@ _REASON_FOR_ORDER = (
 _PAINT_KINDS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DIFFERENT: DIFFERENT}
 _MOST_LINES = 4
 _OVERALL = ("Every", "NOT every")
-"""The start of the overall verdict."""
+"""The first words of the last line: if all results agree, and if one does not."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -157,7 +157,7 @@ def _example_lines(
 
 
 def _same(verdict: Verdict) -> str:
-    """Return the parts that agree if only the order differs, otherwise an empty string."""
+    """If a result is exact in another order, return its parts, such as vertices, with counts; otherwise nothing."""
     counted = ", ".join(f"{count} {_PARTS[part]}" for part, count in verdict.same)
     return f"the same {counted}" if counted else ""
 
@@ -307,7 +307,8 @@ def _finding_lines(
 ) -> Iterator[str]:
     """Yield the verdicts on a paper's results.
 
-    compare: shows the print next to every result; without it, only the differing lines are shown.
+    compare: a function that shows a printed result next to the computed one.  Without it, only lines that differ are
+    shown.
     """
     yield paper.title
     for finding in paper_findings:
@@ -318,7 +319,7 @@ def _finding_lines(
             yield from indented(result.cannot or result.differs)
         if finding.kind == CORRECTED:
             rows = ", ".join(f"{row.id} ({row.kind})" for row in result.rows)
-            yield from indented(f"the print was corrected by {rows}")
+            yield from indented(f"the printed result was corrected by {rows}")
         if compare is not None:
             yield from compare(finding)
         elif finding.kind in (EXPLAINED, DIFFERENT):

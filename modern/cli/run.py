@@ -41,7 +41,7 @@ def main(args: argparse.Namespace) -> int:
         try:
             result = machine.run(attendance.operator, output)
         except (CardError, DeckError, OperatorError) as error:
-            # Raised after the outputs are closed: what was punched, typed and traced before the invalid card is kept.
+            # Raise the error after the outputs are closed, so that they keep the output before the invalid card.
             failure, result = error, machine.result()
     if failure is not None:
         raise failure

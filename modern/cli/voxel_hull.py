@@ -87,12 +87,12 @@ def _fill(args: argparse.Namespace) -> None:
 
 
 Write = Callable[[str], None]
-"""Writes the hull of a label to a file."""
+"""A function that writes the hull of one label to the file of the given name."""
 
 
 def _tabulate_labels(args: argparse.Namespace) -> None:
     """Print a table of labels, and write a file for each; nothing is written if one of the labels fails."""
-    from emulator.progress import Progress  # only many labels need it
+    from emulator.progress import Progress  # imported here because only --each-label needs it
 
     labels = choice_of(args).labels
     scan = scan_of(args)
@@ -166,7 +166,7 @@ def _check_options(args: argparse.Namespace) -> None:
 
 
 def _check_output(args: argparse.Namespace) -> None:
-    """Raise UsageError if the name of the output has no place for a label, or ends with a format not written."""
+    """Raise UsageError if the output's name lacks a place for the label, or has the ending of an unsupported format."""
     if args.output is None:
         return
     if args.each_label:
@@ -185,7 +185,7 @@ def _ending(path: str) -> str:
 
 
 def _count_lines(hull: VoxelHull) -> Iterator[str]:
-    """Yield the counts of section 2 of the paper and the sizes of section 4."""
+    """Yield the counts of local corners (section 2 of the paper) and the sizes of the cell lists (section 4)."""
     noun = "voxels" if hull.of == CENTRES else "voxel vertices"
     counts = ", ".join(f"{count} by {tested} neighbours" for tested, count in hull.corners.items())
     yield f"local corners of the {noun}: {counts}"

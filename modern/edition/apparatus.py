@@ -26,7 +26,7 @@ _OURS = ("lacuna", "examples", "epsilon", "translation", "corrected")
 _LIKENESS = ("sibling",)
 # A snapshot of the page is stored before every sixteenth row.
 _SNAPSHOT_EVERY = 16
-# Kinds that insert text that the witness does not have.
+# The kinds of rows that insert text that the witness lacks.
 _ADDS = ("lost", "lost-sign", "slip")
 _CAUSES = ("ocr", "typist", "author", "editor", "undecidable")
 # The default cause of the rows of a layer.  For layers not listed here it is the editor.
@@ -191,8 +191,8 @@ def build(
     """Return the lines of the witness after the rows of ``layers`` (by default, the text's default layers).
 
     The rows whose ids are in ``without`` are not applied.  ``instead`` is a row that replaces the row with the same id.
-    Layers always apply in the text's order.  Raises ApparatusError for an unknown layer, and RowMisfit if the witness
-    fragment of a row does not occur exactly once in its line.
+    Layers are applied in the order of ``text.layers``.  Raises ApparatusError for an unknown layer, and RowMisfit if
+    the witness fragment of a row does not occur exactly once in its line.
     """
     chosen = set(text.default if layers is None else layers)
     unknown = chosen.difference(text.layers)
@@ -220,7 +220,7 @@ def build(
 def built_without(text: Text, row_id: str) -> tuple[frozenset[str], tuple[Line, ...]]:
     """Return the ids of a row and of the rows that depend on it, and the text of all layers without these rows.
 
-    A row depends on another if it changes a card that the other inserts, or a fragment that the other supplies.
+    Row B depends on row A if B changes a card that A inserts, or a fragment that A supplies.
     """
     removed = {row_id}
     while True:

@@ -1,7 +1,7 @@
-"""The worked examples of chapter 4 (theorems 4.1, 4.2 with Table 1, and 4.8) as exact data.
+"""The worked examples of chapter 4 of the thesis (theorems 4.1, 4.2 with Table 1, and 4.8) as exact data.
 
-Each point and plane names a line of the corrected print (witness and apparatus of ``transcripts/chapter4``) and quotes
-its words.  :func:`theorem_faults` parses these words and compares the result with the data.
+Each point or plane names the line of the corrected text of chapter 4 that prints it, and quotes the words of that line.
+:func:`theorem_faults` parses these words and compares the result with the data.
 """
 
 import re
@@ -51,9 +51,9 @@ class Plane:
 class Theorem:
     """A worked example.
 
-    ``extremes`` maps lx, sx, ly, sy, lz and sz (the points with largest and smallest x, y and z) to point names;
-    ``signs`` holds (plane, point, sign).  ``lost`` names the points that the OCR lost and the text does not determine.
-    They have no coordinates.
+    ``extremes`` maps lx, sx, ly, sy, lz and sz (the points with largest and smallest x, y and z) to point names.
+    ``signs`` holds triples (plane, point, sign): the sign of the plane's equation at the point, as the text states it.
+    ``lost`` names the points whose coordinates the OCR lost and the text does not determine.
     """
 
     id: str
@@ -129,7 +129,7 @@ def printed_plane(equation: str) -> Vector:
 
 
 def theorem_faults(theorem: Theorem, text: Text, lines: Sequence[Line] | None = None) -> tuple[str, ...]:
-    """Return the differences between a theorem's data and the print, and the claims that exact arithmetic refutes."""
+    """Return the differences between a theorem's data and its text, and the claims that exact arithmetic refutes."""
     faults: list[str] = []
     at = {line.id: "".join(line.text.split()) for line in (build(text) if lines is None else lines)}
     name = f"theorem {theorem.id}"

@@ -1,9 +1,9 @@
 """The layout of chapter 6 (``transcripts/chapter6/layout.toml``) and its committed device files.
 
-The print of chapter 6 gives words, numbers and their order.  The layout supplies columns and blank cards, which the OCR
-lost, from the FORMAT statements (layer ``layout``), and the typewriter lines, which the thesis states but does not
-print (layer ``stated``).  :mod:`modern.edition.chapter6_cards` combines print and layout into *device files*: an input
-deck, the cards that a program punches, or the lines that it types.
+The printed text of chapter 6 gives words, numbers and their order.  The layout adds what the text lacks: columns and
+blank cards, which the OCR lost and the FORMAT statements determine (layer ``layout``), and the typewriter lines, which
+the thesis describes but does not print (layer ``stated``).  :mod:`modern.edition.chapter6_cards` combines text and
+layout into *device files*: an input deck, the cards that a program punches, or the lines that it types.
 """
 
 import tomllib
@@ -62,7 +62,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class CardShape:
-    """One card of a FORMAT: card ``record`` (from 1, including blank cards) of a list of ``values`` numbers."""
+    """One of the cards that a FORMAT punches for ``values`` numbers; ``record`` counts from 1, with blank cards."""
 
     id: str
     program: int
@@ -168,7 +168,7 @@ def input_deck(example: int, folder: Traversable | None = None) -> Deck:
 
 
 def prints(example: int, folder: Traversable | None = None) -> Iterator[Print]:
-    """Yield the print of every output device of every program of an example."""
+    """Yield the lines of each output device of each program of an example, as the thesis prints or states them."""
     outputs: tuple[Output, ...] = ("punch", "typewriter")
     place = (folder or chapter6_folder()).joinpath(f"example{example}")
     for program in (1, 2, 3):

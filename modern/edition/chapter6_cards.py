@@ -1,8 +1,8 @@
-"""The printed examples of chapter 6 as card images, with the printed line of every character.
+"""The printed examples of chapter 6 as card images, with the printed line from which each character comes.
 
-A device file is the corrected print (witness and apparatus, :mod:`modern.edition.apparatus`) set into the columns of
-``layout.toml``.  The print supplies all nonblank characters and their order.  The layout supplies the columns and blank
-cards.  No output of a program is used.
+A device file is the corrected text of an example (:mod:`modern.edition.apparatus`) set into the columns of
+``layout.toml``.  The text supplies all nonblank characters and their order.  The layout supplies the columns and blank
+cards.  The output of our runs is not used.
 """
 
 import re
@@ -66,7 +66,7 @@ class Chapter:
 
 
 def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
-    """Read chapter 6 with the rows of ``layers`` (by default all), except the rows ``without``."""
+    """Read chapter 6 with the rows of ``layers`` (by default all layers), except those whose ids are in ``without``."""
     return rebuilt(*_text_and_layout(), layers, without)
 
 
@@ -77,7 +77,7 @@ def _text_and_layout() -> tuple[Text, Layout]:
 
 
 def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
-    """Return the chapter for a text and a layout that are already read."""
+    """Return what ``load_chapter`` returns, for a text and a layout that have been read already."""
     applied = tuple(text.default if layers is None else layers)
     return _chapter(text, build(text, applied, without), layout, applied, frozenset(without), {})
 
@@ -116,7 +116,7 @@ def device_layout(chapter: Chapter, example: int, program: int, device: Device) 
 
 
 def printed_lines(chapter: Chapter, entry: DeviceLayout) -> tuple[Line, ...]:
-    """Return the lines of the corrected print that a device file covers; empty for a typewriter."""
+    """Return the lines of the corrected text that make up a device file; none for a typewriter."""
     if entry.span is None:
         return ()
     places = chapter.places
@@ -127,7 +127,7 @@ def printed_lines(chapter: Chapter, entry: DeviceLayout) -> tuple[Line, ...]:
 
 
 def cards(chapter: Chapter, example: int, program: int, device: Device) -> tuple[Card, ...]:
-    """Return the cards or typed lines of a device file. Raise TranscriptError if the print does not fill them."""
+    """Return the cards or typed lines of a device file. Raise TranscriptError if the corrected text does not fit."""
     entry = device_layout(chapter, example, program, device)
     if entry.layer == "stated":
         return tuple(Card(example, program, device, i, "", "", t, ()) for i, t in enumerate(entry.typed, start=1))

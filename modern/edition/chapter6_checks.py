@@ -1,9 +1,9 @@
-"""Checks of the whole transcript of chapter 6.  Each returns its faults, one line for each fault.
+"""Checks of the whole transcript of chapter 6.  Each function returns the faults that it finds, one line for each.
 
-* :func:`check_tie`: Cards and print have the same characters in the same order, and every line is used.
-* :func:`check_rows`: The ground of every row holds, and no row is superfluous.
+* :func:`check_tie`: The cards have the characters of the printed lines in the same order, and every line is used.
+* :func:`check_rows`: The evidence of every emendation holds, and no emendation is superfluous.
 * :func:`check_layout`: Columns, blank cards and words of the cards agree with the FORMAT statements.
-* :func:`check_arithmetic`: The printed numbers are consistent.
+* :func:`check_arithmetic`: The printed points, planes and counts agree with each other.
 * :func:`check_files`: The committed device files equal those built from witness, apparatus and layout.
 """
 
@@ -35,7 +35,7 @@ def check_chapter(chapter: Chapter, folder: Traversable | None = None) -> tuple[
 
 
 def check_tie(chapter: Chapter) -> tuple[str, ...]:
-    """Check that cards and print have the same characters, and that each printed line is a card or a heading."""
+    """Check that the cards have the characters of the printed lines, and that each line is a card or a heading."""
     faults: list[str] = []
     used: list[str] = list(chapter.layout.headings)
     for entry in chapter.layout.devices:
@@ -48,7 +48,7 @@ def check_tie(chapter: Chapter) -> tuple[str, ...]:
             faults.append(f"{entry.file}: the characters of its cards differ from those of its printed lines")
     known = [line.id for line in chapter.print]
     faults += [f"line {i} of the corrected print belongs to no card and no heading" for i in known if i not in used]
-    faults += [f"line {i} is used twice" for i in sorted(set(used)) if used.count(i) > 1]
+    faults += [f"line {i} of the corrected print is used twice" for i in sorted(set(used)) if used.count(i) > 1]
     faults += [f"heading line {i} is not in the corrected print" for i in used if i not in known]
     return tuple(faults)
 
@@ -88,9 +88,9 @@ def check_layout(chapter: Chapter) -> tuple[str, ...]:
 
 
 def records(text: str, values: int) -> tuple[tuple[tuple[Field, str], ...], ...]:
-    """Return the fields of the cards that FORMAT ``text`` punches for ``values`` numbers, each with its word.
+    """Return, for each card that FORMAT ``text`` punches for ``values`` numbers, its fields and their printed words.
 
-    The word of a number is empty. Raise Refused if the FORMAT does not parse or has too few fields.
+    The word of a numeric field is empty. Raise Refused if the FORMAT does not parse or has too few fields.
     """
     spec, _ = parse_format(Format(text, tuple(Place(1, column) for column in range(1, len(text) + 1))))
     card_fields: list[list[tuple[Field, str]]] = [[]]
@@ -127,13 +127,14 @@ def _whole_formats(entry: DeviceLayout, sizes: dict[tuple[int, int, int], int]) 
         begins = shape is None or shape.record == 1
         if not (follows or (ended and begins)):
             name = shape.id if shape else "the end"
-            faults.append(f"{entry.file}: {name} cannot follow {before.id if before else 'the beginning'}")
+            after = before.id if before else "the beginning"
+            faults.append(f"{entry.file}: {name} cannot follow {after}, because a FORMAT's cards must be complete")
         before = shape
     return faults
 
 
 def check_arithmetic(chapter: Chapter) -> tuple[str, ...]:
-    """Check that all decks of an example have the same points and N, and that its planes support the hull."""
+    """Check that all files of an example have the same points and N, and that its planes have no point outside."""
     faults: list[str] = []
     for example in sorted({d.example for d in chapter.layout.devices}):
         deck = sorted(numbers(card) for card in of_role(chapter, example, 1, "point", "deck"))
@@ -184,7 +185,7 @@ def _counts(chapter: Chapter, example: int, size: int) -> list[str]:
         for card in cards(chapter, example, program, device):
             texts = [token.text for token in card.tokens]
             if (card.role == "n" or texts[:1] == ["N="]) and int(texts[0 if card.role == "n" else 1]) != size:
-                faults.append(f"{name}: card {card.number} says N is not {size}")
+                faults.append(f"{name}: card {card.number}: N is not {size}, the number of points of the deck")
     return faults
 
 

@@ -1,18 +1,21 @@
-"""Check the grounds of the rows of chapter 6 with exact decimals.
+"""Check the grounds of the rows of chapter 6: the evidence for each emendation, tested with exact decimals.
 
-The ground of a row must hold in the corrected print, and must fail if the row and the rows that depend on it are left
-out.  This detects both superfluous and wrong rows.  Grounds use the print alone, never a run of a program.
+The ground of a row must hold in the corrected text, and must fail if the row and the rows that depend on it are left
+out.  This detects both superfluous and wrong rows.  Grounds use the printed text alone, never a run of a program.
 
 The kinds of ground (table ``ground`` of a row; ``also`` may hold a second ground, which must hold too):
 
-``width``       without the row, its lines contain text that is not a number of the field; with it, they do not
-``deck``        the numbers of ``example, program, device, card`` (or only number ``field``) occur in the row's line
-``arithmetic``  ``check = "plane"``: equation n vanishes at its printed vertices, which are the named ones;
-                ``"carrier"``: the plane of example 4 vanishes at all points; ``"centre"``: the centre is the mean of
-                the first four points; ``"minus-with-point"``: a decimal point that the OCR lost had a minus before it
+``width``       every line that the row changes consists of well-formed numbers and words; without the row, it does not
+``deck``        the numbers on the card ``example, program, device, card`` (or only its number ``field``) occur in a
+                line that the row changes
+``arithmetic``  ``check = "plane"``: the equation vanishes at its printed vertices, which are those that the ground
+                names; ``"carrier"``: the plane of example 4 vanishes at all points; ``"centre"``: the point C is the
+                mean of the first four points; ``"minus-with-point"``: in the named lines the OCR lost the decimal
+                points of exactly the negative numbers
 ``sibling``     the words occur in the ``own`` lines and in the ``lines`` of another part of the chapter
-``order``       ``lines``: the pieces sorted by their columns have the order of the row; ``role``: the numbers of a
-                table count up from 1; ``page``: the piece is the number of its page
+``order``       ``lines``: sorting these lines of the witness by their first columns gives the order that the row
+                makes; ``role``: the numbers of the table of this role count up from 1; ``page``: the row deletes the
+                number of a page
 """
 
 import re
@@ -32,7 +35,7 @@ Ground = Mapping[str, Any]
 
 
 def row_faults(chapter: Chapter, row: Row) -> tuple[str, ...]:
-    """Return the faults of a row: a ground that fails in the corrected print, or that holds without the row."""
+    """Return the faults of a row: each ground that fails in the corrected text, or that also holds without the row."""
     grounds = [row.ground, *([row.ground["also"]] if "also" in row.ground else [])]
     faults = []
     without = without_row(chapter, row.id)
@@ -67,7 +70,7 @@ def solid(text: str) -> str:
 
 
 def well_formed(text: str, signed: bool) -> bool:
-    """Return True if a printed line holds only E14.8 numbers, short integers and words in card characters.
+    """Return True if a printed line consists only of E14.8 numbers, short integers and words in card characters.
 
     ``signed`` is True for a line of an input deck, where every number has a printed sign.
     """
@@ -121,7 +124,7 @@ def _count(chapter: Chapter, row: Row, value: Decimal) -> int:
 
 
 def vertices(chapter: Chapter, example: int, program: int) -> tuple[tuple[Decimal, ...], ...]:
-    """Return the points to which the planes of an output refer: its vertices or endpoints, or the first four points."""
+    """Return the points that the planes of an output contain: its vertices or endpoints, else its first four points."""
     roles: tuple[Role, ...] = ("vertex", "endpoint", "point")
     for role in roles:
         if point_cards := of_role(chapter, example, program, role):
@@ -134,7 +137,7 @@ def plane_at(plane: Sequence[Decimal], point: Sequence[Decimal]) -> Decimal:
 
 
 def incidences(chapter: Chapter, example: int, program: int) -> dict[int, tuple[int, ...]]:
-    """Map each equation number to its printed vertices, which intermediate decks have on the card of the plane."""
+    """Map each equation number to its printed vertices.  Intermediate decks have them on the card of the plane."""
     if planes := of_role(chapter, example, program, "plane"):
         return {n: integers(card) for n, card in enumerate(planes, start=1)}
     if program == 1 and (table := of_role(chapter, example, 1, "incidence")):
@@ -207,7 +210,7 @@ def _order(chapter: Chapter, row: Row, ground: Ground) -> bool:
 
 
 def _by_columns(chapter: Chapter, row: Row, ids: Sequence[str]) -> bool:
-    """Return True if the pieces of the witness are not in the order of their columns and the row alone sorts them."""
+    """Return True if the named lines of the witness are not in the order of their columns, and the row sorts them."""
     witness = [line for line in chapter.text.witness if line.id in ids]
     ordered = sorted(witness, key=lambda line: len(line.text) - len(line.text.lstrip()))
     others = frozenset(r.id for r in chapter.text.rows) - {row.id}

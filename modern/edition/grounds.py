@@ -1,15 +1,15 @@
-"""Prove that each row of the apparatus of the listings is needed.
+"""Check the evidence for each emendation (row of the apparatus) of the listings.
 
-The ground of a row names the evidence, and :func:`check_row` removes the row and tests it.  There are five kinds:
+The ground of a row names its evidence.  :func:`check_row` removes the row and tests the ground.  There are five kinds:
 
 ``parse``     without the row, the deck does not compile
 ``print``     without the row, a printed result is no longer reproduced
-``deck``      without the row, a data deck punches different cards
-``forced``    with the row, the card equals a similar card with the names exchanged; without it, it does not
-``cosmetic``  the object code is the same with and without the row
+``deck``      without the row, the program punches different cards for a data deck
+``forced``    with the row, the card equals a similar card with the names exchanged; without the row, it does not
+``cosmetic``  the row changes only the look of a card: the object code is the same with and without the row
 
-If a row consists of several steps (:mod:`modern.edition.readings`), each step is also removed alone, and the ground
-must fail each time.
+If a row consists of several steps (:mod:`modern.edition.readings`), each step is also removed alone, and the test of
+the ground must have the same result.
 
 To judge a row of an optional layer, its layer and the layers that its ground names are added to all three programs.
 The result with all rows of the layer is compared with the result without this row.
@@ -43,7 +43,7 @@ from modern.thesis.job import run_hull
 LISTED = Options(limit=200_000)
 # The tables and cards of the optional layers need 60,000 digits of memory.
 LAYERED = Options(limit=1_000_000, core=60_000)
-# A job without a row counts as different if it executes this many times the statements of the job with the row.
+# If a job without a row executes this many times the statements of the job with the row, its result is different.
 LIMIT_FACTOR = 4
 
 
@@ -138,7 +138,7 @@ def _name(row: Row) -> str:
 
 
 def layers_for(row: Row) -> tuple[str, ...]:
-    """Return the optional layers with which a row is judged: its own and those that its ground names."""
+    """Return the optional layers with which a row is judged: the row's layer and those that its ground names."""
     if row.layer in programs.built_in(_name(row)).layers:
         return ()
     return (row.layer, *(str(layer) for layer in row.ground.get("layers", ())))
@@ -182,17 +182,17 @@ def _parse(row: Row, step: Step | None) -> tuple[bool, str]:
     except EmulatorError as error:
         message = str(error)
     if message:
-        return True, f"without it: {message}"
-    return False, "without it the deck still compiles"
+        return True, f"without the row: {message}"
+    return False, "without the row the deck still compiles"
 
 
 def _cosmetic(row: Row, step: Step | None) -> tuple[bool, str]:
     whole = _whole(row)
     program, message = _compiled(row, step)
     if program is None:
-        return False, f"without it the deck does not compile: {message}"
+        return False, f"without the row the deck does not compile: {message}"
     same = program.code == whole.code and program.formats == whole.formats
-    return same, f"the object code is {'the same' if same else 'not the same'} with and without it"
+    return same, f"the object code is {'the same' if same else 'not the same'} with and without the row"
 
 
 def _print(row: Row, step: Step | None) -> tuple[bool, str]:
@@ -204,13 +204,13 @@ def _print(row: Row, step: Step | None) -> tuple[bool, str]:
         return False, "the ground names no example"
     program, message = _compiled(row, step)
     if program is None:
-        return False, f"without it the deck does not compile: {message}"
+        return False, f"without the row the deck does not compile: {message}"
     for example in examples:
         with_row, without_row = _printed(example, state, number), _exact(example, state, number, {name: program})
         if not with_row or without_row:
             exactness = ["exact" if exact else "not exact" for exact in (with_row, without_row)]
-            return False, f"example {example}, program {number}: {exactness[0]} with it, {exactness[1]} without"
-    return True, f"example {', '.join(map(str, examples))} is exact with it, not without"
+            return False, f"example {example}, program {number}: {exactness[0]} with the row, {exactness[1]} without"
+    return True, f"example {', '.join(map(str, examples))} is exact with the row, not without"
 
 
 @cache
@@ -234,19 +234,19 @@ def _deck(row: Row, step: Step | None) -> tuple[bool, str]:
     whole = _whole(row)
     program, message = _compiled(row, step)
     if program is None:
-        return False, f"without it the deck does not compile: {message}"
+        return False, f"without the row the deck does not compile: {message}"
     if whole.storage != program.storage and len(whole.code) == len(program.code):
         # The row changes only the size of an array.  Without it the cards may be the same, but a subscript exceeds the
         # smaller array.  This shows that the row is needed.
         ending = _outcome(_name(row), layers_for(row), program, data).ending
         if isinstance(ending, Ending) and ending.kind == "bounds" and _has_room(whole, ending):
-            return True, f"deck {deck_name} needs the larger array; without it: {ending.message}"
+            return True, f"deck {deck_name} needs the larger array; without the row: {ending.message}"
     with_row = _with_row(_name(row), layers_for(row), deck_name)
     without_row = _outcome(_name(row), layers_for(row), program, data, LIMIT_FACTOR * with_row.longest + LOOP_WINDOW)
     if with_row.same_as(without_row):
-        return False, f"deck {deck_name} punches the same cards without it"
+        return False, f"deck {deck_name} gives the same cards without the row"
     normal_end = with_row.trouble or "an empty hopper"
-    return True, f"deck {deck_name} ends with {normal_end}; without it: {without_row.trouble or 'different cards'}"
+    return True, f"deck {deck_name} ends with {normal_end}; without the row: {without_row.trouble or 'different cards'}"
 
 
 def _has_room(program: Program, ending: Ending) -> bool:
@@ -265,7 +265,7 @@ def ground_deck(name: str) -> Deck | None:
 
 @dataclass(frozen=True, slots=True)
 class _Outcome:
-    """The lines punched and typed by a job, its ending or error, and the longest run in statements."""
+    """The lines that a job punched and typed, its ending or error, and the statements executed by its longest run."""
 
     lines: tuple[str, ...]
     ending: Ending | EmulatorError
@@ -321,13 +321,13 @@ def _forced(row: Row, step: Step | None) -> tuple[bool, str]:
     if with_row != expected:
         return False, f"card {card} differs from card {sibling} with names exchanged"
     if without_row == expected:
-        return False, f"card {card} equals card {sibling} with names exchanged also without it"
+        return False, f"card {card} equals card {sibling} with names exchanged also without the row"
     exchanged = ", ".join(f"{a} for {b}" for a, b in exchange.items())
-    return True, f"card {card} equals card {sibling} with {exchanged}, but not without it"
+    return True, f"card {card} equals card {sibling} with {exchanged}, but not without the row"
 
 
 def _card(deck: Deck, place: str) -> str:
-    """Return the statement at the place LABEL or LABEL+n, without its blanks and its number."""
+    """Return the statement with number LABEL, or the n-th after it for LABEL+n, without blanks and number."""
     label, _, steps = place.partition("+")
     statements = list(sources(deck))
     at = next(i for i, s in enumerate(statements) if s.label == label)

@@ -61,7 +61,8 @@ def text(name: str) -> Text:
 def _named(name: str, layers: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...]:
     """Return the name of each card of a built-in program in the edition, and the rows that changed the card.
 
-    The name is the distance from the last statement number (``147+1``), or for a comment the next statement.
+    A card is named after the last statement number, with the distance from it (``147+1``), and a comment after the
+    next statement (``before 106``).
     """
     entry = built_in(name)
     lines = build(text(entry.text), (*entry.layers, *layers))
@@ -105,7 +106,7 @@ def committed(name: str) -> Deck:
 def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), instead: Row | None = None) -> Deck:
     """Build a built-in program with additional ``layers``; ``without`` and ``instead`` are those of ``build``.
 
-    Raises ApparatusError if a row does not fit, and CardError if a reading of the OCR remains.
+    Raises ApparatusError if a row does not fit, and CardError if a character remains that no card can have.
     """
     entry = built_in(name)
     lines = build(text(entry.text), (*entry.layers, *layers), without, instead)
@@ -113,7 +114,7 @@ def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), 
 
 
 def deck(name: str, layers: Sequence[str] = ()) -> Deck:
-    """Return the deck of a built-in program with additional layers.  Raises DeckError if it has no row of a layer."""
+    """Return the deck of a built-in program with additional layers.  Raises DeckError for a layer without its rows."""
     if not layers:
         return committed(name)
     entry = built_in(name)
@@ -131,13 +132,13 @@ def program(name: str, layers: tuple[str, ...] = ()) -> Program:
 
 
 def with_layers(name: str, layers: Sequence[str]) -> Program:
-    """Compile a built-in program with those of ``layers`` for which it has rows."""
+    """Compile a built-in program with those of ``layers`` that have rows for it."""
     present = {row.layer for row in text(built_in(name).text).rows}
     return program(name, tuple(layer for layer in layers if layer in present))
 
 
 def loader(layers: tuple[str, ...]) -> Callable[[str], Program]:
-    """Return a function that compiles programs by name with ``layers`` added.  Raises DeckError for an unused layer."""
+    """Return a function that compiles the named program with ``layers`` added.  Raises DeckError for unknown layers."""
     present = {row.layer for name in TEXTS for row in text(name).rows}
     for layer in layers:
         if layer not in present:

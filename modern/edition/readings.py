@@ -44,7 +44,7 @@ RULED = (*CLASSES, *KEEPS, "displaced", "lost", "doubled", "overlaid")
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Characters of the witness and those that replace them, with their class and any evidence besides our rows."""
+    """Characters of the witness, those that replace them, their class, and any evidence other than the rows."""
 
     witness: str
     lemma: str

@@ -2,8 +2,8 @@
 
 Each example runs twice, with two states of program 1.  One state produced the examples and was reconstructed from them.
 The other is the listing of chapter 5, which chooses its first points differently.  Programs 2 and 3 then read the
-punched cards.  The print proves numbers, signs, order and words.  It does not prove blank cards and columns, which the
-OCR lost and the FORMATs supply; a verdict distinguishes the two.
+punched cards.  The printed text proves numbers, signs, order and words.  It does not prove blank cards and columns,
+which the OCR lost and the FORMATs supply.  A verdict therefore counts blank cards separately.
 """
 
 import re
@@ -95,7 +95,10 @@ def reproduce(
 
 
 def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
-    """Return whether the examples are exact and the listing at most reordered, then the counts by kind of verdict."""
+    """Return whether all results are reproduced, and the numbers of exact, reordered and all other results.
+
+    In the state of the examples a result must be exact; in that of the listing it may be in another order.
+    """
     kinds = [(report.state, report.verdict.kind) for report in reports]
     exact = sum(kind == EXACT for _, kind in kinds)
     order = sum(kind == ORDER for _, kind in kinds)
@@ -129,7 +132,10 @@ def _reports(
 
 
 def compare(printed: Sequence[str], produced: Sequence[str], final: bool, oriented: bool) -> Verdict:
-    """Return the verdict on the lines of a device; ``final`` means that the cards hold a hull."""
+    """Return the verdict on the lines of a device.
+
+    ``final`` is True if the cards hold a hull, ``oriented`` if the signs of its equations must agree too.
+    """
     tokens = [token for line in printed for token in line.split()]
     numbers = sum(len(_NUMBER.findall(line)) for line in printed)
     word_count = sum(any(c.isalpha() for c in token) and not _NUMBER.search(token) for token in tokens)
@@ -170,14 +176,14 @@ def _headings(lines: Sequence[str]) -> Counter[str]:
 
 
 def _same_results(printed: Sequence[str], produced: Sequence[str], oriented: bool) -> bool:
-    """Return True for the same hull in another order under the same headings, but not for other characters."""
+    """Return True if both hulls are equal except for the order of their parts, which must differ, and the headings."""
     printed_hull, produced_hull = read_hull(printed), read_hull(produced)
     in_other_order = printed_hull != produced_hull and same_hull(printed_hull, produced_hull, oriented)
     return in_other_order and _headings(printed) == _headings(produced)
 
 
 def _same_deck(printed: Sequence[str], produced: Sequence[str]) -> bool:
-    """Return True for the same points in another order under the same N, with planes that agree with that order."""
+    """Return True if both decks have the same N and points, in another order, and the planes fit the new order."""
     expected, actual = read_intermediate(printed), read_intermediate(produced)
     if expected is None or actual is None or expected.points == actual.points:
         return False

@@ -2,7 +2,8 @@
 
 :func:`modern.edition.apparatus.build` applies rows and returns only the result.  Here the same rows produce *places*.
 A place is a piece of a line with its old reading, its new reading and the row.  Places nest, because a row of a later
-layer may change the result of an earlier one.  :func:`reading` extracts any state of the text from this tree.
+layer may change the result of an earlier one.  :func:`reading` extracts the text with any choice of layers from this
+tree.
 """
 
 from collections.abc import Collection, Iterable

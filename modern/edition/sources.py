@@ -40,7 +40,10 @@ class Document:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Consecutive lines of a witness from line ``at`` of the document; with ``part``, only some of their words."""
+    """Lines ``first`` to ``last`` of a witness, copied from line ``at`` of the document on.
+
+    With ``part``, the witness has only some of the words of each line.
+    """
 
     first: int
     last: int
@@ -70,8 +73,8 @@ class Excerpt:
 class Sources:
     """The contents of SOURCES.toml.
 
-    ``decks`` are the data decks of grounds with their hashes, and ``layered`` the programs with an optional layer:
-    program, layer and hash of the cards.
+    ``decks`` are the data decks that support emendations, with their hashes.  ``layered`` are the programs with one
+    optional layer applied: program, layer and the hash of their cards.
     """
 
     documents: tuple[Document, ...]
@@ -135,7 +138,7 @@ def digest(text: str) -> str:
 
 
 def check_files() -> Iterator[tuple[str, bool, str]]:
-    """Yield (file, whether its hash is right, message) for each excerpt, and once for all decks of grounds."""
+    """Yield (file, whether its hash is right, message) for each excerpt, and once for all decks of ``grounds``."""
     table = sources()
     for excerpt in table.excerpts:
         same = digest(read(excerpt.file)) == excerpt.sha256

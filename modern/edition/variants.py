@@ -2,10 +2,10 @@
 
 The alterations are:
 
-* Each digit of a statement number is replaced by every other digit.  The number is replaced by each of the other
-  numbers in its statement.
-* A name is replaced by every other name of its statement with the same mode (fixed or floating point).
-* An operator is replaced by every other operator.
+* Each digit of a statement number is replaced by each other digit in turn.  The number is also replaced by each other
+  number in its statement.
+* A name is replaced, in turn, by each other name of its statement with the same mode (fixed or floating point).
+* An operator is replaced by each other operator in turn.
 * Each digit of a constant is changed by one, up and down.
 * A character is replaced by each character with which it may be confused (``fortran_src/apparatus/confusables.toml``).
 * The counts and separators of a FORMAT, and one letter of every literal, are changed.
@@ -70,7 +70,7 @@ class Variant:
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """A statement of a listing with its place, and the spans of its text that hold other statement numbers."""
+    """A statement of a listing with its place, and the spans of its text that are numbers of other statements."""
 
     source: Source
     place: str
@@ -157,7 +157,7 @@ def _steps(number: str) -> Iterator[str]:
 
 
 def _alike(name: str) -> set[str]:
-    """Return the names of the listings, of two or more characters, that differ from this one in one character."""
+    """Return the names in the listings that differ from ``name`` in one character; none for a one-letter name."""
     if len(name) < 2:
         return set()
     return {known for known in _names() if len(known) == len(name) and sum(map(str.__ne__, name, known)) == 1}

@@ -6,15 +6,17 @@ The checks of a variant (:mod:`modern.edition.variants`), in this order:
 ``no change`` the object code is the same, so the variant is not a different reading and is not counted
 ``print``     an example of chapter 6 is no longer reproduced.  Program 1 runs in the state of the examples if the card
               is in it, and programs 2 and 3 run on the printed intermediate decks.  If the card occurs only in the
-              listing, the output of the listing must differ from the print in more than its order.
-``machine``   a deck gives other cards than those that a second restoration of the listing confirms
+              listing, the output of the listing must differ from the printed result in more than its order.
+``machine``   the variant gives other results than the listing for a data deck for which an independent second
+              restoration of the listing confirmed the results
 ``equation``  the card computes a formula of chapter 3 (:data:`EQUATIONS`, compiled by hand)
 ``sibling``   at least two other cards of the listings have the form of the card (:func:`alike`), and the variant has a
               form that no card has
 ``nothing``   no check detects the variant
 
-``equation`` and ``sibling`` are comparisons that a reader makes, not runs.  Only decks whose run reaches the card are
-run, up to the first that differs.  Each answer is stored at once, so that an interrupted run can be resumed.
+``equation`` and ``sibling`` are comparisons that a reader makes, not runs.  A variant is run only on decks for which
+the listing executes the card, until a result differs.  Each answer is stored at once, so that work can be resumed.
+
 """
 
 import hashlib
@@ -67,7 +69,7 @@ EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """A program with its decks, their kind (``print`` or ``machine``), results, and example or 0."""
+    """A program with the decks that it reads: the kind of each (``print`` or ``machine``), result, and example or 0."""
 
     program: Program
     decks: tuple[Deck, ...]
@@ -82,7 +84,7 @@ class Bench:
 
 
 def benches(runs: str) -> dict[str, Bench]:
-    """Return every built-in program with the decks that it reads, and those of the folder ``runs``, if any."""
+    """Return every built-in program with the decks that it reads: those of the examples, and ``runs``/*/deck.cards."""
     known = [
         ("machine", 0, deck_from_text(path.parent.name, path.read_text(encoding="ascii")))
         for path in (sorted(Path(runs).glob("*/deck.cards")) if runs else ())
@@ -197,7 +199,7 @@ def _disagrees(program: Program, bench: Bench, d: int) -> bool:
 
 
 def _in_the_examples(variant: Variant) -> Program | None:
-    """Compile the same change in the state of the examples; None if the card is not in it or does not compile."""
+    """Compile the same change of program1_examples; return None if it lacks the card or does not compile."""
     examples = {(s.place, s.source.label, s.source.text): s for s in statements("program1_examples")}
     listed = next(s for s in statements("program1") if s.card == variant.card)
     counterpart = examples.get((listed.place, listed.source.label, listed.source.text))
@@ -234,7 +236,7 @@ def _form(text: str) -> str:
 
 
 def alike(text: str) -> int:
-    """Count the other cards of the three listings that have the form of a statement."""
+    """Count the other cards of the three listings that have the form (``_form``) of a statement."""
     return max(_forms()[_form(text)] - 1, 0)
 
 
@@ -263,8 +265,8 @@ def _judge(chunk: Sequence[Variant]) -> list[str]:
 def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int = 20) -> dict[str, str]:
     """Judge every variant, or the first ``most`` of them, and map the key of each to the check that detects it.
 
-    Answers are kept in ``folder/variants.jsonl``.  Raises FileError if ``runs`` holds no deck, and if the folder holds
-    answers for other listings or cannot be written.
+    Answers are kept in ``folder/variants.jsonl``.  Raises FileError if ``runs`` contains no deck, if the folder
+    contains answers for other listings, or if it cannot be written.
     """
     if runs and not any(Path(runs).glob("*/deck.cards")):
         raise FileError(f"{runs}: no folder in it has a deck.cards")
@@ -275,7 +277,7 @@ def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int =
         folder.mkdir(parents=True, exist_ok=True)
         lines = path.read_text(encoding="utf-8").split("\n") if path.exists() else []
         if lines and json.loads(lines[0]) != {"decks": print_of}:
-            raise FileError(f"{path}: holds answers for other listings")
+            raise FileError(f"{path}: holds answers for other listings; choose another folder")
         # If a run was killed, its last line may be incomplete.  The line is then removed and its variant judged again.
         done = {key: answer for line in lines[1:-1] for key, answer in [json.loads(line)]}
         with path.open("w", encoding="utf-8") as file:

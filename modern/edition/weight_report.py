@@ -43,7 +43,8 @@ def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
 
 
 def unvouched(answers: Mapping[str, str]) -> list[Variant]:
-    """Return a variant of each card that has two or more undetected variants and that only the compiler confirms."""
+    """Return one variant of each card that has two or more undetected variants and none that ``CONFIRMING`` detects."""
+
     return [
         variant
         for variant, count in by_card(answers)

@@ -120,8 +120,8 @@ def test_guard_one_altered_digit_is_caught(line: str, old: str, new: str) -> Non
         ("31", ".15880000", ".15890000", "1/program1.punch: equation 3 does not vanish at its vertices"),
         ("213", ".19000000", ".18000000", "5/program1.punch: its points differ from those of the input deck"),
         ("320", ".17100000", ".17200000", "5/program3.punch: equation 4 does not vanish at its vertices"),
-        ("178", "15", "16", "5/program1.deck: card 1 says N is not 15"),
-        ("385", "N=10", "N=11", "6/program3.punch: card 3 says N is not 10"),
+        ("178", "15", "16", "5/program1.deck: card 1: N is not 15, the number of points of the deck"),
+        ("385", "N=10", "N=11", "6/program3.punch: card 3: N is not 10, the number of points of the deck"),
     ],
 )
 def test_guard_arithmetic_of_the_print(line: str, old: str, new: str, fault: str) -> None:
@@ -149,7 +149,7 @@ def test_guard_an_unused_line_is_caught() -> None:
 
 def test_guard_a_line_used_twice_is_caught() -> None:
     layout = dataclasses.replace(CHAPTER.layout, headings=(*CHAPTER.layout.headings, "58"))
-    assert check_tie(rebuilt(CHAPTER.text, layout)) == ("line 58 is used twice",)
+    assert check_tie(rebuilt(CHAPTER.text, layout)) == ("line 58 of the corrected print is used twice",)
 
 
 def test_guard_a_changed_device_file_is_caught(tmp_path: Path) -> None:

@@ -1,9 +1,9 @@
 """Arguments that several commands share: inputs, the machine on which a program runs, and destinations of results.
 
-The end of the module names the words that the shell offers for an argument, by argcomplete (the extra ``completion``).
-The names of examples are listed there, because reading them from the data would delay every key.
+The end of the module lists the words with which the shell can complete an argument (package argcomplete, in the extra
+``completion``).  The names of examples are written out there, because reading them from the data would be too slow.
 
-Like ``modern/cli/arguments.py``, this module imports nothing that only a run needs.
+Like ``modern/cli/arguments.py``, this module imports nothing that is needed only to run a command.
 """
 
 from __future__ import annotations
@@ -68,7 +68,8 @@ def machine_arguments(parser: ArgumentParser) -> None:
         metavar="N",
         type=int,
         default=5_000_000,
-        help="stop after N statements, or after slow operations that take as long (default: %(default)s)",
+        help="stop after N executed statements, or earlier if slow operations take as long as N statements "
+        "(default: %(default)s)",
     )
     layers_argument(parser)
 
@@ -103,19 +104,19 @@ def json_argument(parser: ArgumentParser, contents: str) -> None:
     parser.add_argument(
         "--json",
         metavar="FILE",
-        help=f"write the {contents} to FILE as JSON ('-': to standard output, and nothing else)",
+        help=f"write the {contents} to FILE as JSON ('-': standard output; the report then goes to standard error)",
     )
 
 
 def printed_arguments(parser: ArgumentParser, rules: str, names: str) -> None:
-    """Add the choice of rules that a method uses as its paper prints them."""
+    """Add the options that choose which rules a method applies as its paper prints them, instead of corrected."""
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--literal", action="store_true", help=f"use every {rules} of the paper as printed")
-    which.add_argument("--printed", metavar="NAME,...", help=f"use only these {rules}s as printed: {names}")
+    which.add_argument("--literal", action="store_true", help=f"apply every {rules} as the paper prints it")
+    which.add_argument("--printed", metavar="NAME,...", help=f"apply only these {rules}s as printed: {names}")
 
 
 def epsilon_argument(parser: ArgumentParser, verb: str, use: str) -> None:
-    help_text = f"{verb} the tolerance e of chapter 7 {use}"
+    help_text = f"{verb} the tolerance e of chapter 7 of the thesis {use}"
     parser.add_argument("--epsilon", metavar="E", type=epsilon_text, help=help_text)
 
 
@@ -137,7 +138,7 @@ def eye_argument(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--eye",
         metavar="X,Y,Z",
-        help="look from this direction; write --eye=-1,2,3 if X is negative (default: a suitable direction)",
+        help="look from this direction; write --eye=-1,2,3 if X is negative (default: chosen for the points)",
     )
 
 
@@ -155,8 +156,8 @@ def layers_argument(parser: ArgumentParser) -> None:
         "--layers",
         metavar="LAYER,...",
         default="",
-        help="apply more layers of the apparatus to a built-in program: corrected, epsilon, translation, or examples "
-        "for program 1 (default: none; for diff: corrected)",
+        help="apply these optional layers of emendations to a built-in program: corrected, epsilon, translation, or "
+        "examples for program 1 (default: none; for diff: corrected)",
     )
 
 
@@ -180,8 +181,8 @@ def listed(names: Iterable[str]) -> str:
 
 
 def epsilon_text(text: str) -> str:
-    """Return the text of a valid e of chapter 7, also ``rel:E``."""
-    from modern.geometry.numbers import read_epsilon  # imported here because few command lines have an e
+    """Return ``text`` if it is a valid tolerance e of chapter 7, such as ``.001`` or ``rel:E``, otherwise raise."""
+    from modern.geometry.numbers import read_epsilon  # imported here because few commands need it
 
     try:
         read_epsilon(text)

@@ -29,7 +29,7 @@ _NUMBERED = re.compile(r"(?:[^%]|%%)*%(?:0?[1-9])?d(?:[^%]|%%)*")
 _INPUTS = ("program", "deck", "points", "volume", "scene", "name", "read")
 _OUTPUTS = ("output", "punch", "typewriter", "trace", "json", "log", "csv")
 _FOLDERS = ("out", "all", "weigh")
-# A long text of the input in a message: in quotation marks, or without a blank.
+# Matches a long text that a message quotes from the input: text in quotation marks, or text without a blank.
 _LONG = re.compile(r"(?<!\w)'(?:[^'\\]|\\.){120,}'|\S{200,}")
 
 

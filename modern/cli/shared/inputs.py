@@ -1,8 +1,9 @@
 """Read the input of a command: a file, standard input, or an example by name.
 
 ``example1`` to ``example6`` are the data decks of chapter 6.  ``appel-will/fig18`` is the object of a figure in Appel
-and Will's paper.  ``seventy/17`` is sample 17, counted from 0, of the study ``seventy``, and ``digits/2/17`` that
-sample of cell 2, and ``mine.toml/17`` is a sample of a plan file.  An existing file of the same name takes precedence.
+and Will's paper.  ``seventy/17`` is sample 17, counted from 0, of the study ``seventy``.  ``digits/2/17`` is sample 17
+of cell 2 of the study ``digits``.  ``mine.toml/17`` is sample 17 of the study that the plan file ``mine.toml`` defines.
+An existing file of the same name takes precedence.
 """
 
 from __future__ import annotations
@@ -111,8 +112,8 @@ def exact_hull_of(
 ) -> tuple[Hull, list[str]]:
     """Return the hull of a file's points in exact arithmetic, and notes for the user.
 
-    procedure: use Butler's procedure, which gives its equations, their order and C, and with ``history`` its stages.
-    Otherwise use the exact hull, which is much faster for many points.
+    procedure: use Butler's procedure, which also gives the equations in her order, the inside point C and, with
+    ``history``, the stages of the construction.  Otherwise use a method that is much faster for many points.
     within: merge faces whose vertices lie within this distance of one plane.
     """
     from modern.geometry.coplanar import FLAT, CoplanarError, coplanar, join_summary, parse_distance

@@ -111,7 +111,7 @@ def _to_digits(number: int | Fraction | Decimal, digits: int) -> str:
 
 
 def _with_exact(number: Fraction) -> str:
-    """Return a short exact decimal, otherwise the fraction and an approximation, or for long fractions only that."""
+    """Return an exact decimal if it is short, otherwise an approximation, preceded by the fraction if that is short."""
     text = finite_decimal(number)
     if text is not None and len(text) <= 2 * TABLE_DIGITS:
         return text

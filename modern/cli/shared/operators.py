@@ -37,11 +37,11 @@ class Attendance:
 
 @contextmanager
 def attended(args: argparse.Namespace, program: Program | None = None) -> Iterator[Attendance]:
-    """Yield the operator that ``--operator`` names, who is recorded by ``--log``.
+    """Yield the operator that ``--operator`` names; ``--log`` records the operator's actions.
 
-    program: without ``--operator``, the person at the terminal is the operator if this program has questions.
-    Otherwise the lines of standard input answer it, unless that is a deck or a terminal.  Raise UsageError, or
-    FileError for an unreadable file of answers.
+    program: the program that asks the questions.  Without ``--operator``, the person at the terminal answers if the
+    program has ACCEPT or PAUSE and all standard streams are the terminal.  Otherwise the lines of standard input
+    answer, unless standard input is a deck or a terminal.  Raise UsageError, or FileError for an unreadable file.
     """
     name: str | None = args.operator
     inputs = [getattr(args, "program", None), args.deck]
@@ -69,7 +69,7 @@ def attended(args: argparse.Namespace, program: Program | None = None) -> Iterat
 
 
 def _has_questions(args: argparse.Namespace, program: Program) -> bool:
-    """Return True if all standard streams are a terminal and the program may ask the person at it something."""
+    """Return True if the deck is a file, all standard streams are a terminal, and the program has ACCEPT or PAUSE."""
     if not (args.deck and os.path.isfile(args.deck)):
         return False
     if not all(map(is_terminal, (sys.stdin, sys.stdout, sys.stderr))):

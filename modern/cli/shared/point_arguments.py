@@ -1,6 +1,6 @@
 """Arguments of the commands that read points or faces.
 
-Like ``modern/cli/arguments.py``, this module imports nothing that only a run needs.
+Like ``modern/cli/arguments.py``, this module imports nothing that is needed only to run a command.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def cards(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--truncate", action="store_true", help="truncate numbers with more digits than a card holds instead of failing"
     )
-    epsilon_argument(parser, "punch", "after N, for the layer epsilon")
+    epsilon_argument(parser, "punch", "on the first card, after N, for the layer epsilon")
 
 
 def diff(parser: ArgumentParser) -> None:
@@ -58,14 +58,15 @@ def draw(parser: ArgumentParser) -> None:
         "--labels",
         choices=("programs", "input", "none"),
         default="programs",
-        help="number the vertices as the programs do, by their positions in the input, or not (default: programs)",
+        help="label the vertices with the numbers that the 1963 programs give them, with their positions in the "
+        "input, or not at all (default: programs)",
     )
     parser.add_argument("--no-hidden", action="store_true", help="omit the hidden edges and vertices")
     parser.add_argument("--no-points", action="store_true", help="omit the points that are not vertices")
     coplanar_argument(parser)
     which = parser.add_mutually_exclusive_group()
     which.add_argument(
-        "--against", metavar="CARDS", help="highlight differences from the cards that hull1620 hull punched"
+        "--against", metavar="CARDS", help="highlight differences from the hull on CARDS, punched by hull1620 hull"
     )
     which.add_argument("--stages", action="store_true", help="draw the stages H1 to Hf of the construction in a row")
     which.add_argument("--animate", action="store_true", help="animate the stages H1 to Hf of the construction")
@@ -87,7 +88,7 @@ def appel_will(parser: ArgumentParser) -> None:
         help="delete points on inside corners first, by the rule any (valid if no point is on more than three planes), "
         "two or concave (always valid)",
     )
-    parser.add_argument("--trace", action="store_true", help="print the use of every edge after each loop")
+    parser.add_argument("--trace", action="store_true", help="print how often each edge has been used after each loop")
     parser.add_argument(
         "--all", action="store_true", help="print all tables (default: only a summary for more than 50 points)"
     )
@@ -130,13 +131,18 @@ def hidden_line(parser: ArgumentParser) -> None:
     )
     coplanar_argument(parser)
     parser.add_argument("--hidden", action="store_true", help="draw hidden lines too, dashed")
-    parser.add_argument("--tables", action="store_true", help="print contours, PL and LP tables with d, and indices")
+    parser.add_argument(
+        "--tables",
+        action="store_true",
+        help="print the contours, the paper's tables PL, LP and d for each pair of overlapping contours, and the "
+        "indices of hidden segments",
+    )
     parser.add_argument(
         "--without",
         metavar="CORRECTION,...",
         default="",
-        help="do not apply these corrections of the paper: enclosed, touching, ends; or its own step ghosts "
-        "(default: apply all)",
+        help="omit these corrections of the paper's method: enclosed, touching, ends; or the paper's step ghosts "
+        "(default: omit none)",
     )
     title_argument(parser, "the scene's title")
     parser.add_argument("--width", metavar="PIXELS", type=int, default=640, help="width of the SVG (default: 640)")

@@ -12,12 +12,12 @@ from modern.thesis.refusals import CORRECTED, Cause, Kind
 _MEANINGS: dict[Kind, str] = {
     "miss": "this point defines equation {equation}, but its value there is {value} instead of 0, because {digits} do "
     "not hold the products of its coordinates",
-    "centre": "equation {equation} passes through the point C in these digits, so neither of its sides is the outer "
-    "one",
-    "zeros": "all coefficients of equation {equation} are zero, because its three points lie on one line in these "
-    "digits",
-    "pair": "the search for pairs of equations inside the hull ran beyond the end of the table",
-    "repeat": "the search for repeated equations of one plane ran beyond the end of the table",
+    "centre": "calculated with {digits}, equation {equation} passes through the inside point C, so neither of its "
+    "sides is the outer one",
+    "zeros": "all coefficients of equation {equation} are zero, because its three points appear to lie on one line if "
+    "calculated with {digits}",
+    "pair": "the search for pairs of equations inside the hull ran beyond the end of the table of equations",
+    "repeat": "the search for repeated equations of one plane ran beyond the end of the table of equations",
     "unmet": "no point satisfies three equations exactly, so none counts as a vertex; {digits} do not hold the "
     "equations",
     "room": "the table of equations is full",
@@ -35,7 +35,7 @@ _DETAILS: dict[Kind, str] = {
     "Some planes that will be deleted a moment later contain C, and the program then types ERROR IN PROGRAM although "
     "nothing is wrong.",
     "zeros": "In exact arithmetic a new point is never collinear with two vertices of a plane that it lies outside of. "
-    "Truncated digits made it so.",
+    "The truncation of digits made these three points appear collinear.",
     "pair": "If the two deleted planes are the last of the table, the program compares entries beyond its end.",
     "repeat": "If the deleted plane is the last of the table, the program compares entries beyond its end.",
     "unmet": "The equations of the hull were found. At the end the programs count, for every point, the equations "

@@ -97,9 +97,9 @@ class _Destination:
 def streaming(args: argparse.Namespace, show: Callable[[str], None] | None = None) -> Iterator[Output]:
     """Yield a function that writes the events of a run as they occur: cards to ``--punch``, lines to ``--typewriter``.
 
-    show: the function of a terminal that shows a typed line.  Typed lines then do not go to standard error as well, if
-    that is a terminal.  A named file is written completely at the end of the run, and an exception leaves an existing
-    file unchanged.  Raise FileError.
+    show: the function that shows a typed line to an operator at the terminal.  Typed lines are then not repeated on
+    standard error if that is a terminal too.  A named file is written completely at the end of the run, and an
+    exception leaves an existing file unchanged.  Raise FileError.
     """
 
     def destination(path: str | None) -> _Destination:

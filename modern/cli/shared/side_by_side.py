@@ -1,6 +1,6 @@
 """Show two texts side by side, line by line, and mark every character that differs.
 
-``reproduce --show`` uses it to compare each print with the result.
+``hull1620 reproduce --show`` uses this module to compare each printed result with the computed one.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Masks = tuple[str, str]
 Paint = Callable[[str], str]
 _LEGEND: dict[Mark, str] = {"=": "equal", "~": "at another position", "|": "different, marked by ^"}
 _NARROWEST = 24
-"""Columns of a text below which a line and its counterpart are shown one below the other."""
+"""The smallest number of columns to which a line is broken, even if the terminal is narrower."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,8 +61,8 @@ def side_by_side(
 ) -> Iterator[str]:
     """Yield two texts in two columns if ``width`` suffices, otherwise each pair of lines one below the other.
 
-    columns: compare column by column, blanks included; otherwise ignore the spacing.  paint: colours the lines of
-    carets.  Lines longer than the terminal are continued on the next line.
+    columns: compare column by column, blanks included; otherwise ignore the spacing.  paint: a function that colours
+    the lines of carets.  Lines longer than the terminal are continued on the next line.
     """
     pairs = list(_pairs(first, second, columns))
     if not pairs:

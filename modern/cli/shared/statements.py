@@ -24,9 +24,9 @@ from modern.claims.register import (
 from modern.edition.reproduce import DIFFERENT, EXACT, ORDER
 
 Paint = Callable[[str, str], str]
-"""Colours text like a verdict of the given kind."""
+"""A function that colours a text in the colour of a kind of verdict."""
 Indented = Callable[[str], Iterable[str]]
-"""Wraps and indents an explanation."""
+"""A function that wraps and indents a text."""
 
 _REASON = {CONDITION: "condition", HOLDS: "note"}
 _PAINT_KINDS = {HOLDS: EXACT, CONDITION: ORDER, FAILS: DIFFERENT}
@@ -42,7 +42,7 @@ _PLURAL = {
 
 
 def theorem_lines(judgements: Sequence[Judged], paint: Paint, indented: Indented) -> Iterator[str]:
-    """Yield the worked examples of chapter 4, claim by claim."""
+    """Yield the claims of chapter 4 about its worked examples, each with its computed verdict."""
     previous = ""
     for judged in judgements:
         row = judged.statement
@@ -106,6 +106,6 @@ def statement_summary(judgements: Sequence[Judged], paint: Paint, indented: Inde
         if not judged.agrees:
             message = f"{judged.statement.id}: computed: {judged.computed}: {judged.message}"
             yield from indented(paint(message, DIFFERENT))
-    yield f"  computed now: {sum(judged.computed is not None for judged in judgements)}"
+    yield f"  verdicts computed in this run: {sum(judged.computed is not None for judged in judgements)}"
     yield "  details: hull1620 reproduce DOCUMENT, or the id of a statement"
     yield ""

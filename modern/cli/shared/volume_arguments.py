@@ -1,6 +1,6 @@
 """Arguments of the commands that read a volume of voxels.
 
-Like ``modern/cli/arguments.py``, this module imports nothing that only a run needs.
+Like ``modern/cli/arguments.py``, this module imports nothing that is needed only to run a command.
 """
 
 from __future__ import annotations
@@ -55,8 +55,8 @@ def voxel_hull(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--csv",
         metavar="FILE",
-        help="with --each-label: write the table with all digits and exact fractions to FILE ('-': to standard output, "
-        "and nothing else)",
+        help="with --each-label: write the table with all digits and exact fractions to FILE ('-': standard output; "
+        "the report then goes to standard error)",
     )
     result_file_argument(
         parser,

@@ -105,7 +105,7 @@ def coordinate_words(world: World | None, corners: bool) -> str:
 
 
 def check_array(path: str | None) -> None:
-    """Raise UsageError if the name of an output is not that of an array."""
+    """Raise UsageError if the name of an output does not end with .npy or .nrrd."""
     if path is not None and not path.lower().endswith(ARRAYS):
         raise UsageError(
             f"{path}: a filled hull is written as an array; expected a name that ends with {' or '.join(ARRAYS)}"
@@ -113,7 +113,8 @@ def check_array(path: str | None) -> None:
 
 
 def array_note(path: str, volume: Volume) -> Iterator[str]:
-    """Yield notes on the position, which an NPY file does not contain."""
+    """Yield notes on the position of the array if the file is an NPY file, which cannot contain it."""
+
     if not path.lower().endswith(".npy"):
         return
     if volume.world is not None:

@@ -48,43 +48,47 @@ def superfluous(ground: dict[str, object], row_id: str = "P1-038") -> Row:
 
 FORCED: dict[str, object] = {"kind": "forced", "card": "125+1", "sibling": "125+3"}
 FALSE_GROUNDS: list[tuple[str, dict[str, object], str]] = [
-    ("P1-043", {"kind": "parse"}, "parse: without it the deck still compiles"),
-    ("P1-038", {"kind": "cosmetic"}, "cosmetic: the object code is not the same with and without it"),
-    ("P1-001", {"kind": "cosmetic"}, "cosmetic: without it the deck does not compile: not a statement"),
-    ("P1-001", {"kind": "deck", "deck": "example1"}, "deck: without it the deck does not compile: not a statement"),
+    ("P1-043", {"kind": "parse"}, "parse: without the row the deck still compiles"),
+    ("P1-038", {"kind": "cosmetic"}, "cosmetic: the object code is not the same with and without the row"),
+    ("P1-001", {"kind": "cosmetic"}, "cosmetic: without the row the deck does not compile: not a statement"),
+    (
+        "P1-001",
+        {"kind": "deck", "deck": "example1"},
+        "deck: without the row the deck does not compile: not a statement",
+    ),
     (
         "P1-001",
         {"kind": "print", "program": "program1", "examples": [2]},
-        "print: without it the deck does not compile: not a statement",
+        "print: without the row the deck does not compile: not a statement",
     ),
     (
         "P1-038",
         {"kind": "print", "program": "program1", "examples": [3]},
-        "print: example 3, program 1: exact with it, exact without",
+        "print: example 3, program 1: exact with the row, exact without",
     ),
     # Example 1 is exact only in another order, which does not count.
     (
         "P1-038",
         {"kind": "print", "program": "program1", "examples": [1]},
-        "print: example 1, program 1: not exact with it, not exact without",
+        "print: example 1, program 1: not exact with the row, not exact without",
     ),
     ("P1-038", {"kind": "print", "program": "program1", "examples": []}, "print: the ground names no example"),
     (
         "P1-018",
         {"kind": "print", "program": "program1", "examples": [2]},
-        "print: example 2, program 1: exact with it, exact without",
+        "print: example 2, program 1: exact with the row, exact without",
     ),
     (
         "P1-043",
         {"kind": "deck", "program": "program1", "deck": "example1"},
-        "deck: deck example1 punches the same cards without it",
+        "deck: deck example1 gives the same cards without the row",
     ),
     ("P1-039", {"kind": "deck", "program": "program1", "deck": "nosuch"}, "deck: deck 'nosuch' does not exist"),
     ("P1-018", FORCED | {"rename": ["O3", "O1"]}, "forced: card 125+1 differs from card 125+3 with names exchanged"),
     (
         "P1-038",
         FORCED | {"rename": ["O3", "O1", "X", "Y", "Y", "Z"]},
-        "forced: card 125+1 equals card 125+3 with names exchanged also without it",
+        "forced: card 125+1 equals card 125+3 with names exchanged also without the row",
     ),
     ("P1-038", {"kind": "because"}, "unknown kind of ground: 'because'"),
     ("P1-038", {}, "unknown kind of ground: ''"),
@@ -106,14 +110,14 @@ def test_names_are_exchanged_in_pairs() -> None:
 
 
 TRUE_GROUNDS = [
-    ("P1-001", "parse: without it: not a statement of this FORTRAN: C"),
-    ("P1-002", "parse: without it: program1.f: card 22, column 9: '#' is "),
-    ("P1-018", "forced: card 125+1 equals card 125+3 with O3 for O1, X for Y, Y for Z, but not without it"),
-    ("P1-037", "print: example 2 is exact with it, not without"),
-    ("P1-042", "print: example 5 is exact with it, not without"),
-    ("P1-043", "cosmetic: the object code is the same with and without it"),
-    ("P2-024", "deck: deck between ends with an empty hopper; without it: different cards"),
-    ("P2-026", "deck: deck epsplane ends with an empty hopper; without it: program2.f: card 53: EPS is undefined"),
+    ("P1-001", "parse: without the row: not a statement of this FORTRAN: C"),
+    ("P1-002", "parse: without the row: program1.f: card 22, column 9: '#' is "),
+    ("P1-018", "forced: card 125+1 equals card 125+3 with O3 for O1, X for Y, Y for Z, but not without the row"),
+    ("P1-037", "print: example 2 is exact with the row, not without"),
+    ("P1-042", "print: example 5 is exact with the row, not without"),
+    ("P1-043", "cosmetic: the object code is the same with and without the row"),
+    ("P2-024", "deck: deck between ends with an empty hopper; without the row: different cards"),
+    ("P2-026", "deck: deck epsplane ends with an empty hopper; without the row: program2.f: card 53: EPS is undefined"),
 ]
 
 

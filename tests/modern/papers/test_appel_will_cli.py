@@ -87,7 +87,7 @@ def test_trace_fits_the_use_counts_to_the_width_of_the_terminal(
 def test_literal_lists_the_false_edges_of_the_star_test(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "appel-will", "fig4.off", "--literal")
     assert code == 1
-    assert "lines are not edges of the hull, by images on one ray" in out
+    assert "lines are not edges of the hull:" in out
     assert out.splitlines()[-1].startswith("no hull: ")
     assert "Input surfaces" not in out
     code, out, err = call(capsys, "appel-will", "fig4.off", "--literal", "--star", "corrected")
