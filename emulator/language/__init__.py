@@ -14,7 +14,7 @@ To add a kind of statement:
 5. ``foreign.py``: remove the statement if it is listed there as one of another FORTRAN.
 6. ``compiler.py``: a case of ``_Translation._body`` that emits operations, an entry of ``_NO_DO_END`` if no DO may end
    with the statement, and an entry of ``_EFFECTS`` if a trace should show its effect.
-7. ``modern/bench/translate.py``: a case.  mypy reports steps 6 and 7 while they are missing.
+7. ``modern/bench/translate.py``: a case.  mypy reports an error until steps 6 and 7 are done.
 8. Only if no operation fits: a name and its meaning in ``objectcode.py`` (``MEANINGS`` and the names below it in the
    same order, and ``flatten`` if it branches), its action in ``emulator/machine/interpreter.py``, or in
    ``session.py`` or ``devices.py`` if it concerns the operator or a device, the same in ``emulator/compiled/kernel.py``
@@ -30,8 +30,8 @@ To add a FORMAT code that transfers a number:
    column arithmetic in ``emulator/numbers/columns.py``.
 2. ``formats.py``: the letter in ``_KINDS`` and its widths in ``_Reader.one``.  Remove it from ``FOREIGN_FIELDS`` in
    ``foreign.py``.
-   In ``_Reader.one``, the message that lists the codes and the test for decimals name the letters too.
-3. ``emulator/machine/devices.py`` and ``emulator/compiled/devices.py``: which of these functions an ITEM uses.  The
+   Also add the letter in ``_Reader.one`` to the message that lists the codes and to the test for decimals.
+3. ``emulator/machine/devices.py`` and ``emulator/compiled/devices.py``: call the new functions for an ITEM.  The
    constants at the top of ``compiled/devices.py``, and ``_KINDS`` and ``WAYS`` in ``compiled/runner.py``, number the
    kinds.
 4. ``emulator/machine/timing.py``: the times of reading and writing the field.

@@ -17,7 +17,7 @@ from emulator.files import read_bytes, source_name
 COLUMNS = 80
 MAX_CARDS = 100_000
 
-# Graphics of the record mark in transcribed decks: that of simulators, one of the time, and that of the machine itself.
+# The characters that stand for the record mark in transcribed decks: as in simulators, as in the 1960s, as on the 1620.
 RECORD_MARKS = "|?\u2021"
 RECORD_MARK = re.compile(f"[{RECORD_MARKS}]")
 
@@ -43,7 +43,8 @@ PUNCHES: dict[str, str] = _punches()
 
 CHARACTERS = frozenset(PUNCHES)
 
-# Graphics of the commercial (A) arrangement for the same punches. They are rejected with an explanation.
+# Characters of the commercial (A) arrangement, which has the same punches.  Decks with them are rejected with an
+# explanation.
 COMMERCIAL = {"#": "=", "%": "(", "&": "+", "\u2311": ")", "\u00a4": ")"}
 
 

@@ -1,8 +1,8 @@
-"""The compiler: from the syntax tree to object code, with statement numbers, DO loops, input, output and storage.
+"""The compiler: translates the syntax tree to object code, with statement numbers, DO loops, input, output and storage.
 
 Sources: C26-5619 for the forms of statements and, on p. 56, for the error types.  The DO behaves as IBM's object code
-did when we executed it.  Its variable is stepped and compared at the bottom of the loop.  So a loop runs at least once,
-and its variable ends at the first value beyond the limit.
+did when we executed it.  The code at the bottom of the loop steps the variable and compares it with the limit.  So a
+loop runs at least once, and its variable ends at the first value beyond the limit.
 """
 
 from __future__ import annotations
@@ -72,8 +72,8 @@ class _OpenDo:
 class _Translation:
     """The state of one compilation.
 
-    ``jumps`` holds each statement number that is branched to, with the place of the branch.  ``opened`` counts the
-    open DO loops by the number of their last statement.  ``refused`` and ``foreign_names`` are those of
+    ``jumps`` holds each statement number that is branched to, with the place of the branch.  ``opened`` counts the open
+    DO loops by the number of their last statement.  ``refused`` and ``foreign_names`` come from
     :class:`~emulator.language.parser.Parsed`.
     """
 
@@ -118,12 +118,13 @@ class _Translation:
             self.diagnostics.append(Diagnostic(card, 0, "the deck has no END card", warning=True))
         if self.emitter.allocator.used > _LARGEST:
             self._error(tree.Place(1, 0), f"OVERLAP: the data need {self.emitter.allocator.used * FIELD} positions")
-        # A deck with errors from the parser may lack statements, so their numbers cannot be checked.
+        # If the parser rejected statements, the numbers that branches refer to may belong to them, so they cannot be
+        # checked.
         if not broken:
             for label, place in self.jumps:
                 if label not in self.targets and str(label) not in self.refused:
                     self._error(place, self._why_no_target(label))
-        # A deck of FORMATs alone still needs a statement to stop at.
+        # A program without executable statements still needs a statement at which it stops.
         if not self.lines:
             self.lines.append(Line(0, tree.Place(1, 1), ""))
         if not self.ended:
@@ -250,7 +251,7 @@ class _Translation:
                 emitter.emit(op.PAUSE, second=int(number or 0))
             case tree.Stop():
                 emitter.emit(op.STOP)
-            # END stops the run as STOP does.  The second operand tells the two apart in the ending.
+            # END stops the run as STOP does.  The second operand tells the ending of the run which of the two it was.
             case tree.End():
                 self.ended = True
                 emitter.emit(op.STOP, second=1)
@@ -266,15 +267,15 @@ class _Translation:
             raise Refused(target.place, message, about=target.name)
         to_fixed, from_fixed = is_fixed_name(target.name), emitter.fixed(body.value)
         place = emitter.variable(target)
-        # A copy within one mode is a transmission of the field, which bypasses the accumulator.
-        # SEND and TRANSMIT are the two instructions of that transmission.
+        # An assignment that only copies a value of the same mode transmits the field with SEND and TRANSMIT, without
+        # the accumulator.
         source = emitter.simple(body.value)
         if source is not None and to_fixed == from_fixed:
             emitter.emit(op.SEND, source)
             emitter.emit(op.TRANSMIT, place)
             return
         negative = emitter.deferred(body.value)
-        # The mode changes across the equals sign (C26-5619 p. 21), before the sign is reversed.
+        # The value is converted to the mode of the variable (C26-5619 p. 21) before its sign is reversed.
         if to_fixed != from_fixed:
             emitter.emit(op.FIX if to_fixed else op.FLOAT)
         emitter.settle(negative, to_fixed)
@@ -327,7 +328,7 @@ class _Translation:
     def _do(self, body: tree.Do, statement: tree.Statement, index: int) -> None:
         if body.label in self.labels and self.labels[body.label] <= statement.place:
             raise Refused(statement.place, f"the last statement of this DO, number {body.label}, is before the DO")
-        # The statement number takes a field here, if this is its first appearance (p. 69), before the variable.
+        # The statement number gets its field before the variable does, unless it has appeared before (p. 69).
         self.emitter.allocator.place("statement number", str(body.label))
         variable, step, limit = self._loop(body, statement.place)
         self.loops.append((variable, step, limit, len(self.emitter.code)))
@@ -339,7 +340,8 @@ class _Translation:
             return
         if isinstance(statement.body, _NO_DO_END):
             self._error(statement.place, "a DO cannot end with this statement; use CONTINUE")
-        # Close the innermost DO first.  One with another last statement has a range that crosses this one.
+        # Close the innermost DO first.  An open DO with another last statement has a range that overlaps without
+        # nesting.
         while self.opened[statement.label]:
             do = self.open_dos.pop()
             self.opened[do.label] -= 1
@@ -381,7 +383,7 @@ class _Translation:
             return
         # The sign of the second operand tells the engines the mode of the item.
         sign = -1 if is_fixed_name(item.name) else 1
-        # An array without subscripts stands for all of its elements.
+        # In a list, an array without subscripts stands for all of its elements.
         if item.name in emitter.arrays and not item.arguments:
             entry = emitter.allocator.place("array", item.name)
             emitter.emit(op.ITEM, Operand(entry.first), second=sign * entry.size)

@@ -1,4 +1,4 @@
-"""The flow of control in object code: successors of instructions, and warnings about doubtful branches.
+"""The flow of control in object code: successors of instructions, and warnings about branches that may be mistakes.
 
 The warnings concern programs that compile.  They do not change the object code.  The 1620 gave no such warnings.
 """
@@ -13,7 +13,7 @@ from emulator.language.objectcode import Line, Program
 
 
 def successors(program: Program) -> list[tuple[int, ...]]:
-    """Return the possible successors of each instruction.  The number after the last stands for the end of the run.
+    """Return the possible successors of each instruction.  The index after the last one stands for the end of the run.
 
     A READ may end the run, because the hopper may be empty.
     """
@@ -66,7 +66,7 @@ def _unreachable_message(lines: Sequence[Line]) -> Diagnostic:
 
 
 def _jumps_into_loops(program: Program, follow: Sequence[Sequence[int]]) -> Iterator[Diagnostic]:
-    # The range of a DO begins after it and ends with the DOTEST after its last statement.
+    # The range of a DO begins after the DO and ends with the DOTEST that follows its last statement.
     ranges = {
         range(program.loops[instruction.address][3], pc + 1): program.loops[instruction.address][0]
         for pc, instruction in enumerate(program.code)
@@ -76,8 +76,9 @@ def _jumps_into_loops(program: Program, follow: Sequence[Sequence[int]]) -> Iter
         if instruction.operation not in (op.BRANCH, op.IF, op.IFX, op.SWITCH, op.SELECT):
             continue
         for target in dict.fromkeys(follow[pc]):
-            # A jump that leaves the range again without reaching the DOTEST is harmless: program 3 jumps to the message
-            # and the GO TO at 133.  A jump into nested ranges is reported for the innermost one, which begins last.
+            # A jump that leaves the range again without reaching the DOTEST is harmless: program 3 of the thesis jumps
+            # to 133, a message and a GO TO.  A jump into nested ranges is reported for the innermost one, which begins
+            # last.
             entered = [inside for inside in ranges if target in inside and pc not in inside]
             entered = [inside for inside in entered if inside[-1] in _reached(follow, target, inside)]
             if entered:

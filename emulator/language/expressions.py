@@ -1,11 +1,12 @@
 """Code for expressions: the operations, their order, and therefore the sign of every zero result.
 
 The order was determined from the object code of PDQ FORTRAN, and agrees with every zero that the thesis prints and with
-IBM's compilation of 1962.  Operations run from left to right (C26-5619 p. 19).  A right operand that must itself be
-computed is computed in FAC, and the left operand is then combined with it.  Signs are deferred: the compiler remembers
-whether the accumulator or a temporary field holds the negative of its value, and chooses addition or subtraction
-accordingly.  The sign is reversed only before the value is stored, tested, or passed to a function or a power.  So
-``A-B*C-D`` is computed as B*C, minus A, plus D, and reversed at the end, and a cancellation gives minus zero.
+IBM's compilation of 1962.  Operations run from left to right (C26-5619 p. 19).  If the right operand is itself an
+expression, it is computed in FAC, and the left operand is then combined with it.  Signs are deferred: the compiler
+remembers whether the accumulator or a temporary field holds the negative of its value, and chooses addition or
+subtraction accordingly.  The sign is reversed only before the value is stored, tested, or passed to a function or a
+power.  So ``A-B*C-D`` is computed as B*C - A + D, whose sign is reversed at the end, so that a result of zero becomes
+minus zero.
 """
 
 from __future__ import annotations
@@ -48,13 +49,14 @@ class Emitter:
     subscripts: dict[Subscript, int] = field(default_factory=dict)
     arrays: dict[str, tuple[int, ...]] = field(default_factory=dict)
     counters: list[Counter] = field(default_factory=list)
-    # Array elements by array name and subscript, for subscripts that are a single name: these repeat most often.
+    # Operands of array elements, by array name and subscript.  Only subscripts that are a single name are cached here,
+    # because they repeat most often.
     elements: dict[tuple[str, str], Operand] = field(default_factory=dict)
     # Products and parenthesized sums of the current statement are groups, numbered as they are completed.  ``held`` is
     # the number of the group in the accumulator, or -1.
     groups: int = 0
     held: int = -1
-    # True for fixed point, by the identity of an expression of the current statement.
+    # The mode of each expression of the current statement, by the expression's identity: True for fixed point.
     modes: dict[int, bool] = field(default_factory=dict)
 
     def emit(self, operation: int, operand: Operand | None = None, address: int = 0, second: int = 0) -> None:
@@ -64,7 +66,7 @@ class Emitter:
             self.code.append(Instruction(operation, operand.address, operand.subscript, second))
 
     def count(self, statement: int, begins: bool, what: str) -> None:
-        """Begin a section of code that always runs from its first instruction to its last."""
+        """Emit a COUNT: it begins a section of code that always runs from its first instruction to its last."""
         self.counters.append(Counter(statement, begins, what))
         self.emit(op.COUNT, address=len(self.counters) - 1)
 
@@ -74,11 +76,11 @@ class Emitter:
         self.modes.clear()
 
     def group(self) -> None:
-        """Complete a group: its value is in the accumulator."""
+        """Number a completed group, whose value is now in the accumulator."""
         self.held, self.groups = self.groups, self.groups + 1
 
     def temporary(self) -> Operand:
-        """Return the field for the group in the accumulator."""
+        """Return the temporary field that belongs to the group whose value is in the accumulator."""
         if self.held < 0:
             self.group()
         return Operand(self.allocator.place("temporary", f"temporary {self.held}").first)
@@ -130,7 +132,7 @@ class Emitter:
         return Operand(entry.first, self.subscripts.setdefault(description, len(self.subscripts)))
 
     def subscript(self, argument: Expression) -> tuple[int, int, int]:
-        """Return (field of v or -1, c, k) of a subscript c*v+k (C26-5619 p. 18).  Raise Refused for any other form."""
+        """Return (field of v or -1, c, k) for a subscript c*v+k (C26-5619 p. 18).  Raise Refused for any other form."""
         term, addend = argument, 0
         if isinstance(argument, Sum):
             if argument.minus or len(argument.rest) != 1:
@@ -198,7 +200,7 @@ class Emitter:
         if negative:
             table, last = _FIXED if fixed else _FLOATING, self.code[-1]
             if last.operation == table["-"]:
-                # FSB and RSGN together are FSBR.
+                # FSBR does the same as FSB followed by RSGN.
                 self.code[-1] = Instruction(table["-r"], last.address, last.subscript, last.second)
             else:
                 self.emit(table["reverse"])
@@ -220,7 +222,7 @@ class Emitter:
         return negative
 
     def _part(self, expression: Expression) -> bool:
-        """Emit code for an operand like :meth:`deferred`.  A sum is one only in parentheses, which make it a group."""
+        """Emit code for an operand like :meth:`deferred`.  Number it as a group if it is a sum (in parentheses)."""
         negative = self.deferred(expression)
         if isinstance(expression, Sum):
             self.group()
@@ -263,7 +265,8 @@ class Emitter:
             elif waiting is not None:
                 self.emit(table["to"], waiting)
                 self.held = -1
-            # The accumulator keeps its sign. Operands of different signs are subtracted.
+            # The sum keeps the sign of the accumulator.  If the two operands have different deferred signs, they are
+            # subtracted.
             if isinstance(expression, Sum):
                 negative ^= sign == "-"
                 sign = "+" if negative == minus else "-"
@@ -345,7 +348,7 @@ def unknown_function(reference: Reference) -> Refused:
 
 
 def _unsigned(expression: Expression) -> tuple[Expression, bool]:
-    """Return a factor without its minus signs, and whether their number was odd."""
+    """Return a factor without its minus signs, and True if their number was odd."""
     if isinstance(expression, Sum) and not expression.rest:
         inner, odd = _unsigned(expression.first)
         return inner, odd ^ expression.minus

@@ -18,9 +18,9 @@ from emulator.language.cards import RECORD_MARK
 class ForeignStatement:
     """A statement of another FORTRAN: its name in messages, the language it belongs to, and a replacement for it.
 
-    ``has_body`` is True if the cards after it, up to an END, belong to it.  ``declares`` is ``all`` if its names may
-    be arrays, functions or of the other mode, so that statements using them cannot be checked, and ``(`` if this holds
-    only for names followed by a parenthesis.  ``number`` is IBM's error type, or 0.
+    ``has_body`` is True if the cards after the statement, up to an END, belong to it.  ``declares`` is ``all`` if its
+    names may be arrays, functions or of the other mode, so that statements using them cannot be checked, and ``(`` if
+    this holds only for names followed by a parenthesis.  ``number`` is IBM's error type, or 0.
     """
 
     name: str
@@ -178,7 +178,7 @@ def declared_names(statement: ForeignStatement, text: str) -> frozenset[str]:
 
 
 def suggest_function(name: str, library: Sequence[str]) -> str:
-    """Return the advice for an unknown function: the library functions, and a replacement or similar name if any."""
+    """Return the advice for an unknown function: the library functions, and a replacement or a similar name if any."""
     known = f"the functions are {', '.join(library[:-1])} and {library[-1]}"
     bare = name.removesuffix("F")
     replacement = _BY_NAME.get(name) or _BY_NAME.get(bare)

@@ -45,8 +45,9 @@ Spec = Literal | Field | Slash
 class FormatSpec:
     """A FORMAT as a flat sequence of specifications, with repeat counts and groups expanded.
 
-    ``again`` is the index at which a list with more items than fields continues: the last group that contains a field,
-    with its repeat count, or else the first specification (IBM FORTRAN II-D, executed).
+    ``again`` is the index at which a list with more items than fields continues: the start of the last group that
+    contains a field, with all its repetitions, or without such a group the first specification (IBM FORTRAN II-D,
+    executed).
     """
 
     specs: tuple[Spec, ...]
@@ -84,7 +85,7 @@ class FormatSpec:
 
 
 def _refused(place: Place, message: str, number: int = 11) -> Refused:
-    """Return a rejection with error type 11, the general one for an invalid specification (C26-5619 p. 56)."""
+    """Return a rejection, by default with error type 11 for invalid specifications in general (C26-5619 p. 56)."""
     return Refused(place, message, number)
 
 
@@ -119,8 +120,8 @@ def _suggest_width(failed: _Reader) -> Refused | None:
         return None
     begun, start, width = failed.hollerith
     text, end = failed.text, start + width
-    # Try the delimiters inside the field, the last one first.  If reading failed at the field or right after it, try
-    # delimiters after the field too.
+    # Try the delimiters inside the field, the last one first.  If reading failed at the Hollerith field or right after
+    # it, try delimiters after the field too.
     widths = [at - start for at in range(min(end, len(text)) - 1, start, -1) if text[at] in _ENDS]
     if failed.begun == begun or (failed.begun >= end and not text[end : failed.begun].strip()):
         widths[_TRIES:] = [at - start for at in range(end, len(text)) if text[at] in _ENDS]
@@ -137,7 +138,7 @@ def _suggest_width(failed: _Reader) -> Refused | None:
 class _Reader:
     """A single pass over the columns of a FORMAT.  ``group`` calls itself for a parenthesised group.
 
-    ``instead`` replaces the width of one Hollerith field: the index at which its text starts, and the new width.
+    ``instead`` gives one Hollerith field another width: the index at which the field's text starts, and the new width.
     ``begun`` is the index at which the last specification began.  ``hollerith`` holds the index of the last Hollerith
     field, the index of its text, and its width.
     """
@@ -205,7 +206,7 @@ class _Reader:
                 raise _refused(self.place(), f"a comma is missing before {char!r}")
             begun = self.at
             new, need_comma = self.one(depth)
-            # A longer list starts again at the last group of the outermost level that has a field.
+            # A list longer than the FORMAT continues at the last group of the outermost level that has a field.
             if depth == 0 and self.text[begun : self.at].lstrip("0123456789 ").startswith("("):
                 self.again = len(specs) if any(isinstance(spec, Field) for spec in new) else self.again
             specs.extend(new)

@@ -15,13 +15,14 @@ from emulator.numbers.fields import Field
 FLAG = 16
 RECORD_MARK = 10
 
-# The entry points.  A statement calls its verb with the field of its FORMAT's label, then ITEM for each number of its
-# list except the last one, for which it calls LAST_ITEM.  The low-order position of a field is its address.
+# The entry points. An input or output statement calls its verb with the field of its FORMAT's label, then ITEM for each
+# number of its list except the last one, for which it calls LAST_ITEM. The low-order position of a field is its
+# address.
 VERBS = {"READ": 4512, "ACCEPT": 4548, "ACCEPT TAPE": 4596}
 VERBS |= {"PUNCH": 4748, "TYPE": 4796, "PRINT": 4796, "PUNCH TAPE": 4844}
 ITEM, LAST_ITEM = 4992, 4940
 
-# The words of a FORMAT are addresses of routines, except for fields: a digit for the letter, the width, the decimals.
+# A word of a FORMAT is the address of a routine or, for a field, a digit for the letter, the width and the decimals.
 OPEN, CLOSE, SLASH, LITERAL = 4044, 4076, 4136, 4264
 KINDS = {"E": 5, "F": 6, "I": 9}
 
@@ -71,14 +72,14 @@ def field_text(positions: Sequence[int], kind: str) -> str:
 
 
 def format_positions(spec: FormatSpec) -> list[int]:
-    """Return the words of a FORMAT as they follow the position that its label's field points to."""
+    """Return the words of a FORMAT as positions.  They follow the position that the field of its label points to."""
     return [position for word in _words(spec) for position in word]
 
 
 def _words(spec: FormatSpec) -> Iterator[list[int]]:
     yield digits(OPEN, 5)
     for index, item in enumerate(spec.specs):
-        # A longer list continues after the last word OPEN that was passed.
+        # A list longer than the FORMAT continues after the last word OPEN that the library has passed.
         if index == spec.again and index:
             yield digits(OPEN, 5)
         if isinstance(item, Field):

@@ -4,7 +4,7 @@ Operations have the names of IBM's subroutine set (C26-5619 p. 60-69).  An instr
 address or table index, subscript (an index into :attr:`Program.subscripts`, or -1), and second operand.  An address is
 the number of a field of the storage map (emulator/language/storage.py), counted from 0 downward from the top of core.
 The second operand of an ITEM is the number of fields that the list transfers, beginning at its address: one field or a
-whole array.  The number is negative for fixed point.
+whole array.  That number of fields is negative if the item is fixed point.
 """
 
 from __future__ import annotations
@@ -111,7 +111,7 @@ def element_after(element: int, second: int) -> int:
     return element + 1 if element + 1 < abs(second) else 0
 
 
-# The name of a COUNT in the body of an indexed list. Each pass counts against the limit of statements.
+# The name of a COUNT in the body of an indexed list.  Each pass through the list counts as a statement for the limit.
 LIST_PASS = "pass of the list"
 
 # The name of a COUNT after an indexed list.
@@ -156,7 +156,7 @@ class Line:
 class Program:
     """A compiled program: everything the engine needs, as plain data.
 
-    ``format_lines`` holds the number of statements that precede each FORMAT.
+    ``format_lines`` holds for each FORMAT the number of statements that precede it.
     """
 
     source: str
@@ -192,7 +192,8 @@ class Program:
         return tuple(numbers)
 
 
-# The number of the indicator that the reader turns on with the last card, and a test turns off (PDQ FORTRAN, executed).
+# The number of the indicator that the reader turns on when it reads the last card.  Testing it turns it off (PDQ
+# FORTRAN, executed).
 LAST_CARD = 9
 
 # The number of entries of :attr:`Flat.table` per subscript.

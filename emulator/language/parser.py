@@ -30,7 +30,7 @@ from emulator.language.statements import (
 
 # For each rule of the grammar the form shown in messages, and the error type (C26-5619 p. 56) or 0.
 #
-# An IF with a comma after its parenthesis is also type 7.
+# The error type of an IF with a comma after its parenthesis is also 7.
 _FORMS = {
     "assignment": ("variable = expression", 0),
     "go_to": ("GO TO n", 0),
@@ -53,7 +53,7 @@ _CACHED_LENGTH = 200
 _AFTER_MARK = "a record mark (punched 0-2-8) ends a statement, but other characters follow it"
 _EDGE = (LAST_COLUMN, LAST_COLUMN + 1)
 _CODE = re.compile(r"[=+*/(),]")
-"""Characters that are unlikely in an identification in columns 73 to 80."""
+"""Characters that suggest that columns 73 to 80 hold part of a statement and not an identification."""
 _FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
 
 
@@ -145,7 +145,7 @@ def _begins_subprogram(source: Source) -> bool:
 
 
 def _column_warnings(source: Source) -> Iterator[Diagnostic]:
-    """Yield warnings about columns that other compilers read differently or that no compiler reads."""
+    """Yield warnings about punches in columns that other compilers read differently or that no compiler reads."""
     first = source.cards[0]
     if source.label and not first.columns(1, 5).strip() and first.columns(6, 6).isdigit():
         what = f"statement number {source.label} begins in column 6, where other compilers expect a continuation mark"
@@ -167,7 +167,7 @@ def _foreign_message(place: tree.Place, foreign: ForeignStatement) -> Diagnostic
 def _statement_function(body: tree.Body, arrays: Collection[str]) -> str:
     """Return the name of the statement function that a statement defines, or an empty string.
 
-    Its arguments are all names, and at least one is floating point, which a subscript cannot be.
+    Its arguments are all names.  At least one of them is floating point, so that it cannot be an array element.
     """
     if not isinstance(body, tree.Assignment) or not body.target.arguments or body.target.name in arrays:
         return ""

@@ -25,7 +25,7 @@ _VERB = re.compile(r"READ|ACCEPT|PUNCH|PRINT|TYPE")
 _NUMBER = re.compile(r"[ 0-9]*")
 _FORMAT = re.compile(r"\s*F\s*O\s*R\s*M\s*A\s*T\s*\(")
 _DO = re.compile(r"DO\d+,?[A-Z][A-Z0-9]*=")
-# The first prefix that matches determines the kind, so a prefix precedes every shorter prefix that it begins with.
+# The first prefix that matches determines the kind, so a longer prefix precedes a shorter one with which it begins.
 _PREFIXES = (
     ("GOTO(", "computed_go_to"),
     ("GOTO", "go_to"),
@@ -79,17 +79,18 @@ def is_control_card(card: Card) -> bool:
 
 
 def statement_columns(card: Card, first: int = 1) -> str:
-    """Return the columns of a card from ``first`` to 72, with blanks from a record mark on: it ends the statement."""
+    """Return the columns of a card from ``first`` to 72, with blanks after the end of its statement at a record mark."""
     text = card.columns(first, LAST_COLUMN)
     mark = None if is_control_card(card) else RECORD_MARK.search(text)
     return text[: mark.start()].ljust(len(text)) if mark else text
 
 
 def is_comment(card: Card) -> bool:
-    """Return True for a card without a statement, and for one with C in column 1 that lacks the form of a statement.
+    """Return True for a blank card, and for one with C in column 1 and two blanks or without the form of a statement.
 
     The manual (p. 12) requires two blanks after the C.  IBM's FORTRAN II-D and PDQ FORTRAN also accept ``C-----`` and
-    ``C TEXT`` (executed).  See :func:`may_be_comment` for a card that has a statement form but does not parse.
+    ``C TEXT`` (executed).  :func:`may_be_comment` treats a card with C in column 1 that has the form of a statement but
+    does not parse.
     """
     if not statement_columns(card).strip() or card.text.ljust(3).startswith("C  "):
         return True
@@ -159,8 +160,8 @@ def _continues(card: Card) -> bool:
     """
     if card.columns(1, 5).strip() or card.columns(6, 6) in (" ", "0"):
         return False
-    # A card continues the previous one only if its text is not a statement, or has unbalanced parentheses or a stray
-    # comma.
+    # The card continues the previous one only if its text is not a statement, or begins with an equals sign, or has
+    # unbalanced parentheses or a stray comma.
     source = _source((card,))
     if source.kind == "format":
         return False
@@ -175,7 +176,7 @@ def _source(cards: tuple[Card, ...]) -> Source:
     number = _NUMBER.match(raw)
     start = number.end() if number else 0
     label = raw[:start].replace(" ", "")
-    # The message about a number without a statement refers to the place of the number.
+    # If a card has a statement number but no statement, the error message refers to the place of the number.
     place = _place(cards, start if start < len(raw) else raw.index(label[0]))
     # A FORMAT keeps its blanks, because they count in Hollerith fields.
     match = _FORMAT.match(raw, start)

@@ -99,7 +99,7 @@ class Allocator:
         return self.immediates.setdefault(text, _PROVISIONAL + len(self.immediates))
 
     def final(self, address: int) -> int:
-        """Return the address of a field after the whole program has been translated."""
+        """Return the final address for a field or provisional address, after the whole program has been translated."""
         return address if address < _PROVISIONAL else address - _PROVISIONAL + self.used
 
     def place(self, kind: str, name: str, shape: tuple[int, ...] = ()) -> Entry:
