@@ -79,7 +79,7 @@ def is_control_card(card: Card) -> bool:
 
 
 def statement_columns(card: Card, first: int = 1) -> str:
-    """Return the columns of a card from ``first`` to 72, with blanks after the end of its statement at a record mark."""
+    """Return columns ``first`` to 72 of a card, with blanks from a record mark on, because it ends the statement."""
     text = card.columns(first, LAST_COLUMN)
     mark = None if is_control_card(card) else RECORD_MARK.search(text)
     return text[: mark.start()].ljust(len(text)) if mark else text
