@@ -1,4 +1,4 @@
-"""The operations that the procedure requires of an arithmetic: vectors with + - *, signs, a root and exact text.
+"""The operations that Butler's procedure needs from an arithmetic: vectors with + - *, signs, square roots, exact text.
 
 A vector is a numpy array of floats or of Python objects. The formulas below use its
 operators, so that the same code of the procedure serves every arithmetic. A quantity has a *degree*: 1 for
@@ -39,7 +39,7 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def number(self, value: Exact, minus: bool = False) -> Scalar:
-        """Convert a coordinate; ``minus`` marks a zero with a minus sign. Raise RangeError if it does not fit."""
+        """Convert a coordinate; ``minus`` marks a zero with a minus sign.  Raise RangeError if it is too large."""
 
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
         """Convert a tolerance for values of the given degree. Raise RangeError if it does not fit."""
@@ -58,7 +58,7 @@ class Arithmetic(ABC):
         """Return -1, 0 or 1 for each value: the three branches of a FORTRAN IF."""
 
     def within(self, values: Vector, slack: Vector) -> NDArray[np.bool_]:
-        """Return True for each value in the closed interval from -slack to +slack."""
+        """Return for each value True if it lies in the closed interval from -slack to +slack."""
         return np.asarray(self.sign(slack - abs(values)) >= 0)
 
     @abstractmethod
@@ -67,7 +67,7 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def exact(self, value: Scalar, degree: int) -> Exact:
-        """Return the exact value of a number of the given degree."""
+        """Return the exact value of a number, which is a quantity of the given degree."""
 
     @abstractmethod
     def text(self, value: Scalar, degree: int) -> str:
@@ -96,7 +96,7 @@ class Arithmetic(ABC):
         return not self.sign(self.filled([value]))[0]
 
     def last_largest(self, values: Vector) -> int:
-        """Return the index of the last largest value. Values are compared by the signs of their differences."""
+        """Return the index of the largest value, of equals the last. Values are compared by signs of differences."""
         # The listing's search replaces its candidate when the difference is zero or negative (program 1, 135 and 185;
         # program 3, 122), so the last of equal values wins.
         index, largest = 0, values[0]
@@ -121,20 +121,20 @@ class Arithmetic(ABC):
         return not self.sign(values * values).any()
 
     def distances_add_up(self, first_square: Scalar, second_square: Scalar, total_square: Scalar) -> bool:
-        """Return True if the first two distances add up to the third. All three are given as squares."""
+        """Return True if the first two distances add up to the third. The arguments are squares of distances."""
         return self.is_zero(self.root(first_square) + self.root(second_square) - self.root(total_square))
 
     def farthest(self, o1: Vector, o2: Vector, o3: Vector) -> int:
-        """Return the index of the last largest O1**2 + O2**2 + O3**2 (thesis p. 15)."""
+        """Return the index of the largest O1**2 + O2**2 + O3**2, the last one of equals (thesis p. 15)."""
         return self.last_largest(o1 * o1 + o2 * o2 + o3 * o3)
 
 
-# A number or a vector of an arithmetic.
-# The formulas of chapter 3, in the listing's order of operations, for numbers and vectors of any arithmetic.
+# ``Number`` stands for a number or a vector of an arithmetic.  The functions below are the formulas of chapter 3, in the
+# listing's order of operations.
 #
-# In ``a op b`` the left operand is the accumulator.  The compiler computes a product into the accumulator and then adds
-# the pending sum to it, so ``t + a*b`` of the listing is written ``a*b + t`` here.  It computes ``t - a*b`` as the
-# product less t with the sign reversed (``less``).  Therefore such a difference is minus zero if the operands cancel
+# In ``a op b`` the left operand is the accumulator.  The compiler computes a product in the accumulator and then adds
+# the sum t to it, so ``t + a*b`` of the listing is written ``a*b + t`` here.  It computes ``t - a*b`` as the product
+# less t with the sign reversed (``less``).  Therefore such a difference is minus zero if the operands cancel
 # (emulator/language/expressions.py).
 Number = Any
 Point = tuple[Number, Number, Number]
@@ -159,7 +159,7 @@ def plane(p: Point, q: Point, r: Point) -> tuple[Number, Number, Number, Number]
 
 
 def line(u1: Number, v1: Number, u2: Number, v2: Number, cu: Number, cv: Number) -> tuple[Number, Number, Number]:
-    """Return the line A u + B v + C = 0 through two points by (3.1) to (3.5); (cu, cv) is the one that determines C."""
+    """Return A, B, C of the line A u + B v + C = 0 through two points by (3.1) to (3.5); C is computed at (cu, cv)."""
     return v2 - v1, u1 - u2, (v1 - v2) * cu + (u2 - u1) * cv
 
 

@@ -87,7 +87,7 @@ def _float_text(value: float) -> str:
 
 @dataclass(frozen=True)
 class MultiprecisionArithmetic(Arithmetic):
-    """Binary floating point with any number of bits, rounded to nearest, without limits of range."""
+    """Binary floating point with any number of bits, rounded to nearest, without limits for exponents."""
 
     bits: int
     context: Any = field(default_factory=MPContext, compare=False)

@@ -1,8 +1,8 @@
-"""Numbers of the 1620 as Python numbers, under a profile of :mod:`emulator.numbers.arithmetic`.
+"""The 1620's decimal numbers as Python objects, computed by a profile of :mod:`emulator.numbers.arithmetic`.
 
-``a op b`` is the result of the operation when the accumulator holds a. If the machine would report an error code, the
-result is used without a report. The order of the operands matters in ``ibm1962``, in which zero plus zero keeps the
-sign of the accumulator, the left operand.
+``a op b`` is the result that the machine computes if its accumulator holds a. If the machine would also type an error
+code, the result is used and no error is reported. The order of the operands matters in ``ibm1962``, in which zero plus
+zero keeps the sign of the accumulator, the left operand.
 """
 
 from collections.abc import Callable, Iterable
@@ -33,7 +33,7 @@ def _operator(rule: Callable[[int, int, int, int, Rules], tuple[int, int, int]])
 
 
 class Number1620:
-    """One number: mantissa and exponent as in :mod:`emulator.numbers.arithmetic`, never undefined."""
+    """A number of the 1620: mantissa and exponent as in :mod:`emulator.numbers.arithmetic`, never undefined."""
 
     __slots__ = ("by", "e", "m")
 

@@ -1,4 +1,4 @@
-"""The arithmetic ``exact``: integers, in a unit small enough to make every coordinate and the point C an integer.
+"""The arithmetic ``exact``: integers, in a unit so small that all coordinates, also of the point C, are integers.
 
 If every number of the procedure fits in 64 bits the vectors hold int64, otherwise Python's integers.
 """
@@ -63,7 +63,8 @@ class ExactArithmetic(Arithmetic):
         raise NotImplementedError("exact arithmetic has no square root; use distances_add_up")
 
     def distances_add_up(self, first_square: Scalar, second_square: Scalar, total_square: Scalar) -> bool:
-        # sqrt(a) + sqrt(b) = sqrt(c) holds exactly if c - a - b = 2 sqrt(ab), which is decided by squaring once more.
+        # sqrt(a) + sqrt(b) = sqrt(c) holds if and only if c - a - b = 2 sqrt(ab), which is decided by squaring both
+        # sides.
         a, b, c = int(first_square), int(second_square), int(total_square)
         twice_product = c - a - b
         return twice_product >= 0 and twice_product * twice_product == 4 * a * b
@@ -82,8 +83,8 @@ class ExactArithmetic(Arithmetic):
 def exact_arithmetic(coordinates: Sequence[Exact], wide: bool = False) -> ExactArithmetic:
     """Return the exact arithmetic for these coordinates. If ``wide`` is true, it does not use int64.
 
-    The unit is 1 / (12 d), where d is the common denominator of the coordinates. C is the mean of three or four points,
-    so in this unit C and the points relative to C are integers too.
+    The unit is 1 / (12 d), where d is the common denominator of the coordinates. The inner point C is the mean of three
+    or four points, so in this unit its coordinates, and those of the points relative to C, are integers too.
     """
     unit = 12 * math.lcm(*{value.denominator for value in coordinates})
     largest = max(abs(value.numerator) * (unit // value.denominator) for value in coordinates)

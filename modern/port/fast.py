@@ -21,7 +21,8 @@ _CORRECTIONS = {THROUGH_CENTRE: workspace.THROUGH, TABLE_OF_PLANES: workspace.TA
 _H1_VERTICES = 4
 # Initial free slots in addition to six for each equation. A stage needs at most four and a half for each plane.
 _SPARE_SLOTS = 1024
-# One more free slot for this number of points. Most hulls then need no larger arrays, which would copy the points.
+# Per this number of points, there is one more free slot. For most hulls the arrays are then large enough and need not
+# be copied to larger ones.
 _POINTS_PER_SLOT = 8
 
 # The number of points from which loading the kernels costs less than it saves.
@@ -44,7 +45,7 @@ PLAIN = Steps(growth.stage, plain_satisfied)
 
 
 def choose(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, fast: bool | None) -> Steps:
-    """Choose the implementation for these points.
+    """Choose numpy or the compiled kernels for the hull of these points.
 
     ``fast`` selects numpy (False) or the kernels (True). None selects the kernels if numba is installed and they save
     time, that is, for many points or if they are already loaded. Raise NotInstalled if ``fast`` is True and numba is
@@ -65,8 +66,8 @@ def choose(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, fast
 def _in_range(arithmetic: FloatArithmetic, points: PointTable, slack: Slack | None) -> bool:
     """Return True if no number of the procedure can overflow. numpy reports an overflow; compiled code does not.
 
-    The largest numbers are squares of a plane's coefficients, at most 36 M**4 for coordinates up to M. Values at a
-    point are at most 24 M**3. The slack is e, the same for all equations, times a coefficient.
+    The largest numbers are squares of a plane's coefficients, at most 36 M**4 for coordinates up to M. A plane's value
+    at a point is at most 24 M**3. The slack is e, the same for all equations, times a coefficient.
     """
     limit = float(np.finfo(arithmetic.dtype).max)
     largest = max(1.0, float(abs(points.coordinates).max()))
@@ -96,7 +97,7 @@ def with_kernels(grow: Function, find_satisfied: Function) -> Steps:
     """Return the steps that run the given kernels, compiled or as plain Python functions."""
 
     def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
-        """Run one stage if a caller watches the hull, otherwise as many stages as the kernel can run."""
+        """Run one stage of growth if a caller watches the hull, otherwise as many stages as the kernel can run."""
         cloud, slots, state = _cloud(hull), _slots(hull.table, _spare(hull)), _state(hull)
         scratch = workspace.scratch_for(len(slots.alive), slots.coefficients.dtype)
         code = grow(cloud, slots, scratch, state, _rules(hull), first, 1 if hull.watch else -1)
@@ -114,7 +115,7 @@ def with_kernels(grow: Function, find_satisfied: Function) -> Steps:
     def satisfied(table: Equations, points: PointTable) -> list[NDArray[np.int64]]:
         slots, coordinates = _slots(table, 0), np.array(points.coordinates, order="C")
         counts, indices = np.empty(len(table), np.int64), np.empty(4 * len(table), np.int64)
-        # Four points for each plane are enough for most hulls. Otherwise repeat with the exact number.
+        # Room for four points on each plane is enough for most hulls. Otherwise repeat with the exact number.
         if (count := find_satisfied(slots, coordinates, counts, indices)) > len(indices):
             indices = np.empty(count, np.int64)
             find_satisfied(slots, coordinates, counts, indices)

@@ -1,4 +1,4 @@
-"""The loop that expands H_1 to the hull of all points, the same in the plane and in space (thesis p. 20-33)."""
+"""The loop that expands the first hull H_1 to the hull of all points, in the plane or in space (thesis p. 20-33)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -11,7 +11,7 @@ from modern.port.table import Equations, PointTable
 
 
 class Remaining:
-    """The points that remain and are not vertices. Each has an equation that prevents its elimination."""
+    """The points that are neither eliminated nor vertices, each with an equation that is not negative at it."""
 
     def __init__(self) -> None:
         # The serial number of an equation whose value at the point is not negative; -1 if unknown.
@@ -41,12 +41,12 @@ class Remaining:
             return []
         alive = np.zeros(table.made + 1, np.bool_)
         alive[table.serial] = True
-        # Statements 103 to 113: a point is inside if every equation is negative at it. A point with a recorded equation
-        # that is still in the table cannot be inside, so only the other points are tested.
+        # Statements 103 to 113: a point is inside if every equation is negative at it. A point whose keeper (the
+        # equation recorded for it) is still in the table cannot be inside, so only the other points are tested.
         doubtful = np.flatnonzero(~alive[self.keeper])
         fresh = int(np.searchsorted(table.serial, self.tried))
-        # Test the new equations first: at most points one of them replaces the deleted one. The older equations are
-        # needed only for points that are inside all the new ones.
+        # Test the new equations first: for most points one of them becomes the keeper in place of the deleted one. The
+        # older equations are needed only for points that are inside all the new ones.
         for first in (fresh, 0) if 0 < fresh < len(table) else (0,):
             if not doubtful.size:
                 break
@@ -70,7 +70,7 @@ TABLE_OF_LINES, BETWEEN, NUMBERING = "P2-023", "P2-024", "P2-025"
 
 
 class Stopped(Exception):
-    """The procedure ended without a hull. Holds the typed message and the label of the deciding statement."""
+    """Raised if the procedure ends without a hull, with the typed message and the label of the deciding statement."""
 
     def __init__(self, status: str, label: str) -> None:
         super().__init__(status, label)
@@ -79,7 +79,7 @@ class Stopped(Exception):
 
 @dataclass
 class Progress:
-    """The result so far: the points eliminated as inside or boundary points, and the corrections that mattered."""
+    """The result so far: the points eliminated as inside or boundary points, and the corrections that took effect."""
 
     inside: list[int] = field(default_factory=list)
     boundary: list[int] = field(default_factory=list)
@@ -89,7 +89,7 @@ class Progress:
         self.corrected[name] = None
 
 
-# A function called at each H_j with its table and the fields of :class:`Grown`.
+# A function that is called for each approximation H_j with its table of equations and the fields of :class:`Grown`.
 Watcher = Callable[[Equations, tuple[int, ...], int, int, list[int]], None]
 
 
@@ -105,10 +105,10 @@ class Growing(Protocol):
     to_check: int
 
     def outside_point(self) -> int | None:
-        """Return the index of the next vertex, or None if no equation has a point outside."""
+        """Return the index of the next vertex, a point outside an equation, or None if no point is outside any."""
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex, and return how many equations had the point outside."""
+        """Make the point at ``index`` a vertex, and return the number of equations that it was outside of."""
 
 
 Hull = TypeVar("Hull", bound=Growing)
@@ -116,7 +116,7 @@ Hull = TypeVar("Hull", bound=Growing)
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """The points that a stage added and eliminated, by input index, and the numbers of checked and replaced ones."""
+    """The result of a stage: points added and eliminated, by input index, and numbers of equations that it used."""
 
     added: tuple[int, ...]
     checked: int
@@ -125,12 +125,12 @@ class Grown:
 
 
 def stage(hull: Growing, first: bool) -> Grown | None:
-    """Add the next vertex and eliminate the points inside. Return None if no point is outside."""
+    """Add the next vertex to the hull and eliminate the points inside. Return None if no point is outside the hull."""
     if first:
         added, checked, outside = hull.points.input_indices(slice(0, hull.vertices)), 0, 0
     else:
-        # The listing checks for supporting planes only after it has looked for inside points, and it ends here
-        # if that left no points (program 3, 103; program 2, 128).
+        # The listing first looks for inside points and then checks if the equations support the hull. It ends here if
+        # no point is left that is not a vertex (program 3, 103; program 2, 128).
         if len(hull.points) == hull.vertices and not hull.remaining.eliminated_any:
             return None
         index = hull.outside_point()

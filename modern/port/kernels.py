@@ -1,9 +1,9 @@
-"""Program 3 from H_1 on for floating-point numbers, one number at a time, in the subset of Python that numba compiles.
+"""Program 3 from its first hull H_1 on, for floating-point numbers, in the subset of Python that numba compiles.
 
 The steps, decisions and numbers are those of :mod:`modern.port.growth` and :mod:`modern.port.polyhedron`, and the
-formulas are the same functions. Those modules run the exceptional stages: a stage that stops, that needs the correction
-of a pair or of C for the first time, or whose new vertex is already a vertex. For such a stage the kernel returns
-UNUSUAL and changes only the equation to check.
+formulas are the same functions. Those modules run the exceptional stages: a stage that ends without a hull, that for
+the first time needs the correction of a pair of planes or of the inner point C, or whose new vertex is already a
+vertex. For such a stage the kernel returns UNUSUAL and changes only the number of the equation to check.
 """
 
 from typing import Any
@@ -38,15 +38,16 @@ from modern.port.workspace import (
     tolerance,
 )
 
-# The result of a stage: completed, no further stage possible, left to numpy, or no free slots for its planes.
+# The results of a stage, in this order: completed, no further stage possible, left to numpy, no free slots for its
+# planes.
 GROWN, ENDED, UNUSUAL, FULL = range(4)
 
-# The number of points that are tested together before the largest value among them is determined.
+# The number of points whose values are compared as a block with the largest value so far.
 BLOCK = 256
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
-    """Return the first slot in the range whose plane has the point on it or outside it, or -1 if there is none."""
+    """Return the first slot in the range whose plane has the point on it or outside, or -1 if all have it inside."""
     for slot in range(first, last):
         if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
             return slot
@@ -59,7 +60,8 @@ def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
     next_index = state[VERTICES]
     for index in range(state[VERTICES], state[COUNT]):
         keeper = cloud.keeper[index]
-        # Statements 104 to 112. The new planes come first: at most points one of them replaces the deleted keeper.
+        # Statements 104 to 112. The new planes come first: for most points one of them replaces the deleted keeper, the
+        # plane that shows that a point is not inside.
         if keeper < 0 or not slots.alive[keeper]:
             point = corner(cloud.coordinates, index)
             keeper = keeper_among(point, slots, tried, made)
@@ -69,7 +71,8 @@ def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
             cloud.eliminated[state[GONE]] = cloud.input_index[index]
             state[GONE] += 1
             continue
-        # Statement 111 moves all later points down for each eliminated one. One pass moves each point once.
+        # Statement 111 moves all later points down for each point eliminated. Here a single pass moves each point only
+        # once.
         if next_index != index:
             for i in range(3):
                 cloud.coordinates[i, next_index] = cloud.coordinates[i, index]
@@ -82,7 +85,7 @@ def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
 
 
 def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation: Any, above: Any) -> int:
-    """Count the points with a larger value, without branches, so that the processor handles several at a time."""
+    """Count the points at which a plane's value is larger, without branches, so that several are computed at a time."""
     x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
     count = 0
     for k in range(len(x)):
@@ -91,8 +94,8 @@ def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation:
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
-    """Return the index of the last point at which the plane has its largest value, or -1 if no point is outside."""
-    # A value within the slack counts as zero. The difference is a zero of the right type.
+    """Return the index of the point farthest outside a plane, the last one of equals, or -1 if no point is outside."""
+    # A value within the slack counts as zero. The difference computed here is a zero of the number type of the values.
     largest = e if e > 0 else e - e
     index = -1
     # Visit the points from the end, so that the last of equal values is met first (program 3, 122: not greater).
@@ -110,7 +113,7 @@ def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any,
 
 
 def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
-    """Return the index of the next vertex, -1 for none, or -2 if a plane misses a point that defines it."""
+    """Return the index of the next vertex, -1 for none, or -2 if a plane does not contain its defining points."""
     while state[CHECK] < state[MADE]:
         slot = state[CHECK]
         if slots.alive[slot]:
@@ -128,9 +131,9 @@ def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
 
 
 def planes_to_replace(point: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> int:
-    """List the planes that have the point outside, in the order of replacement, and return their number.
+    """List the planes that the point is outside of, in the order of replacement, and return their number.
 
-    The first is the plane that is being checked. Earlier planes have no point outside, because they were checked
+    The first is the plane that is being checked. No point is outside of earlier planes, because they were checked
     before.
     """
     order, values = scratch.order, scratch.values
@@ -170,8 +173,8 @@ def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, s
     point = corner(cloud.coordinates, index)
     for k in range(count):
         old = scratch.order[k]
-        # Statements 126 to 130: the new vertex replaces MM, NN and KK in turn. ``defining`` stores its final index, but
-        # its coordinates are still at its old one.
+        # Statements 126 to 130: the new vertex replaces MM, NN and KK in turn. ``defining`` stores the final index of
+        # the new vertex, but its coordinates are still at its old index.
         for turn in range(3):
             for i in range(3):
                 slots.defining[i, slot] = slots.defining[i, old]
@@ -180,7 +183,7 @@ def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, s
             q = point if turn == 1 else corner(cloud.coordinates, slots.defining[1, slot])
             r = point if turn == 2 else corner(cloud.coordinates, slots.defining[2, slot])
             fresh = plane(p, q, r)
-            # Statements 132 to 134: orient the plane by C. After a translation D is the value there (p. 118).
+            # Statements 132 to 134: orient the plane by C. If the origin was moved to C, D is the value at C (p. 118).
             value = fresh[3] if rules.moved else at(fresh, (rules.centre[0], rules.centre[1], rules.centre[2]))
             if value > 0:
                 fresh = (-fresh[0], -fresh[1], -fresh[2], -fresh[3])
@@ -200,7 +203,7 @@ def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, s
 
 
 def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) -> None:
-    """Find the pairs of equal planes among the new planes, which begin at slot ``first``.
+    """Find the pairs of equal planes among the new planes, which occupy the slots from ``first`` on.
 
     ``scratch.partner`` receives for each new plane the number of the new plane with the same three points, or -1. Of
     three equal planes the first two are a pair. A hash table holds the planes that have no partner yet.
@@ -214,7 +217,7 @@ def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) ->
     for k in range(last - first):
         partner[k] = -1
         a, b, c = defining[0, first + k], defining[1, first + k], defining[2, first + k]
-        # The new vertex has the largest index of the three, so the other two identify the plane.
+        # The new vertex has the largest index of the three defining points, so the other two identify the plane.
         new = max(a, b, c)
         low, high = min(a, b, c), a + b + c - new - min(a, b, c)
         keys[0, k], keys[1, k] = low, high
@@ -254,7 +257,7 @@ def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.i
     last = made + 3 * replaced_count
     if last > len(slots.alive):
         return FULL
-    # The largest table of the stage: every replacement adds three planes and then deletes one (131, 157).
+    # The largest table of the stage: every replacement adds three planes and then deletes one (statements 131, 157).
     peak = state[ALIVE] + 2 * replaced_count + 1
     corrections = three_planes(replaced_count, index, cloud, slots, scratch, state, rules)
     if corrections < 0 or peak > max(rules.capacity, 4 * state[COUNT] - 11):
@@ -265,14 +268,14 @@ def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.i
     partner = scratch.partner
     if replaced_count > 1 and takes_last_pair(partner, 3 * replaced_count):
         corrections |= PAIR
-    # In every hull of many points the table outgrows the listing's, so this correction alone is recorded here.
+    # For any hull of many points the table is longer than the listing's, so only this correction is recorded here.
     if corrections & ~state[KNOWN] & ~TABLE:
         return UNUSUAL
     state[KNOWN] |= corrections
     for k in range(replaced_count):
         slots.alive[scratch.order[k]] = False
     next_slot = made
-    # Keep the fresh planes without a partner and close up their slots (141 to 160).
+    # Keep the fresh planes without a partner and close up their slots (statements 141 to 160).
     for k in range(last - made):
         if partner[k] < 0:
             for i in range(4):
@@ -294,10 +297,10 @@ def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.i
 
 
 def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
-    """Run the given number of stages, or all if it is negative. ``first`` means that the next stage is H_1."""
+    """Run the given number of stages, or all if it is negative. ``first`` is True before the stage of hull H_1."""
     while True:
         if not first:
-            # No points remain, and the last test eliminated none (103).
+            # No points remain, and the last test eliminated none (statement 103).
             if state[COUNT] == state[VERTICES] and not state[STRUCK]:
                 return ENDED
             # Close up the slots when a third of them are empty.
@@ -328,7 +331,7 @@ def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: An
 
 
 def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], indices: NDArray[np.int64]) -> int:
-    """List the points that satisfy each equation, and return their number, even if not all of them are stored."""
+    """List the points that satisfy each equation, as far as they fit, and return the number of all of them."""
     k, count = 0, coordinates.shape[1]
     for slot in range(len(slots.alive)):
         plane_equation, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k

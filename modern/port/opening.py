@@ -1,4 +1,4 @@
-"""The opening of the procedure, program 1: three points that are not collinear, then a fourth outside their plane.
+"""The opening of the procedure, program 1: find three points not on a line, then a fourth point outside their plane.
 
 Thesis p. 11-17 and 29, listing p. 64-74. Numbers in parentheses are statement labels of the listing. Points are
 counted from 0 here, from 1 in the listing.
@@ -12,11 +12,13 @@ from modern.port.arithmetic import Arithmetic, Point, Scalar, Vector, at, line, 
 from modern.port.table import Equations, PointTable, Slack, snapped
 
 Four = tuple[Scalar, Scalar, Scalar, Scalar]
-# The two coordinates of each of a line's equations by KPERP: (3.1) and (3.2), (3.1) and (3.3), (3.2) and (3.3).
+# For each KPERP, the two coordinates in each of a line's two equations: (3.1) and (3.2), (3.1) and (3.3), (3.2) and
+# (3.3).
 _PAIRS = {1: ((0, 1), (0, 2)), 2: ((0, 1), (1, 2)), 3: ((0, 2), (1, 2))}
 
 
-# The label of the decision if the text's fourth point lies in the plane of the first three.
+# The label that a result reports if the fourth point, chosen as in the text of the thesis, lies in the plane of the
+# first three.
 NO_FOURTH = "chapter 3, p. 29"
 
 
@@ -44,11 +46,11 @@ def direction(arithmetic: Arithmetic, p: Point, q: Point) -> int:
 
 
 def line_equations(p: Point, q: Point, perpendicular: int, zero: Scalar) -> tuple[Four, Four]:
-    """Return two equations of the line through two points in the form A x + B y + C z + D = 0 (113 to 123)."""
+    """Return two equations A x + B y + C z + D = 0 of the line through two points (statements 113 to 123)."""
     equations = []
     for i, j in _PAIRS[perpendicular]:
         a, b, c = line(p[i], p[j], q[i], q[j], p[i], p[j])
-        # The coefficient of the coordinate that the equation does not contain is punched as zero (116 to 123).
+        # The listing punches zero as coefficient of the coordinate that an equation lacks (statements 116 to 123).
         row = [zero, zero, zero, c]
         row[i], row[j] = a, b
         equations.append((row[0], row[1], row[2], row[3]))
@@ -56,7 +58,7 @@ def line_equations(p: Point, q: Point, perpendicular: int, zero: Scalar) -> tupl
 
 
 def extremes(arithmetic: Arithmetic, points: PointTable) -> tuple[int, int, int]:
-    """Return the indices of the last largest and last smallest point, and the axis that decides (134 to 152)."""
+    """Return the two extreme points on the first axis on which points differ, and that axis (statements 134 to 152)."""
     axis = 0
     while True:
         # The first axis on which the points differ gives the two extremes and KPERP.
@@ -68,20 +70,20 @@ def extremes(arithmetic: Arithmetic, points: PointTable) -> tuple[int, int, int]
 
 
 def bring_to_front(points: PointTable, first: int, second: int) -> None:
-    """Exchange the two extremes with the first and the second point (155 to 158)."""
+    """Exchange the two extremes with the first and the second point (statements 155 to 158)."""
     points.swap(first, 0)
-    # The first exchange moved the point at 0. If that was the second extreme, it is now where the first was (157).
+    # The first exchange moved point 0. If that is the second extreme, it is now where the first one was (157).
     points.swap(first if second == 0 else second, 1)
 
 
 def on_the_line(arithmetic: Arithmetic, points: PointTable, perpendicular: int, slack: Slack | None) -> bool:
-    """Return True if all points satisfy both equations of the line through the first two (statements 181-192)."""
+    """Return True if all points satisfy both equations of the line through the first two (statements 181 to 192)."""
     p, q = points.at(0), points.at(1)
     for i, j in _PAIRS[perpendicular]:
         equation = line(p[i], p[j], q[i], q[j], p[i], p[j])
         values = at(equation, (points.coordinates[i], points.coordinates[j]))
         if slack is None:
-            # The listing finds the largest square and compares that value with zero (184 to 187).
+            # The listing finds the largest square and compares that value with zero (statements 184 to 187).
             if not arithmetic.is_zero(values[arithmetic.last_largest_square(values)]):
                 return False
         elif not all_within(arithmetic, equation, values, slack):
@@ -98,8 +100,8 @@ def all_within(arithmetic: Arithmetic, equation: tuple[Scalar, ...], values: Vec
 def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, text: bool = False) -> Opening:
     """Run program 1 on distinct points, which it reorders, and return the opening of the procedure.
 
-    As the fourth point, the text (p. 29; ``text``) takes the one with the largest value, the listing that with the
-    largest square.
+    The fourth point is the one at which the equation of the plane has the largest square, as in the listing, or if
+    ``text`` is true the largest value, as in the text of the thesis (p. 29).
     """
     count = len(points)
     zero = arithmetic.number(0)
@@ -119,13 +121,13 @@ def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, t
             row for a, b in ((p, q), (r, q), (r, p)) for row in line_equations(a, b, direction(arithmetic, a, b), zero)
         ]
         return Opening("triangle", "131", tuple(lines), plane(p, q, r))
-    # The point farthest from the line becomes the third (125 to 228).
+    # The point farthest from the line becomes the third (statements 125 to 228).
     points.swap(arithmetic.farthest(*moments(points.rows, p, q)), 2)
     base_plane = plane(p, q, points.at(2))
     values = at(base_plane, points.rows)
     if all_within(arithmetic, base_plane, values, slack) if slack else arithmetic.all_squares_zero(values):
         return Opening("coplanar", "209", plane=base_plane)
-    # The point farthest from the plane becomes the fourth (196 to 198).
+    # The point farthest from the plane becomes the fourth (statements 196 to 198).
     fourth = arithmetic.last_largest(values) if text else arithmetic.last_largest_square(values)
     if text and arithmetic.is_zero(values[fourth]):
         return Opening("error", NO_FOURTH)
@@ -147,7 +149,7 @@ def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
 
 
 def tetrahedron(arithmetic: Arithmetic, points: PointTable, slack: Slack | None) -> Equations:
-    """Return the four planes of the first hull H_1, whose signs are not yet fixed (200 to 203)."""
+    """Return the four planes of the first hull H_1, whose signs are not yet fixed (statements 200 to 203)."""
     corners = np.array([(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)]).T
     p, q, r = (points.several(row) for row in corners)
     coefficients = np.stack(plane(p, q, r))

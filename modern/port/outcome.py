@@ -1,4 +1,4 @@
-"""The conversion of the procedure's numbers to the result: exact text, faces and the stages of the construction."""
+"""The conversion of the procedure's numbers to its result: exact text, faces, and stages of the construction."""
 
 import math
 from collections.abc import Sequence
@@ -46,7 +46,7 @@ class Faces:
     points: PointTable
 
     def whole_points(self, indices: Sequence[int]) -> "dict[int, IntPoint]":
-        """Return the exact coordinates of the points at these indices as integers in a common unit, by index."""
+        """Return by index the exact coordinates of the given points, as integers in a common unit."""
         rows = [self.arithmetic.exacts(row[indices], 1) for row in self.points.rows]
         unit = math.lcm(*{value.denominator for row in rows for value in row})
         integers = [[value.numerator * (unit // value.denominator) for value in row] for row in rows]
@@ -90,7 +90,7 @@ class Faces:
         zero = self.arithmetic.number(0)
         for k, satisfied in enumerate(on):
             row = [table.coefficients[i, k] for i in range(3)]
-            # KPROJ is the number of the coordinate that was projected away, counted from 1 (209 to 217).
+            # KPROJ is the number of the coordinate that was projected away, counted from 1 (statements 209 to 217).
             row.insert(projection - 1, zero)
             exact = [self.arithmetic.exact(value, degree) for value, degree in zip(row, LINE, strict=True)]
             faces.append(
@@ -106,7 +106,7 @@ class Faces:
 
 
 class Historian:
-    """A watcher that records each H_j. The stages are built on first access."""
+    """A watcher that records each approximation H_j and makes a :class:`Stage` of it on first access."""
 
     def __init__(self, points: PointTable) -> None:
         self.points = points
@@ -188,7 +188,7 @@ def cyclic(points: Sequence[IntPoint], normal: Sequence[Exact]) -> list[int]:
     if normal[axis] < 0:
         u, v = v, u
     flat = [(p[u], p[v]) for p in points]
-    # Most faces are triangles, for which one turn decides.
+    # Most faces are triangles, for which one turn decides the order of the corners.
     if len(flat) == 3 and (turn := _turn(*flat)):
         return [0, 1, 2] if turn > 0 else [0, 2, 1]
     start = min(range(len(flat)), key=lambda k: flat[k])

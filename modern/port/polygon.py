@@ -15,7 +15,7 @@ from modern.port.growth import BETWEEN, NUMBERING, TABLE_OF_LINES, Progress, Rem
 from modern.port.table import Equations, PointTable, Slack, turned
 
 _LISTED_LINES = 51
-# MM and NN of the first three lines (102+9 to 103).
+# MM and NN of the first three lines (statements 102+9 to 103).
 _FIRST = np.array([(0, 1), (2, 1), (0, 2)]).T
 _FROM, _TO, _CONSTANT = np.array([0, 1, 2]), np.array([1, 2, 0]), np.array([0, 1, 0])
 
@@ -51,23 +51,23 @@ class Polygon:
         self.table = Equations(self.arithmetic, self.slack, self.turn(_FROM, _TO, _CONSTANT), _FIRST.copy())
 
     def run(self) -> None:
-        """Expand the first triangle H_1 to the hull of all points (103 to 135). Raise Stopped if that fails."""
+        """Expand the first triangle H_1 to the hull of all points (statements 103 to 135), or raise Stopped."""
         grow(self)
 
     def turn(self, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
         return turned(self.arithmetic, lines(self.points, first, second, by), self.centre)[0]
 
     def outside_point(self) -> int | None:
-        """Return the next vertex: the point farthest outside the first line that has a point outside (124 to 132)."""
+        """Return the point farthest outside the first line that has a point outside (statements 124 to 132)."""
         while self.to_check < len(self.table):
             u, v, _ = self.points.rows
-            # The two end points of the line must satisfy its equation exactly, or the data are not acceptable (126).
+            # The line's end points must satisfy its equation exactly, or the data are not acceptable (statement 126).
             values = self.table.one_at(self.to_check, (u, v))
             if self.arithmetic.sign(values[self.table.defining[:, self.to_check]]).any():
                 raise Stopped(NOT_ACCEPTABLE, "program2 126")
             if len(self.points) == self.vertices:
                 return None
-            # The listing compares only the points that are not vertices yet (128 to 131).
+            # The listing compares only the points that are not vertices yet (statements 128 to 131).
             values = values[self.vertices :]
             index = self.arithmetic.last_largest(values)
             if self.arithmetic.sign(values[index : index + 1])[0] > 0:
@@ -76,13 +76,13 @@ class Polygon:
         return None
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex. Two lines replace the line that has the point outside (133 to 135)."""
+        """Make the point at ``index`` a vertex. Two lines replace the line that it is outside of (133 to 135)."""
         new = self.vertices
         self.vertices += 1
         self.points.swap(index, new)
         self.remaining.swapped(index - new)
         ends = self.table.defining[:, self.to_check].copy()
-        # The new lines run from the new vertex to the two ends of the deleted line (133).
+        # The new lines run from the new vertex to the two ends of the deleted line (statement 133).
         both = np.array([new, new])
         retained = np.ones(len(self.table), np.bool_)
         retained[self.to_check] = False
@@ -95,7 +95,7 @@ class Polygon:
 def strike_between(
     arithmetic: Arithmetic, table: Equations, points: PointTable, progress: Progress
 ) -> tuple[NDArray[np.int64], list[int]]:
-    """Delete the points between two others of their line, and the repeated equations of a line (144 to 169).
+    """Delete the points between two others of their line, and the repeated equations of a line (statements 144 to 169).
 
     Return the end points of each remaining equation, and the deleted points in the order of their discovery. Raise
     Stopped if the procedure cannot continue.
@@ -106,7 +106,7 @@ def strike_between(
     k = 0
     while k < len(table):
         on = np.flatnonzero(arithmetic.sign(table.one_at(k, (u, v))) == 0).tolist()
-        # There is a third point on the line: one of the three lies between the others and is not a vertex (147 to 155).
+        # A third point is on the line: one of the three lies between the others and is not a vertex (147 to 155).
         third = next((i for i in on if i not in ends[:, k]), None)
         if third is not None:
             mm, nn = ends[:, k].tolist()
@@ -129,7 +129,7 @@ def strike_between(
 def other_lines(
     arithmetic: Arithmetic, table: Equations, points: PointTable, ends: NDArray[np.int64], keep: int
 ) -> NDArray[np.bool_]:
-    """Mark all equations except those that hold at both ends of a line, but keep the equation ``keep`` (161 to 167).
+    """Return a mask without the equations that hold at both ``ends`` of a line, except ``keep`` (161 to 167).
 
     As in the listing, the index KK is not adjusted when earlier equations are deleted. Raise Stopped if the listing
     would read beyond the end of its table.
@@ -153,14 +153,14 @@ def other_lines(
 
 
 def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, int], progress: Progress) -> int:
-    """Return which of three points on a line lies between the others: that opposite the longest side (155 to 157)."""
+    """Return the one of three points on a line that lies between the others (statements 155 to 157)."""
     (u1, v1, _), (u2, v2, _), (u3, v3, _) = (points.at(i) for i in three)
     a = distance_squared(u1, v1, u2, v2)
     b = distance_squared(u1, v1, u3, v3)
     c = distance_squared(u2, v2, u3, v3)
     signs = arithmetic.sign(arithmetic.filled([a + b - c, a + c - b])) < 0
     exact_choice = 0 if signs[0] else 1 if signs[1] else 2
-    # The listing compares the distances themselves (155 to 157). Rounded square roots need not add up.
+    # The listing compares the distances themselves (statements 155 to 157). Rounded square roots need not add up.
     listed_choice = 0 if arithmetic.distances_add_up(a, b, c) else 1 if arithmetic.distances_add_up(a, c, b) else 2
     if exact_choice != listed_choice:
         progress.correct(BETWEEN)
@@ -168,12 +168,12 @@ def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, in
 
 
 def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the vertices if the points that are not vertices are not counted."""
+    """Return the numbers of the vertices, counted without the points that are not vertices."""
     return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 
 def listed_numbers(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the vertices by the listing's rule, which counts from the first point on (179+2 to 191)."""
+    """Return the numbers of the vertices by the listing's rule, which can be wrong (statements 179+2 to 191)."""
     numbers = []
     for number in ends.ravel().tolist():
         # The listing compares with the number already lowered, so it can skip a point that is no vertex.

@@ -26,13 +26,13 @@ from modern.port.growth import (
 )
 from modern.port.table import Equations, PointTable, turned
 
-# The entries of the plane table in the listing, and in the layer ``corrected``: 4N-11 for N = 51.
+# The numbers of planes that the table holds in the listing and in the layer ``corrected`` (4N-11 for N = 51).
 LISTED_PLANES, PLANES = 98, 193
 
 
 @dataclass(frozen=True)
 class Fresh:
-    """The new planes of a stage, and whether one passes through the inner point C or has only zero coefficients."""
+    """The new planes of a stage, and whether any passes through the inner point C or has only zero coefficients."""
 
     coefficients: Vector
     defining: NDArray[np.int64]
@@ -53,15 +53,15 @@ class Polyhedron:
     vertices: int = 4
     to_check: int = 0
     remaining: Remaining = field(default_factory=Remaining)
-    # True to replace further planes in the order of their numbers, as the text does (p. 32).
+    # True to replace the planes after the first in the order of their numbers, as the text of the thesis does (p. 32).
     text: bool = False
 
     def run(self, grow_stage: "Callable[[Polyhedron, bool], Grown | None]" = stage) -> None:
-        """Expand the first tetrahedron H_1 to the hull of all points (103 to 160); ``grow_stage`` adds one vertex."""
+        """Expand the first tetrahedron H_1 to the hull of all points (statements 103 to 160), by ``grow_stage``."""
         grow(self, grow_stage)
 
     def outside_point(self) -> int | None:
-        """Return the next vertex: the point farthest outside the first plane that has a point outside (115 to 125)."""
+        """Return the point farthest outside the first plane that has a point outside (statements 115 to 125)."""
         while self.to_check < len(self.table):
             # Statements 116 to 119: the three defining points must satisfy the equation exactly.
             values = self.table.one_at(self.to_check, self.points.rows)
@@ -74,27 +74,28 @@ class Polyhedron:
         return None
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex, and return how many planes had it outside (125 to 160).
+        """Make the point at ``index`` a vertex, and return how many planes it was outside of (statements 125 to 160).
 
         Three planes replace each of these planes: first the one that is being checked, then the others by decreasing
         value at the point (if ``text`` is true, by their numbers). Raise Stopped if the procedure cannot continue.
         """
         new = self.vertices
         if new == len(self.points):
-            raise Stopped(ERROR, "program3 103")  # rounded arithmetic can put a vertex outside its own hull
+            raise Stopped(ERROR, "program3 103")  # by rounding a vertex can lie outside the hull
         self.vertices += 1
         self.points.swap(index, new)
         self.remaining.swapped(index - new)
         point = self.points.at(new)
         values = self.table.all_at(point)
         # Statements 135 to 140 find one plane after the other, each time the largest value of all. A replaced plane
-        # does not return and fresh planes are not above the point, so the order can be computed at once.
+        # does not return, and the point is not outside of the new planes, so the order can be computed at once.
         above = np.flatnonzero(self.arithmetic.sign(values) > 0)
         others = above[above != self.to_check]
         further = others if self.text else others[self.arithmetic.descending(values[others])]
         order = [self.to_check, *further.tolist()]
         fresh = self.three_planes(self.table.defining[:, order], new)
-        # The table is largest while the last plane is being replaced: each replacement adds three and deletes one.
+        # The table is largest while the last plane is being replaced: each replacement first adds three planes, then
+        # deletes one.
         peak = len(self.table) + 2 * len(order) + 1
         if fresh.degenerate or peak > self.limit or (self.signs(fresh, point) > 0).any():
             self.stop(order[0], dict(zip(above.tolist(), values[above], strict=True)), new)
@@ -109,10 +110,10 @@ class Polyhedron:
         return max(PLANES, 4 * len(self.points) - 11)
 
     def three_planes(self, replaced: NDArray[np.int64], new: int) -> Fresh:
-        """Return the planes through the new vertex and two of the three points of each replaced plane (126 to 135)."""
+        """Return the planes through the new vertex and two points of each replaced plane (statements 126 to 135)."""
         defining = np.repeat(replaced, 3, axis=1)
         columns = np.arange(defining.shape[1])
-        # I123 of the listing: the new vertex takes the place of MM, then NN, then KK (127 to 129).
+        # I123 of the listing: the new vertex takes the place of MM, then NN, then KK (statements 127 to 129).
         defining[columns % 3, columns] = new
         p, q, r = (self.points.several(row) for row in defining)
         coefficients, through = turned(self.arithmetic, np.stack(plane(p, q, r)), self.centre)
@@ -130,7 +131,7 @@ class Polyhedron:
         return self.arithmetic.sign(self.table.values(fresh.coefficients, point))
 
     def single(self, defining: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Return a mask of the new planes without pairs of equal planes, which delete each other (141 to 160).
+        """Return a mask of the new planes after each pair of equal planes is deleted (statements 141 to 160).
 
         The new planes are compared only with each other, because no older plane contains the new vertex.
         """
@@ -171,7 +172,7 @@ class Polyhedron:
             if fresh.degenerate:
                 raise Stopped(ERROR, "program3 133")
             self.note(fresh, size + 3)
-            # Three planes were added and one was deleted (131 and 157).
+            # Three planes were added and one was deleted (statements 131 and 157).
             size += 2
             values = self.table.values(fresh.coefficients, point)
             for k in np.flatnonzero(self.arithmetic.sign(values) > 0).tolist():
@@ -185,20 +186,20 @@ On = list[NDArray[np.int64]]
 
 
 def strike_repeats(table: Equations, on: On, count: int, progress: Progress) -> On:
-    """Keep the first equation of each plane, and return the points on each remaining equation (164 to 174)."""
+    """Keep only the first equation of each plane, and return the points on each (statements 164 to 174)."""
     mm, nn, kk = table.defining
     struck_by = np.full(len(table), -1)
     member = np.zeros(count, np.bool_)
     # A plane that contains no points except its three defining points repeats no other plane.
     for k in _not_triangular(on, table.defining):
-        # The first earlier equation whose three defining points satisfy equation k deletes it (166 to 169).
+        # The first earlier equation whose three defining points satisfy equation k deletes it (statements 166 to 169).
         member[on[k]] = True
         earlier = np.flatnonzero(member[mm[:k]] & member[nn[:k]] & member[kk[:k]] & (struck_by[:k] < 0))
         member[on[k]] = False
         if earlier.size:
             struck_by[k] = earlier[0]
     retained = struck_by < 0
-    # The listing reads beyond its table if an equation deletes the last of those after it (169 to 172).
+    # The listing reads beyond its table if an equation deletes the last of those after it (statements 169 to 172).
     last = np.flatnonzero(retained)[-1]
     if (struck_by == last).any():
         progress.correct(LAST_REPEAT)
@@ -207,7 +208,7 @@ def strike_repeats(table: Equations, on: On, count: int, progress: Progress) -> 
 
 
 def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
-    """Return the equations, except the first, that hold at other points than the three that define them."""
+    """Return the equations, except the first, that hold at further points besides the three that define them."""
     three = np.flatnonzero(np.fromiter(map(len, on), np.int64, len(on)) == 3)
     only_defining = np.zeros(len(on), np.bool_)
     if three.size:
@@ -217,6 +218,6 @@ def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
 
 
 def are_vertices(on: On, count: int, point_count: int) -> NDArray[np.bool_]:
-    """Return a mask of the vertices: those of the first ``count`` points that satisfy three equations (174 to 182)."""
+    """Return a mask of the vertices: those of the first ``count`` points on three or more planes (174 to 182)."""
     planes_satisfied = np.bincount(np.concatenate(on), minlength=point_count)
     return np.asarray((planes_satisfied >= 3) & (np.arange(point_count) < count), dtype=np.bool_)

@@ -40,11 +40,12 @@ def convex_hull(
     :func:`hull1620.convex_hull` describes the parameters. ``epsilon`` is chapter 7's e (thesis p. 117): the value of
     an equation at an input point counts as zero from -e to +e, where ``"rel:E"`` is E times the equation's largest
     coefficient A, B or C. ``translate`` moves the origin to C, so that constant terms decide how equations are
-    oriented (p. 118). ``text`` follows chapter 3 in two steps in which the listing differs: the fourth point (p. 29)
-    and the order of the planes a point is outside of (p. 32). The corrections of the layer ``corrected`` are built in,
-    and :attr:`Hull.corrected` names the rows that mattered. Raise PointsError for invalid points, HullRefused if no
-    hull was determined (unless ``on_refusal`` is ``"return"``), RangeError if an intermediate result is too large for
-    a float, and ArgumentError for any other invalid argument or if kernels were requested and numba is missing.
+    oriented (p. 118). ``text`` follows chapter 3 in two steps in which the listing differs: the choice of the fourth
+    point (p. 29), and the order in which the planes that a point is outside of are replaced (p. 32). The corrections of
+    the layer ``corrected`` are built in, and :attr:`Hull.corrected` names those that changed a step. Raise PointsError
+    for invalid points, HullRefused if no hull was determined (unless ``on_refusal`` is ``"return"``), RangeError if an
+    intermediate result is too large for a float, and ArgumentError for any other invalid argument or if kernels were
+    requested and numba is missing.
     """
     expect(on_refusal, str, "on_refusal")
     if on_refusal not in ("raise", "return"):
@@ -65,7 +66,7 @@ def convex_hull(
 
 @dataclass
 class _Run:
-    """The state of one call of the procedure."""
+    """The state of one call of :func:`convex_hull`."""
 
     arithmetic: Arithmetic
     coordinates: Vector
@@ -89,7 +90,7 @@ class _Run:
             indices = np.array(distinct, dtype=np.int64)
             points = PointTable(self.coordinates[:, indices], indices)
         self.slack = Slack(numbers, *self.epsilon) if self.epsilon else None
-        # Program 1 decides between the cases and punches the input of program 2 or 3.
+        # Program 1 decides if the points are collinear, coplanar or solid, and punches the input of program 2 or 3.
         opening = open_hull(numbers, points, self.slack, self.text)
         self.result = Hull(
             arithmetic=numbers.name,
@@ -124,25 +125,26 @@ class _Run:
         self.result = replace(self.result, centre=texts(numbers, centre, (1, 1, 1)))  # type: ignore[arg-type]
         table = tetrahedron(numbers, points, self.slack)
         table.coefficients, through = turned(numbers, table.coefficients, centre)
-        # Program 1 stops if C lies in a plane of H_1 (204, 104).
+        # Program 1 stops if C lies in a plane of H_1 (statements 204, 104).
         if through.any():
             raise Stopped(ERROR, "program1 104")
         test = self.move(points, centre)
         if self.translate:
-            # The constant term for an origin at C is the value of the equation there.
+            # If the origin is moved to C, the constant term of an equation becomes the equation's value at C.
             table.coefficients[3] = at(tuple(table.coefficients), centre)
         steps = choose(numbers, points, self.slack, False if self.text else self.fast)
         polyhedron = Polyhedron(numbers, points, table, test, self.progress, self.historian(points), text=self.text)
         polyhedron.run(steps.stage)
         self.move_back(points, table, centre)
         count = polyhedron.vertices
-        # Statements 161 to 182: boundary points, repeated equations, then vertices of fewer than three planes.
+        # Statements 161 to 182 of program 3: strike boundary points, repeated equations, then vertices on fewer than
+        # three planes.
         on = strike_repeats(table, steps.satisfied(table, points), len(points), self.progress)
         vertex = are_vertices(on, count, len(points))
         self.progress.boundary += points.input_indices(slice(count, None)) + points.input_indices(
             np.flatnonzero(~vertex[:count])
         )
-        # If no vertex remains, the listing stops when it looks for the vertices of a plane (199).
+        # If no vertex remains, the listing stops when it looks for the vertices of a plane (statement 199).
         result = self.finished("program3 212") if vertex.any() else replace(self.finished("program3 133"), status=ERROR)
         return replace(
             result,
@@ -179,7 +181,7 @@ class _Run:
         )
 
     def triangle(self, polygon: Polygon, projected_axis: int) -> Hull:
-        """Return the hull of three points, for which program 1 is sufficient (131)."""
+        """Return the hull of exactly three points, for which program 1 alone is sufficient (statement 131)."""
         table, points = polygon.table, polygon.points
         on = list(table.defining.T)
         return replace(

@@ -37,7 +37,7 @@ class PointTable:
             self.input_index[[first, second]] = self.input_index[[second, first]]
 
     def keep(self, mask: NDArray[np.bool_]) -> list[int]:
-        """Remove the points outside the mask. Return the input indices of the removed points, in their order here."""
+        """Remove the points that are not in the mask, and return their input indices in the order of this table."""
         removed: list[int] = self.input_index[~mask].tolist()
         self.coordinates = self.coordinates[:, mask]
         self.input_index = self.input_index[mask]
@@ -49,7 +49,7 @@ class PointTable:
         return tuple(self.input_index[selection].tolist())
 
 
-# The number of values of the matrix, equations by points, that are computed at a time.
+# The number of values of equations at points that are computed at a time.
 _BLOCK = 1 << 16
 
 
@@ -65,7 +65,7 @@ class Slack:
     relative: bool
 
     def of(self, coefficients: tuple[Vector, ...]) -> Vector:
-        """Return the e of each equation. ``coefficients`` includes the constant terms."""
+        """Return the tolerance e for each equation. ``coefficients`` includes the constant terms."""
         arithmetic = self.arithmetic
         degree = 1 if self.relative else len(coefficients) - 1
         e = arithmetic.filled([arithmetic.tolerance(self.size, degree)] * len(coefficients[0]))
@@ -92,7 +92,8 @@ class Equations:
     """The table of equations, one in each column, in the order of the procedure.
 
     ``coefficients`` has the rows A, B, C (for lines A, B) and the constant term. ``defining`` has the points that
-    define each equation, in the listing MM, NN and KK. ``serial`` numbers equations for good.
+    define each equation, called MM, NN and KK in the listing. ``serial`` has a number for each equation, which never
+    changes.
     """
 
     arithmetic: Arithmetic
@@ -177,7 +178,7 @@ class Equations:
 
     @staticmethod
     def _blocks(points: Vector, equations: int) -> Iterator[Vector]:
-        # Memory stays bounded whatever the number of equations and points.
+        # The values are computed in blocks, so that memory stays bounded whatever the number of equations and points.
         width = max(1, _BLOCK // max(1, equations))
         for start in range(0, points.shape[1], width):
             yield points[:, start : start + width]

@@ -1,4 +1,4 @@
-"""The data of the kernels (points, planes in slots and a vector of counters), and elementary operations on them.
+"""The data of the compiled kernels (points, planes in slots, a vector of counters), and operations on them.
 
 Planes occupy *slots* in the order of the table. The slot of a deleted plane stays empty until :func:`pack`.
 """
@@ -25,7 +25,7 @@ THROUGH, TABLE, PAIR = 1, 2, 4
 
 
 class Cloud(NamedTuple):
-    """The points in their current order: coordinates (3, n), and indices in the input.
+    """The points in their current order, as coordinates (3, n) and indices in the input.
 
     ``keeper`` is the slot of a plane that has the point on it or outside it, or -1. ``eliminated`` collects the
     eliminated points.
@@ -79,7 +79,7 @@ def scratch_for(slots: int, number: Any) -> Scratch:
 
 
 class Rules(NamedTuple):
-    """The constants of a run: the inner point C (unless it is the origin), e or -1, and two sizes of the table."""
+    """The constants of a run: the inner point C, the tolerance e or -1, and sizes of the table of planes."""
 
     centre: NDArray[Any]
     moved: bool
@@ -113,7 +113,7 @@ def equation(coefficients: NDArray[Any], k: int) -> Any:
 
 
 def tolerance(coefficients: Any, rules: Any) -> Any:
-    """Return the e of an equation, as ``Slack.of`` computes it."""
+    """Return the tolerance e of an equation, as ``Slack.of`` computes it."""
     if not rules.relative:
         return rules.size
     largest = abs(coefficients[0])
@@ -149,7 +149,7 @@ def pack(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> None
     state[CHECK] = check if check >= 0 else k
     state[TRIED] = tried if tried >= 0 else k
     state[MADE] = k
-    # Keepers that were deleted become -1, like those that are unknown.
+    # A keeper whose plane was deleted becomes -1, which stands for an unknown keeper.
     for place in range(state[VERTICES], state[COUNT]):
         if cloud.keeper[place] >= 0:
             cloud.keeper[place] = new_slots[cloud.keeper[place]]
