@@ -129,7 +129,7 @@ class Arithmetic(ABC):
         return self.last_largest(o1 * o1 + o2 * o2 + o3 * o3)
 
 
-# ``Number`` stands for a number or a vector of an arithmetic.  The functions below are the formulas of chapter 3, in the
+# ``Number`` stands for a number or a vector of an arithmetic.  The functions below are formulas of chapter 3, in the
 # listing's order of operations.
 #
 # In ``a op b`` the left operand is the accumulator.  The compiler computes a product in the accumulator and then adds
