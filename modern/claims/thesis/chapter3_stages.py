@@ -63,11 +63,11 @@ def stage_property(kind: str, cases: int = CASES) -> Check:
     return searched(generator, len(sets), checks, message)
 
 
-@claim("thesis.264", "thesis.239", full=300)
-def number_of_the_hull(cases: int = CASES) -> Check:
+@claim("thesis.264", "thesis.239")
+def number_of_the_hull() -> Check:
     """Check the hull of P_1 to P_NV for H_j and the step from H_k to H_k+1, and both for the number 1 in our text."""
-    first_alone = all(len(sampled.stages()) == 1 for sampled in sampled_sets(2, cases))
-    check, added = (stage_property(kind, cases) for kind in ("equations", "added_triangle"))
+    first_alone = all(len(sampled.stages()) == 1 for sampled in sampled_sets(2, CASES))
+    check, added = (stage_property(kind) for kind in ("equations", "added_triangle"))
     return (check if added.holds else added).misprinted(not first_alone, "j or k, for stages after the first")
 
 
