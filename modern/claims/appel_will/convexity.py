@@ -34,14 +34,14 @@ def _area(p: Flat, q: Flat, r: Flat) -> int:
 
 @claim("appel-will.1", "appel-will.64", "appel-will.55", full=300)
 def corrected_method(cases: int = CASES) -> Check:
-    """Check the method with the corrected star test; with the test of the caption a cube gets too many edges."""
+    """Check that the corrected method finds the exact hull; with the star test of the caption it does not."""
     check = method_against_judge(cases)
     return check.unless(not star_as_captioned().holds, "the star test as in the caption of Fig. 12")
 
 
 @claim("appel-will.19", full=400)
 def vertices_of_a_solid(cases: int = CASES) -> Check:
-    """Check that further points of a solid, halfway between its points, are not vertices of the hull."""
+    """Check that midpoints of a solid's points (on its edges, on faces, inside) are not vertices of its hull."""
     checks = []
     for sampled in sampled_sets(3, cases):
         doubled = [plus(p, p) for p in sampled.points]
@@ -52,14 +52,14 @@ def vertices_of_a_solid(cases: int = CASES) -> Check:
 
 @claim("appel-will.67", "appel-will.68", "appel-will.98", "appel-will.112", full=300)
 def method_against_judge(cases: int = CASES) -> Check:
-    """Compare the edges and faces found by the corrected method with those of the exact hull."""
+    """Check that the corrected method finds the edges and faces of the exact hull."""
     checks = []
     for sampled in sampled_sets(3, cases):
         hull = appel_will(sampled.points)
         faces = {frozenset(facet.polygon) for facet in sampled.judge.facets}
         checks.append(hull.edges == sampled.judge.edges() and {frozenset(s) for s in hull.surfaces} == faces)
         checks.append(hull.table.closed)
-    return searched(SETS[3], cases, checks, f"{cases} sets agree with the exact hull")
+    return searched(SETS[3], cases, checks, f"the edges and faces of {cases} sets are those of the exact hull")
 
 
 def _hulls(cases: int = CASES) -> list[tuple[tuple[Point, ...], ExactHull]]:
@@ -68,13 +68,13 @@ def _hulls(cases: int = CASES) -> list[tuple[tuple[Point, ...], ExactHull]]:
 
 @claim("appel-will.9", full=400)
 def corners_of_convex_polygon(cases: int = CASES) -> Check:
-    """Check that all corners of the exact polygons turn the same way."""
+    """Check that all corners of each convex polygon turn in the same direction."""
     checks = []
     for sampled in sampled_sets(2, cases):
         ring = [sampled.points[k][:2] for k in sampled.judge.polygon]
         turns = [_area(ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring))]
         checks.append(len({turn > 0 for turn in turns}) == 1 and 0 not in turns)
-    return searched(SETS[2], cases, checks, f"all corners of {len(checks)} polygons are convex")
+    return searched(SETS[2], cases, checks, f"all corners of each of {len(checks)} polygons turn the same way")
 
 
 def _draw_ring(random: Random) -> tuple[Flat, ...]:
@@ -88,17 +88,17 @@ RINGS: Generator[tuple[Flat, ...]] = Generator(
 
 @claim("appel-will.10", full=20_000)
 def deletion_passes(cases: int = 12) -> Check:
-    """Check that passes that delete all nonconvex points of a simple polygon end with its hull."""
+    """Check that a simple polygon becomes its hull by repeated passes that delete all nonconvex points."""
 
     def ends_as_hull(ring: tuple[Flat, ...]) -> bool:
         return {*_passed(ring)} == {ring[k] for k in exact_hull([(x, y, 0) for x, y in ring]).vertices}
 
-    return search(RINGS, ends_as_hull, cases, "all polygons end as their hull")
+    return search(RINGS, ends_as_hull, cases, "each polygon ends as its hull")
 
 
 @claim("appel-will.11")
 def deletion_makes_nonconvex() -> Check:
-    """Check a polygon in which a convex point becomes nonconvex once a nonconvex neighbour is deleted."""
+    """Check a polygon in which deleting a nonconvex point makes a convex neighbour nonconvex."""
     ring = [(0, 0), (10, 0), (10, 10), (6, 1), (5, 5), (4, 1), (0, 10)]
     before = {p for k, p in enumerate(ring) if _area(ring[k - 1], p, ring[(k + 1) % len(ring)]) > 0}
     remaining = [p for p in ring if p in before]
@@ -127,7 +127,10 @@ def _simple(ring: Sequence[Flat]) -> bool:
 
 @claim("appel-will.15")
 def jarvis_start_as_printed() -> Check:
-    """Check the first point by the smallest polar angle, from 0 to 360 degrees, about an origin outside the set."""
+    """Check that the printed first point of Jarvis, the smallest polar angle, may lie inside the hull.
+
+    The angle runs from 0 to 360 degrees about an origin outside the set.
+    """
     origin, *points = counterexample_points("jarvis.csv")
     angles = [math.atan2(y - origin[1], x - origin[0]) % (2 * math.pi) for x, y, _ in points]
     first = angles.index(min(angles))
@@ -154,13 +157,13 @@ def jarvis_deletions(cases: int = CASES) -> Check:
 @claim("appel-will.30", number="4", full=400)
 @claim("appel-will.31", number="5", full=400)
 def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
-    """Check a property of convex polyhedra on exact hulls, some of which have points inside."""
+    """Check one numbered property of convex polyhedra on exact hulls, some of which have further points inside."""
     checks = [right for points, judge in _hulls(cases) for right in _PROPERTIES[number](points, judge)]
-    return searched(SETS[3], cases, checks, f"the property holds in {len(checks)} cases")
+    return searched(SETS[3], cases, checks, f"the property of convex polyhedra holds in {len(checks)} cases")
 
 
 def _inside_of_all(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """The mean of the vertices, times their number, is inside every plane."""
+    """The mean of the vertices of a hull is inside each of its planes."""
     count = len(judge.vertices)
     x, y, z = (sum(points[k][axis] for k in judge.vertices) for axis in range(3))
     return [dot(f.plane[:3], (x, y, z)) + count * f.plane[3] < 0 for f in judge.facets]
@@ -198,7 +201,7 @@ def _faces(points: Sequence[Point], judge: ExactHull) -> list[bool]:
 
 
 def _projections(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """The image of the hull is the hull of the images: no other point has a corner of it as its image."""
+    """The projection of a hull is the hull of the projected points; only vertices are projected to its corners."""
     checks = []
     for u, v in ((0, 1), (1, 2), (0, 2)):
         images = [(p[u], p[v], 0) for p in points]
@@ -216,7 +219,7 @@ ARM = 9
 
 @claim("appel-will.33")
 def surface_area() -> Check:
-    """Check that a hull has less surface than a box around it, and three arms of cubes less than their hull."""
+    """Check that a hull has less surface than a box around it, but a nonconvex star may have less than its hull."""
     octahedron: list[Point] = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
     box = [(2 * x - 1, 2 * y - 1, 2 * z - 1) for x, y, z in CUBE]
     inner, outer = _surface(octahedron), _surface(box)
@@ -224,11 +227,11 @@ def surface_area() -> Check:
         {(k, 0, 0) for k in range(ARM + 1)} | {(0, k, 0) for k in range(ARM + 1)} | {(0, 0, k) for k in range(ARM + 1)}
     )
     ways = [step for step in product((-1, 0, 1), repeat=3) if sum(map(abs, step)) == 1]
-    # The surface of the star is the number of faces of cubes without a neighbouring cube.
+    # The surface of the star is the number of cube faces with no cube on their other side.
     star = sum((x + i, y + j, z + k) not in cubes for x, y, z in cubes for i, j, k in ways)
     around = _surface(sorted({(x + i, y + j, z + k) for x, y, z in cubes for i, j, k in CUBE}))
     check = exhibited(inner < outer, f"an octahedron has the surface {inner:.2f}, and the cube around it {outer:.2f}")
-    return check.unless(star < around, f"three arms of cubes, which have {star} and their hull {around:.0f}")
+    return check.unless(star < around, f"three arms of cubes, whose surface is {star}, and their hull's {around:.0f}")
 
 
 def _surface(points: list[Point]) -> float:
@@ -243,7 +246,7 @@ def _surface(points: list[Point]) -> float:
 
 @claim("appel-will.38")
 def fewer_pairs() -> Check:
-    """Compare the numbers of pairs and triples of six objects and more; of five objects they are equal."""
+    """Check that six or more objects have fewer pairs than triples; five objects have equally many."""
     outcomes = [math.comb(n, 2) < math.comb(n, 3) for n in range(6, 52)]
     check = exhausted("numbers of objects from 6 to 51", outcomes, "there are fewer pairs than triples")
     return check.unless(math.comb(5, 2) >= math.comb(5, 3), "five objects, with 10 pairs and 10 triples")
@@ -251,7 +254,7 @@ def fewer_pairs() -> Check:
 
 @claim("appel-will.37")
 def number_of_combinations() -> Check:
-    """Compare N! / (r! (N - r)!) with the number of combinations; without the brackets it is something else."""
+    """Check that the number of combinations is N! / (r! (N - r)!), with brackets that the print lacks."""
     f = math.factorial
     pairs = [(n, r) for n in range(2, 13) for r in range(1, n + 1)]
     outcomes = [len([*combinations(range(n), r)]) * f(r) * f(n - r) == f(n) for n, r in pairs]
@@ -263,7 +266,7 @@ def number_of_combinations() -> Check:
     "appel-will.130", "appel-will.142", "appel-will.47", "appel-will.54", "appel-will.93", "yau-srihari.12", full=200
 )
 def edge_by_star_test(cases: int = 1) -> Check:
-    """Compare the definition of an edge, with the images of all other points, with the exact edges."""
+    """Check that the star test on the projections of all other points finds exactly the edges of the hull."""
     checks = []
     for points, judge in _hulls(cases):
         edges = {*judge.edges()}
@@ -271,12 +274,12 @@ def edge_by_star_test(cases: int = 1) -> Check:
             projection = project(points, pair, range(len(points)))
             if len(projection.line) == 2:
                 checks.append(as_corrected(projection.images) == (pair in edges))
-    return searched(SETS[3], cases, checks, f"{len(checks)} pairs agree with the exact hull")
+    return searched(SETS[3], cases, checks, f"the test is right for {len(checks)} pairs of points")
 
 
 @claim("appel-will.49", "appel-will.51", "appel-will.50")
 def triangle_area() -> Check:
-    """Check that the determinant is the distance to the left times the squared length."""
+    """Check that the determinant is twice the area of a triangle: positive if its corners are counterclockwise."""
 
     def difference(x: int, y: int, u: int, v: int, along: int, left: int) -> int:
         r = (x + along * u - left * v, y + along * v + left * u)
@@ -293,7 +296,7 @@ def determinant(p: Flat, q: Flat, r: Flat) -> int:
 
 @claim("appel-will.52")
 def inside_triangle() -> Check:
-    """Check that a grid point is inside a triangle if and only if its three senses are those of the corners."""
+    """Check that a point is inside a triangle if and only if its three senses equal the sense of the corners."""
     lattice = [(x, y) for x in range(3) for y in range(3)]
     checks = []
     for p, q, r in combinations(lattice, 3):
@@ -302,12 +305,12 @@ def inside_triangle() -> Check:
             same = min(senses) > 0 or max(senses) < 0
             checks.append(same == (3 in exact_hull([(*t, 0) for t in (p, q, r, point)]).inside))
     domain = "points and triangles of a 3 x 3 lattice, with all orders of four points"
-    return exhausted(domain, checks, "the senses agree with the exact hull")
+    return exhausted(domain, checks, "the senses tell which points are in the triangle")
 
 
 @claim("appel-will.59")
 def star_as_captioned() -> Check:
-    """Check the star test on a cube as the caption of Fig. 12 describes it."""
+    """Check that the star test, as the caption of Fig. 12 describes it, finds wrong edges of a cube."""
     cube = counterexample_points("cube.csv")
     edges = appel_will(cube, method=Method(star=as_printed)).edges
     message = f"the test finds {len(edges)} edges of a cube, which has {len(exact_hull(cube).edges())}"
@@ -319,7 +322,7 @@ def star_as_captioned() -> Check:
 @claim("appel-will.107", step="step9")
 @claim("appel-will.108", step="step10")
 def step_as_printed(step: str) -> Check:
-    """Check a step of the appendix as printed on its counterexample."""
+    """Check that a step of the appendix, as printed, fails on its counterexample."""
     name = {"step5": "fig14.csv", "step7": "octahedron.csv", "step9": "pentagon.csv", "step10": "fig14.csv"}[step]
     points = counterexample_points(name)
     also = ("step3",) if step == "step9" else ()
@@ -339,7 +342,7 @@ def step_as_printed(step: str) -> Check:
 
 @claim("appel-will.96", "appel-will.124", full=400)
 def planar_graph(cases: int = CASES) -> Check:
-    """Check that the faces embed the graph in a sphere: edges and vertices are manifold, and V - E + F = 2."""
+    """Check that the faces of a hull embed its graph in a sphere: rings around edges and vertices, V - E + F = 2."""
     checks = []
     for _, hull in _hulls(cases):
         rings = [f.polygon for f in hull.facets]

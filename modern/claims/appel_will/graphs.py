@@ -22,7 +22,7 @@ def _sets(cases: int) -> list[tuple[Point, ...]]:
 
 @claim("appel-will.97", full=100)
 def faces_from_graph(cases: int = CASES) -> Check:
-    """Compare the faces found in the graph of a hull's edges, without coordinates, with those of the exact hull.
+    """Check that the graph of a hull's edges, without coordinates, determines the faces of the hull.
 
     The graph of a convex polyhedron stays connected if any two vertices are removed. The faces of such a graph are the
     cycles that have no chord and leave the rest connected (Tutte 1963).
@@ -33,7 +33,7 @@ def faces_from_graph(cases: int = CASES) -> Check:
         found_faces = {cycle for cycle in _cycles(_graph(judge)) if _connected(_graph(judge), cycle)}
         checks.append(found_faces == {frozenset(facet.polygon) for facet in judge.facets})
         faces += len(found_faces)
-    return searched(SETS[3], cases, checks, f"{faces} faces of {len(checks)} hulls follow from the edges alone")
+    return searched(SETS[3], cases, checks, f"{faces} faces of {len(checks)} hulls follow from their edges alone")
 
 
 def _graph(judge: ExactHull) -> Graph:
@@ -47,7 +47,7 @@ def _cycles(graph: Graph) -> Iterator[frozenset[int]]:
         path = paths.pop()
         for new in graph[path[-1]]:
             if new > path[0] and new not in path:
-                # A neighbour earlier in the path is a chord, unless it is the start, which closes the cycle.
+                # An edge to an earlier point of the path is a chord, unless it leads to the start and closes the cycle.
                 before = graph[new] & {*path[:-1]}
                 if before == {path[0]}:
                     yield frozenset((*path, new))
@@ -81,7 +81,7 @@ def coplanar_loops(cases: int = CASES) -> Check:
 
 @claim("appel-will.150", full=200)
 def list_of_points(cases: int = CASES) -> Check:
-    """Check that the plane tests of step 10 repeat those of step 7, which has already tested every point.
+    """Check that the plane tests of step 10 repeat tests of step 7, whose results could be stored.
 
     The points in the plane are those of the loop, so a list of them would be enough for the remaining steps.
     """
@@ -106,15 +106,15 @@ def list_of_points(cases: int = CASES) -> Check:
                 taken.append(chosen)
                 match = sum(hull.edges[chosen]) - match
             before = loop.uses
-    message = f"step 7 has already computed the {asked} values that step 10 needs; {len(checks)} cases agree"
+    message = f"step 7 has already computed all {asked} values that step 10 needs in {len(checks)} cases"
     return searched(SETS[3], cases, [*checks, asked], message)
 
 
 @claim("appel-will.32", full=400)
 def outline(cases: int = CASES) -> Check:
-    """Check that the edges between front and back faces form one closed curve; along a face they do not."""
+    """Check that the edges between front and back faces form one closed curve, unless a face is seen edge-on."""
     outcomes = [_closed(sampled.judge, (101, 37, 59)) for sampled in sampled_sets(3, cases)]
-    check = searched(SETS[3], cases, outcomes, "the outlines are closed curves")
+    check = searched(SETS[3], cases, outcomes, "the edges between front and back faces form one closed curve")
     return check.unless(not _closed(exact_hull(CUBE), (0, 0, 1)), "a cube seen along an edge")
 
 

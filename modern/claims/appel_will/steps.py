@@ -22,7 +22,7 @@ FIG_18: tuple[tuple[Point, Point, Point], ...] = (
 
 @claim("appel-will.128")
 def new_lines() -> Check:
-    """Check that the hull of a polygon with a notch has fewer points and a line that the polygon does not have."""
+    """Check that the hull of a notched polygon has fewer points, and a line that the polygon does not have."""
     ring: list[Flat] = [(0, 0), (6, 0), (6, 6), (3, 2), (0, 6)]
     polygon = exact_hull([(x, y, 0) for x, y in ring]).polygon
     sides = {frozenset((k, (k + 1) % len(ring))) for k in range(len(ring))}
@@ -33,7 +33,7 @@ def new_lines() -> Check:
 
 @claim("appel-will.133", full=200)
 def collinear_points(cases: int = CASES) -> Check:
-    """Check that the middle of three collinear points that are projected to one point is not a vertex of the hull."""
+    """Check that, of three collinear points projected to one point, the middle one is not a vertex of the hull."""
     checks = []
     for sampled in sampled_sets(3, cases):
         doubled = [(2 * x, 2 * y, 2 * z) for x, y, z in sampled.points]
@@ -49,10 +49,10 @@ def collinear_points(cases: int = CASES) -> Check:
 @claim("appel-will.131")
 @claim("appel-will.58", test="change")
 def star_test(test: str = "") -> Check:
-    """Check that the senses around the star polygon decide which grid points are inside the hull of five points.
+    """Check that the senses of turn around the star polygon tell which grid points are in the hull of five points.
 
-    The test as printed is right if no two images are in line with the point.
-    test: ``change`` asks only whether two sides turn differently. A point on the border counts as inside (Fig. 12).
+    The test as printed is right if no two projections are in line with the point. test: ``change`` only asks whether
+    two sides turn differently. A point on the border counts as inside (Fig. 12).
     """
     five = [(0, 0), (6, 0), (7, 5), (0, 6), (3, 3)]
     border = 0
@@ -72,13 +72,13 @@ def star_test(test: str = "") -> Check:
         else:
             general = all(vorticity(a, b) for a, b in combinations(images, 2))
             (checks if general else in_line).append(as_printed(images) != held)
-    check = exhausted("grid points about five points", [*checks, border], f"{len(checks)} points agree")
+    check = exhausted("grid points about five points", [*checks, border], f"right for {len(checks)} points")
     return check.unless(in_line and not all(in_line), "grid points in line with two of the five points")
 
 
 @claim("appel-will.135", full=200)
 def closed_loops(cases: int = CASES) -> Check:
-    """Check that consecutive lines of a loop share an end, and so do the last and the first."""
+    """Check that consecutive lines of each loop share an end, and the last line shares one with the first."""
     hulls = [appel_will(points) for points in (CUBE, *(sampled.points for sampled in sampled_sets(3, cases)))]
     checks = [_joined(loop.entries, hull.edges) for hull in hulls for loop in hull.table.loops]
     return searched(SETS[3], cases, checks, f"{len(checks)} loops are closed")
@@ -97,7 +97,7 @@ def lines_in_two_loops(cases: int = CASES) -> Check:
 
 @claim("appel-will.119")
 def images_on_one_ray() -> Check:
-    """Check that the star test does not depend on the order of the images, two of which are on one ray."""
+    """Check that the star test gives the same result for each order of the projections, two of which are on one ray."""
     outcomes = []
     for images in ([(1, 1), (2, 2), (-1, 0), (0, -1)], [(1, 0), (2, 0), (1, 2), (0, 1)]):
         outcomes += [as_corrected([*order]) == as_corrected(images) for order in permutations(images)]
@@ -106,14 +106,14 @@ def images_on_one_ray() -> Check:
 
 @claim("appel-will.60")
 def between_opposite_images() -> Check:
-    """Check that a point between two opposite images is not outside, and that it is outside without one of them."""
+    """Check that a point between two opposite projections is not outside, but is outside without one of them."""
     passed = not as_corrected([(1, 0), (-1, 0), (0, 1), (0, -1)]) and as_corrected([(1, 0), (0, 1)])
-    return exhibited(passed, "the origin is inside four images around it, and outside two of them")
+    return exhibited(passed, "the origin is inside the star of four images around it, and outside that of two")
 
 
 @claim("appel-will.101")
 def step_3_as_printed() -> Check:
-    """Check that step 3 finds the printed faces without the preference for a positive product, but not all loops."""
+    """Check that step 3 needs its preference for a positive product only for the direction of some loops."""
     solids = [found_solid(name).points for name in ("fig14", "fig23")]
     preferred, plain = ([appel_will(p, method=m) for p in solids] for m in (Method(), printed("step3")))
     same = all(
@@ -124,7 +124,7 @@ def step_3_as_printed() -> Check:
         for a, b in zip(preferred, plain, strict=True)
         for x, y in zip(a.table.loops, b.table.loops, strict=True)
     )
-    check = exhibited(same, "any other edge gives the faces of Figs. 14 and 23")
+    check = exhibited(same, "step 3 finds the faces of Figs. 14 and 23 from any other edge")
     return check.unless(
         differing == 3, "the step as printed, which runs three of the twelve printed loops the other way"
     )
@@ -132,7 +132,7 @@ def step_3_as_printed() -> Check:
 
 @claim("appel-will.90")
 def points_inside() -> Check:
-    """Check that four points inside a box add neither edges nor loops; they add projections of pairs."""
+    """Check that points inside a box add no edges or loops, but cost projections of further pairs."""
     corners = [(x, y, z) for x in (0, 9) for y in (0, 8) for z in (0, 7)]
     few, many = appel_will(corners), appel_will([*corners, *((x, x + 1, x) for x in (2, 3, 4, 5))])
     check = exhibited((few.edges, few.surfaces) == (many.edges, many.surfaces), "edges and loops are those of the box")
@@ -144,7 +144,7 @@ def points_inside() -> Check:
 
 @claim("appel-will.111")
 def fourth_loop() -> Check:
-    """Check that the last entry of the fourth loop of Fig. 22 needs its minus."""
+    """Check that the last entry of the fourth loop of Fig. 22 must have its minus sign."""
     hull = appel_will(counterexample_points("fig14.csv"))
     (loop,) = (loop.entries for loop in hull.table.loops if {4, 6, 9} <= {*loop.entries})
     as_it_is, without = (_joined(entries, hull.edges) for entries in (loop, (*loop[:-1], abs(loop[-1]))))
@@ -154,13 +154,13 @@ def fourth_loop() -> Check:
 
 @claim("appel-will.148")
 def limit_of_searches() -> Check:
-    """Check step 9 on a pentagon: as printed it never ends, and with a limit it reports an open loop."""
+    """Check that step 9 as printed never ends on a pentagon, and reports an open loop if searches are limited."""
     points = counterexample_points("pentagon.csv")
     hull = appel_will(points, method=printed("step9", "step3"))
     ring = exact_hull(points).polygon
     endless = sum(_comes_again(hull.edges, ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring)))
     ended = hull.fault.endswith("does not return to its start")
-    return exhibited(ended and endless > 0, f"{endless} of {len(ring)} starts do not end; with the limit: {hull.fault}")
+    return exhibited(ended and endless > 0, f"{endless} of {len(ring)} searches never end; with a limit: {hull.fault}")
 
 
 def _comes_again(edges: Sequence[tuple[int, int]], start: int, common: int, match: int) -> bool:
@@ -179,7 +179,7 @@ def _joined(entries: Sequence[int], edges: Sequence[tuple[int, int]]) -> bool:
 
 @claim("appel-will.159")
 def product_with_repeated_vector() -> Check:
-    """Check the determinants of Fig. 18 with L as displayed, which is I again, and with the normal of l."""
+    """Check the determinants of Fig. 18: with the displayed third vector I they are 0, with l they are right."""
     determinants = []
     for i, k, m in FIG_18:
         determinants.append((triple_product(i, k, i), triple_product(i, k, m)))

@@ -45,14 +45,14 @@ def fig_4() -> Solid:
 
 
 def crown() -> Solid:
-    """Return a pyramid over a star with four points."""
+    """Return a pyramid whose base is a star with four points."""
     mesh = parse_off(counterexample("crown.off"), "crown.off")
     points = tuple((int(x), int(y), int(z)) for x, y, z in mesh.points)
     return Solid(points, tuple(tuple(face) for face in mesh.faces))
 
 
 def bent() -> Solid:
-    """Return an L of three cubes, in which three planes meet at each point."""
+    """Return an L of three cubes, at each point of which three planes meet."""
     ring: list[Flat] = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
     sides = [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)]
     return Solid(tuple((x, y, z) for z in (0, 1) for x, y in ring), ((5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *sides))
@@ -69,7 +69,7 @@ def pitted() -> Solid:
 
 @claim("appel-will.22")
 def surface_three() -> Check:
-    """Check Fig. 4 with surface III as numbered: two of its lines are on no other surface."""
+    """Check that Fig. 4 with surface III as printed is not closed: some of its lines are on no other surface."""
     mesh = parse_off(counterexample("fig4_printed.off"), "fig4_printed.off")
     sides = Counter(frozenset(pair) for face in mesh.faces for pair in zip(face, (*face[1:], face[0]), strict=True))
     alone = sorted(tuple(sorted(k + 1 for k in side)) for side, n in sides.items() if n == 1)
@@ -81,7 +81,7 @@ def surface_three() -> Check:
 
 @claim("appel-will.155")
 def inside_corner_at_vertex() -> Check:
-    """Check that rule ``any`` deletes a vertex of the crown."""
+    """Check that rule ``any`` deletes a vertex of the hull of the crown, a pyramid over a star."""
     solid = crown()
     deleted = preprocess(solid.points, solid.surfaces, "any").deleted
     lost = [k + 1 for k in deleted if k in exact_hull(solid.points).vertices]
@@ -99,7 +99,7 @@ def prism(ring: tuple[Flat, ...]) -> Solid:
 
 
 def keeps_vertices(ring: tuple[Flat, ...], rule: Rule) -> bool:
-    """Return True if a rule deletes no vertex of the hull of a prism, and deletes a corner of a concave polygon."""
+    """Return True if a deletion rule deletes no vertex of the hull of the prism over a polygon."""
     solid = prism(ring)
     return not {*preprocess(solid.points, solid.surfaces, rule).deleted} & {*exact_hull(solid.points).vertices}
 
@@ -107,20 +107,20 @@ def keeps_vertices(ring: tuple[Flat, ...], rule: Rule) -> bool:
 @claim("appel-will.72", "appel-will.75", "appel-will.136", rule="any", full=2_000)
 @claim("appel-will.74", rule="two", full=2_000)
 def deletion_in_prisms(rule: Rule, cases: int = 10) -> Check:
-    """Check that a rule deletes no vertex of the hull of a prism, at whose points three planes meet."""
-    return search(RINGS, lambda ring: keeps_vertices(ring, rule), cases, "no vertex of a hull is deleted")
+    """Check that a deletion rule deletes no vertex of the hull of a prism, at each point of which three planes meet."""
+    return search(RINGS, lambda ring: keeps_vertices(ring, rule), cases, "no vertex of the hull of a prism is deleted")
 
 
 @claim("appel-will.43", full=2_000)
 def inside_corners_deleted(cases: int = 10) -> Check:
-    """Check the same, and the crown, which is not well behaved."""
+    """Check that deletion keeps the vertices of prisms, but not those of the crown, a pyramid over a star."""
     crown_ = inside_corner_at_vertex()
     return deletion_in_prisms("any", cases).unless(crown_.holds, crown_.message)
 
 
 @claim("appel-will.84")
 def sense_of_surfaces() -> Check:
-    """Check that surfaces listed in either sense are oriented alike, so that the corners are the same."""
+    """Check that the corners of Fig. 4 are the same if its surfaces are listed in the opposite sense."""
     solid = fig_4()
     turned = tuple(surface[::-1] if k % 2 else surface for k, surface in enumerate(solid.surfaces))
     both = [corners(solid.points, oriented(solid.points, surfaces)) for surfaces in (solid.surfaces, turned)]
@@ -130,7 +130,7 @@ def sense_of_surfaces() -> Check:
 
 @claim("appel-will.73")
 def two_inside_corners() -> Check:
-    """Check points of the crown on two or more inside corners, and those of them with at most one outside corner."""
+    """Check that vertices of the crown's hull can be on two inside corners if they have several outside corners."""
     solid = crown()
     vertices = {*exact_hull(solid.points).vertices}
     preprocessed = preprocess(solid.points, solid.surfaces, "two")
@@ -138,7 +138,7 @@ def two_inside_corners() -> Check:
     wrong = [k for k, count in at.items() if count >= 2 and k in vertices]
     message = f"point {', '.join(f'{k + 1} is on {at[k]} inside corners' for k in wrong)} and is a vertex of the hull"
     check = exhibited(
-        not vertices & {*preprocessed.deleted}, "with at most one outside corner no vertex of the crown is deleted"
+        not vertices & {*preprocessed.deleted}, "a limit of one outside corner keeps all vertices of the crown"
     )
     return check.unless(wrong, message)
 
@@ -146,9 +146,9 @@ def two_inside_corners() -> Check:
 @claim("appel-will.152")
 @claim("appel-will.69", subject="cost")
 def preprocessing_cost(subject: str = "projections") -> Check:
-    """Compare the projections and star polygons of Fig. 4 with and without the deletion of inside corners.
+    """Check that deleting the inside corners of Fig. 4 saves projections and star polygons.
 
-    subject: ``cost`` compares one triple product for each line with the images saved.
+    subject: ``cost`` compares one triple product for each line with the saved projections of points.
     """
     solid, counts, stars = fig_4(), {}, [0]
 
@@ -162,19 +162,19 @@ def preprocessing_cost(subject: str = "projections") -> Check:
         counts[rule] = (hull.projections, stars[0])
     plain, fewer = counts[None], counts["any"]
     passed = fewer[0] < plain[0] and fewer[1] < plain[1]
-    message = f"{plain[0]} projections and {plain[1]} stars, but {fewer[0]} and {fewer[1]} after two points are deleted"
+    message = f"{plain[0]} projections and {plain[1]} stars; {fewer[0]} and {fewer[1]} after two points are deleted"
     if subject == "cost":
         products = len(corners(solid.points, oriented(solid.points, solid.surfaces)))
         points_kept = len(solid.points) - len(preprocess(solid.points, solid.surfaces, "any").deleted)
         images = plain[0] * (len(solid.points) - 2) - fewer[0] * (points_kept - 2)
         return exhibited(passed and products < images, f"{products} triple products save {images} images of points")
-    nothing = "rule two, which deletes no point of Fig. 4: the numbers stay the same"
+    nothing = "rule two, which deletes no point of Fig. 4 and saves nothing"
     return exhibited(passed, message).unless(counts["two"] == plain, nothing)
 
 
 @claim("appel-will.154")
 def minimum_data() -> Check:
-    """Check that the surfaces of Fig. 4, as sets of points, determine its lines, and that its points alone do not."""
+    """Check that the surfaces of Fig. 4, as sets of points, determine its lines, whereas its points alone do not."""
     solid = fig_4()
     sets = [frozenset(surface) for surface in solid.surfaces]
     shared = Counter(
@@ -195,10 +195,10 @@ def minimum_data() -> Check:
 @claim("appel-will.77", subject="redundant")
 @claim("appel-will.78", subject="relation")
 def hulls_of_surfaces(subject: str) -> Check:
-    """Check in how many hulls of surfaces the points of four kinds of objects occur.
+    """Check statements about the points of four objects and the hulls of the objects' surfaces.
 
     subject: ``redundant``, each point occurs in three or more surfaces. ``relation``, a vertex of the hull is a vertex
-    of the hulls of all its surfaces, and the converse fails for some points.
+    of the hulls of all its surfaces, but the converse fails for some points.
     """
     checks, exceptions, point_count = [], 0, 0
     for solid in (fig_4(), crown(), bent(), pitted()):
@@ -214,14 +214,14 @@ def hulls_of_surfaces(subject: str) -> Check:
             "points of four kinds of objects", checks, f"each of {point_count} points is on three or more surfaces"
         )
     check = exhausted(
-        "points of four kinds of objects", checks, "a vertex of the hull is one of the hulls of its surfaces"
+        "points of four kinds of objects", checks, "a vertex of the hull is a vertex of its surfaces' hulls"
     )
     return check.unless(exceptions, f"the converse, which fails for {exceptions} of {point_count} points")
 
 
 @claim("appel-will.138", "appel-will.76")
 def vertex_without_supporting_surface() -> Check:
-    """Check a tetrahedron with a pit in every face: its corners are vertices although no surface supports."""
+    """Check that vertices of a hull need no supporting surface: a tetrahedron with a pit in each face has none."""
     solid = pitted()
     planes = {}
     for surface in oriented(solid.points, solid.surfaces):
@@ -240,28 +240,28 @@ def vertex_without_supporting_surface() -> Check:
 
 @claim("appel-will.79")
 def objects_with_same_hull() -> Check:
-    """Check that a cube with 1, 2 and 3 further points inside has the hull of the cube."""
+    """Check that a cube with 1, 2 or 3 further points inside has the same hull as the cube."""
     hulls = [
         exact_hull([*((4 * x, 4 * y, 4 * z) for x, y, z in CUBE), *((k, k, 1) for k in range(1, 1 + n))])
         for n in (1, 2, 3)
     ]
-    message = "three objects have the same hull"
+    message = "three objects have the hull of the cube"
     return exhibited(all(h.vertices == tuple(range(8)) and len(h.facets) == 6 for h in hulls), message)
 
 
 def direction(p: Whole, q: Whole) -> tuple[Fraction, Fraction, Fraction, int]:
-    """Return a, b, c and l of the line from p to q as printed. Raise ValueError if l is not an integer."""
+    """Return a, b, c and the length l of the line from p to q as printed; raise ValueError if l is not an integer."""
     square = sum((b - a) ** 2 for a, b in zip(p, q, strict=True))
     length = math.isqrt(square)
     if length * length != square:
-        raise ValueError(f"the length of {p} to {q} is not an integer")
+        raise ValueError(f"expected an integer as the length from {p} to {q}")
     a, b, c = (Fraction(end - start, length) for start, end in zip(p, q, strict=True))
     return a, b, c, length
 
 
 @claim("appel-will.81")
 def unit_directions() -> Check:
-    """Check lines of integer length: (a, b, c) is a unit vector, and t = 0 and t = l give the ends."""
+    """Check the printed equation of lines of integer length: a, b, c is a unit vector; the ends are at t = 0 and l."""
     checks = []
     for p, q in (((1, 2, 3), (2, 4, 5)), ((4, 0, -1), (6, 3, 5)), ((0, 0, 7), (4, -8, 6)), ((2, 2, 2), (2, 5, -2))):
         a, b, c, length = direction(p, q)
@@ -271,18 +271,18 @@ def unit_directions() -> Check:
         third = Fraction(length, 3)
         gone = [u * third for u in (a, b, c)]
         checks.append(9 * sum(u * u for u in gone) == length * length)
-    return exhibited(all(checks), "four lines agree; t = l / 3 is a third of the way")
+    return exhibited(all(checks), "the ends of four lines are at t = 0 and t = l, and t = l / 3 is a third of the way")
 
 
 def unit_plane(p: Whole, q: Whole, r: Whole) -> tuple[Fraction, ...]:
-    """Return the unit normal a, b, c by a cross product of two lines, and d = -(a x0 + b y0 + c z0) for the point p."""
+    """Return the unit normal a, b, c by a cross product of two lines, and d = -(a x + b y + c z) at the point p."""
     a, b, c, _ = direction((0, 0, 0), cross(minus(q, p), minus(r, p)))
     return a, b, c, -(a * p[0] + b * p[1] + c * p[2])
 
 
 @claim("appel-will.82")
 def planes_of_surfaces() -> Check:
-    """Check planes whose normals have an integer length: the value is 0 at three points and the distance elsewhere."""
+    """Check that the printed equation of a plane is 0 at its three points and elsewhere is the distance."""
     checks = []
     for n, length in (((1, 2, 2), 3), ((2, 3, 6), 7), ((4, -1, 8), 9)):
         u = (n[1], -n[0], 0)
@@ -299,7 +299,7 @@ def planes_of_surfaces() -> Check:
 
 @claim("appel-will.157")
 def normal_from_two_lines() -> Check:
-    """Check that the cross product of two lines at each corner of a surface is perpendicular to the surface."""
+    """Check that the cross product of the two lines at a corner of a surface is perpendicular to the surface."""
     checks, turned, shorter = [], 0, 0
     for solid in (fig_4(), crown(), bent()):
         for ring in oriented(solid.points, solid.surfaces):
@@ -314,7 +314,7 @@ def normal_from_two_lines() -> Check:
                 # At a concave corner the product is reversed; for unit directions its length is the sine.
                 turned += dot(product_, normal) < 0
                 shorter += dot(product_, product_) < dot(u, u) * dot(v, v)
-    check = exhausted("corners of three objects", checks, f"{len(checks)} corners agree up to sign and length")
+    check = exhausted("corners of three objects", checks, f"{len(checks)} products are perpendicular to their surface")
     return check.unless(
         turned and shorter, f"corners where the product is reversed ({turned}) or shorter than 1 ({shorter})"
     )
@@ -322,15 +322,15 @@ def normal_from_two_lines() -> Check:
 
 @claim("appel-will.83")
 def product_of_directions() -> Check:
-    """Check two sides of a triangle that meet at an obtuse angle: the product of their directions is negative."""
+    """Check that the product of the directions of two sides is negative if the angle between them is obtuse."""
     p, corner, r = counterexample_points("obtuse.csv")
     product_ = dot(minus(p, corner), minus(r, corner))
-    return refuted(product_ < 0, f"the product is {product_} for an angle between 90 and 180 degrees")
+    return refuted(product_ < 0, f"the product is {product_} for an obtuse angle")
 
 
 @claim("appel-will.139")
 def normal_line() -> Check:
-    """Check that the value of a plane, at t along its normal, is t times the square of the normal."""
+    """Check that the value of a plane's equation at t along its normal is t times the squared length of the normal."""
     checks = []
     for p, q, r in random_triples():
         plane = plane_through(p, q, r)
@@ -338,7 +338,7 @@ def normal_line() -> Check:
         for t in (-2, 0, 3):
             x, y, z = (a + t * n for a, n in zip(p, plane[:3], strict=True))
             checks.append(plane_value(plane, (x, y, z)) == t * square)
-    return searched(TRIPLES, 6, checks, f"{len(checks)} points on normals agree; with unit normals the value is t")
+    return searched(TRIPLES, 6, checks, f"{len(checks)} points have this value, which is t for unit normals")
 
 
 @claim("appel-will.85")
@@ -358,14 +358,14 @@ def direction_of_line() -> Check:
 
 @claim("appel-will.140")
 def sense_of_line() -> Check:
-    """Check that the sense of the line decides the sign: it changes if the line is reversed."""
+    """Check that the sense of a line decides the sign of the determinant, which changes if the line is reversed."""
     check = direction_of_line()
     return exhibited(check.evidence.violation, f"{check.message}; {check.evidence.violation}")
 
 
 @claim("appel-will.80")
 def figure_of_minimum_data() -> Check:
-    """Check the number of the figure that has a list of points and a map, which is printed as 3."""
+    """Check that the figure with a list of points and a map is Fig. 4, although the text prints the number 3."""
     paper = next(paper for paper in PAPERS if paper.name == "appel-will")
     finding = next(finding for finding in findings(paper) if finding.result.id == "figure-number")
     words, printed, corrected = (
@@ -378,7 +378,7 @@ def figure_of_minimum_data() -> Check:
 
 @claim("appel-will.91")
 def simple_hull_of_complex_object() -> Check:
-    """Check that a cube with a pit of 27 points in its top still has a hull with eight vertices and six faces."""
+    """Check that a cube with a pit of 27 points in its top has a hull with only eight vertices and six faces."""
     cube = [(8 * x, 8 * y, 8 * z) for x, y, z in CUBE]
     pit = [(x, y, 7 - (x + y) % 3) for x in range(1, 8, 1) for y in range(1, 8, 2)][:27]
     hull = exact_hull([*cube, *pit])

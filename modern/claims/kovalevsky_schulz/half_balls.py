@@ -1,7 +1,8 @@
-"""Checks of Table 5 of Kovalevsky and Schulz, whose half-balls the paper does not define, and of its invariants.
+"""Checks of the rows of Table 5 of Kovalevsky and Schulz, which lists hulls of half-balls.
 
-A digitisation of a half-ball has its centre at a voxel or halfway between voxels, in the plane and in height, contains
-the points of the sphere or not, and the layer through its centre or not.
+The paper does not define how a half-ball is digitised. In a *digitisation*, the centre is a voxel or halfway between
+two, both in the plane and in height; points exactly at the radius belong to it or do not; and so does the layer through
+the centre.
 """
 
 from collections.abc import Iterator
@@ -22,14 +23,14 @@ from modern.papers.kovalevsky_schulz.hull import straightened
 
 
 def digitisations(diameter: int) -> Iterator[Volume]:
-    """Yield the different half-balls of a diameter; coordinates are doubled, so that centres are integers."""
+    """Yield the different digitisations of a half-ball; coordinates are doubled, so that centres are integers."""
     side = np.arange(-diameter, diameter + 1)
     distinct: dict[bytes, Volume] = {}
     for plane, height, closed, lowest in product((0, 1), (0, 1), (True, False), (0, 1)):
         x, y, z = np.meshgrid(2 * side - plane, 2 * side - plane, 2 * side - height, indexing="ij")
         squares = x * x + y * y + z * z
         inside = (squares <= diameter**2) if closed else (squares < diameter**2)
-        # The lowest layer goes through the centre or is the next one above or, halfway between layers, below it.
+        # The lowest layer goes through the centre or is the next above; or it is next to a centre between layers.
         array = inside & (z >= (2 * lowest if height == 0 else 1 - 2 * lowest))
         distinct.setdefault(array.tobytes(), Volume(array, (0, 0, 0)))
     yield from distinct.values()
@@ -41,7 +42,7 @@ def _row(diameter: int) -> HalfBall:
 
 @cache
 def _cells(diameter: int, centre: str = "vertex") -> CellList:
-    """Return the merged cell list that reproduces the table: with vertices on straight edges."""
+    """Return the merged cell list of a half-ball; as in the table it counts vertices within straight edges too."""
     return voxel_hull(half_ball(diameter, centre), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
 
 
@@ -56,12 +57,12 @@ def _hull(volume: Volume) -> tuple[list[Point], ExactHull]:
 
 @claim("kovalevsky-schulz.86")
 def diameter_8() -> Check:
-    """Check that 324 integers with 30 faces belong to no half-ball, by Euler's formula and by quarter turns."""
+    """Check that no half-ball has 324 integers and 30 faces: they violate Euler's formula and the quarter turns."""
     row = _row(8)
     possible = may_be_convex(int(row.corners), row.faces)
     message = f"(6) implies {row.corners} vertices with {row.faces} faces, which allow {2 * row.faces - 4}; "
     turned = row.corners % 4 in (0, 1)
-    return refuted(not possible and not turned, f"{message}quarter turns move all points in groups of 4 except one")
+    return refuted(not possible and not turned, f"{message}quarter turns move all vertices but one in groups of 4")
 
 
 @claim("kovalevsky-schulz.87", diameter=10)
@@ -71,14 +72,14 @@ def diameter_8() -> Check:
 @claim("kovalevsky-schulz.92", diameter=20)
 @claim("kovalevsky-schulz.93", diameter=22)
 def row_of_table_5(diameter: int) -> Check:
-    """Compare a row with the half-ball that is centred on a corner of voxels, and with its hull in the strict sense."""
+    """Check that a row of Table 5 has the faces and integers of the half-ball centred on a corner of voxels."""
     row, cells = _row(diameter), _cells(diameter)
     hull = straightened(cells)
     agrees = (len(cells.faces), _size(cells)) == (row.faces, row.integers)
     check = exhibited(agrees, f"{len(cells.faces)} faces and {len(cells.vertices)} points need {_size(cells)} integers")
     if _size(hull) != row.integers:
         return check.unless(
-            True, f"the {len(hull.vertices)} vertices of the hull alone, which need {_size(hull)} integers"
+            True, f"the {len(hull.vertices)} vertices of the strict hull, which need {_size(hull)} integers"
         )
     centred = len(_cells(diameter, "voxel").faces)
     return check.unless(centred != row.faces, f"a half-ball centred on a voxel, which has {centred} faces")
@@ -86,7 +87,7 @@ def row_of_table_5(diameter: int) -> Check:
 
 @claim("kovalevsky-schulz.88")
 def diameter_12() -> Check:
-    """Search a digitisation with the printed faces and integers, and compare that of the other rows."""
+    """Check that some digitisation has the printed faces and integers of diameter 12, but not that of other rows."""
     row = _row(12)
     hulls = [hull for _, hull in map(_hull, digitisations(12))]
     sizes = [(len(hull.facets), cell_list_size(len(hull.vertices), len(hull.facets))) for hull in hulls]
@@ -97,7 +98,7 @@ def diameter_12() -> Check:
 
 @claim("kovalevsky-schulz.96")
 def symmetric_faces() -> Check:
-    """Check that all digitisations of the half-ball of diameter 20 have a face without any symmetry."""
+    """Check that each digitisation of the half-ball of diameter 20 has at least one face without any symmetry."""
     asymmetric = []
     for corners, hull in map(_hull, digitisations(20)):
         asymmetric.append(sum(not _is_symmetric([corners[k] for k in facet.polygon]) for facet in hull.facets))

@@ -26,7 +26,7 @@ def has_vertex_above(points: Sequence[Point], judge: ExactHull, direction: Point
 
 @claim("kovalevsky-schulz.65", full=400)
 def lemma_lz(cases: int = CASES) -> Check:
-    """Check that each part of a set cut off by a plane contains a vertex; an empty part contains none."""
+    """Check that each nonempty part that a plane cuts off a set of points contains a vertex of the hull of the set."""
     outcomes = [
         has_vertex_above(points, judge, direction, dot(direction, point))
         for points, judge in hulls(cases)
@@ -41,19 +41,19 @@ def lemma_lz(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.66", "kovalevsky-schulz.68", full=400)
 def last_maximum(cases: int = CASES) -> Check:
-    """Check that the vector that is largest by the inequality and then by x, y and z is one vector, and a vertex."""
+    """Check that the point with the largest value of an inequality (then of x, y and z) is unique and a vertex."""
     outcomes = []
     for points, judge in hulls(cases):
         for direction in DIRECTIONS:
             most = max(dot(direction, p) for p in points)
             largest = [k for k, p in enumerate(points) if dot(direction, p) == most]
             outcomes.append(max(largest, key=lambda k: points[k]) in judge.vertices)
-    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} last maxima are vertices")
+    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} points that are largest in this order are vertices")
 
 
 @claim("kovalevsky-schulz.67")
 def combination_of_three() -> Check:
-    """Check that a point between two others is a combination of two, and (1, 1) in a triangle only of three."""
+    """Check that a point between two others combines these two, whereas (1, 1) in a triangle needs three points."""
     middle = 2 not in exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0)]).vertices
     corners, inner = TRIANGLE[:3], TRIANGLE[3]
     two = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]
@@ -66,7 +66,7 @@ def combination_of_three() -> Check:
 
 @claim("kovalevsky-schulz.69", full=4_000)
 def lemma_ch(cases: int = 10) -> Check:
-    """Check that a polyhedron with corners among the local corners that contains all of these contains all voxels."""
+    """Check that a convex polyhedron with corners among the local corners, all of which it has, has all voxels."""
 
     def contains_all(solid: Voxels) -> bool:
         judge = exact_hull([*map(tuple, local_corners(listed(solid), CENTRES).tolist())])
@@ -77,7 +77,7 @@ def lemma_ch(cases: int = 10) -> Check:
 
 @claim("kovalevsky-schulz.121", full=400)
 def hull_without_a_vertex(cases: int = CASES) -> Check:
-    """Check that a vertex is outside the hull of the other vertices."""
+    """Check that each vertex of a hull is outside the hull of the other vertices."""
     outcomes = []
     for points, judge in hulls(cases):
         for k in judge.vertices:
@@ -89,10 +89,11 @@ def hull_without_a_vertex(cases: int = CASES) -> Check:
 @claim("kovalevsky-schulz.120", vertices="interior")
 @claim("kovalevsky-schulz.70", vertices="moved")
 def smaller_polyhedron(vertices: str) -> Check:
-    """Check the counterexample: a tetrahedron that contains another one, whose apex is moved down an edge.
+    """Check the counterexample: a tetrahedron in a tetrahedron, with the apex moved down along an edge.
 
-    vertices: ``interior``, no vertex of the smaller one is in the interior of the larger, like those of four alternate
-    corners of a cube; ``moved``, one of them is neither a vertex of the larger one nor in its interior.
+    vertices: ``interior``, no vertex of the smaller tetrahedron is in the interior of the larger, as with four
+    alternate corners of a cube; ``moved``, one of them is neither a vertex of the larger tetrahedron nor in its
+    interior.
     """
     *corners, lower = counterexample_points("shortened.csv")
     larger, smaller = exact_hull(corners), exact_hull([*corners[:-1], lower])
@@ -121,19 +122,19 @@ def vertices_are_local_corners(cases: int = 10) -> Check:
 
 @claim("kovalevsky-schulz.129")
 def complex_of_polyhedron() -> Check:
-    """Check that bounding is a partial order of the vertices, edges, faces and body of a hull; dimensions rise."""
+    """Check that "bounds" is a partial order of a hull's vertices, edges, faces and body; dimensions rise along it."""
     _, judge = hulls(1)[0]
     cells = [(0, frozenset([k])) for k in judge.vertices] + [(1, frozenset(e)) for e in judge.edges()]
     cells += [(2, frozenset(f.polygon)) for f in judge.facets] + [(3, frozenset(judge.vertices))]
     pairs = {(a, b) for a in cells for b in cells if a[1] < b[1]}
     passed = all(a[0] < b[0] for a, b in pairs) and not any((b, a) in pairs for a, b in pairs)
     passed &= all((a, c) in pairs for a, b in pairs for c in cells if (b, c) in pairs)
-    return exhibited(passed, f"{len(cells)} cells have {len(pairs)} bounding pairs")
+    return exhibited(passed, f"{len(cells)} cells have {len(pairs)} pairs of which one bounds the other")
 
 
 @claim("kovalevsky-schulz.124", full=400)
 def maximum_of_combinations(cases: int = CASES) -> Check:
-    """Check that a midpoint has the largest value if and only if both of its ends have it."""
+    """Check that the midpoint of two points has the largest value of a linear function only if both points have it."""
     outcomes = []
     for points, _ in hulls(cases):
         for direction in DIRECTIONS:
@@ -141,11 +142,11 @@ def maximum_of_combinations(cases: int = CASES) -> Check:
             for p, q in combinations(points, 2):
                 both_highest = dot(direction, p) == most == dot(direction, q)
                 outcomes.append((dot(direction, plus(p, q)) == 2 * most) == both_highest)
-    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} midpoints agree")
+    return searched(SETS[3], cases, outcomes, f"true for {len(outcomes)} midpoints")
 
 
 def _horizons(cases: int = CASES) -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:
-    """Yield new points with the visible, invisible and new plane, the vertices and the edge at sampled horizons."""
+    """Yield sampled horizon edges: new point, visible, invisible and new plane, vertices, and edge."""
     for points, judge in hulls(cases):
         for new in ((9, 1, 0), (-8, 3, 7)):
             for edge in judge.edges():
@@ -161,26 +162,26 @@ def _horizons(cases: int = CASES) -> Iterator[tuple[Point, Plane, Plane, Plane, 
 
 @claim("kovalevsky-schulz.71", full=400)
 def lemma_be(cases: int = CASES) -> Check:
-    """Check that the new plane supports; for a point on the line of the edge no plane is determined."""
+    """Check that the plane through a horizon edge and the new point supports the hull, unless the two are collinear."""
     outcomes = []
     for _, _, _, plane, vertices, _ in _horizons(cases):
         values = [plane_value(plane, p) for p in vertices]
         outcomes.append(max(values) <= 0 or min(values) >= 0)
     on_line = plane_through((0, 0, 0), (2, 0, 0), (4, 0, 0))
     check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} planes through edges of horizons support")
-    return check.unless(not any(on_line), "a point on the line of the edge, for which no plane is determined")
+    return check.unless(not any(on_line), "a point on the line of the edge, which determines no plane with it")
 
 
 @claim("kovalevsky-schulz.72", full=400)
 def positive_combination(cases: int = CASES) -> Check:
-    """Check that the normal is a positive combination of the two normals, and that a is 0 for a coplanar F_n."""
+    """Check that the new normal is a N_v + b N_n with positive a and b; if F_n is coplanar with P, a is 0."""
     outcomes = []
     for _, visible, hidden, plane, vertices, _ in _horizons(cases):
         sign = -1 if max(plane_value(plane, p) for p in vertices) > 0 else 1
         normal = tuple(sign * n for n in plane[:3])
         outcomes.append(min(_coefficients(visible[:3], hidden[:3], normal)) > 0)  # type: ignore[arg-type]
     side, new = plane_through((0, 0, 0), (2, 0, 0), (0, 0, 2)), plane_through((0, 0, 0), (2, 0, 0), (4, -1, 0))
-    check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} normals have positive coefficients")
+    check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} normals are combinations with positive coefficients")
     return check.unless(
         _coefficients(side[:3], (0, 0, 1), new[:3])[0] == 0, "(4, -1, 0), in the plane of a square: a is 0"
     )
@@ -188,7 +189,7 @@ def positive_combination(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.76", full=400)
 def closed_boundary(cases: int = CASES) -> Check:
-    """Check that the edges that bound one visible and one invisible face form closed boundaries."""
+    """Check that the edges between a visible and an invisible face of a hull form one closed curve."""
     checks = []
     for _, judge in hulls(cases):
         for new in ((9, 1, 0), (-8, 3, 7)):
@@ -201,9 +202,10 @@ def closed_boundary(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.73")
 def section_angles() -> Check:
-    """Check the angles of Fig. 9 with Q at the foot of the perpendicular from P on the edge, and with Q at an end.
+    """Check that the angles of Fig. 9 are right if Q is the foot of the perpendicular from P on the edge.
 
-    Only squares of cosines are compared: beta is 90 - alpha or alpha - 90 if the squares add up to 1.
+    They are not if Q is an end of the edge. Only squares of cosines are compared: beta is 90 - alpha or alpha - 90 if
+    the squares add up to 1.
     """
     right: list[bool] = []
     elsewhere: list[bool] = []
@@ -218,8 +220,8 @@ def section_angles() -> Check:
             line = [p - c for p, c in zip(new, q, strict=True)]
             for normal in (visible[:3], hidden[:3]):
                 sums.append(_cosine(normal, line) + _cosine(normal, outward) == 1)
-    check = searched(SETS[3], CASES, right, f"{len(right)} angles agree with Q at the foot of the perpendicular")
-    return check.unless(not all(elsewhere), f"Q at an end of the edge, where {sum(elsewhere)} angles agree")
+    check = searched(SETS[3], CASES, right, f"{len(right)} angles are right with Q at the foot of the perpendicular")
+    return check.unless(not all(elsewhere), f"Q at an end of the edge, where only {sum(elsewhere)} angles are right")
 
 
 def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fraction:
@@ -230,7 +232,7 @@ def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fractio
 
 @claim("kovalevsky-schulz.122")
 def coefficients_by_cosines() -> Check:
-    """Check the counterexample: an edge of a tetrahedron between the one face that a point sees and a slanted face.
+    """Check the counterexample: a : b, of an edge of a tetrahedron, is no ratio of cosines but a ratio of sines.
 
     For unit normals a : b is sin(beta_n) : sin(beta_v); the squares are compared.
     """
@@ -262,7 +264,7 @@ def _coefficients(u: Point, v: Point, w: Point) -> tuple[Fraction, Fraction]:
 
 @claim("kovalevsky-schulz.169", "kovalevsky-schulz.77", full=400)
 def hulls_of_more_points(cases: int = CASES) -> Check:
-    """Check that the vertices of a hull lie in the hull of more points."""
+    """Check that the hull of some of a set's points lies in the hull of more of them."""
     checks = []
     for points, _ in hulls(cases):
         for n in range(5, len(points)):
@@ -274,7 +276,7 @@ def hulls_of_more_points(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.167", full=400)
 def moved_vertex(cases: int = CASES) -> Check:
-    """Check that a vertex is outside the hull after it is moved to the mean of all vertices."""
+    """Check that a vertex that is moved to the mean of all vertices leaves its old place outside the new hull."""
     checks = []
     for points, judge in hulls(cases):
         count = len(judge.vertices)
@@ -289,7 +291,7 @@ def moved_vertex(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.168", full=400)
 def inner_side(cases: int = CASES) -> Check:
-    """Check that no vertex lies on the outer side of the two faces or of the new plane."""
+    """Check that no vertex of a hull is beyond the visible, the invisible or the new plane at a horizon edge."""
     checks = []
     for _, visible, hidden, plane, vertices, edge in _horizons(cases):
         ways = [minus(p, edge[0]) for p in vertices]
@@ -301,7 +303,7 @@ def inner_side(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.173", full=400)
 def angles_at_edge(cases: int = CASES) -> Check:
-    """Check the signs of the products of both normals with the direction to the new point, from points of each edge."""
+    """Check that the ways from an edge to the new point make acute angles with one normal, obtuse with the other."""
     checks = []
     for new, visible, hidden, _, _, (start, end) in _horizons(cases):
         for share in (0, 1, 2):

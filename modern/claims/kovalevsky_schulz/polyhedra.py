@@ -45,14 +45,14 @@ def polyhedron(points: object, coplanar: Coplanar = VISIBLE) -> CellList:
 @claim("kovalevsky-schulz.1", "kovalevsky-schulz.5", "kovalevsky-schulz.47", "kovalevsky-schulz.75", full=400)
 @claim("kovalevsky-schulz.127", "kovalevsky-schulz.143", full=400)
 def algorithm_against_judge(cases: int = CASES) -> Check:
-    """Compare both treatments of coplanar faces with the exact hull; coplanar points have no first tetrahedron."""
+    """Check that both treatments of coplanar faces give the exact hull, unless all points are coplanar."""
     check = either_treatment(cases)
     return check.unless(len(independent(SQUARE)) < 4, "a square, which contains no tetrahedron to start with")
 
 
 @claim("kovalevsky-schulz.53", full=400)
 def either_treatment(cases: int = CASES) -> Check:
-    """Compare both treatments of coplanar faces with the exact hull, on samples and on a grid of coplanar points."""
+    """Check that both treatments of coplanar faces give the exact hull of samples and of a grid of coplanar points."""
     outcomes = []
     for points, judge in ((GRID, exact_hull(GRID)), *hulls(cases)):
         for coplanar in (VISIBLE, INVISIBLE):
@@ -64,7 +64,7 @@ def either_treatment(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.156", "kovalevsky-schulz.35", full=400)
 def any_order(cases: int = CASES) -> Check:
-    """Check that the first points that are not coplanar make a tetrahedron, and that any order gives the same hull."""
+    """Check that any order of points gives the same hull: the first four that are not coplanar make a tetrahedron."""
     outcomes = []
     for points, judge in hulls(cases):
         for order in (points, points[::-1], sorted(points)):
@@ -75,19 +75,19 @@ def any_order(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17", full=400)
 def combinations_not_vertices(cases: int = CASES) -> Check:
-    """Check that exactly the points in the hull of the other points are not vertices."""
+    """Check that a point is not a vertex if and only if it is in the hull of the other points."""
     outcomes = []
     for points, judge in hulls(cases):
         for k, point in enumerate(points):
             rest = exact_hull([p for p in points if p != point])
             held = rest.dimension == 3 and max(plane_value(f.plane, point) for f in rest.facets) <= 0
             outcomes.append(held != (k in judge.vertices))
-    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} points agree")
+    return searched(SETS[3], cases, outcomes, f"true for {len(outcomes)} points")
 
 
 @claim("kovalevsky-schulz.15", full=400)
 def combinations_of_others(cases: int = CASES) -> Check:
-    """Check the same with combinations of all points, of which every vertex is one with the weight 1."""
+    """Check that only combinations of the other points matter: each vertex is a combination of all with weight 1."""
     itself = 0 in exact_hull(PYRAMID).vertices and max(
         plane_value(f.plane, PYRAMID[0]) for f in exact_hull(PYRAMID).facets
     )
@@ -96,18 +96,18 @@ def combinations_of_others(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.49", full=400)
 def choice_of_q(cases: int = CASES) -> Check:
-    """Check that the product of the normal with P - Q is the same for all corners Q of a face."""
+    """Check that the product of a face's normal with P - Q is the same for any corner Q of the face."""
     checks = []
     for points, judge in hulls(cases):
         for facet in judge.facets:
             products = {dot(facet.plane[:3], minus(points[0], points[k])) for k in facet.polygon}
             checks.append(len(products) == 1)
-    return searched(SETS[3], cases, checks, f"{len(checks)} faces give one product each")
+    return searched(SETS[3], cases, checks, f"{len(checks)} faces give the same product for each of their corners")
 
 
 @claim("kovalevsky-schulz.50", "yau-srihari.15", full=40)
 def points_that_see_no_face(cases: int = 1) -> Check:
-    """Check that grid points that see no face of a hull are those in the hull."""
+    """Check that a grid point sees no face of a hull if and only if it is in the hull."""
     outcomes, held = [], 0
     for points, judge in hulls(cases):
         for x, y, z in product((-4, 0, 1, 4), repeat=3):
@@ -116,13 +116,13 @@ def points_that_see_no_face(cases: int = 1) -> Check:
             inside = point in points or len(points) not in exact_hull([*points, point]).vertices
             outcomes.append(unseen == inside)
             held += inside
-    message = f"{len(outcomes)} points agree, {held} of them in the hull"
+    message = f"true for {len(outcomes)} points, {held} of them in the hull"
     return searched(SETS[3], cases, [*outcomes, held], message)
 
 
 @claim("kovalevsky-schulz.161", "kovalevsky-schulz.51", "yau-srihari.114", full=400)
 def cells_removed(cases: int = CASES) -> Check:
-    """Check what a new point removes: visible faces, edges between two of them, and vertices on these faces only."""
+    """Check that a new point removes the visible faces, edges between two of them, and vertices on no other face."""
     checks = []
     for points, judge in hulls(cases):
         for new in ((9, 1, 0), (-8, 3, 7)):
@@ -130,7 +130,7 @@ def cells_removed(cases: int = CASES) -> Check:
             after = exact_hull([*points, new])
             if 0 in values.values():
                 continue
-            # Expected: the invisible faces, and a triangle on each edge that bounds exactly one of them.
+            # The invisible faces must remain, with a new triangle on each edge that bounds exactly one of them.
             hidden = {frozenset(f.polygon) for f, v in values.items() if v < 0}
             faces = {frozenset(f.polygon) for f in after.facets}
             rim = [e for e in judge.edges() if sum({*e} <= h for h in hidden) == 1]
@@ -138,13 +138,13 @@ def cells_removed(cases: int = CASES) -> Check:
             checks.append({*after.vertices} == {v for h in hidden for v in h} | {len(points)})
             remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
             checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
-    message = f"checked for {len(checks) // 3} points outside a hull and in the plane of no face"
+    message = f"true for {len(checks) // 3} points outside a hull and in the plane of no face"
     return searched(SETS[3], cases, checks, message)
 
 
 @claim("kovalevsky-schulz.52")
 def cube_visible_from_corner() -> Check:
-    """Check what is removed from a cube when a point beyond one of its corners is added."""
+    """Check that a point beyond a corner of a cube removes three faces, three edges and one vertex of it."""
     cube = [*product((0, 2), repeat=3)]
     judge, after = exact_hull(cube), exact_hull([*cube, (3, 3, 3)])
     visible = [f for f in judge.facets if plane_value(f.plane, (3, 3, 3)) > 0]
@@ -156,15 +156,15 @@ def cube_visible_from_corner() -> Check:
 
 @claim("kovalevsky-schulz.54", "kovalevsky-schulz.166")
 def coplanar_triangles() -> Check:
-    """Check that counting coplanar faces as visible makes more triangles than the hull has faces."""
+    """Check that a hull gets more triangles than it has faces if coplanar faces count as visible."""
     cells = polyhedron(GRID)
     passed = len(merged(cells).faces) == 6 < len(cells.faces)
-    return exhibited(passed, f"the cube of a grid gets {len(cells.faces)} triangles, which are merged to 6 faces")
+    return exhibited(passed, f"a cubic grid of points gets {len(cells.faces)} triangles, which are merged to 6 faces")
 
 
 @claim("kovalevsky-schulz.63", full=400)
 def unmerged_triangles(cases: int = CASES) -> Check:
-    """Check that unmerged triangles have the planes of the merged faces, so that they bound the same polyhedron."""
+    """Check that triangles that are not merged bound the same polyhedron: their planes are those of the faces."""
     lists = [polyhedron(points) for points in (GRID, *(points for points, _ in hulls(cases)))]
     outcomes = [{*cells.planes()} == {*merged(cells).planes()} for cells in lists]
     return searched(
@@ -174,11 +174,11 @@ def unmerged_triangles(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.56")
 def invisible_needs_fewer_faces() -> Check:
-    """Count the faces that are created for a grid of coplanar points: invisible ones, extended, and visible ones."""
+    """Check that a grid of points needs fewer new faces if coplanar faces are extended than if they are visible."""
     extended, made = coplanar_hull(GRID, EXTENDED).created, _created(GRID)
     visible, invisible = (triangles_of_ball(6, coplanar) for coplanar in (VISIBLE, INVISIBLE))
     check = exhibited(extended < made, f"{extended} new faces for a grid if coplanar faces are extended, else {made}")
-    return check.unless(invisible > visible, f"triangles only: {invisible} for the ball, against {visible} if visible")
+    return check.unless(invisible > visible, f"triangles only: {invisible} for a ball if invisible, else {visible}")
 
 
 def _created(points: Sequence[Point]) -> int:
@@ -192,16 +192,16 @@ def _created(points: Sequence[Point]) -> int:
 
 @claim("kovalevsky-schulz.58", "kovalevsky-schulz.59")
 def extended_faces() -> Check:
-    """Check that extending faces to coplanar points gives the exact faces, and makes fewer new ones than triangles."""
+    """Check that extending faces to coplanar points gives the exact hull with fewer new faces than in Fig. 7."""
     extended, quadrangles_hull = coplanar_hull(GRID, EXTENDED), coplanar_hull(GRID, QUADRANGLES)
     right = list(extended.faces) == sorted(f.polygon for f in exact_hull(GRID).facets)
-    message = f"the cube of a grid needs {extended.created} new faces, and {quadrangles_hull.created} as in Fig. 7"
+    message = f"a cubic grid of points needs {extended.created} new faces, and {quadrangles_hull.created} by Fig. 7"
     return exhibited(right and extended.created < quadrangles_hull.created, message)
 
 
 @claim("kovalevsky-schulz.60")
 def point_in_two_planes() -> Check:
-    """Check a point in the planes of two adjacent faces of a tetrahedron."""
+    """Check that a point in the planes of two adjacent faces of a tetrahedron extends both faces."""
     hull = coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)], EXTENDED)
     message = f"{hull.extended} faces are extended, and {hull.straightened} edges become collinear"
     return exhibited(hull.extended == 2, message)
@@ -209,7 +209,7 @@ def point_in_two_planes() -> Check:
 
 @claim("kovalevsky-schulz.55")
 def quadrangles() -> Check:
-    """Check a point in the plane of a pyramid's square that sees two of its sides, and the hull that results."""
+    """Check that a point in the plane of a pyramid's square that sees two sides gives one face of four corners."""
     points = [*PYRAMID, (3, 3, 0)]
     hull = coplanar_hull(points, QUADRANGLES)
     right = sorted(hull.faces) == sorted(f.polygon for f in exact_hull(points).facets)
@@ -220,7 +220,7 @@ def quadrangles() -> Check:
 @claim("kovalevsky-schulz.163", treatment="quadrangles")
 @claim("kovalevsky-schulz.165")
 def collinear_edges(treatment: Treatment = EXTENDED) -> Check:
-    """Check that the end of a side is no longer a vertex if a point is added on the line of the side."""
+    """Check that a point added on the line of a side takes the place of the side's end as a vertex."""
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 5)]
     judge = exact_hull([*square, (8, 0, 0)])
     treated = coplanar_hull([*square, (8, 0, 0)], treatment)
@@ -230,7 +230,7 @@ def collinear_edges(treatment: Treatment = EXTENDED) -> Check:
 
 @claim("kovalevsky-schulz.44", "kovalevsky-schulz.160", "kovalevsky-schulz.144", full=1_000)
 def economical_encoding(cases: int = 10) -> Check:
-    """Check that coordinates and the vertices of the faces determine the whole cell list, with edges in their order."""
+    """Check that the coordinates and the vertices of each face determine the whole cell list."""
 
     def returns(solid: Voxels) -> bool:
         cells = convex_polyhedron(solid)
@@ -244,7 +244,7 @@ def economical_encoding(cases: int = 10) -> Check:
 
 @claim("kovalevsky-schulz.46")
 def reconstruction_by_corners() -> Check:
-    """Check the ball of diameter 9; a test of centres in the hull of corners would add a voxel to a diagonal pair."""
+    """Check that a ball of diameter 9 is restored; testing centres of voxels would fill in a diagonal of two voxels."""
     solid, pair = ball(9), Volume(np.eye(2, dtype=np.bool_)[:, :, None], (0, 0, 0))
     again = reconstructed(voxel_hull(solid).polyhedron.straight.economical())
     planes = voxel_hull(pair).polyhedron.straight.planes()
@@ -252,12 +252,12 @@ def reconstruction_by_corners() -> Check:
     check = exhibited(
         again.coordinates().tolist() == solid.coordinates().tolist(), "the ball of diameter 9 is restored"
     )
-    return check.unless(added, "a test of centres: that of (1, 0, 0) is in the hull of (0, 0, 0) and (1, 1, 0)")
+    return check.unless(added, "a test of centres: (1, 0, 0) has its centre in the hull of (0, 0, 0) and (1, 1, 0)")
 
 
 @claim("kovalevsky-schulz.99", full=500)
 def reconstruction(cases: int = 10) -> Check:
-    """Check that the reconstruction from the hull of the centres is the filled hull, and so a convex object."""
+    """Check that the hull of the centres restores the filled hull, which for a convex object is the object."""
 
     def returns(solid: Voxels) -> bool:
         volume = listed(solid)
@@ -269,14 +269,14 @@ def reconstruction(cases: int = 10) -> Check:
     gap = listed([(0, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 1)])
     restored = reconstructed(voxel_hull(gap, CENTRES).polyhedron.straight.economical(), CENTRES).count
     check = search(
-        SOLIDS, returns, cases, "the reconstruction is the filled hull, and that of a convex object the object"
+        SOLIDS, returns, cases, "the reconstruction is the filled hull, for a convex object the object itself"
     )
-    return check.unless(restored > gap.count, "four voxels with a gap: a voxel is added")
+    return check.unless(restored > gap.count, "four voxels with a gap, which is filled")
 
 
 @claim("kovalevsky-schulz.158", "kovalevsky-schulz.43", full=400)
 def manifold(cases: int = CASES) -> Check:
-    """Check that the edges and faces around each vertex form a ring, and that each face has each vertex once."""
+    """Check that the faces around each vertex of a hull form one ring, and that no face has a vertex twice."""
     outcomes = []
     for _, judge in hulls(cases):
         rings = [facet.polygon for facet in judge.facets]
@@ -284,11 +284,11 @@ def manifold(cases: int = CASES) -> Check:
         for vertex in judge.vertices:
             around = [_beside(ring, vertex) for ring in rings if vertex in ring]
             ends = Counter(end for pair in around for end in pair)
-            # One closed ring: every edge has two faces, and a walk from face to face reaches all of them.
+            # The faces form one closed ring if each edge has two faces and a walk from face to face reaches all faces.
             after, start = dict(around), around[0][0]
             walk = [start := after.get(start, -1) for _ in around]
             outcomes.append({*ends.values()} == {2} and {*walk} == {*ends})
-    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} faces and vertices agree")
+    return searched(SETS[3], cases, outcomes, f"true for {len(outcomes)} faces and vertices")
 
 
 def _beside(ring: tuple[int, ...], vertex: int) -> tuple[int, int]:
@@ -298,7 +298,7 @@ def _beside(ring: tuple[int, ...], vertex: int) -> tuple[int, int]:
 
 @claim("kovalevsky-schulz.146", "yau-srihari.17", full=400)
 def halves_of_sorted_set(cases: int = CASES) -> Check:
-    """Check that the halves of points sorted by x are apart if all x differ, and may meet otherwise."""
+    """Check that the hulls of two halves of points sorted by x do not meet if all x differ; otherwise they may."""
     apart = []
     for points, _ in hulls(cases):
         distinct = sorted({p[0]: p for p in points}.values())
@@ -306,5 +306,5 @@ def halves_of_sorted_set(cases: int = CASES) -> Check:
         apart.append(max(p[0] for p in distinct[:half]) < min(p[0] for p in distinct[half:]))
     first, second = [(0, 0, 0), (0, 2, 0)], [(0, 1, 0), (1, 1, 0)]
     meet = max(p[0] for p in first) <= min(p[0] for p in second) and 2 not in exact_hull([*first, second[0]]).vertices
-    check = searched(SETS[3], cases, apart, "halves with distinct x are apart")
+    check = searched(SETS[3], cases, apart, "the hulls of halves with distinct x do not meet")
     return check.unless(meet, "the halves (0, 0), (0, 2) and (0, 1), (1, 1), whose hulls meet in (0, 1)")

@@ -20,7 +20,7 @@ from modern.claims.evidence import Check, claim
 
 
 def lemma_lz() -> Proof:
-    """Prove that each part of a finite set that an inequality cuts off contains a vertex of the hull of the set."""
+    """Prove that a nonempty part of a finite set that an inequality cuts off contains a vertex of the set's hull."""
     return Proof(
         "a part of a finite set that a linear inequality cuts off contains a point that is no combination of others",
         "The part is not empty, so it contains all points with the largest value of the linear function H. Among them "
@@ -32,7 +32,7 @@ def lemma_lz() -> Proof:
 
 
 def lemma_ch() -> Proof:
-    """Prove that the three conditions make a polyhedron the hull.  Minkowski's theorem is quoted."""
+    """Prove by Minkowski's theorem that a polyhedron with all local corners, its vertices among them, is the hull."""
     return Proof(
         "a convex polyhedron that contains all local corners, and whose vertices are local corners, is the hull",
         "If a point of V is not in K, an inequality of K cuts it off. By lemma LZ the part cut off contains a point "
@@ -44,7 +44,7 @@ def lemma_ch() -> Proof:
 
 
 def symmetry() -> Proof:
-    """Prove that a symmetry of a set is one of its hull."""
+    """Prove that a rotation or reflection that maps a set to itself maps its hull to itself."""
     return Proof(
         "a rotation or reflection that maps the points to themselves maps their hull to itself",
         "Each coordinate of the image is a linear function with a constant term, so that the image of a combination is "
@@ -55,7 +55,7 @@ def symmetry() -> Proof:
 
 
 def lemma_be() -> Proof:
-    """Prove that the plane through a horizon edge and the new point supports, with a normal between two normals."""
+    """Prove that the plane through a horizon edge and the new point supports the hull."""
     visible, hidden = point("v", 3), point("n", 3)
     edge, new, way = point("e", 3), point("p", 3), point("w", 3)
     a, b = -dot(hidden, new), dot(visible, new)
@@ -83,8 +83,8 @@ def lemma_be() -> Proof:
                 zero(dot(normal, edge)),
                 (term("v", a), term("n", b)),
             ),
-            Step("no point is beyond the plane", signs, not_negative(-dot(normal, way)), terms),
-            Step("inner points are on the inner side", strictly, positive(-dot(normal, way)), terms),
+            Step("no point of the polyhedron is beyond the new plane", signs, not_negative(-dot(normal, way)), terms),
+            Step("inner points are on the inner side of the new plane", strictly, positive(-dot(normal, way)), terms),
         ),
     )
 

@@ -26,19 +26,19 @@ DIAMETERS = (8, 10, 12, 14, 16, 18, 20, 22)
 
 @claim("kovalevsky-schulz.78", full=400)
 def formula_5(cases: int = CASES) -> Check:
-    """Check that triangles on N_V vertices need 6 integers more than by (5), with N_T = 2 N_V - 4 for 2 N_V."""
+    """Check that formula (5) gives 6 integers too few for N_T triangles: it takes N_T as 2 N_V instead of 2 N_V - 4."""
     excess = []
     for points, _ in hulls(cases):
         cells = polyhedron(points)
         triangles = len(cells.faces)
         excess.append(3 * len(cells.vertices) + 3 * triangles - triangulation_size(triangles))
-    check = searched(SETS[3], cases, [e == 6 for e in excess], "hulls of triangles need 6 integers more than by (5)")
+    check = searched(SETS[3], cases, [e == 6 for e in excess], "hulls of triangles need 6 integers more than (5) gives")
     return check.unless(excess[0] != 0, "any hull: (5) is exact only for N_T = 2 N_V, which no hull has")
 
 
 @claim("kovalevsky-schulz.91")
 def integers_per_face() -> Check:
-    """Check that Table 5's last column is rounded at diameter 16, so that 1070 / 142 at 18 is 7.54, not 7.53."""
+    """Check that Table 5 prints quotients rounded, as 8.56 shows, so that the printed 7.53 must be 7.54."""
     sixteen, eighteen = (Fraction(100 * integers, faces) for _, _, faces, integers in _table_5()[4:6])
     rounded = (int(sixteen), round(sixteen)) == (855, 856)
     message = "1010 / 118 is printed rounded as 8.56; 1070 / 142 is 7.535"
@@ -47,7 +47,7 @@ def integers_per_face() -> Check:
 
 @cache
 def _table_5() -> tuple[tuple[int, int, int, int], ...]:
-    """Return the rows of Table 5: printed triangles and integers, and computed faces and integers of the hull."""
+    """Return, for each row of Table 5, printed triangles and integers, and computed faces and integers of the hull."""
     paper = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
     printed, made = printed_lines(paper), produced_by(paper)
     rows = [(printed[name][0].split(), made[name][0].split()) for name in (f"table5-{d}" for d in DIAMETERS)]
@@ -56,7 +56,7 @@ def _table_5() -> tuple[tuple[int, int, int, int], ...]:
 
 @claim("kovalevsky-schulz.100")
 def memory_requirements() -> Check:
-    """Compare the integers of the cell list with those of Marching Cubes and of triangles, for the bodies of Table 5.
+    """Check that the cell lists of Table 5 need fewer integers than Marching Cubes, if not than the hull's triangles.
 
     Formula (6) gives the number V of vertices from the number of integers; a hull has 2 V - 4 triangles.
     """
@@ -74,7 +74,7 @@ def memory_requirements() -> Check:
 
 @claim("kovalevsky-schulz.80", "kovalevsky-schulz.81")
 def vertices_of_a_face() -> Check:
-    """Check the mean number of vertices of a face and formula (6) on all half-balls of Table 5 together and singly."""
+    """Check that faces of the half-balls of Table 5 have about five vertices on average; single bodies differ."""
     bodies = [voxel_hull(half_ball(d), neighbours=6, coplanar=INVISIBLE).polyhedron.faces for d in DIAMETERS]
     corners, faces = [sum(len(f.vertices) for f in cells.faces) for cells in bodies], [len(c.faces) for c in bodies]
     mean = Fraction(sum(corners), sum(faces))
@@ -82,18 +82,18 @@ def vertices_of_a_face() -> Check:
     by_6 = sum(cell_list_size(len(cells.vertices), len(cells.faces)) for cells in bodies)
     single = [Fraction(c, f) for c, f in zip(corners, faces, strict=True)]
     passed = abs(mean - 5) < Fraction(1, 2) and abs(exact - by_6) * 20 < exact
-    message = f"all bodies: {float(mean):.1f} vertices for each face, and {by_6} integers by (6) for {exact}"
+    message = f"all bodies: {float(mean):.1f} vertices for each face; {exact} integers, {by_6} by formula (6)"
     return exhibited(passed, message).unless(
         max(single) == 8 and min(single) < 4,
-        f"single bodies with {float(min(single)):.1f} and {float(max(single)):.1f}",
+        f"single bodies, with {float(min(single)):.1f} to {float(max(single)):.1f} vertices for each face",
     )
 
 
 @claim("kovalevsky-schulz.171")
 def integers_of_triangles() -> Check:
-    """Check that Table 5 prints the integers of formula (5), 4.5 for each of the printed triangles."""
+    """Check that the numbers of integers in Table 5 follow from the printed triangles by (5), 4.5 for each."""
     checks = [triangulation_size(triangles) == integers for triangles, integers, _, _ in _table_5()]
-    return exhausted("rows of Table 5", checks, f"{sum(checks)} of {len(checks)} rows agree")
+    return exhausted("rows of Table 5", checks, f"{sum(checks)} of {len(checks)} rows follow from formula (5)")
 
 
 def _straight(volume: Volume) -> CellList:
@@ -102,7 +102,7 @@ def _straight(volume: Volume) -> CellList:
 
 @claim("kovalevsky-schulz.95")
 def symmetry() -> Check:
-    """Check that rotations and reflections that map the voxels of a body to themselves map the faces to themselves."""
+    """Check that the symmetries of three bodies of voxels are symmetries of the faces of their hulls."""
     short: list[Point] = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
     numbers, checks = [], []
     for volume in (half_ball(10), listed(short), listed([*short, (0, 2, 0)])):
@@ -123,7 +123,7 @@ def symmetry() -> Check:
 
 
 def _moved(points: list[Point], order: tuple[int, ...] = (0, 1, 2), signs: tuple[int, ...] = (1, 1, 1)) -> list[Point]:
-    """Return points turned about the middle of their box, in half units."""
+    """Return points with axes exchanged and reflected about the middle of their box, in half units."""
     middle = [min(axis) + max(axis) for axis in zip(*points, strict=True)]
     turned = ([2 * p[k] - middle[k] for k in range(3)] for p in points)
     return [(signs[0] * p[order[0]], signs[1] * p[order[1]], signs[2] * p[order[2]]) for p in turned]

@@ -1,4 +1,7 @@
-"""Checks of Kovalevsky and Schulz on voxels: local corners, corners of voxels, and the cells of rasters."""
+"""Checks of Kovalevsky and Schulz on voxels: local corners, corners of voxels, and the cells of rasters.
+
+A *local corner* is a voxel (or a corner of voxels) that lies between no two opposite neighbours in the same set.
+"""
 
 from fractions import Fraction
 from functools import cache
@@ -28,7 +31,7 @@ SOLIDS: Generator[Voxels] = Generator("sets of about 26 voxels of a block of 64"
 
 
 def _placed(solid: Voxels, of: Of) -> set[Point]:
-    """Return the voxels, or the elements that the program labels for their corners."""
+    """Return the voxels of a solid, or the elements that the program labels for the corners of its voxels."""
     volume = listed(solid)
     x, y, z = volume.origin
     return {(i + x, j + y, k + z) for i, j, k in np.argwhere(places(volume, of)).tolist()}
@@ -40,27 +43,27 @@ def _local(solid: Voxels, of: Of = CENTRES, neighbours: int = 26) -> set[Point]:
 
 @claim("kovalevsky-schulz.7", "kovalevsky-schulz.11", "kovalevsky-schulz.125", full=4_000)
 def vertices_among_local_corners(cases: int = 10) -> Check:
-    """Check that the vertices of the hull of voxels are among their local corners."""
+    """Check that each vertex of the hull of a set of voxels is a local corner of the set."""
     return search(
         SOLIDS,
         lambda solid: {solid[k] for k in exact_hull(solid).vertices} <= _local(solid),
         cases,
-        "the vertices of all solids are local corners",
+        "the vertices of the hull of each solid are local corners",
     )
 
 
 @claim("kovalevsky-schulz.6")
 def fewer_candidates() -> Check:
-    """Count the points whose visibility is tested: the voxels of the ball of diameter 32, and its local corners."""
+    """Check that few voxels of the ball of diameter 32 are local corners, whose visibility must be tested."""
     solid = ball(32)
     corners = len(local_corners(solid, CENTRES))
-    message = f"{corners} local corners of {solid.count} voxels are left; each is tested against the faces"
+    message = f"only {corners} local corners of {solid.count} voxels are tested against the faces"
     return exhibited(20 * corners < solid.count, message)
 
 
 @claim("kovalevsky-schulz.19")
 def local_corner_inside_hull() -> Check:
-    """Check a voxel that has both voxels of none of its 13 opposite pairs and yet lies within three neighbours."""
+    """Check the counterexample: a local corner that lies inside the triangle of three neighbours is no vertex."""
     *around, middle = points = tuple(counterexample_points("tripod.csv"))
     near = all(max(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in around)
     wrong = middle in _local(points) and near and len(around) not in exact_hull(points).vertices
@@ -69,15 +72,15 @@ def local_corner_inside_hull() -> Check:
 
 @claim("kovalevsky-schulz.18", full=4_000)
 def fewer_corners_with_more_neighbours(cases: int = 10) -> Check:
-    """Check that a test of 26 neighbours keeps a part of the corners that a test of 6 keeps."""
-    message = "26 neighbours leave a part of the corners that 6 neighbours leave"
+    """Check that each local corner by a test of 26 neighbours is also a local corner by a test of 6."""
+    message = "local corners by 26 neighbours are local corners by 6"
     return search(SOLIDS, lambda solid: _local(solid) <= _local(solid, CENTRES, 6), cases, message)
 
 
 @claim("kovalevsky-schulz.23", of=CENTRES, full=4_000)
 @claim("kovalevsky-schulz.34", of=VERTICES, full=4_000)
 def local_corners_by_definition(of: Of, cases: int = 5) -> Check:
-    """Compare the program's local corners of voxels, or of their corners, with the definition by 13 pairs."""
+    """Check that the program finds the points that the definition by 13 pairs of neighbours calls local corners."""
 
     def agrees(solid: Voxels) -> bool:
         points = {*solid} if of == CENTRES else _corners(solid)
@@ -88,7 +91,7 @@ def local_corners_by_definition(of: Of, cases: int = 5) -> Check:
         }
         return _local(solid, of) == points - between
 
-    return search(SOLIDS, agrees, cases, "the corners are those that lie between no two opposite neighbours")
+    return search(SOLIDS, agrees, cases, "local corners are the points between no two opposite neighbours")
 
 
 def _corners(solid: Voxels) -> set[Point]:
@@ -103,9 +106,9 @@ def triangles_of_ball(neighbours: int, coplanar: Coplanar) -> int:
 
 @claim("kovalevsky-schulz.21")
 def numbers_of_local_corners() -> Check:
-    """Check 776 and 360, which count the corners of voxels; the voxels themselves have fewer local corners."""
+    """Check that the printed 776 and 360 count local corners among corners of voxels, not among voxels."""
     corners, voxels = ([len(local_corners(ball(32), of, n)) for n in (6, 26)] for of in (VERTICES, CENTRES))
-    message = f"among the corners of voxels there are {corners[0]} and {corners[1]}"
+    message = f"the corners of voxels have {corners[0]} and {corners[1]} local corners"
     other = f"the local corners among the voxels, {voxels[0]} and {voxels[1]}"
     return exhibited(corners == [776, 360], message).unless(voxels == [758, 342], other)
 
@@ -113,7 +116,7 @@ def numbers_of_local_corners() -> Check:
 @claim("kovalevsky-schulz.22", neighbours=26, coplanar=INVISIBLE)
 @claim("kovalevsky-schulz.62", neighbours=6, coplanar=VISIBLE)
 def printed_triangles(neighbours: int, coplanar: Coplanar) -> Check:
-    """Check whether the choice of the text gives the printed 1404 triangles, which 6 and invisible faces give."""
+    """Check that a choice that the text names does not give the printed 1404 triangles; 6 and invisible faces do."""
     number = triangles_of_ball(neighbours, coplanar)
     message = f"with {neighbours} neighbours and {coplanar} coplanar faces the ball has {number} triangles, not 1404"
     return refuted(number != 1404 == triangles_of_ball(6, INVISIBLE), message)
@@ -121,7 +124,7 @@ def printed_triangles(neighbours: int, coplanar: Coplanar) -> Check:
 
 @claim("kovalevsky-schulz.64")
 def printed_faces() -> Check:
-    """Check 1404 triangles and 266 faces for invisible coplanar faces; visible ones give other triangles."""
+    """Check that 1404 triangles and 266 faces result if coplanar faces are invisible, but not if they are visible."""
     hull = voxel_hull(ball(32), neighbours=6, coplanar=INVISIBLE).polyhedron
     passed = (len(hull.triangles.faces), len(hull.faces.faces)) == (1404, 266)
     visible = triangles_of_ball(6, VISIBLE)
@@ -132,14 +135,14 @@ def printed_faces() -> Check:
 
 @claim("kovalevsky-schulz.24", "kovalevsky-schulz.25", full=4_000)
 def corners_of_voxels(cases: int = 10) -> Check:
-    """Check that the elements labelled for the corners are the corners of the voxels, and no others."""
+    """Check that the elements that the program labels are exactly the corners of the voxels."""
     message = "the labelled corners are exactly those of the voxels"
     return search(SOLIDS, lambda solid: _placed(solid, VERTICES) == _corners(solid), cases, message)
 
 
 @claim("kovalevsky-schulz.12", "kovalevsky-schulz.13", full=1_000)
 def corners_against_centres(cases: int = 5) -> Check:
-    """Check that the hull of the corners contains the centres, and is that of cubes about the outermost voxels."""
+    """Check that the hull of the voxels' corners contains the centres and is the hull of unit cubes about them."""
 
     def agrees(solid: Voxels) -> bool:
         outer = exact_hull(sorted(_corners(solid)))
@@ -149,26 +152,27 @@ def corners_against_centres(cases: int = 5) -> Check:
         within = all(plane_value((*f.plane[:3], 2 * f.plane[3]), c) < 0 for f in outer.facets for c in centres)
         return within and {f.plane for f in outer.facets} == {f.plane for f in grown.facets}
 
-    return search(SOLIDS, agrees, cases, "the hull of the corners is that of the centres with a cube about each")
+    return search(SOLIDS, agrees, cases, "the hull of the corners is that of unit cubes about the centres")
 
 
 @claim("kovalevsky-schulz.28")
 def corner_of_single_voxel() -> Check:
-    """Check corners of the counterexample that bound a single voxel but are not local corners by 6 neighbours."""
+    """Check the counterexample: corners of a single voxel that are no local corners by a test of 6 neighbours."""
     voxels = tuple(counterexample_points("two_voxels.csv"))
     corners = _local(voxels, VERTICES, 6)
     single = {c for c in _corners(voxels) if sum(c in _corners((v,)) for v in voxels) == 1}
     wrong = sorted(single - corners)
-    message = f"corners that bound one voxel and are not local: {', '.join(map(str, wrong))}"
+    message = f"corners of only one voxel that are not local corners: {', '.join(map(str, wrong))}"
     return refuted(wrong and corners <= single, message)
 
 
 @claim("kovalevsky-schulz.155", statement="more")
 @claim("kovalevsky-schulz.154", statement="edge")
 def corners_of_eight_voxels(statement: str) -> Check:
-    """Check a corner for all subsets of its eight voxels.
+    """Check a statement about a corner for each subset of the eight voxels that meet at it.
 
-    statement: ``more``, two or more voxels give a pair of opposite neighbours; ``edge``, such a pair needs two voxels.
+    statement: ``more``, two or more voxels give the corner a pair of opposite neighbours; ``edge``, such a pair needs
+    two voxels.
     """
     outcomes = []
     for present in product((False, True), repeat=8):
@@ -181,17 +185,17 @@ def corners_of_eight_voxels(statement: str) -> Check:
 
 
 def _neighbours(voxel: tuple[int, ...]) -> list[tuple[int, ...]]:
-    """Return the neighbours of the corner among the corners of a voxel: 0 or 1 on one axis and 2 on the others."""
+    """Return the neighbours of a corner among the corners of one voxel: 0 or 1 on one axis and 2 on the others."""
     return [tuple(voxel[k] if k == axis else 2 for k in range(3)) for axis in range(3)]
 
 
 @claim("kovalevsky-schulz.27")
 def topological_raster() -> Check:
-    """Count the (2n + 1)^3 cells of a cube of n voxels on each side, which are eight times as many in the limit."""
+    """Check that a cube of n^3 voxels has (2 n + 1)^3 cells, which approaches eight times as many for large n."""
     ratios = {n: Fraction(cells_of(n), n**3) for n in (10, 1000)}
-    message = f"for n = 1000 there are {float(ratios[1000]):.2f} times as many cells as voxels"
+    message = f"1000 voxels on a side: {float(ratios[1000]):.2f} times as many cells as voxels"
     return exhibited(8 < ratios[1000] < Fraction(805, 100), message).unless(
-        ratios[10] > 9, f"n = 10 with {float(ratios[10]):.2f} times"
+        ratios[10] > 9, f"10 voxels on a side, with {float(ratios[10]):.2f} times as many"
     )
 
 
@@ -202,26 +206,26 @@ def cells_of(n: int) -> int:
 
 @claim("kovalevsky-schulz.175")
 def edges_at_corner() -> Check:
-    """Count the 1-cells at a 0-cell of a Cartesian complex: at most four in the plane, and six in space."""
+    """Check that at most four edges meet at a corner of pixels in the plane, and six at a corner of voxels."""
     most = {}
     for dimensions in (2, 3):
         cells = [*product(range(5), repeat=dimensions)]
         corners = [c for c in cells if not any(x % 2 for x in c)]
         most[dimensions] = [sum(ends_at(edge, corner) for edge in cells) for corner in corners]
-    message = f"at most {max(most[2])} edges in the plane"
+    message = f"at most {max(most[2])} edges meet at a corner of pixels"
     check = exhausted("corners of a block of four pixels", [n <= 4 for n in most[2]], message)
-    return check.unless(max(most[3]) > 4, f"a corner in space with {max(most[3])} edges")
+    return check.unless(max(most[3]) > 4, f"a corner of voxels, where {max(most[3])} edges meet")
 
 
 def ends_at(edge: tuple[int, ...], corner: tuple[int, ...]) -> bool:
-    """Return True if a cell has one odd coordinate and is next to a 0-cell."""
+    """Return True if a cell is an edge that ends at a corner; both have topological coordinates."""
     return sum(x % 2 for x in edge) == 1 == sum(abs(a - b) for a, b in zip(edge, corner, strict=True))
 
 
 @claim("kovalevsky-schulz.32")
 @claim("kovalevsky-schulz.33", dimensions=2)
 def farthest_voxel_of_corner(dimensions: int = 3) -> Check:
-    """Check that the voxel farthest from the origin names each corner of a raster, or pixel of Fig. 3, once."""
+    """Check that each corner of a raster can be named by its voxel (in Fig. 3: pixel) farthest from the origin."""
     size = 3
     raster = tuple((x, y, z) for x, y, z in product(range(size), repeat=3) if dimensions == 3 or not z)
     named = {}
@@ -230,13 +234,13 @@ def farthest_voxel_of_corner(dimensions: int = 3) -> Check:
             beside = {(x - i, y - j, z - k) for i, j, k in STEPS} & {*raster}
             named[x, y, z] = max(beside, key=lambda c: c[0] ** 2 + c[1] ** 2 + c[2] ** 2)
     within = [corner == voxel for corner, voxel in named.items() if size not in corner]
-    message = f"{len(within)} corners have their own voxels; {len(named) - len(within)} are at the border of the space"
+    message = f"{len(within)} corners have different voxels; {len(named) - len(within)} at the border have none"
     return exhausted(f"corners of a raster of {len(raster)} cells", [*within, len(within) == len(raster)], message)
 
 
 @claim("kovalevsky-schulz.174", full=4_000)
 def additional_labels(cases: int = 5) -> Check:
-    """Check that exactly the elements behind a voxel, seen from the origin, become labelled in addition."""
+    """Check that the elements that become labelled in addition are those behind a voxel, seen from the origin."""
 
     def agrees(solid: Voxels) -> bool:
         behind = {(x + i, y + j, z + k) for x, y, z in solid for i, j, k in STEPS} - {*solid}
@@ -249,7 +253,7 @@ def additional_labels(cases: int = 5) -> Check:
 @claim("kovalevsky-schulz.178", statement="common")
 @claim("kovalevsky-schulz.137", "kovalevsky-schulz.138", statement="farthest")
 def cells_as_boxes(statement: str) -> Check:
-    """Compare the topological coordinates of the cells of eight voxels with the closed boxes that the cells are.
+    """Compare the topological coordinates of the cells of eight voxels with the closed boxes that the cells represent.
 
     statement: ``incident``, one box contains the other if and only if the coordinates are incident, and the dimension
     is the number of odd coordinates; ``common``, two boxes have common points; ``farthest``, halved coordinates are
@@ -280,5 +284,5 @@ def cells_as_boxes(statement: str) -> Check:
 
 
 def incident(a: tuple[int, ...], b: tuple[int, ...]) -> bool:
-    """Return True if a cell bounds another, by topological coordinates."""
+    """Return True if the cell with the topological coordinates a bounds the cell b, or b bounds a."""
     return a != b and all(x == y or (y % 2 == 1 and abs(x - y) == 1) for x, y in zip(a, b, strict=True))

@@ -1,4 +1,4 @@
-"""Checks of Nakamae and Nishita on whole drawings: scenes of boxes, compared with rays that meet the boxes or not."""
+"""Checks of Nakamae and Nishita on whole drawings: scenes of boxes, compared with rays from points towards the eye."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -30,7 +30,7 @@ def _draw_boxes(random: Random) -> tuple[Box, ...]:
 
 
 def _apart(boxes: tuple[Box, ...]) -> bool:
-    """Return True for boxes of positive size no two of which touch; shrinking can leave other tuples."""
+    """Return True if all boxes have a positive size and no two of them touch; shrunk cases may violate this."""
     if any(min(b - a for a, b in zip(*box, strict=True)) < 1 for box in boxes):
         return False
     return all(any(p[1][k] < q[0][k] or q[1][k] < p[0][k] for k in range(3)) for p, q in combinations(boxes, 2))
@@ -58,7 +58,7 @@ def _behind(point: list[Fraction], box: Box) -> bool:
 
 
 def _samples(drawing: Drawing) -> Iterator[tuple[bool, list[Fraction]]]:
-    """Yield, for each piece, whether it is visible, and its middle in space."""
+    """Yield, for each piece of an edge in a drawing, whether it is visible, and its midpoint in space."""
     for piece in drawing.pieces:
         vertices = drawing.solids[piece.solid].polyhedron.vertices
         share = (piece.first + piece.last) / 2
@@ -75,13 +75,13 @@ def _agrees(boxes: tuple[Box, ...]) -> bool:
 
 @claim("nakamae-nishita.11", "nakamae-nishita.49", "appel-will.151", full=600)
 def pieces_against_rays(cases: int = 3) -> Check:
-    """Check that exactly those pieces of edges are visible whose middle no box hides."""
-    return search(SCENES, _agrees, cases, "the pieces that are visible are those that no box hides")
+    """Check that a piece of an edge is visible if and only if no box hides its midpoint."""
+    return search(SCENES, _agrees, cases, "a piece is visible if and only if no box hides its midpoint")
 
 
 @claim("nakamae-nishita.3", "nakamae-nishita.15", full=600)
 def unrelated_polyhedra(cases: int = 3) -> Check:
-    """Check that boxes whose contours do not overlap, and which are not compared, hide nothing of each other."""
+    """Check that boxes whose contours do not overlap hide nothing of each other, so that no comparison is needed."""
 
     def hide_nothing(boxes: tuple[Box, ...]) -> bool:
         drawing = draw(_polyhedra(boxes), parallel(EYE), hidden=True)
@@ -98,13 +98,13 @@ def unrelated_polyhedra(cases: int = 3) -> Check:
 
 @claim("nakamae-nishita.39", "nakamae-nishita.40")
 def divided_box() -> Check:
-    """Check that two halves of a box, as parts of one thing, have the length of visible lines of the whole box."""
+    """Check that a box divided into two parts of one thing has the same length of visible lines as the whole box."""
     halves: tuple[Box, ...] = (((0, 0, 0), (2, 3, 4)), ((2, 0, 0), (5, 3, 4)))
     together, apart, whole = (
         _visible_length(draw(_polyhedra(boxes, thing), parallel(EYE)))
         for boxes, thing in ((halves, "box"), (halves, ""), ((((0, 0, 0), (5, 3, 4)),), ""))
     )
-    message = f"visible lines of length {together} as for the whole box, and {apart} if no lines are removed"
+    message = f"visible lines have the length {together} as for the whole box, and {apart} if none is removed"
     return exhibited(together == whole < apart, message)
 
 
@@ -119,7 +119,7 @@ def _visible_length(drawing: Drawing) -> Fraction:
 
 @claim("nakamae-nishita.17")
 def nearer_by_face() -> Check:
-    """Check that a face decides which of two boxes is nearer if one encloses the other, and not if they touch."""
+    """Check that a face tells which of two boxes is nearer if one encloses the other, unless the boxes touch."""
 
     def by(*boxes: Box) -> str:
         (relation,) = draw(_polyhedra(boxes), parallel((2, -3, 1))).relations
@@ -133,11 +133,11 @@ def nearer_by_face() -> Check:
 
 @claim("nakamae-nishita.18", full=400)
 def front_faces_turn_clockwise(cases: int = CASES) -> Check:
-    """Check that a face of a hull is in front if and only if its images turn like its corners seen from outside."""
+    """Check that a face is in front if and only if its projected corners turn as they do seen from outside."""
     outcomes = []
     for sampled in sampled_sets(3, cases):
         images = [(x + 31 * z, y + 17 * z) for x, y, z in sampled.points]
         for face in sampled.judge.facets:
             a, b, c = (images[k] for k in face.polygon[:3])
             outcomes.append(side(a, b, c) == sign(dot(face.plane[:3], (-31, -17, 1))))
-    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} faces agree")
+    return searched(SETS[3], cases, outcomes, f"true for {len(outcomes)} faces")

@@ -1,4 +1,7 @@
-"""Checks of Nakamae and Nishita on two contours: correlations, formulas (1) to (3) and (5), the tables PL and LP."""
+"""Checks of Nakamae and Nishita on two contours: correlations, formulas (1) to (5), and the tables PL and LP.
+
+A table has the side of each line of one contour on which each vertex of the other contour lies.
+"""
 
 from collections.abc import Iterator
 from fractions import Fraction
@@ -53,7 +56,7 @@ POLYGONS = Generator("convex polygons with coordinates from -2 to 6", 32, _draw_
 
 @cache
 def polygons(count: int = CASES) -> tuple[tuple[Place, ...], ...]:
-    """Return convex polygons, clockwise: the squares above and random ones."""
+    """Return ``count`` convex polygons, listed clockwise: the squares above and random polygons."""
     return (SQUARE, WITHIN, ACROSS, BESIDE, AGAINST, *POLYGONS.cases(2 * count))
 
 
@@ -77,7 +80,7 @@ ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2)
 
 @claim("nakamae-nishita.5", "nakamae-nishita.12", full=400)
 def convex_contour(cases: int = CASES) -> Check:
-    """Check that the edges of exactly one front face form one ring that turns clockwise.
+    """Check that the edges that belong to exactly one front face form one ring that turns clockwise.
 
     The hulls are seen from oblique directions, and one along a face. The corners of the ring are those of the hull of
     all images; the ring may have straight corners if a face is seen edge-on.
@@ -114,7 +117,7 @@ def _roof() -> tuple[tuple[Point, ...], ExactHull, tuple[int, int]]:
 
 @claim("nakamae-nishita.13", full=25)
 def correlations(cases: int = CASES) -> Check:
-    """Check that exactly one of three relations applies to two polygons, unless they touch."""
+    """Check that exactly one of the three correlations applies to two polygons, unless they touch."""
     counts: dict[str, int] = dict.fromkeys(("apart", "encloses", "partly", "touching"), 0)
     checks, some_unrelated = [], False
     for v, w in pairs(cases):
@@ -138,7 +141,7 @@ def correlations(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.14")
 def three_correlations() -> Check:
-    """Check that contours can lie apart, enclose one another, and overlap partly."""
+    """Check by three pairs of squares that contours can lie apart, enclose one another, or overlap partly."""
     partly = any(crosses(SQUARE, i, ACROSS, j) for i in range(4) for j in range(4))
     passed = _apart(SQUARE, BESIDE) and all(inside(p, SQUARE) for p in WITHIN) and partly
     return exhibited(passed, "three pairs of squares lie apart, enclose one another, and overlap partly")
@@ -146,35 +149,35 @@ def three_correlations() -> Check:
 
 @claim("nakamae-nishita.21")
 def formula_1() -> Check:
-    """Check that (1) is the distance to the right times the squared length, for a point at shares along and right."""
+    """Check that (1) is proportional to the distance from a line, and positive to the right of the line."""
 
     def difference(x1: int, y1: int, x: int, y: int, along: int, right: int) -> int:
         line = line_through((x1, y1, 1), (x1 + x, y1 + y, 1))
         return value(line, (x1 + along * x + right * y, y1 + along * y - right * x, 1)) - right * (x * x + y * y)
 
-    return identity(difference, (2, 2, 2, 2, 1, 1), "the value is the distance to the right times the squared length")
+    return identity(difference, (2, 2, 2, 2, 1, 1), "the value is proportional to the distance to the right")
 
 
 @claim("nakamae-nishita.22")
 def formula_2() -> Check:
-    """Compare the program's tables of two squares with formula (2)."""
+    """Check that the program's tables PL and LP of two squares are those of formula (2)."""
     pl, lp = tables_of(SQUARE, ACROSS)
     program_tables = contour_tables(SQUARE, ACROSS)
     agrees = program_tables.pl == tuple(map(tuple, pl)) and program_tables.lp == tuple(map(tuple, lp))
-    return exhibited(agrees, "PL and LP of two squares agree")
+    return exhibited(agrees, "the tables PL and LP of two squares follow formula (2)")
 
 
 @claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", full=25)
 def formula_3(cases: int = CASES) -> Check:
-    """Compare d of (3) with how two segments meet, and check that all four values occur."""
+    """Check that d of formula (3) tells how two segments meet, and that all four values of d occur."""
     meetings = [pair for v, w in pairs(cases) for pair in numbers_of_meetings(v, w)]
     outcomes = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {d for d, _ in meetings}]
-    return searched(POLYGONS, 2 * cases, outcomes, f"{len(meetings)} pairs of segments agree")
+    return searched(POLYGONS, 2 * cases, outcomes, f"d is right for {len(meetings)} pairs of segments")
 
 
 @claim("nakamae-nishita.29", "nakamae-nishita.33", full=25)
 def formula_3_in_line(cases: int = CASES) -> Check:
-    """Check that d tells how segments meet that are not collinear; for two sides that overlap in a line it is 0."""
+    """Check that d of (3) tells how segments meet unless they are collinear: then d is 0 though they may overlap."""
     pl, lp = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2)))
     d = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp))).crossing_number(1, 1)
     check = formula_3(cases)
@@ -183,7 +186,7 @@ def formula_3_in_line(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.60", "nakamae-nishita.37")
 def formula_5() -> Check:
-    """Compare the determinant of (5) and the program with the side of a face on which a vertex lies."""
+    """Check that the determinant of (5), and the program, tell on which side of a face a vertex lies."""
     corners = [(0, 0, 0), (0, 4, 0), (4, 4, 0)]
     plane, signs = plane_through(*((*corner, 1) for corner in corners)), {}
     for z in (-2, 0, 3):
@@ -196,7 +199,7 @@ def formula_5() -> Check:
 
 
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[tuple[int, int]]:
-    """Yield d for each pair of segments, and the value expected from how the segments meet."""
+    """Yield, for each pair of segments of v and w, d of formula (3) and the value that their position requires."""
     pl, lp = tables_of(v, w)
     tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
     for i, j in product(range(len(v)), range(len(w))):
@@ -229,7 +232,7 @@ def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
 @claim("nakamae-nishita.26", number="4", full=25)
 @claim("nakamae-nishita.27", number="LP", full=25)
 def table_properties(number: str, cases: int = CASES) -> Check:
-    """Check a property of the tables on pairs of convex polygons; ``LP`` checks all four, with rows for columns."""
+    """Check property ``number`` of the table PL on pairs of convex polygons; ``LP`` checks all four of the table LP."""
     checks, touching = [], False
     for v, w in pairs(cases):
         pl, lp = tables_of(v, w)
@@ -245,7 +248,7 @@ def table_properties(number: str, cases: int = CASES) -> Check:
             property_checks, touches = _property(property_number, w, v, [(*row,) for row in lp], met)
             checks += property_checks
             touching |= touches
-    check = searched(POLYGONS, 2 * cases, checks, f"true for {len(checks)} pairs of polygons and lines")
+    check = searched(POLYGONS, 2 * cases, checks, f"true for {len(checks)} pairs of a polygon and a line")
     return check.unless(touching, "a side without -1 that touches the other polygon, where d is -2 or -1")
 
 
@@ -269,7 +272,7 @@ def _property(
 
 @claim("nakamae-nishita.41", full=25)
 def intersection_counts(cases: int = CASES) -> Check:
-    """Check that segments meet contours in at most two points, and that d of (3) is not 0 twice at a corner."""
+    """Check that a segment meets a contour at most twice, and that d of (3) may count a corner twice."""
     counts, along, over_two = set(), 0, 0
     for v in polygons(cases):
         for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):

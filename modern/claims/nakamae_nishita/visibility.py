@@ -25,7 +25,7 @@ def _cuboid(way: tuple[int, int, int] = (3, -5, 2)) -> Drawing:
 
 @claim("nakamae-nishita.20")
 def faces_and_edges() -> Check:
-    """Check that a cuboid has three front faces, three inner edges and six contour edges."""
+    """Check that a cuboid seen obliquely has three front faces, three inner edges and six contour edges."""
     (solid,) = _cuboid().solids
     kinds = [edge.kind for edge in solid.edges]
     passed = (sum(s > 0 for s in solid.signs), kinds.count(INNER), kinds.count(CONTOUR)) == (3, 3, 6)
@@ -35,7 +35,7 @@ def faces_and_edges() -> Check:
 
 @claim("nakamae-nishita.10")
 def face_seen_edge_on() -> Check:
-    """Check the same, and a cuboid viewed along an axis, on which no edge is between a front and a back face."""
+    """Check that by the printed definition a cuboid seen along an axis has no contour edge."""
     (along,) = _cuboid((0, 0, 1)).solids
     pairs_ = combinations(zip(along.polyhedron.faces, along.signs, strict=True), 2)
     as_printed = sum(first * second == -1 and len({*a} & {*b}) == 2 for (a, first), (b, second) in pairs_)
@@ -46,7 +46,7 @@ def face_seen_edge_on() -> Check:
 
 @claim("nakamae-nishita.16")
 def hidden_contour_edges() -> Check:
-    """Check that the nearer of two boxes hides inner edges of the other one, and contour edges as well."""
+    """Check that the nearer of two boxes hides not only inner edges of the other box but also contour edges."""
     drawing = _two_boxes((1, 3, -1))
     check = exhibited(_hidden(drawing, INNER), "the contour of the nearer box hides inner edges of the other box")
     return check.unless(_hidden(drawing, CONTOUR), "the contour edges of that box, which are hidden as well")
@@ -76,7 +76,7 @@ def _hidden(drawing: Drawing, kind: str) -> int:
 
 @claim("nakamae-nishita.19")
 def first_three_corners() -> Check:
-    """Check that (1) has the sign of the face for three corners of it, and is 0 for collinear ones."""
+    """Check that (1), for three corners of a face, has the sign of the face unless the corners are collinear."""
     (solid,) = _cuboid().solids
     outcomes = []
     for face, front in zip(solid.polyhedron.faces, solid.signs, strict=True):
@@ -94,9 +94,9 @@ def first_three_corners() -> Check:
 @claim("nakamae-nishita.45")
 @claim("nakamae-nishita.59", index=-1)
 def indices(index: int = 0) -> Check:
-    """Compare the indices of the program with those of (6) for segments in general position.
+    """Check that the program marks intersections with the indices of (6), for segments that pass no corner.
 
-    index: -1, that index occurs only if there is one intersection.
+    index: with -1, check only that this index occurs only if there is one intersection.
     """
     checks, alone = [], set()
     ways = set()
@@ -124,7 +124,7 @@ def indices(index: int = 0) -> Check:
 
 @claim("nakamae-nishita.35")
 def touching_solids() -> Check:
-    """Check which rule decides the nearer of two touching boxes, and what is hidden without that rule."""
+    """Check that the sign of (5) tells which of two boxes is nearer unless they touch and need a separating plane."""
     (relation,) = _scene("stacked.toml").relations
     without = _scene("stacked.toml", "touching")
     less = _hidden(without, INNER) + _hidden(without, CONTOUR) < _hidden(_scene("stacked.toml"), INNER) + _hidden(
@@ -132,13 +132,13 @@ def touching_solids() -> Check:
     )
     passed = relation.by == "plane" and less
     crossing = _two_boxes((1, 3, 0)).relations[0]
-    check = exhibited((crossing.by, crossing.nearer) == ("(4)", 1), "the sign decides for two boxes that are apart")
+    check = exhibited((crossing.by, crossing.nearer) == ("(4)", 1), "the sign tells which of two boxes apart is nearer")
     return check.unless(passed, "two boxes that touch: the value is 0, and only a separating plane decides")
 
 
 @claim("nakamae-nishita.43", "nakamae-nishita.42")
 def three_conditions() -> Check:
-    """Check that a segment that crosses the contour of a square enters, leaves, or does both."""
+    """Check that a segment that crosses the contour of a square enters it, leaves it, or does both."""
     index_patterns, touching = set(), 0
     grid = [(x, y) for x in (-3, 1, 2, 7) for y in (-3, 1, 3, 6)]
     for a, b in combinations(grid, 2):
@@ -156,7 +156,7 @@ def three_conditions() -> Check:
 
 @claim("nakamae-nishita.44")
 def sense_of_intersection() -> Check:
-    """Compare the printed product with (6) for a segment that enters."""
+    """Check that the printed product has the wrong sign for a segment that enters a contour."""
     p, q, a, b = (point[:2] for point in counterexample_points("sense.csv"))
     printed = (p[0] - q[0]) * (a[1] - b[1]) - (p[1] - q[1]) * (a[0] - b[0])
     corrected = (q[0] - p[0]) * (a[1] - b[1]) - (q[1] - p[1]) * (a[0] - b[0])
@@ -167,7 +167,7 @@ def sense_of_intersection() -> Check:
 
 @claim("nakamae-nishita.48")
 def edges_wholly_behind() -> Check:
-    """Check a box partly behind a wall, some of whose edges are hidden without an intersection.
+    """Check that some edges of a box partly behind a wall are hidden although they meet no contour edge.
 
     The contours cross, so that this is case 2 of section 3 and not case 3, in which one contour encloses the other.
     """
@@ -181,7 +181,7 @@ def edges_wholly_behind() -> Check:
 
 @claim("nakamae-nishita.66")
 def overlap_by_neighbours() -> Check:
-    """Check that zeros of PL do not tell whether two collinear sides overlap, and that adjacent columns do."""
+    """Check that adjacent columns of PL tell whether two collinear sides overlap; zeros alone do not."""
     zeros, beside = [], []
     for x, y, width in product(range(-5, 8), (-4, 0, 4), (2, 3)):
         rectangle = ((x, y), (x, y + 4), (x + width, y + 4), (x + width, y))
@@ -204,7 +204,7 @@ def overlap_by_neighbours() -> Check:
 
 @claim("nakamae-nishita.64", full=25)
 def segments_within(cases: int = CASES) -> Check:
-    """Check that every side of V that crosses a diagonal of V' has a part inside V', but is not always inside."""
+    """Check that a side of V that crosses a diagonal of V' is partly inside V', but not always wholly."""
     checks, partly_inside = [], 0
     for v, w in pairs(cases):
         for i, (p, q) in product(range(len(v)), combinations(range(len(w)), 2)):
@@ -213,14 +213,14 @@ def segments_within(cases: int = CASES) -> Check:
                 values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
                 checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)
                 partly_inside += not (inside(a, w) and inside(b, w))
-    message = f"in {len(checks)} crossings of inner edges a part of the segment is inside"
+    message = f"in {len(checks)} crossings of diagonals a part of the side is inside"
     check = searched(POLYGONS, 2 * cases, checks, message)
     return check.unless(partly_inside, f"the whole segment, which is not inside in {partly_inside} crossings")
 
 
 @claim("nakamae-nishita.65")
 def table_by_formula_4() -> Check:
-    """Compare the table by the signs of (4), as printed, with that by (1) for the counterexample."""
+    """Check that the table by the signs of the printed (4) misses an intersection that the table by (1) has."""
     (eye, *contour), ends = (points := counterexample_points("table_by_4.csv"))[:-2], points[-2:]
     by_4 = {sign(dot(minus(p, eye), minus(p, end))) for p in contour for end in ends}
     flat = tuple((x, y) for x, y, _ in contour)
@@ -232,7 +232,7 @@ def table_by_formula_4() -> Check:
 
 @claim("nakamae-nishita.61")
 def nearer_contour_inside() -> Check:
-    """Check a box in front of a frustum: sides of the top are hidden without an intersection."""
+    """Check that a box in front of a frustum hides sides of its top without intersecting them."""
     corners = [(x, y, z) for z, low, high in ((0, 0, 8), (2, 3, 5)) for x, y in _ring(low, high)]
     walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
     frustum = Polyhedron(
@@ -262,7 +262,7 @@ COUNTS = {"a": (11, 116, 80), "c": (60, 480, 360), "d": (30, 216, 158)}
 
 @claim("nakamae-nishita.56")
 def counts_of_table_1d() -> Check:
-    """Check that the counts of Table 1 (d) need plates: a solid with F faces has at most 2 F - 4 vertices."""
+    """Check that the counts of Table 1 (d) require plates: a solid with F faces has at most 2 F - 4 vertices."""
     most = {name: 2 * faces - 4 * parts for name, (parts, _, faces) in COUNTS.items()}
     # 25 prisms, 23 on quadrangles and 2 on triangles, and five plates with four corners and two faces.
     bases = [4] * 23 + [3] * 2
@@ -274,7 +274,7 @@ def counts_of_table_1d() -> Check:
 
 @claim("nakamae-nishita.63", full=400)
 def convex_faces(cases: int = CASES) -> Check:
-    """Check that any three consecutive corners of a face turn in the same direction about its outward normal."""
+    """Check that any three consecutive corners of a hull's face turn the same way about the outward normal."""
     checks = []
     for sampled in sampled_sets(3, cases):
         for facet in sampled.judge.facets:

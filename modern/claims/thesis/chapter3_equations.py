@@ -93,7 +93,7 @@ def equation_of_line() -> Check:
         a, b, c = line_as_printed(u1, v1, u1 + u, v1 + v)
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
 
-    return identity(difference, (2, 2, 2, 2, 1, 1), "the value is the distance from the line times the squared length")
+    return identity(difference, (2, 2, 2, 2, 1, 1), "the value is proportional to the distance from the line")
 
 
 @claim("thesis.51")

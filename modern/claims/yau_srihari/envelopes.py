@@ -39,7 +39,7 @@ def array_of(voxels: tuple[Point, ...] | list[Point]) -> Voxels:
 
 
 def _draw_solid(random: Random) -> tuple[Point, ...]:
-    """Grow a solid from one voxel, by neighbours of its voxels."""
+    """Return a random connected solid, grown from one voxel by adding neighbours of its voxels."""
     voxels: list[Point] = [(2, 2, 2)]
     for _ in range(random.randint(4, 40)):
         axis, step = random.randrange(3), random.choice((-1, 1))
@@ -64,13 +64,13 @@ def _hull() -> OctreeHull:
 
 
 def _placed(voxels: tuple[Point, ...]) -> tuple[Point, ...]:
-    """Return the voxels as indices of their array."""
+    """Return the voxels of a solid as indices into its array."""
     low = [min(axis) for axis in zip(*voxels, strict=True)]
     return tuple((x - low[0], y - low[1], z - low[2]) for x, y, z in voxels)
 
 
 def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
-    """Compare the faces of both envelopes with the exact hull, and the filled hull with its digital points."""
+    """Return True if both envelopes have faces of the exact hull and the filled hull has its digital points."""
     points, hull = _placed(voxels), octree_hull(array_of(voxels))
     judge = exact_hull(points)
     if judge.dimension < 3:
@@ -92,17 +92,17 @@ def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
 @claim("yau-srihari.86", name="truncation")
 @claim("yau-srihari.87", name="marks")
 def algorithm_as_printed(name: str) -> Check:
-    """Compare one statement as printed with the corrected algorithm, on its counterexample."""
+    """Check that a statement of the algorithm, as printed, gives a wrong hull of its counterexample."""
     array = array_of(counterexample_points(f"yau_{name}.csv"))
     wrong, right = octree_hull(array, Printed.only(name)).filled, octree_hull(array).filled
     missing, more = int((right & ~wrong).sum()), int((wrong & ~right).sum())
-    message = f"of {int(right.sum())} voxels {missing} are missing, and {more} voxels are too many"
+    message = f"{missing} of the {int(right.sum())} voxels of the hull are missing, and {more} others are added"
     return refuted(missing or more, message)
 
 
 @claim("yau-srihari.1", "yau-srihari.109")
 def minimum_not_unique() -> Check:
-    """Check that two voxels with a common corner have two smallest digitally convex solids, of three voxels."""
+    """Check that two voxels with a common corner are in two smallest digitally convex solids of three voxels."""
     both: list[Point] = [(0, 0, 0), (1, 1, 0)]
     least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
     return exhibited(all(least) and not is_simple(array_of(both)), "either of two voxels makes a convex solid of three")
@@ -111,14 +111,14 @@ def minimum_not_unique() -> Check:
 @claim("yau-srihari.2", "yau-srihari.48", "yau-srihari.51", "yau-srihari.53", "yau-srihari.54", full=500)
 @claim("yau-srihari.59", "yau-srihari.120", full=500)
 def envelopes_against_judge(cases: int = 5) -> Check:
-    """Check that the envelopes are faces of the exact hull, with its digital points between them."""
+    """Check that the envelopes consist of faces of the exact hull and have its digital points between them."""
     message = "the envelopes of all solids are the faces of the exact hull that look down or up"
     return search(SOLIDS, _envelopes_agree, cases, message)
 
 
 @claim("yau-srihari.4", "yau-srihari.38", "yau-srihari.49", full=500)
 def digital_hull_by_envelopes(cases: int = 5) -> Check:
-    """Check the same, and the counterexample, a hull whose digital points do not form a digital solid."""
+    """Check that the points between the envelopes are the digital hull, unless they do not form a digital solid."""
     disconnected = disconnected_hull()
     return envelopes_against_judge(cases).unless(not disconnected.holds, disconnected.message)
 
@@ -127,7 +127,7 @@ def digital_hull_by_envelopes(cases: int = 5) -> Check:
 @claim("yau-srihari.67", name="start", full=400)
 @claim("yau-srihari.125", "yau-srihari.106", name="marks", full=400)
 def corrected_step(name: str, cases: int = 2) -> Check:
-    """Check that the corrected algorithm gives the digital points of the hull, and as printed it does not."""
+    """Check that the corrected algorithm gives the digital points of the hull, whereas a step as printed does not."""
     as_printed = algorithm_as_printed(name)
     check = envelopes_against_judge(cases)
     return check.unless(not as_printed.holds, f"the step as printed: {as_printed.message}")
@@ -135,18 +135,18 @@ def corrected_step(name: str, cases: int = 2) -> Check:
 
 @claim("yau-srihari.5", full=500)
 def deficiency_of_solid(cases: int = 10) -> Check:
-    """Check that the hull without the convex deficiency is the solid."""
+    """Check that removing the convex deficiency from the digital hull gives the solid."""
 
     def restores(voxels: tuple[Point, ...]) -> bool:
         array = array_of(voxels)
         return bool((octree_hull(array).filled & ~convex_deficiency(array) == array).all())
 
-    return search(SOLIDS, restores, cases, "the hull without the convex deficiency is the solid")
+    return search(SOLIDS, restores, cases, "the digital hull without the convex deficiency is the solid")
 
 
 @claim("yau-srihari.41", full=400)
 def euclidean_convexity(cases: int = CASES) -> Check:
-    """Check that the hull of the vertices is the hull, and that midpoints of vertices are in it."""
+    """Check that the hull of a hull's vertices is the same hull, and that it contains midpoints of vertices."""
     checks = []
     for sampled in sampled_sets(3, cases):
         again = exact_hull([sampled.points[k] for k in sampled.judge.vertices])
@@ -164,7 +164,7 @@ def euclidean_convexity(cases: int = CASES) -> Check:
 
 @claim("yau-srihari.14", full=400)
 def light_cap(cases: int = CASES) -> Check:
-    """Check that the light faces seen from points in general position form one cap with one closed boundary."""
+    """Check that the faces of a hull that a point in general position sees have one closed boundary."""
     outcomes = []
     for sampled in sampled_sets(3, cases):
         for new in ((11, -4, 13), (-23, 17, 9)):
@@ -172,7 +172,7 @@ def light_cap(cases: int = CASES) -> Check:
             rim = [e for e in sampled.judge.edges() if sum({*e} <= {*f.polygon} for f in light) == 1]
             after = [end for edge in rim for end in edge]
             outcomes.append(bool(rim) and all(after.count(end) == 2 for end in after))
-    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} caps have one closed boundary")
+    return searched(SETS[3], cases, outcomes, f"{len(outcomes)} sets of visible faces have one closed boundary")
 
 
 @claim("yau-srihari.16", full=400)
@@ -184,7 +184,7 @@ def number_of_edges(cases: int = CASES) -> Check:
 
 @claim("yau-srihari.36")
 def disconnected_hull() -> Check:
-    """Check the counterexample: nine connected voxels whose hull contains a voxel without neighbours, midway."""
+    """Check the counterexample: the hull of nine connected voxels contains a voxel that has no neighbour in it."""
     stairs = counterexample_points("yau_stairs.csv")
     hull = octree_hull(array_of(stairs))
     (x, y, z), (u, v, w) = stairs[0], stairs[-1]
@@ -193,16 +193,16 @@ def disconnected_hull() -> Check:
     alone = middle in inside and not any(sum(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in inside)
     whole = tuple(2 * m for m in middle) == (x + u, y + v, z + w)
     wrong = hull.components == 1 and whole and alone and not is_simple(hull.filled)
-    message = f"the hull of {len(stairs)} connected voxels has {len(inside)}, and {middle} has no neighbour among them"
+    message = f"the hull of {len(stairs)} connected voxels has {len(inside)}; {middle} has no neighbour in it"
     return refuted(wrong, message)
 
 
 @claim("yau-srihari.35")
 def smallest_convex_solid() -> Check:
-    """Check that the digital points of a solid's hull pass the convexity test, and that a path of six voxels does not.
+    """Check that the digital points of a solid's hull form a convex solid, but not for every solid.
 
-    The path contains all digital points of its hull. Two solids of seven voxels that contain the path pass, so there is
-    no smallest one.
+    A path of six voxels contains all digital points of its hull but is not convex by the test. Two solids of seven
+    voxels that contain the path pass, so there is no smallest one.
     """
     hull = _hull()
     passed = hull.components == 1 and is_simple(hull.filled) and is_digitally_convex(hull.filled)
@@ -221,7 +221,7 @@ def smallest_convex_solid() -> Check:
 
 @claim("yau-srihari.50")
 def floor_and_ceiling() -> Check:
-    """Check which of alpha, the smallest z of each column, and beta, the largest, are the floor and the ceiling."""
+    """Check that alpha, the smallest z of each column, is the floor and beta, the largest, is the ceiling."""
     columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
     alpha, beta = ({at: zs[k] for at, zs in columns.items()} for k in (0, -1))
     floor, ceiling = dict(_hull().floor), dict(_hull().ceiling)
@@ -232,23 +232,23 @@ def floor_and_ceiling() -> Check:
 
 @claim("yau-srihari.103")
 def ceiling_by_negation() -> Check:
-    """Check that the envelope of -beta, with its sign changed, has the heights of the upper hull."""
+    """Check that the envelope of -beta, with its sign changed, is the upper hull of the solid."""
     envelope, upper = _upper_heights()
-    check = exhibited({(x, y, -z) for x, y, z in envelope} == upper, f"{len(upper)} vertices agree")
+    check = exhibited({(x, y, -z) for x, y, z in envelope} == upper, f"{len(upper)} vertices agree with the upper hull")
     return check.unless(envelope != upper, "the heights without the change of sign")
 
 
 @claim("yau-srihari.52")
 def envelope_of_negated_ceiling() -> Check:
-    """Check whether the algorithm applied to -beta gives the concave envelope of beta or its negative."""
+    """Check that the algorithm applied to -beta gives the negative of the concave envelope of beta."""
     envelope, upper = _upper_heights()
-    message = f"{len(upper)} vertices agree only if their heights are negated"
+    message = f"{len(upper)} vertices are right only if their heights are negated"
     negated = {(x, y, -z) for x, y, z in envelope}
     return slip(envelope == upper, negated == upper, "the negative of that envelope", message)
 
 
 def _upper_heights() -> tuple[set[Point], set[Point]]:
-    """Return the vertices of the envelope found for -beta, and those of the exact upper hull."""
+    """Return the vertices of the envelope of -beta, and the vertices of the exact upper hull."""
     judge = exact_hull(SOLID)
     envelope = {vertex for face in _hull().upper.faces for vertex in face.vertices}
     return envelope, {SOLID[k] for f in judge.facets if f.plane[2] > 0 for k in f.polygon}
@@ -256,7 +256,7 @@ def _upper_heights() -> tuple[set[Point], set[Point]]:
 
 @claim("yau-srihari.55", "yau-srihari.56", "yau-srihari.64", full=500)
 def extreme_points(cases: int = 10) -> Check:
-    """Check that the vertices of the lower envelope are points of the floor and of the reduced set."""
+    """Check that each vertex of the lower envelope is a point of the floor, extreme in its row and column."""
 
     def among(voxels: tuple[Point, ...]) -> bool:
         hull = octree_hull(array_of(voxels))
@@ -268,7 +268,7 @@ def extreme_points(cases: int = 10) -> Check:
 
 @claim("yau-srihari.84")
 def integer_normals() -> Check:
-    """Check that all normals of faces and in the queue are integers and perpendicular to their edges or sides."""
+    """Check that all normals of faces and in the queue are integers and perpendicular to their edges."""
     checks, upright = [], 0
     for side in (_hull().lower, _hull().upper):
         normals = [(face.normal, face.vertices) for face in side.faces]
@@ -283,26 +283,26 @@ def integer_normals() -> Check:
 
 @claim("yau-srihari.58", "yau-srihari.100", full=400)
 def triangles_of_a_hull(cases: int = CASES) -> Check:
-    """Check that three points are a face exactly if their plane supports, for sets without four coplanar points."""
+    """Check that three points are a face if and only if their plane supports, unless four points are coplanar."""
     outcomes = []
     for sampled in sampled_sets(3, 4 * cases):
         points = sampled.points[:6]
         planes = {three: plane_through(*(points[k] for k in three)) for three in combinations(range(6), 3)}
         values = {three: [plane_value(p, point) for point in points] for three, p in planes.items()}
-        # In a set without four coplanar points each plane is 0 at three points only.
+        # If no four points are coplanar, a plane through three points contains no other point.
         if all(row.count(0) == 3 for row in values.values()):
             faces = {frozenset(facet.polygon) for facet in exact_hull(points).facets}
             outcomes += [
                 (frozenset(three) in faces) == (min(row) >= 0 or max(row) <= 0) for three, row in values.items()
             ]
-    check = searched(SETS[3], 4 * cases, outcomes, f"{len(outcomes)} triangles agree")
+    check = searched(SETS[3], 4 * cases, outcomes, f"true for {len(outcomes)} triangles")
     as_printed = algorithm_as_printed("triangles")
     return check.unless(not as_printed.holds, f"a solid with four coplanar points: {as_printed.message}")
 
 
 @claim("yau-srihari.101")
 def opposite_sides() -> Check:
-    """Check that planes through an edge of the lower envelope support unless a point lies on the opposite side."""
+    """Check that a plane through an edge of the lower envelope supports unless a point is on the opposite side."""
     checks = []
     floor = [(x, y, z) for (x, y), z in _hull().floor.items()]
     for face in _hull().lower.faces:
@@ -317,7 +317,7 @@ def opposite_sides() -> Check:
 
 @claim("yau-srihari.99")
 def another_vertex() -> Check:
-    """Check that the faces of the lower envelope have normals that point up when reversed, as v3 v2 v1."""
+    """Check that the corners of a lower face in the reverse order, v3 v2 v1, give a normal that points up."""
     reversed_ = [normal_of(*reversed(face.vertices[:3])) for face in _hull().lower.faces]
     faces = [face.normal for face in _hull().lower.faces]
     message = f"the normals of {len(reversed_)} reversed faces point up, unlike those of faces of the envelope"
@@ -326,7 +326,7 @@ def another_vertex() -> Check:
 
 @claim("yau-srihari.90")
 def epigraph_at_inner_nodes() -> Check:
-    """Check an inner node with the heights 0, 1, 1, 1: as printed it is full, but the epigraph is not."""
+    """Check that an inner node with the heights 0, 1, 1, 1 is full as printed, although its epigraph is not."""
     tops = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
     tree = written(no_columns(2), {place: Leaf(top) for place, top in tops.items()})
     voxels_as_printed = 8 if tree.low == 0 else 0
@@ -341,7 +341,7 @@ def epigraph_at_inner_nodes() -> Check:
 
 @claim("yau-srihari.113")
 def pairs_of_points() -> Check:
-    """Count the segments between n points for n up to 12."""
+    """Check that n points have n (n - 1) / 2 segments between them, for n from 2 to 12."""
     counts = {n: len([*combinations(range(n), 2)]) for n in range(2, 13)}
     message = "the number is n (n - 1) / 2 for n from 2 to 12"
     outcomes = [2 * count == n * (n - 1) for n, count in counts.items()]

@@ -50,7 +50,7 @@ def convex_epigraph() -> Proof:
 
 
 def theorem_1() -> Proof:
-    """Prove that the points between the envelopes of the floor and of the ceiling are the Euclidean hull."""
+    """Prove that the Euclidean hull consists of the points between the envelopes of the floor and of the ceiling."""
     low, high, z = variables("low high z")
     return Proof(
         "the hull consists of the points on or above the convex envelope of the floor and on or below the concave "
@@ -88,26 +88,26 @@ def theorem_2() -> Proof:
         "and not its largest, belongs to the next face.",
         (
             Step(
-                "a point with a smaller angle is inside",
+                "a point with a smaller angle than the plane is inside",
                 {"p": positive(dot(f, f)), "angles": not_negative(cotangents)},
                 not_negative(turn(w, u)),
                 (term("angles"),),
                 ("p",),
             ),
             Step(
-                "a point inside has a smaller angle",
+                "a point inside has a smaller angle than the plane",
                 {"inside": not_negative(turn(w, u))},
                 not_negative(cotangents),
                 tuple(term("inside", coordinate) for coordinate in f),
             ),
-            Step("the normals make the supplement", {}, zero(dot(outward_p, outward_q) + dot(f, u))),
+            Step("the outward normals make the supplement", {}, zero(dot(outward_p, outward_q) + dot(f, u))),
         ),
     )
 
 
 @claim("yau-srihari.61")
 def angle_of_theorem_2() -> Check:
-    """Check theorem 2 for the interior dihedral angle, and as printed, for the angle of the outward normals."""
+    """Check that theorem 2 is true of the interior dihedral angle, but not as printed, of the outward normals."""
     as_printed = algorithm_as_printed("angle")
     return theorem_2().check().misprinted(not as_printed.holds, "psi as the interior dihedral angle of p and q")
 

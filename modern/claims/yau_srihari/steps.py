@@ -28,7 +28,7 @@ from modern.papers.yau_srihari.search import Search
 
 @claim("yau-srihari.6", "yau-srihari.116")
 def definitions_differ() -> Check:
-    """Check that two voxels with a common corner are midpoint convex but not a convex solid; a bend is neither."""
+    """Check that two definitions differ: two voxels with a common corner are midpoint convex but no convex solid."""
     corner, bend = (array_of([(0, 0, 0), (1, 1, 0)]), array_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (2, 2, 0)]))
     definitions = [(is_midpoint_convex(a), is_digitally_convex(a)) for a in (corner, bend)]
     message = "two voxels with a common corner are convex by 3.2.2 and not by 3.2.3"
@@ -37,7 +37,7 @@ def definitions_differ() -> Check:
 
 @claim("yau-srihari.126")
 def convexity_by_expansion() -> Check:
-    """Check that expansions of convex solids, and of nine voxels without convexity, pass the test of 3.2.3."""
+    """Check that expansions of convex solids are convex, and also that of nine voxels that are not convex."""
     nine = [(0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 2, 0), (1, 2, 1), (2, 0, 0), (2, 0, 1), (2, 1, 1), (2, 2, 1)]
     steps: list[Point] = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)]
     rows = [steps[:2], steps[:3], steps[1:]]
@@ -56,7 +56,7 @@ def convexity_by_expansion() -> Check:
 
 @claim("yau-srihari.29")
 def simple_with_a_tunnel() -> Check:
-    """Check that a ring of twelve voxels around a cube's diagonal is simple although its Euler number is a ring's."""
+    """Check that a ring of twelve voxels is simple by the definition, although it has a tunnel."""
     array = array_of(counterexample_points("tunnel.csv"))
     cells: set[Point] = set()
     for x, y, z in np.argwhere(array).tolist():
@@ -68,21 +68,21 @@ def simple_with_a_tunnel() -> Check:
 
 @claim("yau-srihari.85", full=500)
 def queued_edges_reversed(cases: int = 6) -> Check:
-    """Check that edges entered in the queue as u1 u3 or u3 u2 are always removed in the reverse direction."""
+    """Check that an edge enters the queue in one direction (u1 u3 or u3 u2) and leaves it in the reverse one."""
     same, reverse, neither = 0, 0, 0
     for voxels in SOLIDS.cases(cases):
         hull = octree_hull(array_of(voxels))
         for step in (*hull.lower.steps, *hull.upper.steps):
             ring = step.face.vertices if step.face else ()
-            # Section 4.6: u1 u3 and u3 u2 are the printed directions of the edges entered.
+            # Section 4.6 enters the edges of a new face in the directions u1 u3 and u3 u2.
             entries = {*zip((*ring[1:], *ring[:1]), ring, strict=True)}
             for p, q in step.removed:
                 same += (p, q) in entries
                 reverse += (q, p) in entries
                 neither += (p, q) not in entries and (q, p) not in entries
-    message = f"{reverse} edges that are found again are removed"
+    message = f"{reverse} edges that are found a second time are removed"
     check = searched(SOLIDS, cases, [reverse > 0, not same, not neither], message)
-    return check.unless(not same, "a comparison of directions: every edge is found again in the reverse direction")
+    return check.unless(not same, "a comparison of directions, as each edge is found again in reverse")
 
 
 def _draw_floor(random: Random) -> tuple[Point, ...]:
@@ -94,7 +94,7 @@ FLOORS: Generator[tuple[Point, ...]] = Generator("floors of about 13 columns of 
 
 @claim("yau-srihari.128", full=1_000)
 def row_and_column_steps(cases: int = 40) -> Check:
-    """Compare points extreme in both row and column with those left after a step by rows and one by columns."""
+    """Check that a step by rows and then one by columns keep all vertices; some other points remain too."""
     checks, larger = [], 0
     for floor_ in FLOORS.cases(cases):
         heights_ = {(x, y): z for x, y, z in floor_}
@@ -107,7 +107,7 @@ def row_and_column_steps(cases: int = 40) -> Check:
         checks.append({floor[k][:2] for k in hull.vertices if k < len(floor)} <= extreme_in_both <= after_steps)
         larger += extreme_in_both < after_steps
     return searched(FLOORS, cases, checks, f"{len(checks)} floors keep all vertices").unless(
-        larger, f"floors in which the second step keeps a point that is not extreme in its whole column ({larger})"
+        larger, f"floors with a remaining point that is not extreme in its column ({larger})"
     )
 
 
@@ -121,9 +121,7 @@ def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
 
 @claim("yau-srihari.129")
 def angle_counts() -> Check:
-    """Count angles in the lower halves of two balls, one for each point beyond an edge, and those the tree search
-    computes.
-    """
+    """Count the angles computed for the lower halves of two balls, by the tree search and without it."""
     counts = []
     for diameter in (8, 40):
         hull = octree_hull(ball(diameter, VERTEX).array)
@@ -133,7 +131,7 @@ def angle_counts() -> Check:
         )
         counts.append((all_angles, reduced_angles, sum(step.angles for step in steps)))
     (all_8, left_8, search_8), (all_40, left_40, search_40) = counts
-    message = "; ".join(f"{a:,} for the floor, {b:,} for the reduced set, {c:,} by the search" for a, b, c in counts)
+    message = "; ".join(f"{a:,} angles for the floor, {b:,} for the reduced set, {c:,} by search" for a, b, c in counts)
     return exhibited(left_8 < all_8 and left_40 < all_40 and search_40 < left_40, message).unless(
         search_8 > left_8, f"the search in a ball of diameter 8: {search_8:,} angles, and {left_8:,} without it"
     )
