@@ -1,7 +1,8 @@
-"""The exact convex hull of points in 3-space, with a proof; every other hull of the project is compared with it.
+"""The exact convex hull of points in 3-space, with a proof.  The project compares all its other hulls with it.
 
 ``exact_hull(points)`` uses integers and shares no code with the procedures that it judges.  ``certify`` proves a result
-from the points alone, with code that did not construct it.  ``exact_hull`` never returns an unproved result.
+from the points alone, with code that takes no part in constructing it.  ``exact_hull`` never returns an unproved
+result.
 
 coordinates                 input to integers with a common scale
 facets, surface             construction by random incremental insertion

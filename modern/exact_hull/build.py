@@ -27,13 +27,13 @@ from modern.exact_hull.surface import BOUND, convex_surface, frame, plane_image
 from modern.geometry.numbers import Points
 
 SEED = 1963
-# The number of points from which a hull is first proposed in rounded numbers.
+# The number of points from which the hull is first proposed in rounded numbers, which is faster, and then proved.
 MANY = 500
 _BLOCK = 1 << 16
 
 
 def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
-    """Return a shuffled order of the points that are not in the simplex, always the same for the same count."""
+    """Return a shuffled order of the points that are not in the simplex, the same in every run for the same count."""
     used = set(simplex)
     order = [index for index in range(count) if index not in used]
     random.Random(SEED).shuffle(order)
@@ -41,13 +41,14 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
 
 
 def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequence[int] | None = None) -> list[int]:
-    """Return the points in the plane of a facet, among ``others`` or, by default, all points that are not vertices."""
+    """Return those of ``others`` (by default, all points that are not vertices) that lie in the plane of any facet."""
     if others is None:
         vertices = {index for facet in facets for index in facet.polygon}
         others = [index for index in range(len(points)) if index not in vertices]
     if not others:
         return []
-    # The planes are moved with the points into the frame, in which one vertex of each facet fixes the constant term.
+    # The frame moves the points.  A facet's plane there has the same normal, and one vertex determines its constant
+    # term.
     bases = [facet.polygon[0] for facet in facets]
     space = frame([points[index] for index in (*bases, *others)])
     planes = [plane_at(facet.plane[:3], base) for facet, base in zip(facets, space.integers, strict=False)]
@@ -55,7 +56,8 @@ def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequ
     height = max(1, _BLOCK // len(planes))
     boundary = []
     for start in range(len(bases), len(space.integers), height):
-        # No point is outside a plane, so a value below the bound cannot be zero; the others are evaluated exactly.
+        # No point is outside a plane, so values are zero or negative.  One below -bound cannot be zero; the others are
+        # evaluated exactly.
         near = space.images[start : start + height] @ images >= -BOUND
         for row in np.flatnonzero(near.any(axis=1)).tolist():
             point = space.integers[start + row]
@@ -67,7 +69,8 @@ def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequ
 def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Sequence[int] = ()) -> list[Facet]:
     """Return the faces of the hull of distinct points, starting from the four points in ``simplex``.
 
-    The points in ``first`` are inserted first. All other points that are then inside are discarded at once.
+    The points in ``first`` are inserted first.  Any other point that is inside the hull of these is then discarded at
+    once.
     """
     space = frame(points)
     order = insertion_order(len(points), simplex)
@@ -86,7 +89,7 @@ def _proposed(points: Sequence[IntPoint], fast: bool | None) -> tuple[list[Facet
     proposal = propose(points, fast)
     if proposal is None:
         return None
-    # Rotate each triangle so that its smallest corner is first, as the result requires.
+    # Rotate each triangle so that the corner with the smallest index is first, as :class:`Facet` requires.
     corners = proposal.triangles
     turn = corners.argmin(axis=1)
     corners = corners[np.arange(len(corners))[:, None], (turn[:, None] + np.arange(3)) % 3]
@@ -159,7 +162,8 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
             try:
                 return replace(hull, certificate=certify(exact, hull))
             except CertificateError:
-                # The vertices of the refused hull are probably vertices of the true one.
+                # The proof refused the proposed hull, but its vertices are probably vertices of the true hull, so
+                # insert them first.
                 likely = {index for facet in proposed[0] for index in facet.polygon}
         facets = _polyhedron(distinct, basis, sorted(likely))
     boundary = _on_facets(distinct, facets) if len(basis) > 2 else []
@@ -169,7 +173,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
 
 
 def _classified(prepared: _Distinct, dimension: int, facets: Sequence[Facet], boundary: Sequence[int]) -> ExactHull:
-    """Return the result without its plane and polygon.  ``facets`` and ``boundary`` index the distinct points."""
+    """Return the result without its plane and polygon.  ``facets`` and ``boundary`` use indices of distinct points."""
     count, indices = len(prepared.distinct), np.array(prepared.indices)
     vertices = sorted({index for facet in facets for index in facet.polygon} or {0})
     inside = np.ones(count, np.bool_)

@@ -2,20 +2,21 @@
 
 ``certify`` checks the following in exact arithmetic, from the points and the result alone:
 
-1. The integers are the points times the least common scale.  Every index has exactly one class.  Every duplicate
+1. The integers are the points times the least common scale.  Each index has exactly one class.  Every duplicate
    names the first equal point.  The dimension is the rank of the points.
 2. Every facet's plane is in lowest terms, occurs once and contains the vertices of the facet.  No point is outside any
-   plane.  The vertices in a plane are exactly those of its facet.  A point that is not a vertex lies in a plane if and
-   only if its class is boundary.
-3. Every vertex lies in enough planes to be determined by them: in three with independent normals in space, in two in a
-   plane.  Therefore it does not lie between two other points.
+   plane.  The vertices in a plane are exactly those of its facet.  A point that is not a vertex lies in some plane if
+   and only if its class is boundary.
+3. Each vertex lies in enough facet planes to be their only common point: in space three with independent normals, in a
+   plane two.  Therefore it does not lie between two other points.
 4. The facets close.  In space, every polygon turns left at every vertex, seen from outside, and goes around once;
    every directed edge occurs once and so does its reverse; V - E + F = 2.  In a plane, the edges are those of the
-   polygon, which satisfies the same conditions.  On a line, there are two ends with planes at right angles to it.
+   polygon, which satisfies the same conditions.  On a line, the facets are the two ends, with planes at right angles to
+   the line.
 
-Evaluating every plane at every point takes too long for many points and facets.  From MANY pairs on, the convexity of a
-polyhedron is proved from its edges, and every point is evaluated in the plane of one facet only.  This establishes the
-same facts by other means (:mod:`modern.exact_hull.convexity`).
+Evaluating every plane at every point takes too long for many points and facets.  If there are at least MANY pairs of a
+plane and a point, the convexity of a polyhedron is proved from its edges, and each point is evaluated in the plane of
+only one facet.  This establishes the same facts by other means (:mod:`modern.exact_hull.convexity`).
 
 The proof shares nothing with the construction: it has its own vectors, float64 images and error bounds.
 """
@@ -52,7 +53,8 @@ def rank(vectors: Iterable[Sequence[int]]) -> int:
     """Return the rank of vectors of three integers, by fraction-free elimination."""
     rows: list[tuple[int, list[int]]] = []
     for vector in vectors:
-        # Eliminate the pivots of the previous rows.  The remainder is zero if the vector depends on those rows.
+        # Subtract multiples of the previous rows to eliminate their pivots.  The remainder is zero if the vector
+        # depends on them.
         rest = list(vector)
         for pivot, row in rows:
             if rest[pivot]:
@@ -75,12 +77,12 @@ def _are_integers(rows: Iterable[Iterable[object]]) -> bool:
 def _check_integers(points: Points, hull: ExactHull) -> None:
     exact = read_points(points)
     scale, scaled = hull.scale, hull.scaled
-    # A fast path for the usual case, integers that need no scale.
+    # A fast path for the usual case: the points are integers, so that no scale is needed.
     if scale == 1 and set(map(len, scaled)) == {3} and _are_integers(scaled) and exact == list(map(tuple, scaled)):
         return  # the input is integers too, so 1 is the least scale
     least = math.lcm(*{number.denominator for point in exact for number in point})
     require(scale == least, "the scale is not the least that makes every coordinate an integer")
-    require(len(scaled) == len(exact), f"{len(scaled)} scaled points for {len(exact)} points")
+    require(len(scaled) == len(exact), f"expected {len(exact)} scaled points, found {len(scaled)}")
     for index, (point, integers) in enumerate(zip(exact, scaled, strict=True)):
         require(
             len(integers) == 3
@@ -104,7 +106,7 @@ def _check_classes(hull: ExactHull) -> None:
     )
     if not hull.duplicates and len(set(hull.scaled)) == len(hull.scaled):
         return
-    # Each point must be stated to equal the first point with its coordinates, or nothing if it is the first one.
+    # A point must be listed as a duplicate of the first point with its coordinates, unless it is that first point.
     first: dict[IntPoint, int] = {}
     stated = dict(hull.duplicates)
     for index, point in enumerate(hull.scaled):
@@ -122,8 +124,8 @@ def _check_dimension(hull: ExactHull) -> None:
         hull.dimension == dimension,
         f"the dimension is stated as {hull.dimension}, but the points have rank {dimension}",
     )
-    require((hull.plane is not None) == (dimension == 2), "a plane is stated if and only if the dimension is 2")
-    require(bool(hull.polygon) == (dimension == 2), "a polygon is stated if and only if the dimension is 2")
+    require((hull.plane is not None) == (dimension == 2), "a plane must be stated for dimension 2, and only then")
+    require(bool(hull.polygon) == (dimension == 2), "a polygon must be stated for dimension 2, and only then")
 
 
 def _check_planes(hull: ExactHull) -> None:
@@ -146,7 +148,7 @@ def _check_planes(hull: ExactHull) -> None:
 
 
 def _check_points(hull: ExactHull) -> Incidences:
-    """Check conditions 2 and 3 above by evaluating every plane at every point."""
+    """Check conditions 2 and 3 of the module's docstring by evaluating every plane at every point."""
     unique = [*hull.vertices, *hull.boundary, *hull.inside]
     pairs = incidences([facet.plane for facet in hull.facets], [hull.scaled[index] for index in unique])
     if pairs.outside is not None:
@@ -185,7 +187,7 @@ def _check_polyhedron(hull: ExactHull) -> int:
         count += len(facet.polygon)
     require(count > 0 and len(edges) == count, "an edge occurs twice in the same direction, or there are no edges")
     for start, end in edges:
-        require((end, start) in edges, f"the edge {start}-{end} has only one facet")
+        require((end, start) in edges, f"the edge {start}-{end} belongs to only one facet")
     shape = f"{len(hull.vertices)} vertices, {count // 2} edges, {len(hull.facets)} facets"
     require(len(hull.vertices) - count // 2 + len(hull.facets) == 2, f"Euler's relation does not hold: {shape}")
     return count // 2
@@ -231,9 +233,9 @@ def _check_segment(hull: ExactHull) -> int:
 
 def _proved(hull: ExactHull) -> tuple[int, Incidences]:
     """Check the facets and classes of a hull of dimension 1 to 3.  Return the number of edges and the incidences."""
-    # Many points and facets: prove convexity locally, if the surface is not too thin for float64.
+    # For many points and facets, prove convexity from the edges, unless the surface is too thin for float64.
     if hull.dimension == 3 and len(hull.scaled) * len(hull.facets) >= MANY:
-        with suppress(Undecided):  # then every plane is evaluated at every point
+        with suppress(Undecided):  # in that case every plane is evaluated at every point, below
             return prove(hull)
     _check_planes(hull)
     pairs = _check_points(hull)
@@ -242,7 +244,7 @@ def _proved(hull: ExactHull) -> tuple[int, Incidences]:
 
 
 def certify(points: Points, hull: ExactHull) -> Certificate:
-    """Prove that ``hull`` is the convex hull of ``points``, which are read twice, or raise CertificateError."""
+    """Prove that ``hull`` is the convex hull of ``points``, or raise CertificateError.  ``points`` are read twice."""
     _check_integers(points, hull)
     _check_classes(hull)
     _check_dimension(hull)

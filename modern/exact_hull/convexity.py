@@ -6,12 +6,12 @@ a. Every plane is in lowest terms, occurs once and contains the corners of its p
    points called vertices.  A polygon turns left everywhere and goes around once, seen from outside.
 b. Every directed edge occurs once and so does its reverse, and V - E + F = 2.
 c. The point o is strictly inside the plane of every facet.
-d. At every edge, the polygon beyond it is strictly inside the plane of this polygon.
+d. At each edge, the polygon on the other side of the edge is strictly inside the plane of the polygon on this side.
 e. Every polygon is split into triangles from its first corner.  The ray from o through the middle of the first triangle
    meets no other triangle.
-f. For every other point, a triangle has been found whose cone from o contains the point, and the point is inside the
-   plane of that facet, or in it if and only if its class is boundary.  A point for which no cone was found has been
-   evaluated in every plane.
+f. For each point that is not a vertex, a triangle is found whose cone from o contains the point, and the point is
+   inside the plane of that facet, or in the plane if and only if its class is boundary.  A point for which no cone is
+   found is evaluated in every plane.
 """
 
 from dataclasses import dataclass
@@ -84,9 +84,9 @@ _BLOCK = 1 << 12
 # (x - o) < -|N| r + |N| r = 0 for every plane.  The computed r and distance have errors below 128e each, |N| being at
 # least 1/2. Points within r - 2**-40 are accepted in this way.
 _BALL = 2.0**-40
-# The number of triangles among which the first one of a walk is chosen.
+# The number of triangles among which the first triangle of a walk to a point's cone is chosen.
 _STARTS = 256
-# The maximum number of steps of a walk in integers, which begins near the cone.
+# The maximum number of steps of a walk in integers, which begins near the cone of the point.
 _STEPS = 64
 
 
@@ -109,14 +109,15 @@ class Cones:
 
 
 def cones(sides: Polygons, images: Images, o: Floats) -> Cones:
-    # A polygon of n sides has n - 2 triangles, numbered consecutively facet after facet.
+    # A polygon of n sides is split into n - 2 triangles, which are numbered consecutively, facet after facet.
     triangles = sides.count - 2
     facet = np.repeat(np.arange(len(triangles)), triangles)
     start = np.cumsum(triangles) - triangles
     number = np.arange(len(facet)) - start[facet]
     first = sides.first[facet]
     corners = np.stack([first, first + number + 1, first + number + 2], axis=1)
-    # The triangle that contains each side: the first one also has side 0, the last one also the last side.
+    # For each side of a polygon, the triangle that contains it: the first triangle also has side 0, the last also the
+    # last side.
     position = np.arange(len(sides.corner)) - sides.first[sides.facet]
     triangle = start[sides.facet] + np.clip(position - 1, 0, sides.count[sides.facet] - 3)
     across = triangle[sides.twin]
@@ -143,7 +144,7 @@ def _product(u: Floats, v: Floats) -> Floats:
 
 @dataclass
 class _Proof:
-    """The data of a proof of convexity, and the number of signs that it has evaluated."""
+    """The data of a proof of convexity, and the number of signs of a plane at a point that it has evaluated."""
 
     hull: ExactHull
     sides: Polygons
@@ -161,11 +162,11 @@ class _Proof:
         return self.images.exactly(self.o)
 
     def signs(self, facets: Ints, points: Ints) -> Ints:
-        """Return the sign of each facet's plane at one point; ``points`` has the point for each facet."""
+        """Return the sign of each facet's plane at one point; ``points`` has for each facet the point to evaluate."""
         base = self.images.places[self.sides.corner[self.sides.first[facets]]]
         approximate = np.einsum("ij,ij->i", self.normals[facets], self.images.places[points] - base)
         signs: Ints = np.sign(approximate).astype(np.int64)
-        # Negated, so that NaN is in doubt as well.
+        # The comparison is negated so that a NaN counts as doubtful too.
         doubtful = np.flatnonzero(~(abs(approximate) > BOUND))
         if doubtful.size:
             exact = values(self.planes, self.hull.scaled, facets[doubtful], points[doubtful])
@@ -190,7 +191,7 @@ class _Proof:
     def check_edges(self) -> None:
         """Check condition d: at every edge, the neighbouring polygon lies strictly inside the plane of this polygon."""
         sides = self.sides
-        # The corner after the edge in the neighbouring polygon.
+        # The corner that follows the edge in the neighbouring polygon.
         beyond = sides.corner[sides.next[sides.next[sides.twin]]]
         for side in np.flatnonzero(self.signs(sides.facet, beyond) >= 0):
             raise CertificateError(f"point {beyond[side]} is outside of facet {sides.facet[side]}, or in its plane")
@@ -218,19 +219,20 @@ class _Proof:
         size = np.einsum("ij,ij->i", cones.walls[:, 0], third)
         for triangle in np.flatnonzero(~(size > BOUND) & (self.sides.count[cones.facet] == 3)).tolist():
             if self.wall_sign(triangle, 0, int(cones.corners[triangle, 2])) <= 0:
-                raise CertificateError(f"facet {cones.facet[triangle]}: no left turn")
+                raise CertificateError(f"facet {cones.facet[triangle]}: the polygon does not turn left at a vertex")
         first = int(size.argmax())
         middle = self.images.places[cones.corners[first]].mean(axis=0)
-        # The ray passes through the middle of the largest triangle, and so most clearly misses the others.
+        # The ray passes through the middle of the largest triangle, where it most clearly misses the other triangles.
         wall_values = cones.walls @ (middle - self.o)
         missed = (wall_values < -BOUND).any(axis=1)
         for edge in np.flatnonzero(~(wall_values[first] > BOUND)).tolist():
             if self.wall_sign(first, edge, middle) <= 0:
-                raise Undecided("the ray does not pass through its triangle")
+                raise Undecided("the ray does not pass through the triangle through which it was drawn")
         missed[first] = True
         for triangle in np.flatnonzero(~missed).tolist():
             if all(self.wall_sign(triangle, edge, middle) >= 0 for edge in range(3)):
-                raise CertificateError(f"a ray meets the facets {cones.facet[first]} and {cones.facet[triangle]}")
+                pair = f"{cones.facet[first]} and {cones.facet[triangle]}"
+                raise CertificateError(f"a ray from inside meets two facets: {pair}")
 
     def check_points(self, r: float) -> None:
         """Check condition f: every other point is inside the surface, or on it if its class is boundary."""
@@ -246,13 +248,13 @@ class _Proof:
         for start in range(0, len(far), _BLOCK):
             block = far[start : start + _BLOCK]
             triangles, certain = self._located(away[block])
-            # The walk in integers decides on which side of a wall the doubtful points are.
+            # For doubtful points, a walk in integers decides on which side of a wall they are.
             for k in np.flatnonzero(~certain).tolist():
                 triangles[k] = self._walked(int(triangles[k]), int(points[block[k]]))
             known = triangles >= 0
             facets[block[known]] = self.cones.facet[triangles[known]]
             signs[block[known]] = self.signs(facets[block[known]], points[block[known]])
-            # Points without a cone are evaluated in every plane.
+            # Points for which no cone was found are evaluated in every plane.
             doubtful = block[~known]
             height = max(1, _BLOCK // len(self.planes))
             for begin in range(0, len(doubtful), height):
@@ -267,7 +269,7 @@ class _Proof:
     def _located(self, away: Floats) -> tuple[Ints, NDArray[np.bool_]]:
         """Return for each point the triangle whose cone contains it, and True if the choice is certain."""
         cones = self.cones
-        # Start at the triangle, of a sample, whose direction from o is closest to that of the point.
+        # Of a sample of triangles, start at the one whose direction from o is closest to the direction of the point.
         sample = np.linspace(0, len(cones.corners) - 1, min(_STARTS, len(cones.corners))).astype(np.int64)
         middles = self.images.places[cones.corners[sample]].mean(axis=1) - self.o
         middles /= np.sqrt((middles**2).sum(axis=1))[:, None]
@@ -278,7 +280,7 @@ class _Proof:
             wall_values = np.einsum("ijk,ik->ij", cones.walls[at[walking]], away[walking])
             edge = wall_values.argmin(axis=1)
             least: Floats = wall_values[np.arange(len(wall_values)), edge]
-            # Cross the wall that the point is farthest beyond; near a wall the result is in doubt.
+            # Cross the wall that the point is farthest beyond.  If the point is near a wall, the result is in doubt.
             beyond = least < -BOUND
             certain[walking[~(least > BOUND) & ~beyond]] = False
             walking, edge = walking[beyond], edge[beyond]
@@ -315,7 +317,7 @@ def prove(hull: ExactHull) -> tuple[int, Incidences]:
     planes = check_planes(hull, sides)
     images = images_of(hull.scaled)
     vertices = np.array(hull.vertices)
-    # With unequal weights, few points of a symmetrical set lie in a plane through o and an edge.
+    # o is a mean with unequal weights, so that few points of a symmetrical set lie in a plane through o and an edge.
     o = np.average(images.places[vertices], axis=0, weights=1 + np.arange(len(vertices)) * 0.618 % 1)
     normals = normal_images(planes, images.shifts)
     evaluated = len(sides.corner)  # check_planes evaluated the corners in their own planes, in integers

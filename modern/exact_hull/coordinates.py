@@ -1,4 +1,4 @@
-"""Convert points to exact numbers, and these to integers with one common scale."""
+"""Convert points to exact numbers, and exact numbers to integers with one common scale."""
 
 import math
 from collections.abc import Sequence
@@ -61,7 +61,7 @@ def common_scale(points: Sequence[ExactPoint]) -> int:
 
 
 def to_integers(points: Sequence[ExactPoint], scale: int) -> list[IntPoint]:
-    """Return every coordinate times ``scale``, a multiple of every denominator."""
+    """Return all coordinates times ``scale``, which must be a common multiple of their denominators."""
     if scale == 1:
         return [(x.numerator, y.numerator, z.numerator) for x, y, z in points]
     return [
@@ -82,7 +82,7 @@ def scaled_points(points: Sequence[ExactPoint]) -> tuple[int, list[IntPoint]]:
 
 
 def columns_of(points: Sequence[IntPoint]) -> list[NDArray[Any]]:
-    """Return the coordinates axis by axis, as int64 if all are below 2**62 and else as Python integers."""
+    """Return the coordinates axis by axis, as int64 if all are below 2**62, otherwise as Python integers."""
     try:
         table = np.fromiter(chain.from_iterable(points), np.int64, 3 * len(points))
         if max(int(table.max()), -int(table.min())) < 2**62:

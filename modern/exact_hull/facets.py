@@ -52,7 +52,7 @@ def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
     if len(points) == 1:
         return (0,)
     origin = points[0]
-    # The first two points span a line; look for a point off the line, then for one off the plane.
+    # The first two points span a line.  Look for a point that is not on it, then for one not in the plane of the three.
     along = minus(points[1], origin)
     for third in range(2, len(points)):
         normal = cross(along, minus(points[third], origin))
@@ -68,7 +68,7 @@ def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
 
 
 def rotated(polygon: Sequence[int]) -> tuple[int, ...]:
-    """Return the same cycle, beginning with its smallest member."""
+    """Return the members of a cycle in the same order, beginning with the smallest member."""
     start = polygon.index(min(polygon))
     return (*polygon[start:], *polygon[:start])
 
@@ -83,7 +83,7 @@ def corners_only(cycle: Sequence[int], points: Sequence[IntPoint]) -> list[int]:
 
 
 def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
-    """Return the border of triangles that together fill a polygon, in the same sense of rotation."""
+    """Return the border of triangles that together fill a polygon, in the sense of rotation of the triangles."""
     edges = {edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))}
     # An edge inside the polygon occurs in both directions.
     following = {a: b for a, b in edges if (b, a) not in edges}
@@ -124,7 +124,7 @@ def planes_of(triangles: NDArray[np.int64], points: Sequence[IntPoint]) -> list[
     """Return the planes through triangles (m, 3), in lowest terms.  Raise ValueError if a triangle has no area."""
     distinct, positions = np.unique(triangles, return_inverse=True)
     coordinates: NDArray[Any] = np.array([points[index] for index in distinct.tolist()], object)
-    if max(np.ptp(coordinates, axis=0).tolist()) < 2**30:  # a normal is below 2**62 and fits int64
+    if max(np.ptp(coordinates, axis=0).tolist()) < 2**30:  # the numbers of a normal are below 2**62 and fit int64
         moved = (coordinates - coordinates[0]).astype(np.int64)
     else:
         moved = coordinates

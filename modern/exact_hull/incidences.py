@@ -1,4 +1,4 @@
-"""Evaluate every plane at every point exactly, for the certificate only, with a separate error bound."""
+"""Evaluate every plane at every point exactly, for the certificate only, with a separately derived error bound."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 from modern.exact_hull.coordinates import IntPoint
 from modern.exact_hull.result import Plane
 
-# The number of values computed at a time.  They stay in the cache, and the matrix product is too small for numpy's
-# library to split it among threads, which costs more than it gains while other programs are running.
+# The number of values computed at a time. So few values stay in the cache. Their matrix product is also too small for
+# numpy's library to split it among threads, which would cost more than it gains while other programs are running.
 _BLOCK = 1 << 16
 BOUND = 2.0**-47
 
 
 @dataclass(frozen=True, slots=True)
 class Incidences:
-    """The pairs (plane, point) whose value is 0, a pair whose point is outside, and the numbers of computed values."""
+    """The pairs (plane, point) with the value 0, a pair whose point is outside, and the numbers of values computed."""
 
     touching: list[tuple[int, int]]
     outside: tuple[int, int] | None
@@ -27,7 +27,7 @@ class Incidences:
 
 
 def _in_int64(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidences:
-    # A block of planes at a time, all points at once; stop at the first positive value.
+    # Evaluate a block of planes at a time at all points, and stop at the first positive value: a point outside a plane.
     normals = np.array(planes, dtype=np.int64)
     columns = np.array(points, dtype=np.int64).T
     step = max(1, _BLOCK // len(points))

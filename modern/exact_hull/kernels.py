@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 LOW = (1 << 31) - 1
 DOUBT = 2.0**-18
-# The value of a point that sees a triangle, if only integers could decide it.
+# The value of a triangle's plane at a point that sees the triangle, if only integers could decide that it does.
 SEEN = 1e-300
-# The smallest value of a point that may lie on the surface before points were rounded.
+# The smallest value of a plane at a point that may have been on the surface before the points were rounded.
 NEAR = -4.0
 
 
@@ -118,7 +118,7 @@ def value(known: Any, slot: int, p: int) -> float:
     approximate = images[slot, 0] * x + images[slot, 1] * y + images[slot, 2] * z + images[slot, 3]
     if abs(approximate) > DOUBT:
         return approximate  # type: ignore[no-any-return]
-    # Exactly, in two int64: each number of the normal is 2**31 high + low.
+    # Compute the value exactly in two int64: each number of the normal is 2**31 high + low.
     a = known.corners[slot, 0]
     high, low = np.int64(0), np.int64(0)
     for axis in range(3):
@@ -184,7 +184,7 @@ def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
     near, visible, fresh, heads = work.near, work.visible, work.fresh, work.heads
     edges, outer, todo, queued, free = work.edges, work.outer, work.todo, work.queued, work.free
     a, b, c, d = start[0], start[1], start[2], start[3]
-    # The tetrahedron: slot 0 is its base; the others share an edge with the base and with each other.
+    # The first tetrahedron: slot 0 is its base.  The other triangles share edges with the base and with each other.
     place_triangle(known, 0, a, b, c)
     place_triangle(known, 1, b, a, d)
     place_triangle(known, 2, c, b, d)
@@ -197,7 +197,7 @@ def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
     neighbours[1, 1], neighbours[1, 2] = 3, 2
     neighbours[2, 1], neighbours[2, 2] = 1, 3
     neighbours[3, 1], neighbours[3, 2] = 2, 1
-    # Every other point waits at a triangle that it sees, or is inside.
+    # Each other point waits at a triangle that it sees, unless it is inside the tetrahedron.
     for p in range(points):
         if p != a and p != b and p != c and p != d:
             near[p] = distribute(known, p, fresh, 4, exact)
@@ -212,7 +212,8 @@ def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
         step += 1
         p = known.farthest[slot]
         count, border = region(known, p, slot, step, visible, edges)
-        # The border of a disc of triangles has at least three edges, and the slots suffice for a closed surface.
+        # If these conditions fail, the surface is not closed: the border of a disc has at least three edges, and there
+        # are slots enough for a closed surface.
         if border < 3 or made + max(0, border - count - spare) > 2 * points:
             return 0
         # Copy the horizon before its triangles are overwritten.

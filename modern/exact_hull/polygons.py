@@ -37,8 +37,8 @@ def check_convex(polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntP
         difference(scaled[end], scaled[start]) for start, end in zip(polygon, (*polygon[1:], polygon[0]), strict=True)
     ]
     for before, after, index in zip(sides, sides[1:] + sides[:1], (*polygon[1:], polygon[0]), strict=True):
-        require(dot(product(before, after), normal) > 0, f"{name}: no left turn at vertex {index}")
-    # Each turn is less than 180 degrees, so it cannot skip a half of the directions.  The polygon therefore goes around
+        require(dot(product(before, after), normal) > 0, f"{name}: the polygon does not turn left at vertex {index}")
+    # Each turn is less than 180 degrees, so no turn can skip half of the directions.  The polygon therefore goes around
     # as often as the direction of its sides enters the half with a positive coordinate on an axis not along the normal.
     axis = 2 if any(normal[:2]) else 1
     upper = [side[axis] > 0 for side in sides]
@@ -73,14 +73,15 @@ def polygons(hull: ExactHull) -> Polygons:
     require(set(map(type, members)) == {int}, "a polygon contains something that is not an index")
     require(set(hull.vertices).issuperset(members), "a point of a polygon is not a vertex")
     corner = np.array(members, np.int64)
-    # Sides of all facets in a row: the side after the last one of a facet is its first one.
+    # The sides of all facets are stored in a row.  The side that follows the last side of a facet is the facet's first
+    # side.
     facet = np.repeat(np.arange(len(cycles)), count)
     first = np.cumsum(count) - count
     after = np.arange(1, len(corner) + 1)
     after[first + count - 1] = first
     lone = np.setdiff1d(hull.vertices, corner)
     if lone.size:
-        raise CertificateError(f"point {lone[0]} is called a vertex, but no facet has it")
+        raise CertificateError(f"point {lone[0]} is called a vertex, but is a vertex of no facet")
     for number in np.flatnonzero(np.minimum.reduceat(corner, first) != corner[first]):
         raise CertificateError(f"facet {number}: the smallest vertex is not first")
     size = len(hull.scaled)
@@ -94,7 +95,7 @@ def polygons(hull: ExactHull) -> Polygons:
     # The twin of a side is the side whose key is reversed.
     positions = np.searchsorted(keys, reverse).clip(max=len(keys) - 1)
     for side in np.flatnonzero(keys[positions] != reverse):
-        raise CertificateError(f"the edge {corner[side]}-{corner[after[side]]} has only one facet")
+        raise CertificateError(f"the edge {corner[side]}-{corner[after[side]]} belongs to only one facet")
     shape = f"{len(hull.vertices)} vertices, {len(corner) // 2} edges, {len(cycles)} facets"
     require(len(hull.vertices) - len(corner) // 2 + len(cycles) == 2, f"Euler's relation does not hold: {shape}")
     return Polygons(corner, facet, after, order[positions], first, count)
@@ -122,7 +123,7 @@ def check_planes(hull: ExactHull, sides: Polygons) -> Objects:
 
 
 def values(planes: Objects, scaled: Sequence[IntPoint], facets: Ints, points: Ints) -> Objects:
-    """Return the value of each facet's plane at one point; ``points`` has the point for each facet."""
+    """Return the value of each facet's plane at one point; ``points`` has for each facet the point to evaluate."""
     distinct, positions = np.unique(points, return_inverse=True)
     coordinates: Objects = np.array([scaled[index] for index in distinct.tolist()], object).reshape(-1, 3)
     plane, at = planes[facets], coordinates[positions]
@@ -168,7 +169,7 @@ def images_of(scaled: Sequence[IntPoint]) -> Images:
 def normal_images(planes: Objects, shifts: Sequence[int]) -> Floats:
     """Return the images of the planes' normals (m, 3)."""
     normals = planes[:, :3]
-    # A fast path for moderate numbers, which differs from the loop below only in speed.
+    # A fast path for numbers of moderate size.  It has the same results as the loop below.
     if abs(normals).max() < _WIDE and max(shifts) - min(shifts) < _APART:
         floats = np.ldexp(normals.astype(np.float64), np.array(shifts) - min(shifts))
         exponents = np.frexp(abs(floats).max(axis=1))[1]

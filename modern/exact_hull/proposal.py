@@ -3,10 +3,10 @@
 The points are rounded to a grid of 2**30 steps for each axis (coordinates that fit are unchanged), and the hull of the
 rounded points grows in rounds.  In each round every triangle nominates the farthest of the points that wait outside it
 (Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Nominated points are
-inserted together if their visible regions neither overlap nor share an edge.  Every edge of the new surface then
-has two triangles that would also be adjacent if only one of these points had been inserted, so the surface is convex
-again.  For the same reason a point that waits at a removed triangle is compared only with the triangles of the point
-that removed it.  "Sees" is strict, as in :mod:`modern.exact_hull.surface`.
+inserted together if the regions of triangles that they see neither overlap nor share an edge.  Every edge of the new
+surface then has two triangles that would also be adjacent if only one of these points had been inserted, so the surface
+is convex again.  For the same reason a point that waits at a removed triangle is compared only with the triangles of
+the point that removed it.  "Sees" is strict, as in :mod:`modern.exact_hull.surface`.
 
 With numba (extra ``fast``) the same hull grows one point at a time (:mod:`modern.exact_hull.kernels`).
 
@@ -33,7 +33,7 @@ Ints = NDArray[np.int64]
 # L.d, and both scalar products are below 2**63.  A computed value, divided by |A| + |B| + |C|, has an error of at most
 # 16 * 2**30 * 2**-53 = 2**-19.
 GRID_BITS = 30
-# The number of points from which loading the kernel costs less time than it saves.
+# The number of points from which the compiled kernel saves more time than it takes to load.
 _VERY_MANY = 500_000
 # The largest number of new triangles for which one matrix product compares all points with all of them.
 _DENSE = 24
@@ -100,7 +100,7 @@ def _chosen(fast: bool | None, count: int) -> Function | None:
 
 def _simplex(grid: Ints) -> list[int] | None:
     """Return four points far from each other, the fourth on the inner side, or None for coplanar points."""
-    # a and b are extreme on the longest axis, c is farthest from their line, d from the plane of the three.
+    # a and b are the extreme points on the longest axis, c is farthest from their line, d from the plane of a, b and c.
     axis = int(np.ptp(grid, axis=0).argmax())
     a, b = int(grid[:, axis].argmin()), int(grid[:, axis].argmax())
     places = grid - grid[a]
@@ -118,11 +118,11 @@ def _simplex(grid: Ints) -> list[int] | None:
 
 
 def exact_signs(normals: Ints, differences: Ints) -> Ints:
-    """Return the exact sign of the scalar product of each row of ``normals`` with that row of ``differences``.
+    """Return the exact signs of the scalar products of the rows of ``normals`` with the same rows of ``differences``.
 
     Normals are below 2**61 and differences below 2**30 in absolute value.
     """
-    # Split each number of the normal into 2**31 high + low, and carry the high part of the low sum.
+    # Split each number of the normal into 2**31 high + low, and carry the high part of the sum of low products.
     high = ((normals >> 31) * differences).sum(axis=1)
     low = ((normals & LOW) * differences).sum(axis=1)
     high += low >> 31
@@ -185,7 +185,7 @@ class _Growing:
         return values
 
     def _set_aside(self, points: Ints, largest: Floats) -> None:
-        """Record those of the given points that may lie on the surface; none of them is outside it."""
+        """Record those of the given points, none of which is outside the surface, that may lie on it."""
         self.near.append(points[largest == 0] if self.exact else points[largest >= NEAR])
 
     def _tried_against_all(self, points: Ints, first: int) -> tuple[Ints, Ints, Floats]:
@@ -213,7 +213,7 @@ class _Growing:
 
         These are ``counts`` triangles from ``starts`` on. The result is that of ``_tried_against_all``.
         """
-        # One row for each pair of a point and a triangle of its remover.
+        # Make one row for each pair of a point and a new triangle of the point that removed its triangle.
         pairs = counts[remover]
         ends = np.cumsum(pairs)
         row_point = np.repeat(np.arange(len(points)), pairs)
@@ -233,8 +233,9 @@ class _Growing:
         nominated, at = self._nominated()
         rank, visible, edge_rank, edge_from, edge = self._regions(nominated, at)
         beyond = self.neighbours[edge_from, edge]
-        # If two points conflict, the one nominated later (the higher one) is inserted: it owns what it sees.  A point
-        # is dropped if it does not own all that it sees, or if a later point owns a triangle next to its region.
+        # If two points conflict, the one nominated later (the higher one) is inserted: it owns the triangles that it
+        # sees.  A point is dropped for this round if it does not own all triangles that it sees, or if a later point
+        # owns a triangle next to them.
         owner = np.full(self.made, -1)
         np.maximum.at(owner, visible, rank)
         accepted = np.ones(len(nominated), np.bool_)
@@ -244,7 +245,8 @@ class _Growing:
         edge_rank, edge_from, edge, beyond = edge_rank[chosen], edge_from[chosen], edge[chosen], beyond[chosen]
         removed = visible[accepted[rank]]
         self.alive[removed] = False
-        # Each horizon must be one cycle: sort its edges by start, and find for each end the edge that starts there.
+        # The horizon of each point must be one cycle: sort its edges by start, and find for each end the edge that
+        # starts there.
         start, end = self.corners[edge_from, edge], self.corners[edge_from, (edge + 1) % 3]
         order = np.argsort(edge_rank * len(self.grid) + start)
         edge_rank, start, end, beyond = edge_rank[order], start[order], end[order], beyond[order]

@@ -9,7 +9,7 @@ Plane = tuple[int, int, int, int]
 
 
 class CertificateError(Exception):
-    """The result is not proved to be the hull of the points; the message names the failed check and its place."""
+    """Raised if a result is not proved to be the hull of the points.  The message names the failed check and place."""
 
 
 def require(condition: bool, message: str) -> None:
@@ -60,8 +60,8 @@ class ExactHull:
     dimension: 0 for a point, 1 for a segment, 2 for a polygon, 3 for a polyhedron.
     scale: the least positive integer by which every coordinate becomes an integer.
     scaled: the coordinates times ``scale``.
-    vertices, boundary, inside: every point belongs to exactly one of these or is a duplicate, which is represented by
-        its first occurrence.  ``boundary`` has the points on the relative boundary that are not vertices, ``inside``
+    vertices, boundary, inside: each point belongs to exactly one of these, unless it is a duplicate, which its first
+        occurrence represents.  ``boundary`` has the points on the relative boundary that are not vertices, ``inside``
         those in the relative interior (for a polygon within its plane).  All are sorted.
     duplicates: pairs of a point and the first point with the same coordinates, sorted.
     plane: for a polygon only, its plane without a common divisor, with the first nonzero number of A, B, C positive.

@@ -4,11 +4,11 @@ The algorithm is the randomised insertion of Clarkson and Shor (Discrete & Compu
 in the variant in which every point that waits outside remembers *one* triangle that it sees.  All signs are exact.
 
 A point "sees" a triangle if it is strictly outside its plane.  A triangle whose plane contains the point stays.
-Therefore the triangles of one face are seen together or not at all, the seen triangles are those that a point moved
-slightly towards the inside would see, they form a disc, and its border (the horizon) is one simple cycle.  No edge of
-the horizon is in line with the new point, since otherwise the seen triangle at that edge would contain the point in its
-plane, so no triangle without area arises.  Triangles may share a plane, and a former corner may end up inside a face or
-an edge; ``facets.faces`` merges such triangles at the end.
+Therefore a point sees either all triangles of a face or none of them.  The seen triangles are those that the point
+would also see if it moved slightly towards the inside.  They form a disc, whose border (the horizon) is one simple
+cycle.  No edge of the horizon is in line with the new point, since otherwise the plane of the seen triangle at that
+edge would contain the point.  So no triangle without area arises.  Triangles may share a plane, and a former corner may
+end up inside a face or an edge; ``facets.faces`` merges such triangles at the end.
 
 Signs are first computed in floating point, from images of points and planes, with a bound on their errors.
 """
@@ -116,7 +116,7 @@ class Surface:
         self.alive: list[bool] = []
         self.mark: list[int] = []
         self.home: list[int] = [-1] * len(frame.integers)
-        # The tetrahedron, with its fourth point inside the plane of the first triangle.
+        # The first tetrahedron.  Its fourth point is on the inner side of the plane of the first triangle.
         a, b, c, d = simplex
         points = frame.integers
         if value(plane_through(points[a], points[b], points[c]), points[d]) > 0:
@@ -143,7 +143,7 @@ class Surface:
         self.mark.append(-1)
 
     def sees(self, p: int, triangle: int) -> bool:
-        """Return True if point ``p`` is strictly outside the plane of the triangle."""
+        """Return True if point ``p`` sees the triangle, that is, if it is strictly outside the triangle's plane."""
         a, b, c, d = self.images[triangle]
         x, y, z = self.point_images[p]
         approximate = a * x + b * y + c * z + d
@@ -184,7 +184,7 @@ class Surface:
         # The search begins at the remembered triangle and spreads across edges; visible triangles are connected.
         visible = [self.home[p]]
         horizon: _Horizon = []
-        yes, no = 2 * p, 2 * p + 1  # marks of this point, so that no mark needs to be reset
+        yes, no = 2 * p, 2 * p + 1  # marks that belong to this point, so that older marks need not be reset
         mark = self.mark
         mark[visible[0]] = yes
         for triangle in visible:

@@ -23,8 +23,8 @@ function that returns a ``FileMesh`` (``tokens.py``), and add it to ``SURFACES``
 
 A format of voxels belongs to ``modern/digital/volumes.py`` (``nrrd.py`` there is an example).
 
-Tests: ``tests/modern/formats/test_export.py`` reads written files back with separate readers; ``test_points.py``
-has one row for each valid file and for each way in which a file can be invalid; ``tests/modern/cli/
+Tests: ``tests/modern/formats/test_export.py`` reads written files back with separate readers; ``test_points.py`` needs
+a row for each kind of valid file and for each way in which a file can be invalid; ``tests/modern/cli/
 test_fuzz_readers.py`` damages files at random.  Documentation: ``docs/reference/files.md``.
 """
 
@@ -34,7 +34,7 @@ MESHES = ("off", "obj", "ply", "stl")
 # Formats of a hull: its surface, its complete data (JSON), or a page on which it can be turned (HTML).
 HULLS = (*MESHES, "json", "html")
 
-# Formats from which points are read, with their names in help and messages; ``points.py`` calls their readers.
+# Formats from which points are read, each with its name in help and messages.  ``points.py`` calls their readers.
 POINTS = {
     "deck": "a data deck",
     "csv": "a list (x,y,z a line, or with blanks, tabs, semicolons)",

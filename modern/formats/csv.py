@@ -15,8 +15,8 @@ def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
     """Yield the line number and the fields of each row, without surrounding blanks.
 
     The first row determines the separator: a semicolon, else a comma, else a tab, else blanks.  Blank lines and lines
-    that begin with ``#`` are skipped.  So is a first row that is a heading: no field has a digit, or every field is a
-    name such as ``x1``.  Raise FileError if the csv module cannot read a row.
+    that begin with ``#`` are skipped.  A first row is also skipped if it is a heading: none of its fields has a digit,
+    or all of them are names such as ``x1``.  Raise FileError if the csv module cannot read a row.
     """
     lines = text.splitlines()
     first = next((line for line in lines if line.strip() and not line.lstrip().startswith("#")), "")

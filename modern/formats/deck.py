@@ -16,7 +16,7 @@ from emulator.numbers.arithmetic import TRUNCATING, Rules, profile
 from emulator.numbers.fields import Field, FieldError, FieldNumber, Remark, read_fixed, read_floating
 from modern.geometry.numbers import Point, exact_text, finite_decimal, read_epsilon, split_decimal
 
-# The number of points for which the programs' arrays are dimensioned.
+# The largest number of points for which the arrays of the hull programs have room.
 MAX_POINTS = 51
 # The largest number that the two columns of N can hold.
 MAX_N = 99
@@ -24,13 +24,13 @@ COORDINATE = Field("E", 14, 8)
 _LAST_COLUMN = 42
 _E_FIRST, _E_LAST = 3, 16
 _DIGITS = 14
-# Rules that keep every digit of a field of 14 columns.
+# Arithmetic rules that keep all digits of a field of 14 columns.
 _RULES = profile(f"truncating:{_DIGITS}").rules
 
 
 @dataclass(frozen=True, slots=True)
 class DataSet:
-    """A data set: N, and its cards in the deck, the card with N first."""
+    """A data set: the number of points N, and its cards in the deck, of which the first is the card with N."""
 
     n: int
     cards: tuple[Card, ...]
@@ -38,7 +38,7 @@ class DataSet:
 
 @dataclass(frozen=True, slots=True)
 class DeckWarning:
-    """A warning about a card: its position, and either a text or the FORMAT reader's remark on the number ``name``."""
+    """A warning about a card: its place, and a text or the FORMAT reader's remark on the number called ``name``."""
 
     source: str
     card: int
@@ -70,7 +70,7 @@ class CheckedDeck:
 
 
 class TooManyDigits(ArgumentError):
-    """A number with more digits than the field of a card holds."""
+    """Raised for a number with more digits than the field of a card holds."""
 
 
 def coordinate_field(text: str, truncate: bool = False) -> str:
@@ -81,7 +81,7 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
     """
     minus, whole, fraction, exponent = split_decimal(text.strip())
     digits = (whole + fraction).lstrip("0")
-    # The card has the point before the first significant digit.
+    # On the card, the decimal point is before the first significant digit.
     exponent = exponent + len(digits) - len(fraction) if digits else 0
     digits = digits.rstrip("0")
     if len(digits) > COORDINATE.decimals and not truncate:
@@ -236,7 +236,7 @@ def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning])
 
 
 def _point(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) -> tuple[tuple[int, int], ...]:
-    """Check a card and return the mantissa and exponent of each of its numbers, which are the same for every zero."""
+    """Check a card and return the mantissa and exponent of each of its numbers, which are the same for +0 and -0."""
     numbers = []
     for axis, (first, columns) in zip("xyz", _fields(card), strict=True):
         try:

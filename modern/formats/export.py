@@ -1,7 +1,8 @@
 """Export a hull to other programs, as text in any of the formats or as a ``trimesh.Trimesh``.
 
-OFF, OBJ and PLY preserve the faces as polygons.  STL splits them into triangles.  JSON has all data.  The vertices
-of a mesh are those of ``Hull.vertices``, in that order; only JSON also contains boundary and inside points.
+OFF, OBJ and PLY preserve the faces as polygons.  STL splits the faces into triangles.  JSON has all data of a hull.
+The vertices of a mesh are those of ``Hull.vertices``, in that order; only JSON also contains boundary and inside
+points.
 """
 
 from importlib import import_module
@@ -33,7 +34,7 @@ def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:
 
 
 def format_of(path: str) -> str:
-    """Return the format for the extension of a file.  Raise ExportError if it has no format."""
+    """Return the format that belongs to the extension of a file name.  Raise ExportError if no format belongs to it."""
     extension = path.rpartition(".")[2].lower() if "." in path else ""
     if extension not in HULLS:
         raise ExportError(f"{path}: the name must end with one of {', '.join('.' + form for form in HULLS)}")
@@ -51,7 +52,7 @@ def write_hull(hull: Hull, path: str, form: str | None = None, digits: int | Non
 def to_trimesh(hull: Hull) -> Any:
     """Return a ``trimesh.Trimesh`` with the vertices in order, rounded to floats, and faces split into triangles.
 
-    Raise ExportError without trimesh, for a hull without area, and for a number too large for a float.
+    Raise ExportError if trimesh is not installed, for a hull without area, and for a number too large for a float.
     """
     surface = mesh(hull)
     if surface.dimension < 2:
@@ -60,7 +61,7 @@ def to_trimesh(hull: Hull) -> Any:
         trimesh = import_module("trimesh")
     except ImportError:
         raise ExportError("to_trimesh needs trimesh: pip install 'hull1620[mesh]'") from None
-    import numpy as np  # imported here because no other format needs it
+    import numpy as np  # not at the top, because no other format needs it
 
     try:
         vertices = np.array([[float(number) for number in point] for point in surface.numbers()], dtype=np.float64)

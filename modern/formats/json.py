@@ -39,7 +39,7 @@ def document(hull: Hull) -> dict[str, Any]:
 
 
 def write(hull: Hull) -> str:
-    """Return the text of a JSON file with one line for each member, and for each item of a list of lists or objects."""
+    """Return the text of a JSON file with a line for each member, and for each item of lists of lists or of objects."""
     members = ",\n".join(f" {json.dumps(name)}: {_member(value)}" for name, value in document(hull).items())
     return "{\n" + members + "\n}\n"
 
@@ -62,7 +62,7 @@ def _face(face: Face) -> dict[str, Any]:
 
 
 def parse(text: str, source: str) -> tuple[Point, ...]:
-    """Return the points of a JSON file as text.  Raise FileError, with the line or the point, if they are invalid."""
+    """Return the points of a JSON file as text.  If they are invalid, raise FileError with the line or the point."""
     try:
         data = json.loads(text, parse_float=str, parse_int=str, parse_constant=str)
     except json.JSONDecodeError as error:

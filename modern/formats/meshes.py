@@ -1,4 +1,4 @@
-"""Surfaces read from OFF, OBJ, PLY and STL files (PLY and STL also binary), recognised as in ``modern.formats.points``.
+"""Surfaces read from OFF, OBJ, PLY and STL files (PLY and STL also binary).  ``modern.formats.points`` recognises them.
 
 The result holds the points and faces of the file.  The caller decides whether the faces close and what they enclose.
 Equal corners of an STL file are one point; every vertex of OFF, OBJ and PLY is a separate point.
@@ -15,7 +15,7 @@ SURFACES = ("off", "obj", "ply", "stl")
 
 
 def surface_kind(data: bytes, source: str) -> str:
-    """Return which of ``SURFACES`` a file is, or "" for another format of points.  Raise FileError for other files."""
+    """Return the format of a file that is one of ``SURFACES``, "" for other formats of points, or raise FileError."""
     kind = kind_of(data, source)
     return kind if kind in SURFACES else ""
 

@@ -22,7 +22,7 @@ def parse_off(text: str, source: str) -> FileMesh:
 
     The heading OFF and the number of edges are optional, and colours after a face are ignored.  Raise FileError, with
     line and column, for other kinds of OFF (``COFF``, ``OFF BINARY``), a vertex that is not three decimal numbers, a
-    face with a missing vertex, and too few or too many lines.
+    face that names a vertex not in the file, and too few or too many lines.
     """
     lines = token_lines(text)
     last = last_line(text)
@@ -31,7 +31,7 @@ def parse_off(text: str, source: str) -> FileMesh:
         line, tokens = head
         if tokens[0][0] != "OFF":
             raise error(source, line, tokens[0], f"{quoted(tokens[0][0])} is not supported, only plain OFF")
-        # The counts may stand in the line of the heading.
+        # The numbers of vertices and faces may stand in the same line as the heading OFF.
         head = (line, tokens[1:]) if len(tokens) > 1 else next(lines, None)
     if head is None:
         raise FileError(f"{source}: line {last}, column 1: the numbers of vertices and faces are missing")

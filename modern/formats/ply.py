@@ -1,9 +1,9 @@
 """PLY (Turk, "The PLY Polygon File Format", 1994): polygons and decimal text, both preserved.
 
 Written files are ASCII.  A polyhedron is written with its faces, a polygon with one face, a segment as an element
-``edge``, a point as one vertex.  The properties are declared ``double``: a reader may round them, but the text is
-exact.  The reader returns the vertices and faces of ASCII and binary files of either byte order.  It rejects triangle
-strips if faces are needed.
+``edge``, a point as one vertex.  The coordinates are declared ``double``, so that other readers may round them, but
+their text is exact.  The reader returns the vertices and faces of ASCII and binary files of either byte order.  It
+rejects triangle strips if faces are needed.
 """
 
 import math
@@ -46,7 +46,7 @@ _MOST_HEADER = 1 << 16
 
 @dataclass(frozen=True, slots=True)
 class _Element:
-    """An element of a header: the name of each property, its struct code, and for a list that of its length or ""."""
+    """An element of a header: for each property its name, its struct code, and for a list that of its length or ""."""
 
     name: str
     count: int
@@ -60,8 +60,9 @@ class _Element:
         return next((k for k, (name, _, _) in enumerate(self.properties) if name in names), None)
 
 
-# A function that reads the next item, which has this element and this number from 0.  It returns the line of the item,
-# or its number from 1 in a binary file, and its properties: tokens or numbers, or lists of them.
+# A function that reads the next item of a file.  Its arguments are the element of the header and the number of the
+# item, from 0. It returns the item's line (in a binary file, its number from 1) and its properties: tokens or numbers,
+# or lists of them.
 Reader = Callable[[_Element, int], tuple[int, list[Any]]]
 
 

@@ -1,8 +1,8 @@
 """Points read from files of every supported format: decks, lists, OFF, OBJ, PLY, STL, JSON and NPY.
 
 Numbers are exact: a decimal has the value of its text, a binary float the value it stores.  All digits of a deck's
-field are read, whereas the programs on the machine would truncate it after the eighth digit.  A file is recognised by
-its first bytes or its first line, and by its extension only if these fit several formats.
+field are read, whereas the programs on the machine would truncate it after the eighth digit.  The format of a file is
+recognised by its first bytes or its first line, and by the file's extension only if these fit several formats.
 """
 
 import io
@@ -67,7 +67,7 @@ def parse_input(text: str, source: str) -> Input:
 
 
 def kind_of(data: bytes, source: str) -> str:
-    """Return the format of a file, a key of ``POINTS``.  Raise FileError if it has none of these formats."""
+    """Return the format of a file, a key of ``POINTS``.  Raise FileError if the file has none of these formats."""
     return _binary_kind(data) or recognise(decoded(data, source), source)
 
 
@@ -141,7 +141,7 @@ def _input(
 
 
 def _npy(data: bytes, source: str) -> tuple[Point, ...]:
-    import numpy as np  # imported here because text formats do not need it
+    import numpy as np  # not at the top, because text formats do not need it
 
     try:
         array = np.asarray(np.load(io.BytesIO(data), allow_pickle=False))

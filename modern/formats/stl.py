@@ -40,7 +40,7 @@ def write(mesh: Mesh, digits: int | None = None) -> str:
 
 
 def unit_text(vector: Vector) -> str:
-    """Return the unit vector as three numbers truncated to nine decimals, by integers; zero remains zero."""
+    """Return the unit vector in this direction, truncated to nine decimals, by integers; zero remains zero."""
     square = dot(vector, vector)
     return " ".join(_truncated_quotient(component, square) for component in vector)
 
@@ -55,7 +55,7 @@ def _truncated_quotient(component: Fraction, square: Fraction) -> str:
 
 
 def is_binary(data: bytes) -> bool:
-    """Return True if the length of the data is that of a binary STL file with the number of triangles in its header."""
+    """Return True if the data are as long as a binary STL file with the number of triangles stated in its header."""
     return len(data) >= _HEAD and len(data) == _HEAD + _TRIANGLE * int(struct.unpack_from("<I", data, _HEAD - 4)[0])
 
 

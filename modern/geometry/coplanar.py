@@ -3,14 +3,14 @@
 Points in binary floats are seldom exactly coplanar: the hull of a dodecahedron in doubles has 36 faces.  This module
 leaves the hull as it is and derives a second hull with joined faces from it:
 
-1. Take the faces from the largest area to the smallest, and of equal areas the first one.
-2. Skip a face that already belongs to a joined face.  Otherwise join to it every face that is connected to it through
-   edges, has a normal with a positive scalar product with its normal, and has all vertices within E of its plane.
+1. Visit the faces in order of area, from the largest to the smallest, and faces of equal area in their own order.
+2. Skip a face that already belongs to a joined face.  Otherwise join to it all faces that are connected to it through
+   edges, have a normal less than 90 degrees from its normal, and have all vertices within E of its plane.
    Distances are compared exactly, by their squares.
 3. The joined face is the polygon that bounds this group of faces.  A vertex in the interior of the polygon is dropped.
 
-An E that is too large for the solid raises CoplanarError: all points lie within E of the plane of the largest face, or
-fewer than four faces remain, or a joined face is not a simple polygon that is convex to within E.
+E is too large for the solid, and raises CoplanarError, if all points lie within E of the plane of the largest face, if
+fewer than four faces remain, or if a joined face is not a simple polygon that is convex to within E.
 """
 
 import math
@@ -33,7 +33,7 @@ FLAT = "the points lie in one plane: there are no faces to join"
 
 
 class CoplanarError(ExportError):
-    """A distance E within which the faces of a surface cannot be joined; the message gives the reason in one line."""
+    """Raised if faces cannot be joined within the given distance E; the message gives the reason in one line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,7 @@ def join(surface: Mesh, within: Fraction) -> Joined:
     sizes = [dot(normal, normal) for normal in normals]
     if not all(sizes):
         raise CoplanarError(f"face {sizes.index(0) + 1} has no area")
-    # Normals in lowest terms keep the integers of the distances small.
+    # Normals are reduced to lowest terms, so that the integers in the computation of distances stay small.
     reduced = [lowest(normal) for normal in normals]
     squares = [dot(normal, normal) * scale * scale for normal in reduced]
     face_left_of = {edge: index for index, face in enumerate(surface.faces) for edge in sides(face)}
@@ -100,7 +100,7 @@ def join(surface: Mesh, within: Fraction) -> Joined:
         group = [leader]
         owner[leader] = len(groups)
         base = surface.faces[leader][0]
-        # The group grows while it is traversed: a search in breadth over the edges.
+        # A breadth-first search over the edges: the group grows while the loop traverses it.
         for face in group:
             for a, b in sides(surface.faces[face]):
                 neighbour = face_left_of.get((b, a))
@@ -183,7 +183,7 @@ def _face(hull: Hull, group: Sequence[int], loop: Sequence[int], left_out: set[i
 
 
 def join_summary(joined: Joined) -> str:
-    """Return a line for the user: the numbers of faces, the largest deviation, and the E that would join more faces."""
+    """Return a line for the user: the numbers of faces, the largest deviation, and the next E that joins more faces."""
     within = distance_text(joined.within)
     following = "" if joined.beyond is None else f"the next face would be joined from {root_text(joined.beyond)} on"
     if len(joined.groups) == joined.faces:
@@ -241,7 +241,7 @@ def _depth(points: Sequence[IntVector], normal: IntVector, base: int, indices: S
 
 
 def _loop(surface: Mesh, group: Sequence[int], within: Fraction) -> tuple[int, ...]:
-    """Return the polygon around the faces of a group.  Raise CoplanarError if they do not form a simple polygon."""
+    """Return the polygon around the faces of a group.  Raise CoplanarError if it is not a simple polygon."""
     if len(group) == 1:
         return surface.faces[group[0]]
     edges = {edge for face in group for edge in sides(surface.faces[face])}
@@ -282,7 +282,8 @@ def _outer(corners: Sequence[IntVector], normal: IntVector) -> list[int]:
     """Return the indices, in order, of the corners on the polygon's convex hull, seen along the normal."""
     dropped = max(range(3), key=lambda axis: abs(normal[axis]))
     u, v = (dropped + 1) % 3, (dropped + 2) % 3
-    # Project along the normal onto the plane of u and v, scaled by the dropped component so that integers remain.
+    # Project along the normal onto the plane of the axes u and v.  Multiply by the normal's dropped component, so that
+    # the results are integers.
     height = abs(normal[dropped])
     flat = []
     for corner in corners:

@@ -1,8 +1,8 @@
 """The data of a convex hull: one type for a point, a segment, a polygon and a polyhedron.
 
-Points are identified by their index in the input, from 0.  A program's numbers of vertices follow the order of
-:attr:`Hull.vertices`.  Numbers are exact text: decimals, or fractions ``p/q`` if the decimal expansion does not end.  A
-binary float appears as the exact decimal of its value.
+Points are identified by their index in the input, from 0.  A program numbers the vertices in the order of
+:attr:`Hull.vertices`.  Numbers are exact text: decimals, or fractions ``p/q`` if the decimal expansion does not end.
+The text of a binary float is the exact decimal of its value.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -99,9 +99,9 @@ class Stage:
 
     number: j.
     added: the point that became a vertex.  For H_1 these are its initial points.
-    checked: NETC, the number of the equation that found the added point outside; 0 for H_1.
-    outside: the number of equations that have the added point outside.
-    struck: the points inside H_j, which the procedure eliminates from the search.
+    checked: the number of the equation that the point was found outside of (NETC in the listing); 0 for H_1.
+    outside: how many equations the added point is outside of.
+    struck: the points inside H_j, which the procedure eliminates.
     equations: the defining points of each equation, in the order of the table.
     """
 
@@ -115,7 +115,7 @@ class Stage:
 
 @dataclass(frozen=True, slots=True)
 class Coplanar:
-    """A description of joined faces (``modern.geometry.coplanar``); all distances are decimals.
+    """A description of how coplanar faces were joined (``modern.geometry.coplanar``); all distances are decimals.
 
     within: the distance E.
     faces: the number of faces of the hull before joining.
@@ -135,8 +135,8 @@ class Hull:
 
     arithmetic: the name of the arithmetic.
     status: ``determined``, the message with which the programs end, ``table of planes is full`` if they would write
-        beyond their arrays, or ``the faces do not close to a surface`` if epsilon merged too many.
-    dimension: 0 to 3.
+        beyond their arrays, or ``the faces do not close to a surface`` if epsilon merged too many faces.
+    dimension: from 0 for a point to 3 for a polyhedron.
     points: the input as numbers of the arithmetic.
     vertices, boundary, inside: points in the order in which the programs punch them.  The programs punch only the ends
         of a segment.  The points between the ends belong to ``inside``.
@@ -144,9 +144,9 @@ class Hull:
         so duplicates are reported and otherwise ignored.
     plane: the plane of a polygon, as punched.
     lines: two equations for the line of a segment, or for each of the three sides of a triangle of three points.
-    centre: the point C of a polyhedron.
+    centre: the inner point C, for a polyhedron.
     statement: program and label of the statement that decided the status.
-    corrected: rows of the layer ``corrected`` whose branch differed from that of the listing.
+    corrected: rows of the layer ``corrected`` for which a branch differed from that of the listing.
     history: the approximations H_j, if the caller requested them.
     coplanar: a description of joined faces, or None.  The vertices of a joined face lie only near its plane.
     """

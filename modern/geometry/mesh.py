@@ -13,7 +13,7 @@ Triangle = tuple[int, int, int]
 
 
 class ExportError(EmulatorError):
-    """A hull that a file format cannot hold or that cannot be drawn; the message is one line."""
+    """Raised if a file format cannot hold a hull or if it cannot be drawn; the message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ class Mesh:
         return tuple(sorted({(min(a, b), max(a, b)) for face in self.faces for a, b in sides(face)}))
 
     def planes(self, hull: Hull) -> Iterator[tuple[Fraction, Fraction, Fraction, Fraction]]:
-        """Yield A, B, C, D of each face's plane with outward normal.  A polyhedron uses the equations of the hull."""
+        """Yield A, B, C, D of each face's plane, with outward normal: for a polyhedron, the equations of the hull."""
         points = self.numbers()
         for order, polygon in enumerate(self.faces):
             if self.dimension == 3:
@@ -63,7 +63,7 @@ class Mesh:
             yield a, b, c, d
 
     def squared_areas(self) -> tuple[Fraction, ...]:
-        """Return the square of each face's area.  The square is rational even if the area is not."""
+        """Return the square of each face's area.  The square is always rational; the area may not be."""
         points = self.numbers()
         normals = (area_vector(points, face) for face in self.faces)
         return tuple(dot(normal, normal) / 4 for normal in normals)
@@ -96,7 +96,7 @@ def mesh(hull: Hull) -> Mesh:
             raise ExportError(f"face {order} names point {unknown[0] + 1}, which is not a vertex")
         polygons.append(tuple(new_indices[index] for index in face.polygon))
     if hull.dimension == 2:
-        # Program 1 finds the hull of three points alone and punches no supporting lines.
+        # Program 1 finds the hull of exactly three points without program 2, and punches no supporting lines for it.
         polygons = [_cycle(polygons, len(points)) if polygons or len(points) != 3 else (0, 1, 2)]
         if hull.plane is not None:
             polygons = [_turned(polygons[0], tuple(coordinates(p) for p in points), hull.plane)]

@@ -1,7 +1,7 @@
 """Exact numbers and their text, and points as rows of three numbers: decimals and fractions to numbers, and back.
 
 ``exact_text`` formats the numbers of a hull. ``decimal_text`` and ``finite_decimal`` format numbers in files and
-messages. These functions begin to use an exponent at different lengths.
+messages.  They differ in the length from which a number is written with an exponent.
 """
 
 import re
@@ -20,7 +20,7 @@ Exact = int | Fraction
 Point = tuple[str, str, str]
 
 MAX_DIGITS, MAX_EXPONENT = 4000, 9999
-# The bits of 10**13999, the largest denominator of a text with 4000 digits and the exponent -9999.
+# The number of bits of 10**13999, the largest denominator of a decimal with 4000 digits and the exponent -9999.
 _MAX_BITS = 46_505
 # Significant digits of an area, which is a sum of square roots.
 AREA_DIGITS = 50
@@ -33,7 +33,7 @@ _SAFE_BITS = 10_000
 
 
 class PointsError(ArgumentError):
-    """A point that is invalid or that an arithmetic cannot represent.  The one-line message counts points from 0."""
+    """Raised for a point that is invalid or does not fit an arithmetic.  The one-line message counts points from 0."""
 
 
 def split_decimal(text: str) -> tuple[bool, str, str, int]:
@@ -106,7 +106,7 @@ def real(value: object) -> Exact:
 
 
 def read_epsilon(epsilon: object) -> tuple[Fraction, bool] | None:
-    """Return e of chapter 7 and True if it is relative (``"rel:E"``).  Return None if ``epsilon`` is None.
+    """Return the e of chapter 7, and True if it is relative (``"rel:E"``).  Return None if ``epsilon`` is None.
 
     Raise ArgumentError unless e is a real number, also as text, that is not negative.
     """
@@ -123,7 +123,7 @@ def read_epsilon(epsilon: object) -> tuple[Fraction, bool] | None:
 
 
 def value_of(text: str) -> Fraction:
-    """Return the value of a valid decimal or fraction ``p/q`` of any length, such as the numbers of a hull."""
+    """Return the value of a valid decimal or fraction ``p/q`` of any length, such as a number of a hull."""
     # Decimals of any length can be converted, whereas int() refuses more than 4300 digits.
     over, _, under = text.partition("/")
     return Fraction(Decimal(over)) / Fraction(Decimal(under)) if under else Fraction(Decimal(over))
@@ -163,7 +163,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
 
 
 def sum_of_roots(squares: Iterable[Fraction], digits: int) -> Decimal:
-    """Return the sum of square roots to ``digits`` digits.  The sum is exact if no root needs more digits."""
+    """Return the sum of the square roots of numbers to ``digits`` digits.  It is exact if no root needs more digits."""
     work, total = Context(prec=digits + _GUARD, Emin=MIN_EMIN, Emax=MAX_EMAX), Decimal(0)
     for square in squares:
         # The quotient of two roots, unlike the root of a quotient, is exact if both roots are integers.
@@ -224,7 +224,7 @@ def scaled_decimal(integer: int, exponent: int) -> str:
 
 
 def exact_text(value: Exact) -> str:
-    """Return the text of a number in a hull: a decimal, or a fraction ``p/q`` if its decimal expansion does not end."""
+    """Return a number as the text that a hull holds: a decimal, or a fraction ``p/q`` if its decimal does not end."""
     numerator, denominator = value.numerator, value.denominator
     if denominator == 1:
         return scaled_decimal(numerator, 0) if abs(numerator) >= 10**_LONGEST else str(numerator)
@@ -237,7 +237,7 @@ def exact_text(value: Exact) -> str:
 Coordinate = int | float | Fraction | Decimal | str | np.integer[Any] | np.floating[Any]
 Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
 
-# Iterables that are not a sequence of points or of coordinates: a set, for example, has no order.
+# Types of iterables that are rejected as sequences of points or coordinates: a set, for example, has no order.
 _NO_SEQUENCE = (str, bytes, bytearray, memoryview, Set, Mapping)
 
 
@@ -254,7 +254,7 @@ def check_array(points: NDArray[Any]) -> None:
 
 
 def point_rows(points: Any) -> Iterator[list[Any]]:
-    """Yield the three coordinates of each point, unchecked. Raise PointsError for no points or other sequences."""
+    """Yield the three coordinates of each point, unchecked.  Raise PointsError if this is not a sequence of points."""
     if isinstance(points, np.ndarray):
         check_array(points)
         points = points.tolist()

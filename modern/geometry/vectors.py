@@ -40,7 +40,7 @@ def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
 
 
 def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
-    """Return a normal twice as long as the area; from its tip, the corners appear counterclockwise."""
+    """Return a polygon's normal, as long as twice its area; seen from its tip, the corners are counterclockwise."""
     origin = points[face[0]]
     total = minus(origin, origin)
     for here, ahead in pairwise(face[1:]):
@@ -49,7 +49,7 @@ def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[
 
 
 def six_volumes(points: Sequence[tuple[N, N, N]], faces: Iterable[Sequence[int]]) -> N:
-    """Return six times the volume inside a closed surface; negative if its faces are clockwise seen from outside."""
+    """Return six times the volume inside a closed surface, negative if its faces are clockwise seen from outside."""
     first = points[0]
     arms = [minus(point, first) for point in points]
     total = dot(arms[0], arms[0])

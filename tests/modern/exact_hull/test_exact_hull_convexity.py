@@ -97,7 +97,7 @@ def test_a_surface_that_goes_around_twice_is_refused() -> None:
     hull = double_pyramid(1)
     assert certify(hull.scaled, hull).facets == 10
     hull = double_pyramid(2)
-    refused(hull.scaled, hull, "a ray meets the facets")
+    refused(hull.scaled, hull, "a ray from inside meets two facets")
 
 
 def test_a_surface_with_a_dent_is_refused() -> None:
@@ -128,12 +128,12 @@ def test_a_facet_in_the_order_seen_from_inside_is_refused() -> None:
     hull = exact_hull(OCTAHEDRON)
     refused(OCTAHEDRON, exchanged(hull, 0, Facet(hull.facets[0].plane, rotated(hull.facets[0].polygon[::-1]))), "edge")
     every = [Facet(facet.plane, rotated(facet.polygon[::-1])) for facet in hull.facets]
-    refused(OCTAHEDRON, replace(hull, facets=tuple(every)), "no left turn|outside of facet")
+    refused(OCTAHEDRON, replace(hull, facets=tuple(every)), "does not turn left|outside of facet")
 
 
 def test_a_missing_or_repeated_face_is_refused() -> None:
     hull = exact_hull(GRID)
-    refused(GRID, exchanged(hull, 0), "has only one facet")
+    refused(GRID, exchanged(hull, 0), "belongs to only one facet")
     refused(GRID, replace(hull, facets=(*hull.facets, hull.facets[-1])), "same direction")
     refused(GRID, replace(hull, facets=()), "there are no facets")
 
