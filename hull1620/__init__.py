@@ -12,7 +12,7 @@
 - ``EmulatorError``: the base class of the errors that invalid input raises
 - ``Machine``, ``Options``, ``numbers``: a run of a program on the 1620, its options, its arithmetic
 - ``run_hull``, ``read_hull``: the programs of 1963 applied to a data deck; a hull from the cards they punch
-- ``diverge``: one program run in two arithmetics in step
+- ``diverge``: the first values and decisions in which two arithmetics differ when they run one program
 - ``Plan``, ``Cell``, ``run_study``: studies of thousands of point sets, compared with the exact hull
 - ``reproduce``: the printed results computed again
 """
@@ -75,7 +75,7 @@ __all__ = sorted(name for names in _HOMES.values() for name in names)
 
 
 def _check_packages() -> None:
-    """Raise ImportError if another file would be imported instead of a package that is installed next to this one."""
+    """Raise ImportError if Python would import another file instead of a package installed next to this one."""
     folder = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     for name in ("emulator", "modern", "fortran_src", "transcripts"):
         spec = find_spec(name)
@@ -92,7 +92,7 @@ def _check_packages() -> None:
                 raise ImportError(message, name=__name__, path=file)
 
 
-# A comment in the first file of every package that is installed with hull1620.
+# This comment is in the first file of each package that is installed with hull1620.
 _MARK = "# Part of the distribution hull1620."
 _check_packages()
 

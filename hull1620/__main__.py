@@ -1,6 +1,6 @@
 """The command ``hull1620``, also ``python -m hull1620``.
 
-While the command is still being imported, Ctrl-C ends the process without a traceback.
+Ctrl-C ends the process without a traceback even while the modules of the command are being imported.
 """
 
 import signal

@@ -33,7 +33,7 @@ Array = TypeVar("Array", bound=NDArray[Any])
 
 
 class Area(float):
-    """An area as a double, which numpy functions and Fractions accept, unlike a Decimal.
+    """An area as a double, because numpy functions and Fractions accept doubles, unlike a Decimal.
 
     Attributes
     ----------
@@ -111,12 +111,12 @@ class Hull:
 
     @property
     def history(self) -> tuple[Stage, ...]:
-        """The approximations H1, H2, ..., if ``convex_hull`` was called with ``history=True``."""
+        """The approximations H1, H2, ... of the hull, recorded if ``convex_hull`` was called with ``history=True``."""
         return as_tuple(self.record.history)
 
     @property
     def corrected(self) -> tuple[str, ...]:
-        """Rows of the layer ``corrected`` whose branch differed from that of the listing."""
+        """Rows of the layer ``corrected`` for which a branch differed from that of the listing."""
         return self.record.corrected
 
     @cached_property
@@ -134,17 +134,17 @@ class Hull:
 
     @cached_property
     def vertices(self) -> Indices:
-        """The vertices, in the order in which the procedure found them; sorted from ``exact_hull``."""
+        """The indices of the vertices, in the order in which the procedure found them; ``exact_hull`` sorts them."""
         return _read_only(np.array(self.record.vertices, np.intp))
 
     @cached_property
     def boundary(self) -> Indices:
-        """The points on the surface of the hull that are not vertices."""
+        """The indices of the points on the surface of the hull that are not vertices."""
         return _read_only(np.array(self.record.boundary, np.intp))
 
     @cached_property
     def inside(self) -> Indices:
-        """The points in the interior of the hull; for a polygon within its plane, for a segment between its ends."""
+        """The indices of the points inside the hull: for a polygon within its plane, for a segment between its ends."""
         return _read_only(np.array(self.record.inside, np.intp))
 
     @cached_property
@@ -187,8 +187,8 @@ class Hull:
     def neighbors(self) -> Indices:
         """The neighbours of each of ``simplices``, shape (m, 3), as in scipy's ConvexHull.
 
-        Entry k of a row is the row of the triangle on the other side of the edge opposite corner k, or -1 if there is
-        none, which happens only at the sides of a polygon.
+        Entry k of a row is the row of the triangle on the other side of the edge opposite corner k.  It is -1 if no
+        triangle is there, which happens only at the sides of a polygon.
 
         Raises
         ------
@@ -217,8 +217,8 @@ class Hull:
         """The area of the surface; for a polygon the area of one side.
 
         It is the nearest double, and ``area.digits`` is the same number to 50 significant digits.  The area is a sum of
-        square roots, so unlike ``volume`` it is no fraction.  Its digits are exact if the area of every face is a
-        decimal of at most 50 digits, and ``squared_areas`` are always exact.
+        square roots, so unlike ``volume`` it need not be a fraction.  Its digits are exact if the area of every face is
+        a decimal of at most 50 digits, and ``squared_areas`` are always exact.
 
         Raises
         ------
@@ -352,7 +352,7 @@ class Hull:
 
     @cached_property
     def _closed(self) -> Mesh:
-        """The mesh.  Raise ExportError if a polyhedron has an edge that does not belong to two faces."""
+        """The surface as a mesh.  Raise ExportError if a polyhedron has an edge that does not belong to two faces."""
         if self.dimension == 3 and not self._mesh.closed:
             raise ExportError(f"the faces determined in {self.arithmetic} do not close to a surface")
         return self._mesh

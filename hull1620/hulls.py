@@ -92,7 +92,7 @@ def convex_hull(
     except HullRefused as error:
         raise HullRefused(Hull(error.result)) from None
     hull = Hull(record)
-    # With a large epsilon the procedure ends normally although it has merged different faces.
+    # If epsilon is large, the procedure may end normally although it has merged different faces.
     if epsilon is None or not hull.determined or hull.closes:
         return hull
     hull = Hull(replace(record, status=NOT_CLOSED))
@@ -286,7 +286,7 @@ def reproduce(*names: str) -> bool:
     bool
         True if every result agrees with the printed one.
     """
-    from modern.cli.main import main  # imported here because only this function needs the commands
+    from modern.cli.main import main  # not at the top, because only this function needs the commands
 
     return main(["reproduce", *names]) == 0
 

@@ -1,1 +1,1 @@
-"""Compare the hulls that different routes determine for the same points with the exact hull."""
+"""Compare hulls that the programs, the port and other routes determine for the same points with the exact hull."""

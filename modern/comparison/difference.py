@@ -1,4 +1,4 @@
-"""Compare an outcome, or the cards that a program punched, with the exact hull.
+"""Compare the hull that a route determined, or the cards that a program punched, with the exact hull.
 
 The differences are missing and extra points and equations, and numerical errors.
 """
@@ -15,13 +15,13 @@ from modern.comparison.outcome import Equation, Outcome, Vector, from_card_hull,
 from modern.geometry.hull import Hull
 from modern.thesis.cards import CardHull
 
-# The largest difference of a coefficient at which two equations count as the same face with a numerical error.
+# The largest difference of coefficients at which two equations still count as the same face, with a numerical error.
 NEAR = Fraction(1, 1000)
 
 
 @dataclass(frozen=True, slots=True)
 class Disagreement:
-    """The differences between an outcome and that of the exact hull.  Points are indices into the input.
+    """The differences between the outcome of a route and the exact hull.  Points are indices into the input.
 
     ``misfiled`` points have the wrong class, boundary or inside.  ``error`` is the largest error of a coefficient among
     the matched equations, relative to the largest coefficient of x, y and z (the error of D: to the largest of all
@@ -42,7 +42,7 @@ class Disagreement:
 
     @property
     def agrees(self) -> bool:
-        """True if the outcome is that of the exact hull, apart from small errors of coefficients."""
+        """True if the outcome is the exact hull, except for small errors of coefficients."""
         wrong_points = self.missed or self.added or self.misfiled
         return not (wrong_points or self.planes_missing or self.planes_extra or self.planes_doubled)
 
@@ -53,7 +53,7 @@ class Disagreement:
 
 
 def disagreement(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> Disagreement:
-    """Compare a determined outcome with that of the exact hull."""
+    """Compare the outcome of a route that determined a hull with the outcome for the exact hull."""
     missed, added = judge.vertices - outcome.vertices, outcome.vertices - judge.vertices
     classes = dict.fromkeys(outcome.boundary, "boundary") | dict.fromkeys(outcome.inside, "inside")
     exact_classes = dict.fromkeys(judge.boundary, "boundary") | dict.fromkeys(judge.inside, "inside")
@@ -65,7 +65,7 @@ def disagreement(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> 
         else set()
     )
     misfiled |= {i for i in classes if i not in exact_classes and i not in missed}
-    # Match the equations. Count the equations without a match and those that match the same exact equation as another.
+    # Match the equations.  Count those without a match, and those whose exact equation another equation has matched.
     matches = _match(outcome.equations, judge.equations)
     places = tuple(match.place for match in matches)
     hits = Counter(places)
@@ -163,7 +163,7 @@ class UnrelatedCards(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class CardDifferences:
-    """The vertices that punched cards miss or add, the exact faces that they lack, and false faces.
+    """The vertices that punched cards lack or add, the faces of the exact hull that they lack, and false faces.
 
     ``polygons`` are false faces by the vertices on their cards; ``others`` counts those with fewer than two.
     """
@@ -186,7 +186,7 @@ def card_differences(cards: CardHull, hull: Hull, source: str) -> CardDifference
             f"{source}: {outcome.strange} of the points on these cards are not among the points of the file"
         )
     differences = disagreement(outcome, from_hull("exact", hull), points)
-    # Reversed, so that the first of several equal points remains.
+    # The points are visited in reverse order, so that of several equal points the first one remains.
     indices = {point: index for index, point in reversed(list(enumerate(points)))}
     satisfied = {equation: numbers for numbers, equation in cards.satisfied}
     polygons = []
@@ -206,7 +206,7 @@ def card_differences(cards: CardHull, hull: Hull, source: str) -> CardDifference
 
 
 def _program(cards: CardHull) -> str:
-    """Return the program that punched the cards: 2 punches a plane and lines, 3 planes, and 1 neither."""
+    """Return the number of the program that punched the cards: 2 punches a plane and lines, 3 planes, and 1 neither."""
     if not cards.satisfied or not cards.equations:
         return "program1"
     return "program2" if cards.plane else "program3"

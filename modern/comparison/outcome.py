@@ -1,4 +1,4 @@
-"""One form for the hulls of all routes, so that any two can be compared exactly.
+"""One form for the hulls of all routes (programs, port, exact hull), so that any two of them can be compared exactly.
 
 Points are indices into the input.  Equations are for the coordinates of the input: the supporting planes of a
 polyhedron, or the supporting lines of a polygon projected as in the thesis (p. 16-17).  The projection drops the first
@@ -144,7 +144,7 @@ def as_hull(judged: ExactHull) -> Hull:
 
 
 def _on(judged: ExactHull, planes: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
-    """Return the boundary points on each plane or line (for unscaled coordinates)."""
+    """Return for each plane or line, which is for unscaled coordinates, the boundary points on it."""
     if not judged.boundary:
         return [()] * len(planes)
     points = np.array([(*judged.scaled[index], judged.scale) for index in judged.boundary], dtype=object)

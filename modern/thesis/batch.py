@@ -1,4 +1,4 @@
-"""Run the hull programs on many decks: program 1 on all of them, then programs 2 and 3 on the cards it punched."""
+"""Run the hull programs on many decks: program 1 on all of them, then program 2 or 3 on the cards that it punched."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -13,13 +13,13 @@ from modern.thesis.job import HullRun, Load, Step, punched_deck, second_program
 
 @dataclass
 class Runs:
-    """A cache of runs, because routes often share program 1 or 2. It keeps the programs alive, which are its keys."""
+    """A cache of runs, because batches often share the runs of program 1 or 2. It keeps these programs alive."""
 
     done: dict[tuple[int, Options, Deck], Result | EmulatorError] = field(default_factory=dict)
     programs: dict[int, Program] = field(default_factory=dict)
 
     def results(self, program: Program, decks: Sequence[Deck], options: Options) -> list[Result | EmulatorError]:
-        """Return the result for each deck, or the error of a deck that the program cannot read."""
+        """Return for each deck the result of its run, or the error if the program cannot read the deck."""
         self.programs[id(program)] = program
         fresh = [deck for deck in dict.fromkeys(decks) if (id(program), options, deck) not in self.done]
         for deck, result in zip(fresh, _results(program, fresh, options), strict=True):
@@ -56,7 +56,7 @@ def run_hulls(
         second = second_program(result)
         if second is not None:
             waiting.setdefault(second, []).append((place, step))
-    # All decks for program 2, then all decks for program 3, or the other way around.
+    # Run one of the programs 2 and 3 on all decks for it, then the other program on the decks for it.
     for number, ready in waiting.items():
         name = f"program{number}"
         following = load(name)

@@ -11,7 +11,7 @@ from emulator.language.objectcode import Program
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.objectdeck.extent import code_positions
 
-# Array lengths of the hull programs, at 51 points, as functions of the number of points.
+# The array lengths that occur in the hull programs, for 51 points, each with its formula in the number of points.
 _SIZES: dict[int, Callable[[int], int]] = {
     51: lambda n: n,
     52: lambda n: n + 1,
@@ -32,7 +32,7 @@ def data_positions(program: Program, points: int) -> int:
 
 
 def largest(program: Program, core: int) -> int:
-    """Return the largest number of points whose arrays fit into core with the program, or 0 if it is less than 4."""
+    """Return the largest number of points whose arrays fit into core with the program, or 0 if fewer than 4 fit."""
     available = core - OBJECT_PROGRAM - FUNCTION_NAMES - code_positions(program)
     points = 0
     for candidate in range(4, 1000):

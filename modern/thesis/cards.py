@@ -1,7 +1,7 @@
 """Read the cards that the hull programs punch, and compare results regardless of order and scale.
 
-The last program of a run punches a hull.  Program 1 before it punches the intermediate deck, which the next program
-reads.  The cards follow the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.
+The last program of a run punches a hull.  Program 1, which runs first, punches the intermediate deck, which program 2
+or 3 reads.  The cards follow the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.
 """
 
 import re
@@ -27,7 +27,7 @@ SECTIONS = ("inside", "boundary", "vertices", "equations", "plane")
 
 @dataclass(frozen=True, slots=True)
 class CardHull:
-    """A hull on cards: its points and equations in order. ``satisfied`` has pairs of vertex numbers and an equation."""
+    """A hull on cards, in order. ``satisfied`` pairs numbers of vertices with the equation that they satisfy."""
 
     inside: tuple[Point, ...]
     boundary: tuple[Point, ...]
@@ -48,14 +48,14 @@ def floats(card: str) -> Point:
 
 @dataclass(frozen=True, slots=True)
 class Sections:
-    """The numbers of a hull on cards as text: the rows of each section, and the integers of the last one."""
+    """The numbers of a hull on cards as text: the rows of each section of cards, and the integers of the last."""
 
     points: Mapping[str, tuple[tuple[str, ...], ...]]
     satisfied: tuple[tuple[int, ...], ...]
 
 
 def sections(cards: Sequence[str]) -> Sections:
-    """Read the cards that a last program punched, and ignore cards that do not belong to a hull."""
+    """Read the cards that the last program of a run punched, and ignore cards that do not belong to a hull."""
     rows: dict[str, list[tuple[str, ...]]] = {name: [] for name in SECTIONS}
     satisfied: list[tuple[int, ...]] = []
     section = "vertices"
@@ -74,7 +74,7 @@ def sections(cards: Sequence[str]) -> Sections:
 
 
 def read_hull(cards: Sequence[str]) -> CardHull:
-    """Read the hull on cards that a last program punched, as exact numbers."""
+    """Read the hull on the cards that the last program of a run punched, as exact numbers."""
     expect(cards, (tuple, list), "cards")
     for card in cards:
         expect(card, str, "a card")
@@ -87,7 +87,7 @@ def read_hull(cards: Sequence[str]) -> CardHull:
 
 
 def same_hull(first: CardHull, second: CardHull, oriented: bool) -> bool:
-    """Return True if two hulls are equal except for order and scale; ``oriented`` requires a positive scale."""
+    """Return True if two hulls are equal except for order and the scale of equations (positive if ``oriented``)."""
     return _canonical(first, oriented) == _canonical(second, oriented)
 
 
@@ -118,7 +118,7 @@ def scaled(equation: Point, oriented: bool) -> Point:
 
 @dataclass(frozen=True, slots=True)
 class IntermediateDeck:
-    """The cards from program 1 for the next program: N, perhaps KPROJ, points, and planes with their points."""
+    """The cards that program 1 punches for program 2 or 3: N, perhaps KPROJ, points, and planes with their points."""
 
     planes: tuple[tuple[Point, tuple[int, ...]], ...]
     count: tuple[str, ...]
@@ -126,7 +126,7 @@ class IntermediateDeck:
 
 
 def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
-    """Read the cards that program 1 punched for the next program; return None if no card has N."""
+    """Read the cards that program 1 punched for program 2 or 3; return None if there is no card with N."""
     for i, card in enumerate(cards):
         if card.strip() and not floats(card):
             planes = tuple((floats(c), tuple(map(int, c[56:].split()))) for c in cards[:i] if len(floats(c)) == 4)
@@ -135,7 +135,7 @@ def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
 
 
 def planes_hold(deck: IntermediateDeck) -> bool:
-    """Return True if every plane vanishes exactly at the points that its card names, by default at all points."""
+    """Return True if each plane vanishes exactly at the points that its card names (if none, at all points)."""
     unprojected = _unprojected(deck)
     for plane, named in deck.planes:
         points = [unprojected[k - 1] for k in named if 1 <= k <= len(unprojected)] if named else unprojected

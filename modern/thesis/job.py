@@ -21,7 +21,7 @@ Watch = Callable[[Program, Machine], None]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Step:
-    """The run of one program: the name of the built-in, its number in the thesis, the deck that it read, the result."""
+    """The run of one program: the name of the built-in program, its number in the thesis, its deck, its result."""
 
     name: str
     number: int
@@ -35,7 +35,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class HullRun:
-    """The runs of the programs for one data set, in order; the last one punched the final cards."""
+    """The runs of the programs for one data set, in order; the last program punched the cards with the hull."""
 
     steps: tuple[Step, ...]
 
@@ -45,12 +45,12 @@ class HullRun:
 
     @property
     def typed_refusal(self) -> str:
-        """The message with which a program stopped, DATA NOT ACCEPTABLE or ERROR IN PROGRAM; otherwise empty."""
+        """The message DATA NOT ACCEPTABLE or ERROR IN PROGRAM with which a program stopped, or empty if none did."""
         return next((r for r in (refusal(step.result) for step in self.steps) if r), "")
 
     @property
     def refusal(self) -> str:
-        """Why there is no hull: the typed refusal, or how the machine stopped; otherwise empty."""
+        """The reason why there is no hull: the typed refusal, or how the machine stopped; empty if there is a hull."""
         endings = (step.result.ending for step in self.steps)
         return self.typed_refusal or next((ending.message for ending in endings if not ending.normal), "")
 
@@ -64,7 +64,7 @@ class HullRun:
 
 
 class Refusals:
-    """A detector of refusals.  It processes the events of a run as they occur and reports whether the run stopped."""
+    """A detector of refusals, the messages with which a program stops.  It processes events of a run as they occur."""
 
     def __init__(self) -> None:
         self._last = self._stopped = ""
@@ -83,7 +83,7 @@ class Refusals:
 
     @property
     def stopped(self) -> str:
-        """The refusal after which the run punched no card before the next data set or the end; otherwise empty."""
+        """The refusal after which the run punched no further card for the same data set; otherwise empty."""
         return self._stopped or self._last
 
 
@@ -116,9 +116,9 @@ def run_hull(
 ) -> HullRun:
     """Run one data set through program 1 and the program that its typewriter names.
 
-    With ``options.uncut`` the next program reads the numbers of program 1 with all digits, not only those on the card.
-    ``first`` is the built-in that is used as program 1.  ``watch`` is called with each machine before it runs,
-    ``operator`` operates all machines, and ``output`` receives all events.  Raise the errors of
+    With ``options.uncut`` the second program reads the numbers of program 1 with all digits, not only those on cards.
+    ``first`` names the built-in program that is used as program 1.  ``watch`` is called with each machine before it
+    runs, ``operator`` operates all machines, and ``output`` receives all events.  Raise the errors of
     :meth:`emulator.machine.machine.Machine.run`.
     """
     options = options or Options()

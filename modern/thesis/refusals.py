@@ -16,14 +16,14 @@ from emulator.machine.session import Session
 from emulator.machine.trace import contents
 from modern.thesis.job import REFUSALS, HullRun, Step, Watch, refusal
 
-# The kinds of causes.
+# The kinds of causes why a program found no hull.
 #
 # - miss: a point that defines an equation does not satisfy it in the digits of the machine.
-# - centre: a plane or line passes through the point C in these digits.  zeros: its coefficients are all zero.
+# - centre: in these digits a plane or line passes through the inner point C.  zeros: its coefficients are all zero.
 # - pair: the search for pairs of planes inside the hull ran beyond the table.
 # - repeat: the search for repeated planes ran beyond the table.
 # - unmet: no point satisfies three equations, so that no point becomes a vertex.
-# - room: a table is full.  endless: the statement limit was reached.
+# - room: a table is full.  endless: the run reached the statement limit.
 # - stopped: the run met a value or an address with which it could not continue.  other: none of these.
 Kind = Literal["miss", "centre", "zeros", "pair", "repeat", "room", "endless", "unmet", "stopped", "other"]
 
@@ -33,7 +33,7 @@ CORRECTED = {1: "P3-025", 2: "P3-026", 3: "P3-027", 5: "P3-028", 16: "P2-023"}
 
 @dataclass(frozen=True, slots=True)
 class Cause:
-    """The cause of one step without a hull.
+    """The reason why one program of a run found no hull.
 
     ``message`` is the refusal that the program typed, if any, and ``decision`` is the last IF before it. ``fault`` is
     the number of the known fault. ``equation`` is the number of the equation, or 0. ``point`` does not satisfy the
@@ -65,7 +65,7 @@ def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tupl
 
 
 def cause(step: Step, machine: Session) -> Cause | None:
-    """Return the cause of a step without a hull, or None; ``machine`` is the one that ran it, in its final state."""
+    """Return the cause if a program found no hull, or None.  ``machine`` ran the program and is in its final state."""
     ending, refused = step.result.ending, refusal(step.result)
     if refused:
         event = next(e for e in reversed(step.result.events) if e.what == "type" and e.text in REFUSALS)
@@ -73,7 +73,8 @@ def cause(step: Step, machine: Session) -> Cause | None:
     if ending.normal or ending.kind in ("operator", "input"):
         return None
     if ending.kind == "limit":
-        # A search beyond the end of the table deletes entries that do not exist, and NE decreases without end.
+        # If a search runs beyond the end of the table, it deletes entries that do not exist, and NE decreases without
+        # end.
         beyond = step.number == 3 and _integer(machine, "NE") < 0
         searches = [_SEARCHES[search] for line in ending.loop if line.label and (search := _search(line.label))]
         return Cause(step.number, "endless", "", ending.decision, searches[0] if beyond and searches else 0)
@@ -110,7 +111,7 @@ def _refused(step: Step, machine: Session, message: str, decision: Line | None) 
                 place = tuple(_value(machine, axis, point) for axis in axes)
                 if step.number == 2:
                     place = _unprojected(place, _integer(machine, "KPROJ"))
-                # The layer epsilon keeps the value in EE instead of E(J).
+                # With the layer epsilon the programs store the value of the equation in EE instead of E(J).
                 has_scalar = decision is not None and "EE" in decision.text
                 value = _value(machine, "EE") if has_scalar else _value(machine, values, equation)
                 return Cause(step.number, "miss", message, decision, 6, equation, place, value)
@@ -136,7 +137,7 @@ def _label(step: Step, decision: Line | None) -> int:
 
 
 def _unprojected(place: tuple[str, ...], projection: int) -> tuple[str, ...]:
-    """Return R, S, T of program 2 as x, y, z: T is the coordinate that KPROJ drops."""
+    """Return x, y, z of a point given as R, S, T in program 2, where T is the coordinate that KPROJ drops."""
     r, s, t = place
     return {1: (t, r, s), 2: (r, t, s)}.get(projection, (r, s, t))
 
