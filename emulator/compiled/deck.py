@@ -110,7 +110,7 @@ def run_deck(
     setting: Setting,
 ) -> int:
     """Run one deck and return the reason for its end.  The registers of the devices hold the bounds of the deck."""
-    limit, strict, types_errors, any_read = setting
+    limit, strict, as_1962, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers
     devices[dev.ANY_READ] = any_read
     # As in Session.advance, the counts are saved shortly before the limit, for the message about a loop.
@@ -122,7 +122,7 @@ def run_deck(
         address = registers[ADDRESS]
         status = dev.GO_ON
         if reason == interpreter.AT_ITEM:
-            status = item(marks, forms, cards, core, desk, rules, types_errors)
+            status = item(marks, forms, cards, core, desk, rules, as_1962)
         elif reason == interpreter.AT_BEGIN:
             status = begin(marks, forms, cards, desk)
         elif reason == interpreter.AT_FINISH:
@@ -130,7 +130,7 @@ def run_deck(
             if status == dev.GO_ON and devices[dev.VERB] != dev.READ:
                 status = end_record(marks, cards, desk)
         elif reason == interpreter.AT_EVENT:
-            status = error(registers[EVENT], marks, desk, types_errors)
+            status = error(registers[EVENT], marks, desk, as_1962)
         # Without ``powers_multiply`` the exact power is truncated once.  For exponents from -1 to 2 repeated
         # multiplication gives the same result.  Other exponents would need more than 64 bits.
         elif reason == interpreter.AT_POWERX and (rules.powers_multiply or -1 <= core.mantissas[address] <= 2):
@@ -142,7 +142,7 @@ def run_deck(
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
             if event:
-                status = error(event, marks, desk, types_errors)
+                status = error(event, marks, desk, as_1962)
         elif reason == interpreter.AT_FUNCTION:
             # SQRT is the only library function that integers can compute.
             if code.roots[address] == 0:

@@ -268,12 +268,12 @@ def stamp(number: int, desk: Desk) -> None:
     desk.devices[USED] = used + STAMP
 
 
-def error(number: int, marks: Marks, desk: Desk, types_errors: int) -> int:
-    """Count an error code, and type it if ``types_errors`` is set."""
+def error(number: int, marks: Marks, desk: Desk, as_1962: int) -> int:
+    """Count an error code, and type it if ``as_1962`` is set."""
     registers = desk.registers
     desk.errors[CODES * marks.statements[registers[AT]] + number] += 1
     owe(registers, ERROR)
-    if not types_errors:
+    if not as_1962:
         return GO_ON
     field = desk.field
     for k in range(len(ERROR_WORDS)):
@@ -288,7 +288,7 @@ def error(number: int, marks: Marks, desk: Desk, types_errors: int) -> int:
     return put_typed(field, last + 1, marks, desk)
 
 
-def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules: Rules, types_errors: int) -> int:
+def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules: Rules, as_1962: int) -> int:
     """Read or write one number of a list."""
     devices, field, registers = desk.devices, desk.field, desk.registers
     registers[WORK] += 1
@@ -329,4 +329,4 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
         return GO_ON
     end, overflowed = write_floating(desk.line, column, kind == E_FIELD, width, decimals, m, e, rules)
     devices[COLUMN] = end
-    return error(F8, marks, desk, types_errors) if overflowed else GO_ON
+    return error(F8, marks, desk, as_1962) if overflowed else GO_ON

@@ -6,20 +6,30 @@ raise :class:`LineNeeded` if the operator must first type a line.  The caller th
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 from emulator.errors import CardError, DeckError
 from emulator.language.cards import COLUMNS, RECORD_MARK, Card, Deck, check_characters, read_line
 from emulator.language.objectcode import Line, Program
 from emulator.machine.endings import Ending, Kind, Mode, Notice, stopped
-from emulator.machine.forms import Input, Layout, NoField, Output
+from emulator.machine.forms import Input, Input1962, Layout, NoField, Output, Output1962, TooLong
 from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS, Event, Options, Uncut
 from emulator.machine.state import FLOATING, State
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.numbers.base import Number
-from emulator.numbers.fields import Field, FieldError, Remark, read_fixed, write_fixed
+from emulator.numbers.fields import (
+    Field,
+    FieldError,
+    Remark,
+    read_fixed,
+    read_fixed_as_1962,
+    write_fixed,
+    write_fixed_as_1962,
+)
 from emulator.numbers.work import ERROR
+
+ERROR_F8 = "ERROR F8"
 
 
 class Ended(Exception):
@@ -106,12 +116,20 @@ class Devices:
                 self._first_read = self.state.at
                 self.events.append(Event("begin"))
             card = self._take_card(here, begins or self.options.hopper == "any")
-            self.transfer = Input(layout, lambda: self._take_card(here, False), card)
+            self.transfer = self._input(layout, lambda: self._take_card(here, False), card, PUNCH_COLUMNS)
         elif verb == "ACCEPT":
-            self.transfer = Input(layout, self._take_line, self._take_line())
+            self.transfer = self._input(layout, self._take_line, self._take_line(), TYPEWRITER_COLUMNS)
+        elif self.options.numbers.as_1962:
+            room = PUNCH_COLUMNS if verb == "PUNCH" else TYPEWRITER_COLUMNS
+            self.transfer = Output1962(layout, self._punch if verb == "PUNCH" else self.type, room=room)
         else:
             self.transfer = Output(layout, self._punch if verb == "PUNCH" else self.type)
         self.state.work += self._charge
+
+    def _input(self, layout: Layout, fetch: Callable[[], Card], card: Card, room: int) -> Input:
+        if self.options.numbers.as_1962:
+            return Input1962(layout, fetch, card, room=room)
+        return Input(layout, fetch, card)
 
     def item(self, address: int) -> None:
         """Read or write one number of a list.  Raise Ended, LineNeeded, DeckError, or CardError for a bad number."""
@@ -129,11 +147,21 @@ class Devices:
                 self._read(*place, address, fixed)
         except NoField:
             raise Ended(replace(self.ending("mode"), format=self._format)) from None
+        except TooLong:
+            raise self._too_long() from None
 
     def finish(self) -> None:
-        """End the list.  Raise LineNeeded or DeckError if the rest of the FORMAT needs another record."""
+        """End the list.  Raise Ended, LineNeeded or DeckError if the rest of the FORMAT needs another record."""
         assert self.transfer is not None
-        self.transfer.finish()
+        try:
+            self.transfer.finish()
+        except TooLong:
+            raise self._too_long() from None
+
+    def _too_long(self) -> Ended:
+        # The library goes on with a wrong place of the FORMAT, so that nothing after this error has a meaning.
+        self.error("F9")
+        return Ended(replace(self.ending("record"), format=self._format))
 
     def _count_item(self, address: int) -> None:
         # Count the work: one unit for the number, the cost of each repetition of the FORMAT, and the cost of converting
@@ -195,10 +223,18 @@ class Devices:
             raise Ended(replace(ending, name=name, put_out=True))
         if fixed:
             # An I field that is too narrow prints the low-order digits, without a message.
-            transfer.write(write_fixed(spec, value))
+            transfer.write((write_fixed_as_1962 if self.options.numbers.as_1962 else write_fixed)(spec, value))
             return
         # An E or F field that is too narrow is replaced by E14.8 (C26-5619 p. 39-40): error code F8.
         columns, overflowed = self.options.numbers.write(spec, value)
+        if overflowed and isinstance(transfer, Output1962):
+            # The library writes a record with the error code and the number, and leaves the field blank.
+            transfer.end_before(spec.width)
+            self._count_error("F8")
+            if self.verb == "PUNCH":
+                self.type(ERROR_F8)
+            transfer.emit(ERROR_F8 + " " + columns)
+            return
         self._beside.append((transfer.width + 1, len(columns), value))
         transfer.write(columns)
         if overflowed:
@@ -213,7 +249,7 @@ class Devices:
         remark: Remark | None = None
         try:
             if fixed:
-                read = read_fixed(columns)
+                read = (read_fixed_as_1962 if self.options.numbers.as_1962 else read_fixed)(columns)
                 value, remark = read.mantissa, read.remark
             # If another program punched this field with the option ``uncut``, its number with all digits replaces the
             # columns.
@@ -222,6 +258,10 @@ class Devices:
             else:
                 value, remark = self.options.numbers.read(spec, columns)
         except FieldError as error:
+            if self.options.numbers.as_1962:
+                # The number keeps its former value.
+                self.error("F7")
+                return
             raise CardError(source, card.number, column, str(error), "line" if typed else "card") from None
         self.state.values[address], self.state.kinds[address] = value, FIXED_POINT if fixed else FLOATING
         if remark is not None:
@@ -230,8 +270,12 @@ class Devices:
     def _punch(self, line: str) -> None:
         if self.options.uncut:
             self.cut.append(tuple(self._beside))
-        self.events.append(Event("punch", self._record(line, PUNCH_COLUMNS)))
+        text = self._record(line, PUNCH_COLUMNS)
         self.punched += 1
+        if self.options.numbers.as_1962:
+            # The library punches a sequence number of three digits in columns 78 to 80.
+            text = f"{text:77}{self.punched % 1000:03}"
+        self.events.append(Event("punch", text))
 
     def type(self, line: str) -> None:
         """Type a line."""
@@ -252,12 +296,15 @@ class Devices:
         return line[:room].rstrip()
 
     def error(self, code: str) -> None:
-        """Count an arithmetic error at the current statement, and type its code if the arithmetic types error codes."""
+        """Count an error at the current statement, and type its code as IBM's library of 1962 does."""
+        self._count_error(code)
+        if self.options.numbers.as_1962:
+            self.type(f"ERROR {code}")
+
+    def _count_error(self, code: str) -> None:
         card = self.line_at(self.state.at).place.card
         self.errors[code, card] = self.errors.get((code, card), 0) + 1
         self.state.work += self.state.owe(ERROR)
-        if self.options.numbers.types_errors:
-            self.type(f"ERROR {code}")
 
     def note(self, notice: Notice) -> None:
         """Add a notice, once."""

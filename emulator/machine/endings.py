@@ -11,7 +11,10 @@ from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.numbers.fields import Field, Remark
 
 Normal = Literal["hopper", "stop", "end"]
-Kind = Normal | Literal["limit", "bounds", "undefined", "outside", "select", "mode", "undecided", "input", "operator"]
+Kind = (
+    Normal
+    | Literal["limit", "bounds", "undefined", "outside", "select", "mode", "record", "undecided", "input", "operator"]
+)
 NORMAL = get_args(Normal)
 
 Mode = Literal["fixed", "floating"]
@@ -37,6 +40,7 @@ class Ending:
       variable's value.
     - mode: the ``name`` of the field and the ``mode`` of its number.  If ``format`` holds the number of a FORMAT,
       ``field`` is its specification that does not fit the number, or None if the FORMAT has no fields.
+    - record: ERROR F9 of IBM's library of 1962; ``format`` holds the number of the FORMAT.
     - undecided: ``trouble`` says what the numbers cannot decide.
     - input: ``trouble`` says what is wrong with the deck.
     - operator: the operator stopped the run; ``trouble`` says so.
@@ -117,6 +121,8 @@ def _trouble_in(ending: Ending, line: Line) -> str:
             return f"FORMAT {ending.format} has no field for the list"
         case "mode" if ending.put_out:
             return f"{ending.name} holds a number of the other mode"
+        case "record":
+            return f"ERROR F9: a record of FORMAT {ending.format} is longer than the columns of its device, {there}"
         case "mode":
             # This occurs only with --bounds core, if a subscript reaches a neighbouring field.
             return f"{ending.name} holds a number in {ending.mode} point, {there}"

@@ -21,6 +21,10 @@ class NoField(Exception):
     """Raised if a list has a number but its FORMAT has no field for numbers."""
 
 
+class TooLong(Exception):
+    """A record is longer than the columns of its device, which IBM's library of 1962 rejects with ERROR F9."""
+
+
 @dataclass
 class Layout:
     """A FORMAT as the object program stores it.  Reading can change its literals."""
@@ -67,12 +71,17 @@ class _Walk(ABC):
             spec = specs[self.at]
             if isinstance(spec, Field):
                 return spec
-            if isinstance(spec, Slash):
-                self._end_record()
-            else:
-                self._literal(len(spec.text))
-            self.at += 1
+            self._pass_spec()
         return None
+
+    def _pass_spec(self) -> None:
+        """Process a literal or a slash."""
+        spec = self.layout.spec.specs[self.at]
+        if isinstance(spec, Literal):
+            self._literal(len(spec.text))
+        else:
+            self._end_record()
+        self.at += 1
 
     @abstractmethod
     def _literal(self, width: int) -> None: ...
@@ -134,3 +143,82 @@ class Input(_Walk):
     def _end_record(self) -> None:
         self.card = self.fetch()
         self.column = 1
+
+
+@dataclass
+class Output1962(Output):
+    """An output statement in progress, as IBM's library of 1962 ends records (docs/reference/ibm-library.md).
+
+    room: the columns of the device.  ``_blank`` is set until the record receives columns, and ``_after_error`` from the
+    record of an error to the next columns.  ``_has_list`` is set after the first number.
+    """
+
+    room: int = field(kw_only=True)
+    _blank: bool = True
+    _after_error: bool = False
+    _has_list: bool = False
+
+    def next_field(self) -> Field:
+        self._has_list = True
+        spec = super().next_field()
+        if self.width + spec.width > self.room:
+            raise TooLong
+        return spec
+
+    def write(self, columns: str) -> None:
+        if self.width + len(columns) > self.room:
+            raise TooLong
+        super().write(columns)
+        self._blank = self._after_error = False
+
+    def end_before(self, width: int) -> None:
+        """End the record before the record of an error, and leave the columns of the field with the error blank."""
+        column = self.width + width
+        if not self._blank:
+            super()._end_record()
+        self._parts[:], self.width = [" " * column], column
+        self._blank = self._after_error = True
+
+    def finish(self) -> None:
+        # The end of the FORMAT writes a record, but an unused field writes only one that has received columns.
+        unused = self._advance()
+        if unused is None or (self._has_list and not self._blank):
+            self._end_record()
+
+    def _end_record(self) -> None:
+        if self._after_error:
+            self._parts.clear()
+            self.width = 0
+        else:
+            super()._end_record()
+        self._blank, self._after_error = True, False
+
+
+@dataclass
+class Input1962(Input):
+    """An input statement in progress, as IBM's library of 1962 ends it.  room: the columns of the device."""
+
+    room: int = field(kw_only=True)
+    _has_list: bool = False
+
+    def next_field(self) -> tuple[Field, Card, int]:
+        self._has_list = True
+        spec, card, column = super().next_field()
+        if self.column > self.room + 1:
+            raise TooLong
+        return spec, card, column
+
+    def finish(self) -> None:
+        # A slash after the last number reads a record only if no field follows the slash.
+        specs = self.layout.spec.specs
+        while self._has_list and self.at < len(specs) and not isinstance(specs[self.at], Field):
+            is_last = isinstance(specs[self.at], Slash) and isinstance(specs[min(self.at + 1, len(specs) - 1)], Field)
+            if is_last:
+                return
+            self._pass_spec()
+        super().finish()
+
+    def _literal(self, width: int) -> None:
+        if self.column + width > self.room + 1:
+            raise TooLong
+        super()._literal(width)

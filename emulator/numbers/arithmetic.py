@@ -291,13 +291,13 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
 class Profile:
     """A decimal arithmetic: its number of digits, its rules for truncation and rounding, and the source of these rules.
 
-    ``types_errors`` is True if every error of the arithmetic types its code (emulator.errors.explanations).
+    ``as_1962`` is True if input, output and error codes follow IBM's library of 1962 (docs/reference/ibm-library.md).
     """
 
     name: str
     source: str
     rules: Rules
-    types_errors: bool = False
+    as_1962: bool = False
 
     @property
     def digits(self) -> int:
@@ -333,7 +333,7 @@ IBM1962 = Profile(
     "ibm1962",
     "IBM's subroutine set of 1962, executed digit by digit in a simulator: product rounded half up, the rest cut",
     rules_of(8, products=1, left_zero=1, signed_sums=0, signed_by_zero=0, powers_multiply=1),
-    types_errors=True,
+    as_1962=True,
 )
 PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962)}
 

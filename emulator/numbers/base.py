@@ -159,8 +159,8 @@ class Numbers(ABC):
         return 0
 
     @property
-    def types_errors(self) -> bool:
-        """True if every error of the arithmetic types its code."""
+    def as_1962(self) -> bool:
+        """True if input, output and error codes follow IBM's library of 1962."""
         return False
 
     def read(self, field: Field, columns: str) -> tuple[Number, Remark | None]:

@@ -13,7 +13,16 @@ from typing import Any
 from emulator.numbers import accumulator, arithmetic, functions, work
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, Profile, Rules
 from emulator.numbers.base import Numbers, Trap, cut_decimal
-from emulator.numbers.fields import FALLBACK, Field, Remark, read_floating, write_floating
+from emulator.numbers.fields import (
+    FALLBACK,
+    Field,
+    Remark,
+    parse_constant,
+    read_as_1962,
+    read_floating,
+    write_as_1962,
+    write_floating,
+)
 
 Pair = tuple[int, int]
 
@@ -106,15 +115,20 @@ class DecimalNumbers(Numbers):
         return write_floating(FALLBACK, *value, self._rules)[0].strip()
 
     @property
-    def types_errors(self) -> bool:
-        return self.profile.types_errors
+    def as_1962(self) -> bool:
+        return self.profile.as_1962
 
     def read(self, field: Field, columns: str) -> tuple[Pair, Remark | None]:
-        field_read = read_floating(field, columns, self._rules)
+        reader = read_as_1962 if self.as_1962 else read_floating
+        field_read = reader(field, columns, self._rules)
         return (field_read.mantissa, field_read.exponent), field_read.remark
 
     def write(self, field: Field, value: Pair) -> tuple[str, bool]:
-        return write_floating(field, *value, self._rules)
+        writer = write_as_1962 if self.as_1962 else write_floating
+        return writer(field, *value, self._rules)
+
+    def constant(self, text: str) -> Pair:
+        return parse_constant(text, self._rules)
 
 
 def _unpacked(value: functions.Value) -> tuple[Pair, str]:

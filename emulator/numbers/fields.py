@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from emulator.errors import quoted
-from emulator.numbers import columns
-from emulator.numbers.arithmetic import UNDEFINED, Rules
+from emulator.numbers import columns, columns1962
+from emulator.numbers.arithmetic import UNDEFINED, Rules, rules_of
 
 FieldKind = Literal["E", "F", "I"]
 
@@ -126,6 +126,39 @@ def read_fixed(text: str) -> FieldNumber:
 
 def _remark(status: int) -> Remark | None:
     return None if status == columns.FINE else Remark(status)
+
+
+def write_as_1962(field: Field, mantissa: int, exponent: int, rules: Rules) -> tuple[str, bool]:
+    """Return the columns that IBM's library writes, or those of E14.8 and True if the number does not fit."""
+    codes = bytearray(field.width)
+    end = columns1962.write_floating(
+        codes, 0, field.kind == "E", field.width, field.decimals, mantissa, exponent, rules
+    )
+    if end < 0:
+        return write_as_1962(FALLBACK, mantissa, exponent, rules)[0], True
+    return codes.decode("ascii"), False
+
+
+def write_fixed_as_1962(field: Field, value: int) -> str:
+    """Return the columns of an I field as IBM's library writes it, with a column for the sign."""
+    codes = bytearray(field.width)
+    columns1962.write_fixed(codes, 0, field.width, value)
+    return codes.decode("ascii")
+
+
+def read_fixed_as_1962(text: str) -> FieldNumber:
+    """Read an I field as IBM's library does.  Raise FieldError if the library types ERROR F7."""
+    return read_as_1962(Field("I", len(text)), text, rules_of(8))
+
+
+def read_as_1962(field: Field, text: str, rules: Rules) -> FieldNumber:
+    """Read any field as IBM's library does.  Raise FieldError if the library types ERROR F7."""
+    kind = "EFI".index(field.kind)
+    codes = text.encode("ascii", "replace")
+    mantissa, exponent, status = columns1962.read_number(bytearray(codes), len(codes), field.decimals, kind, rules)
+    if status == columns1962.REJECTED:
+        raise FieldError(f"{text.strip()!r} is not a number of {field}")
+    return FieldNumber(mantissa, exponent)
 
 
 def parse_constant(text: str, rules: Rules) -> tuple[int, int]:

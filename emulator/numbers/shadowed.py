@@ -217,8 +217,8 @@ class ShadowedNumbers(Numbers):
         return inner_steps + self._finer.work(operation, x, y) + _STEPS
 
     @property
-    def types_errors(self) -> bool:
-        return self.inner.types_errors
+    def as_1962(self) -> bool:
+        return self.inner.as_1962
 
 
 # The operations whose work is estimated even by a system that is not costly.
