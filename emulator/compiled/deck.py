@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from emulator.compiled import devices as dev
-from emulator.compiled.devices import Cards, Code, Desk, Forms, Report, Tools, begin, end_record, error, item, to_field
+from emulator.compiled.devices import Cards, Code, Desk, Forms, Report, Tools, begin, error, finish, item
 from emulator.compiled.kernel import ADDRESS, AT, CHARACTERISTIC, EVENT, FAC, WORK, Core, Row, owe, run
 from emulator.machine import interpreter
 from emulator.machine.result import LOOP_WINDOW
@@ -113,6 +113,7 @@ def run_deck(
     limit, strict, as_1962, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers
     devices[dev.ANY_READ] = any_read
+    devices[dev.AS_1962] = as_1962
     # As in Session.advance, the counts are saved shortly before the limit, for the message about a loop.
     goal = limit - min(LOOP_WINDOW, limit // 2)
     saved = False
@@ -126,9 +127,7 @@ def run_deck(
         elif reason == interpreter.AT_BEGIN:
             status = begin(marks, forms, cards, desk)
         elif reason == interpreter.AT_FINISH:
-            status = to_field(marks, forms, cards, desk, False)
-            if status == dev.GO_ON and devices[dev.VERB] != dev.READ:
-                status = end_record(marks, cards, desk)
+            status = finish(marks, forms, cards, desk)
         elif reason == interpreter.AT_EVENT:
             status = error(registers[EVENT], marks, desk, as_1962)
         # Without ``powers_multiply`` the exact power is truncated once.  For exponents from -1 to 2 repeated

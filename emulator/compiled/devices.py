@@ -15,6 +15,7 @@ from emulator.compiled.kernel import ADDRESS, AT, DECISION, HOPPER_EMPTY, WORK, 
 from emulator.language.cards import COLUMNS
 from emulator.language.objectcode import Flat
 from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS
+from emulator.numbers import columns1962
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules
 from emulator.numbers.columns import BLANK, DIGIT, FINE, read_fixed, read_floating, write_fixed, write_floating
 from emulator.numbers.work import ERROR
@@ -32,7 +33,9 @@ READ, PUNCH, TYPE, ACCEPT = range(4)
 # next card, bounds of the deck, the READ that begins a data set, length of the log, number of different PAUSEs, and 1
 # if an empty hopper ends the run at any READ.
 FORMAT, SPEC, LAST_SPEC, VERB, COLUMN, CARD, NEXT, FIRST_CARD, LAST_CARD, FIRST_READ, USED, PAUSES, ANY_READ = range(13)
-DEVICES = 13
+# 1 if input and output follow the library of 1962, 1 after the first number of a list, and cards punched.
+AS_1962, HAS_LIST, SEQUENCE = range(13, 16)
+DEVICES = 16
 
 # The entries of a row of Report.ends: reason for the end, cards read, bounds in the log, kind of the field at ADDRESS.
 REASON, CARDS_READ, LOG_FROM, LOG_TO, HELD = range(5)
@@ -138,6 +141,7 @@ def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
     devices[SPEC] = forms.formats[FORM * number + FIRST]
     devices[LAST_SPEC] = forms.formats[FORM * number + LAST]
     devices[COLUMN] = 0
+    devices[HAS_LIST] = 0
     desk.registers[WORK] += forms.formats[FORM * number + CHARGE]
     if verb == ACCEPT:
         return NOT_HERE
@@ -189,6 +193,8 @@ def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
     devices = desk.devices
     column = devices[COLUMN]
     devices[COLUMN] += width
+    if too_long(devices):
+        return NOT_HERE
     if devices[VERB] == READ:
         for k in range(width):
             desk.texts[place + k] = column_of(cards, devices[CARD], column + k)
@@ -198,6 +204,45 @@ def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
     for k in range(width):
         desk.line[column + k] = desk.texts[place + k]
     return GO_ON
+
+
+def too_long(devices: Row) -> bool:
+    """Return True if the library of 1962 rejects the record so far.  The interpreter then writes the message."""
+    return devices[AS_1962] != 0 and devices[COLUMN] > (TYPEWRITER_COLUMNS if devices[VERB] == TYPE else PUNCH_COLUMNS)
+
+
+def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
+    """End an input or output statement.
+
+    The library of 1962 writes no record for an unused field if the record is empty or the statement has no list, and
+    reads none for a slash after the last number if a field follows it.
+    """
+    devices = desk.devices
+    is_input = devices[VERB] == READ
+    if devices[AS_1962] and is_input and devices[HAS_LIST]:
+        while devices[SPEC] < devices[LAST_SPEC]:
+            spec = devices[SPEC]
+            kind = forms.specs[PART * spec + KIND]
+            if kind < TEXT or (
+                kind == SLASH and spec + 1 < devices[LAST_SPEC] and forms.specs[PART * spec + PART] < TEXT
+            ):
+                return GO_ON
+            status = (
+                end_record(marks, cards, desk)
+                if kind == SLASH
+                else (text(forms.specs[PART * spec + PLACE], forms.specs[PART * spec + WIDTH], cards, desk))
+            )
+            devices[SPEC] = spec + 1
+            if status != GO_ON:
+                return status
+        return GO_ON
+    status = to_field(marks, forms, cards, desk, False)
+    if status != GO_ON or is_input:
+        return status
+    unused = devices[SPEC] < devices[LAST_SPEC]
+    if devices[AS_1962] and unused and (devices[HAS_LIST] == 0 or devices[COLUMN] == 0):
+        return GO_ON
+    return end_record(marks, cards, desk)
 
 
 def column_of(cards: Cards, card: int, column: int) -> int:
@@ -224,6 +269,16 @@ def end_record(marks: Marks, cards: Cards, desk: Desk) -> int:
         return NOT_HERE
     desk.registers[WORK] += 1
     if devices[VERB] == PUNCH:
+        if devices[AS_1962]:
+            # A sequence number of three digits fills the last columns of each card.
+            devices[SEQUENCE] = (devices[SEQUENCE] + 1) % 1000
+            for k in range(length, COLUMNS):
+                line[k] = BLANK
+            number = devices[SEQUENCE]
+            for k in range(COLUMNS - 1, COLUMNS - 4, -1):
+                line[k] = DIGIT + number % 10
+                number = number // 10
+            length = COLUMNS
         return put(PUNCHED, line, length, desk)
     return put_typed(line, length, marks, desk)
 
@@ -297,6 +352,7 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
         return status
     spec, address = devices[SPEC], registers[ADDRESS]
     devices[SPEC] += 1
+    devices[HAS_LIST] = 1
     part = PART * spec
     kind, width, decimals = forms.specs[part + KIND], forms.specs[part + WIDTH], forms.specs[part + DECIMALS]
     fixed = marks.seconds[registers[AT]] < 0
@@ -309,7 +365,12 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
         devices[COLUMN] += width
         for k in range(width):
             field[k] = column_of(cards, devices[CARD], column + k)
-        if fixed:
+        if too_long(devices):
+            return NOT_HERE
+        if devices[AS_1962]:
+            m, e, status = columns1962.read_number(field, width, decimals, kind, rules)
+            e = FIXED_POINT if fixed else e
+        elif fixed:
             m, status = read_fixed(field, width)
             e = FIXED_POINT
         else:
@@ -324,6 +385,15 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
     m, e = core.mantissas[address], core.exponents[address]
     if e == UNDEFINED or (e == FIXED_POINT) != fixed or column + width + 14 > LINE_ROOM:
         return NOT_HERE
+    if devices[AS_1962]:
+        devices[COLUMN] += width
+        if too_long(devices):
+            return NOT_HERE
+        if fixed:
+            end = columns1962.write_fixed(desk.line, column, width, m)
+        else:
+            end = columns1962.write_floating(desk.line, column, kind == E_FIELD, width, decimals, m, e, rules)
+        return NOT_HERE if end < 0 else GO_ON
     if fixed:
         devices[COLUMN] = write_fixed(desk.line, column, width, m)
         return GO_ON

@@ -22,6 +22,7 @@ from emulator.numbers.fields import (
     Field,
     FieldError,
     Remark,
+    exponent_as_1962,
     read_fixed,
     read_fixed_as_1962,
     write_fixed,
@@ -229,11 +230,13 @@ class Devices:
         columns, overflowed = self.options.numbers.write(spec, value)
         if overflowed and isinstance(transfer, Output1962):
             # The library writes a record with the error code and the number, and leaves the field blank.
-            transfer.end_before(spec.width)
+            exponent = exponent_as_1962(spec, *value) if spec.decimals + 6 > spec.width and spec.kind == "E" else ""
+            blank = transfer.end_before(spec.width, exponent).ljust(len(ERROR_F8) + 1)
             self._count_error("F8")
             if self.verb == "PUNCH":
                 self.type(ERROR_F8)
-            transfer.emit(ERROR_F8 + " " + columns)
+            first = f"{ERROR_F8}{blank[len(ERROR_F8)]}{columns}"
+            transfer.emit(first + (blank[len(first) :] if self.verb == "PUNCH" else ""))
             return
         self._beside.append((transfer.width + 1, len(columns), value))
         transfer.write(columns)

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 
 from emulator.language.cards import Card
 from emulator.language.formats import FormatSpec, Literal, Slash
+from emulator.machine.result import PUNCH_COLUMNS
 from emulator.numbers.fields import Field
 
 
@@ -171,13 +172,22 @@ class Output1962(Output):
         super().write(columns)
         self._blank = self._after_error = False
 
-    def end_before(self, width: int) -> None:
-        """End the record before the record of an error, and leave the columns of the field with the error blank."""
+    def end_before(self, width: int, exponent: str) -> str:
+        """End the record before that of an error, leave the field blank, and return the columns of the error's record.
+
+        ``exponent`` is what the library has already stored at the end of an E field that is too narrow.  It remains in
+        the record, but a typed line ends before it.
+        """
         column = self.width + width
+        text = f"{''.join(self._parts):{column}}"
+        text = text[: column - len(exponent)] + exponent if exponent else text.rstrip()
         if not self._blank:
+            self._parts[:] = [text if self.room == PUNCH_COLUMNS else text[: self.width + 1]]
             super()._end_record()
+            text = ""
         self._parts[:], self.width = [" " * column], column
         self._blank = self._after_error = True
+        return text
 
     def finish(self) -> None:
         # The end of the FORMAT writes a record, but an unused field writes only one that has received columns.

@@ -14,7 +14,7 @@ from typing import Literal
 
 from emulator.errors import quoted
 from emulator.numbers import columns, columns1962
-from emulator.numbers.arithmetic import UNDEFINED, Rules, rules_of
+from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, UNDEFINED, ZERO, Rules, rules_of
 
 FieldKind = Literal["E", "F", "I"]
 
@@ -137,6 +137,13 @@ def write_as_1962(field: Field, mantissa: int, exponent: int, rules: Rules) -> t
     if end < 0:
         return write_as_1962(FALLBACK, mantissa, exponent, rules)[0], True
     return codes.decode("ascii"), False
+
+
+def exponent_as_1962(field: Field, mantissa: int, exponent: int) -> str:
+    """Return the exponent that IBM's library stores before it finds an E field too narrow for its decimals."""
+    digits = 8 if field.width >= FALLBACK.width else field.width - 6
+    shown = max((exponent if mantissa else ZERO) - digits + field.decimals, MIN_EXPONENT)
+    return f"E{'-' if shown < 0 else '+'}{abs(shown):02}" if shown <= MAX_EXPONENT else ""
 
 
 def write_fixed_as_1962(field: Field, value: int) -> str:
