@@ -15,9 +15,11 @@ from emulator.compiled.kernel import ADDRESS, AT, DECISION, HOPPER_EMPTY, WORK, 
 from emulator.language.cards import COLUMNS
 from emulator.language.objectcode import Flat
 from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS
-from emulator.numbers import columns1962
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules
 from emulator.numbers.columns import BLANK, DIGIT, FINE, read_fixed, read_floating, write_fixed, write_floating
+from emulator.numbers.columns1962 import read_number
+from emulator.numbers.columns1962 import write_fixed as write_fixed_1962
+from emulator.numbers.columns1962 import write_floating as write_floating_1962
 from emulator.numbers.work import ERROR
 
 # GO_ON means that the run continues.  The others are reasons for its end, in addition to those of the kernel.
@@ -214,28 +216,12 @@ def too_long(devices: Row) -> bool:
 def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
     """End an input or output statement.
 
-    The library of 1962 writes no record for an unused field if the record is empty or the statement has no list, and
-    reads none for a slash after the last number if a field follows it.
+    The library of 1962 writes no record for an unused field if the record is empty or the statement has no list.
     """
     devices = desk.devices
     is_input = devices[VERB] == READ
     if devices[AS_1962] and is_input and devices[HAS_LIST]:
-        while devices[SPEC] < devices[LAST_SPEC]:
-            spec = devices[SPEC]
-            kind = forms.specs[PART * spec + KIND]
-            if kind < TEXT or (
-                kind == SLASH and spec + 1 < devices[LAST_SPEC] and forms.specs[PART * spec + PART] < TEXT
-            ):
-                return GO_ON
-            status = (
-                end_record(marks, cards, desk)
-                if kind == SLASH
-                else (text(forms.specs[PART * spec + PLACE], forms.specs[PART * spec + WIDTH], cards, desk))
-            )
-            devices[SPEC] = spec + 1
-            if status != GO_ON:
-                return status
-        return GO_ON
+        return finish_list(marks, forms, cards, desk)
     status = to_field(marks, forms, cards, desk, False)
     if status != GO_ON or is_input:
         return status
@@ -243,6 +229,24 @@ def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
     if devices[AS_1962] and unused and (devices[HAS_LIST] == 0 or devices[COLUMN] == 0):
         return GO_ON
     return end_record(marks, cards, desk)
+
+
+def finish_list(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
+    """End a READ with a list as the library of 1962 does: a slash before a field reads no record."""
+    devices, specs = desk.devices, forms.specs
+    status = GO_ON
+    while status == GO_ON and devices[SPEC] < devices[LAST_SPEC]:
+        at = PART * devices[SPEC]
+        kind = specs[at + KIND]
+        follows = devices[SPEC] + 1 < devices[LAST_SPEC] and specs[at + PART + KIND] < TEXT
+        if kind < TEXT or (kind == SLASH and follows):
+            return GO_ON
+        if kind == SLASH:
+            status = end_record(marks, cards, desk)
+        else:
+            status = text(specs[at + PLACE], specs[at + WIDTH], cards, desk)
+        devices[SPEC] += 1
+    return status
 
 
 def column_of(cards: Cards, card: int, column: int) -> int:
@@ -334,11 +338,7 @@ def error(number: int, marks: Marks, desk: Desk, as_1962: int) -> int:
     for k in range(len(ERROR_WORDS)):
         field[k] = ERROR_WORDS[k]
     last = len(ERROR_WORDS) - 1
-    if number == F8:
-        field[last - 1] += 1
-        field[last] = DIGIT + 8
-    else:
-        field[last] = DIGIT + number
+    field[last] = DIGIT + number
     registers[WORK] += 1
     return put_typed(field, last + 1, marks, desk)
 
@@ -368,7 +368,7 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
         if too_long(devices):
             return NOT_HERE
         if devices[AS_1962]:
-            m, e, status = columns1962.read_number(field, width, decimals, kind, rules)
+            m, e, status = read_number(field, width, decimals, kind, rules)
             e = FIXED_POINT if fixed else e
         elif fixed:
             m, status = read_fixed(field, width)
@@ -390,9 +390,9 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
         if too_long(devices):
             return NOT_HERE
         if fixed:
-            end = columns1962.write_fixed(desk.line, column, width, m)
+            end = write_fixed_1962(desk.line, column, width, m)
         else:
-            end = columns1962.write_floating(desk.line, column, kind == E_FIELD, width, decimals, m, e, rules)
+            end = write_floating_1962(desk.line, column, kind == E_FIELD, width, decimals, m, e, rules)
         return NOT_HERE if end < 0 else GO_ON
     if fixed:
         devices[COLUMN] = write_fixed(desk.line, column, width, m)

@@ -22,6 +22,13 @@ VERBS = {"READ": 4512, "ACCEPT": 4548, "ACCEPT TAPE": 4596}
 VERBS |= {"PUNCH": 4748, "TYPE": 4796, "PRINT": 4796, "PUNCH TAPE": 4844}
 ITEM, LAST_ITEM = 4992, 4940
 
+# Arithmetic.  Each routine receives the field of its operand.  A floating-point number enters and leaves FAC by TO_FAC
+# and FROM_FAC, and so does a fixed-point number.
+TO_FAC, FROM_FAC = 1238, 1306
+OPERATIONS = {"FAD": 518, "FSB": 408, "FMP": 1378, "FDV": 1862, "FDVR": 1756}
+# Operations on FAC alone.
+ALONE = {"RSGN": 2546, "FLOAT": 3222, "FIX": 3494}
+
 # A word of a FORMAT is the address of a routine or, for a field, a digit for the letter, the width and the decimals.
 OPEN, CLOSE, SLASH, LITERAL = 4044, 4076, 4136, 4264
 KINDS = {"E": 5, "F": 6, "I": 9}
@@ -98,7 +105,11 @@ def _literal(item: Literal) -> Iterator[list[int]]:
         yield digits(character_code(character), 2)
 
 
-def call(entry: int, address: int) -> list[int]:
-    """Return the twelve positions of an instruction that calls a verb (BT) or an item (BTM) with an address."""
-    operation = [1, 7] if entry in (ITEM, LAST_ITEM) else [2, 7]
-    return operation + digits(entry, 5) + digits(address, 5)
+def call(entry: int, address: int = 0) -> list[int]:
+    """Return the twelve positions of an instruction that calls a verb (BT), or another routine (BTM), with an address.
+
+    An operation on FAC alone is called by BT with the position before it, which the instruction leaves unchanged.
+    """
+    if entry in ALONE.values():
+        return [int(digit) for digit in f"27{entry:05}{entry - 1:05}"]
+    return [2 if entry in VERBS.values() else 1, 7, *digits(entry, 5), *digits(address, 5)]

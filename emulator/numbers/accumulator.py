@@ -36,7 +36,7 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     if e > MAX_EXPONENT:
         return largest(m, rules), MAX_EXPONENT, SUM_OVER
     if e < MIN_EXPONENT and m != 0:
-        return 0, (MINUS_ZERO if rules.signed_sums and m < 0 else ZERO), SUM_UNDER
+        return 0, vanished(m, rules), SUM_UNDER
     return m, e, 0
 
 

@@ -39,10 +39,11 @@ class Rules(NamedTuple):
     - ``sticky``: digits of the smaller operand beyond the guard digits still count as a positive fraction in rounding.
     - ``round_sums``, ``round_products``, ``round_quotients``: round the result half up instead of truncating it.
     - ``keeps_left_zero``: the sum of two zeros has the sign of the zero in FAC.
-    - ``signed_underflow``, ``signed_sums``: a product or quotient, or a sum, that underflows keeps its sign.
+    - ``signed_underflow``: a result that underflows keeps its sign.
     - ``signed_by_zero``: a number divided by zero keeps its sign.
     - ``powers_multiply``: an integer power is computed by products, each truncated, not as the exact power truncated
       once.
+    - ``fixes_mantissa``: a number with more than P digits before the point converts to the last four of its mantissa.
     """
 
     digits: int
@@ -55,9 +56,9 @@ class Rules(NamedTuple):
     round_quotients: int
     keeps_left_zero: int
     signed_underflow: int
-    signed_sums: int
     signed_by_zero: int
     powers_multiply: int
+    fixes_mantissa: int
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
@@ -210,6 +211,8 @@ def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
     # If the number is a multiple of 10**4, its four digits left of the point are zeros.
     if exponent <= digits:
         size = size // 10 ** (digits - exponent)
+    elif rules.fixes_mantissa:
+        pass
     elif exponent - digits < 4:
         size = size * 10 ** (exponent - digits)
     else:
@@ -313,14 +316,14 @@ def rules_of(
     quotients: int = 0,
     *,
     left_zero: int = 0,
-    signed_sums: int = 1,
     signed_by_zero: int = 1,
     powers_multiply: int = 0,
+    fixes_mantissa: int = 0,
 ) -> Rules:
     """Return rules with the given number of digits.  By default everything is truncated, with signs as in II-D."""
     low = 10 ** (digits - 1)
     rounding = guard, sticky, sums, products, quotients
-    return Rules(digits, 10 * low, low, *rounding, left_zero, 1, signed_sums, signed_by_zero, powers_multiply)
+    return Rules(digits, 10 * low, low, *rounding, left_zero, 1, signed_by_zero, powers_multiply, fixes_mantissa)
 
 
 TRUNCATING = Profile(
@@ -332,7 +335,7 @@ TRUNCATING = Profile(
 IBM1962 = Profile(
     "ibm1962",
     "IBM's subroutine set of 1962, executed digit by digit in a simulator: product rounded half up, the rest cut",
-    rules_of(8, products=1, left_zero=1, signed_sums=0, signed_by_zero=0, powers_multiply=1),
+    rules_of(8, products=1, left_zero=1, signed_by_zero=0, powers_multiply=1, fixes_mantissa=1),
     as_1962=True,
 )
 PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962)}

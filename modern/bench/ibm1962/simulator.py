@@ -17,7 +17,8 @@ SECONDS = 20.0
 
 # Lines that the simulator writes, and not the program.
 _SIMULATOR = re.compile(r"IBM 1620 simulator|CD[PR]: |HALT instruction|Goodbye|\d{5}:\t|Invalid |No card in")
-_POSITION = re.compile(r"^(\d{1,5}):\t([0-9A-F]{2})$", re.MULTILINE)
+# What it writes may follow a typed line at once, because the carriage returns only before the next line.
+_POSITION = re.compile(r"(\d{5}):\t([0-9A-F]{2})\n?")
 _TROUBLE = re.compile(r"^(?:Invalid|No card in) [^\n]*$", re.MULTILINE)
 
 
@@ -122,7 +123,7 @@ def run(
         punched = path.read_text(encoding="latin1").splitlines() if path.exists() else []
     trouble = _TROUBLE.search(log)
     return Run(
-        tuple(_typed(log)),
+        tuple(_typed(_POSITION.sub("", log))),
         tuple(punched),
         {int(address): int(position, 16) for address, position in _POSITION.findall(log)},
         trouble[0] if trouble else "",

@@ -329,10 +329,12 @@ def test_only_ibm1962_types_error_codes_and_all_count_them_by_statement() -> Non
     assert loud.errors == silent.errors == (MachineError("E3", 3, 1), MachineError("E7", 2, 3))
 
 
-def test_a_field_that_is_too_narrow_types_f8_under_ibm1962() -> None:
-    """The number is printed by E14.8, and a message is typed (C26-5619 p. 39, OPEN-QUESTIONS 14)."""
+def test_a_field_that_is_too_narrow_has_a_record_of_its_own_under_ibm1962() -> None:
+    """The code is typed and punched with the number by E14.8 (OPEN-QUESTIONS 14)."""
     lines = ["A=1234567.", "PUNCH 1,A", "1 FORMAT(F7.3)", "END"]
-    assert run(*lines, arithmetic="ibm1962").typed == ("ERROR F8",)
+    result = run(*lines, arithmetic="ibm1962")
+    assert result.typed == ("ERROR F8",)
+    assert result.punched == (f"{'ERROR F8  .12345670E+07':77}001",)
     assert run(*lines).typed == ()
 
 

@@ -44,7 +44,7 @@ BRANCHES = {"if": "A", "compare": "A-B", "fixcompare": "I-J"}
 WAYS = ("", "negative", "zero", "positive")
 DEFERRED = {"power", "read", "readfixed"}
 """Operations with cases that the compiled engine leaves to the interpreter: some powers, and fields with a remark."""
-FLOATING, FIXED = "E38.0", "I5"
+FLOATING, FIXED = "E36.0", "I5"
 """The fields that read the operands, wide enough for 28 digits."""
 
 
@@ -80,7 +80,7 @@ def card(vector: Vector) -> Deck:
     if vector.operation.startswith("read"):
         return deck_from_lines("data", [vector.operands[1]])
     operands = vector.operands[1:] if vector.operation.startswith("write") else vector.operands
-    return deck_from_lines("data", ["".join(word.rjust(38 if "." in word else 5) for word in operands)])
+    return deck_from_lines("data", ["".join(word.rjust(36 if "." in word else 5) for word in operands)])
 
 
 def address(made: Program) -> int | None:

@@ -19,6 +19,11 @@ def started(engines: MakeMachine, vector: Vector, lines: list[str], data: tuple[
     )
 
 
+def numbers_on(card: str) -> str:
+    """Return the columns of a card before the sequence number of IBM's library, with its exponent -00 as +00."""
+    return card[:72].strip().replace("E-00", "E+00")
+
+
 def check_value(engines: MakeMachine, vector: Vector, field: str) -> None:
     """Run ``D=operation`` or ``M=operation`` after the operands, and compare the card and the error code."""
     expected, _, code = vector.result.partition(" ")
@@ -26,7 +31,7 @@ def check_value(engines: MakeMachine, vector: Vector, field: str) -> None:
     lines = [*vector.setup, f"{target}={vector.operation}", f"PUNCH 1,{target}", f"1 FORMAT({field})", "END"]
     result = started(engines, vector, lines).run()
     assert result.ending.kind == "end"
-    assert [card.strip() for card in result.punched] == [expected]
+    assert [numbers_on(card) for card in result.punched] == [expected]
     assert [error.code for error in result.errors] == ([code] if code else [])
     typed = (f"ERROR {code}",) if code and vector.profile == "ibm1962" else ()
     assert result.typed == typed
@@ -59,14 +64,14 @@ def test_do(engines: MakeMachine, vector: Vector) -> None:
     label = re.match(r"DO *(\d+) *I *=", vector.operation)[1]  # type: ignore[index]
     lines = ["K=0", *vector.setup, vector.operation, f"{label} K=K+1", "PUNCH 99,K,I", "99 FORMAT(I3,I4)", "END"]
     cards = started(engines, vector, lines).run().punched
-    assert [card.split() for card in cards] == [vector.result.split()]
+    assert [numbers_on(card).split() for card in cards] == [vector.result.split()]
 
 
 @pytest.mark.parametrize("vector", load("if"))
 def test_if(engines: MakeMachine, vector: Vector) -> None:
     lines = [*vector.setup, f"IF({vector.operation})11,12,13", "11 K=1", "GO TO 20", "12 K=2", "GO TO 20", "13 K=3"]
-    cards = started(engines, vector, [*lines, "20 PUNCH 99,K", "99 FORMAT(I1)", "END"]).run().punched
-    assert cards == (vector.result,)
+    cards = started(engines, vector, [*lines, "20 PUNCH 99,K", "99 FORMAT(I2)", "END"]).run().punched
+    assert [numbers_on(card) for card in cards] == [vector.result]
 
 
 @pytest.mark.parametrize("vector", load("output"))

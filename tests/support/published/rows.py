@@ -196,7 +196,7 @@ def fix_row(a: Number, by: Arithmetic) -> Row:
         kind = "more than four digits" if decade(a.size) < by.digits + 4 else "zeros only"
     else:
         kind = "whole" if a.size.denominator == 1 else "cut"
-    return row(kind, (a,), (spec.to_fixed(a), ""), by)
+    return row(kind, (a,), (spec.to_fixed(a, by), ""), by)
 
 
 FLOATS = ("plain", "minus", "bounds", "zero")

@@ -109,8 +109,8 @@ def delivered(value: Fraction, kind: str, codes: tuple[str, str], by: Arithmetic
     if size >= ten(HIGHEST):
         return Outcome(Number(minus, largest(by)), over)
     if size < ten(LOWEST - 1):
-        # II-D keeps every sign; the set of 1962 has a plus zero after a sum (executed).
-        return Outcome(Number(minus and not (by.of_1962 and kind == "sum"), Fraction(0)), under)
+        # II-D and the library of 1962 keep every sign (executed).
+        return Outcome(Number(minus, Fraction(0)), under)
     return Outcome(Number(minus, size))
 
 
@@ -206,9 +206,15 @@ def from_fixed(whole: int, by: Arithmetic) -> Number:
     return Number(whole < 0, shortened(Fraction(abs(whole)), by.digits, False)) if whole else ZERO
 
 
-def to_fixed(a: Number) -> int:
-    """Return the four digits just left of the point, with the sign, and no minus zero (p. 21, OQ 10)."""
-    size = a.size.numerator // a.size.denominator % 10_000
+def to_fixed(a: Number, by: Arithmetic) -> int:
+    """Return the four digits just left of the point, with the sign, and no minus zero (p. 21, OQ 10).
+
+    The library of 1962 has the last four digits of a mantissa whose digits are all before the point (executed).
+    """
+    size = a.size
+    if by.of_1962 and size and decade(size) > by.digits:
+        size /= ten(decade(size) - by.digits)
+    size = size.numerator // size.denominator % 10_000
     return -size if a.minus else size
 
 
