@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from emulator.errors import expect
+from emulator.machine.result import PUNCH_COLUMNS
 
 Point = tuple[Fraction, ...]
 
@@ -59,7 +60,8 @@ def sections(cards: Sequence[str]) -> Sections:
     rows: dict[str, list[tuple[str, ...]]] = {name: [] for name in SECTIONS}
     satisfied: list[tuple[int, ...]] = []
     section = "vertices"
-    for card in cards:
+    # IBM's library of 1962 punches a sequence number behind the columns of the FORMAT.
+    for card in (card[:PUNCH_COLUMNS] for card in cards):
         text = card.strip()
         heading = next((kind for start, kind in _HEADINGS if text.startswith(start)), "")
         if heading:
@@ -127,6 +129,7 @@ class IntermediateDeck:
 
 def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
     """Read the cards that program 1 punched for program 2 or 3; return None if there is no card with N."""
+    cards = [card[:PUNCH_COLUMNS] for card in cards]
     for i, card in enumerate(cards):
         if card.strip() and not floats(card):
             planes = tuple((floats(c), tuple(map(int, c[56:].split()))) for c in cards[:i] if len(floats(c)) == 4)

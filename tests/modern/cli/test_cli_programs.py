@@ -91,6 +91,9 @@ def test_a_deck_of_data_is_never_read_as_capitals(capsys: pytest.CaptureFixture[
 @pytest.mark.parametrize("number", explanations())
 def test_the_example_of_an_error_gives_that_number(number: str) -> None:
     """Compile the example, or run it with the arithmetic that types every code."""
+    if not explanations()[number].example:
+        assert number in ("F7", "F9")  # They need cards, and occur only under ibm1962.
+        return
     deck = deck_from_lines("example.f", explanations()[number].example)
     program, messages = translate(deck)
     if number.isdecimal():
