@@ -195,21 +195,19 @@ def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
     devices = desk.devices
     column = devices[COLUMN]
     devices[COLUMN] += width
-    if too_long(devices):
+    if too_long(devices) or (devices[VERB] != READ and column + width > LINE_ROOM):
         return NOT_HERE
     if devices[VERB] == READ:
         for k in range(width):
             desk.texts[place + k] = column_of(cards, devices[CARD], column + k)
         return GO_ON
-    if column + width > LINE_ROOM:
-        return NOT_HERE
     for k in range(width):
         desk.line[column + k] = desk.texts[place + k]
     return GO_ON
 
 
 def too_long(devices: Row) -> bool:
-    """Return True if the library of 1962 rejects the record so far.  The interpreter then writes the message."""
+    """Return True if the library of 1962 rejects the record so far."""
     return devices[AS_1962] != 0 and devices[COLUMN] > (TYPEWRITER_COLUMNS if devices[VERB] == TYPE else PUNCH_COLUMNS)
 
 

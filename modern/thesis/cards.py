@@ -60,8 +60,8 @@ def sections(cards: Sequence[str]) -> Sections:
     rows: dict[str, list[tuple[str, ...]]] = {name: [] for name in SECTIONS}
     satisfied: list[tuple[int, ...]] = []
     section = "vertices"
-    # IBM's library of 1962 punches a sequence number behind the columns of the FORMAT.
-    for card in (card[:PUNCH_COLUMNS] for card in cards):
+    # IBM's library of 1962 punches a sequence number behind the columns of the FORMAT, and E-00.
+    for card in (card[:PUNCH_COLUMNS].replace("E-00", "E+00") for card in cards):
         text = card.strip()
         heading = next((kind for start, kind in _HEADINGS if text.startswith(start)), "")
         if heading:

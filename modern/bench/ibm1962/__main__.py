@@ -5,12 +5,16 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
+from itertools import islice
 
 from emulator.errors import EmulatorError, Refused
 from emulator.files import read_text, write_text
 from emulator.language.cards import read_deck
 from emulator.language.compiler import compile_deck
+from modern.bench.ibm1962 import arithmetic
 from modern.bench.ibm1962.chapter6 import FOLDER, results
+from modern.bench.ibm1962.emulated import emulate
+from modern.bench.ibm1962.measured import at_random, load, measure, same
 from modern.bench.ibm1962.objectdecks import against_deck, compare, library, subjects
 from modern.bench.ibm1962.simulator import Failed, Unavailable, object_deck
 from modern.bench.ibm1962.statements import Statement, execute
@@ -21,6 +25,7 @@ the command prints a line that begins with "skipped" and ends with exit code 0.
 
 examples:
   python -m modern.bench.ibm1962 show TYPE "(I4,F8.3)" --values="12 -.25000000E+01"
+  python -m modern.bench.ibm1962 measure --random 500
   python -m modern.bench.ibm1962 chapter6
   python -m modern.bench.ibm1962 show READ "(I5,E14.8)" --values="1 .10000000E+01" --card "   -0     .2E1"
 """
@@ -46,6 +51,9 @@ def parser() -> argparse.ArgumentParser:
     )
     chapter6.add_argument("--write", action="store_true", help="replace the committed results")
     commands.add_parser("programs", help="run the object decks of all programs, and compare them with the emulator")
+    repeat = commands.add_parser("measure", help="repeat the measured statements; compare with the emulator")
+    repeat.add_argument("--random", type=int, default=0, metavar="N", help="compare N random statements and operations")
+    repeat.add_argument("--seed", type=int, default=1, help="the seed of the random statements (default: 1)")
     compiled = commands.add_parser("compile", help="compare the object code of a source with the program in the deck")
     compiled.add_argument("source", help="the source deck")
     return result
@@ -93,6 +101,26 @@ def run_programs() -> int:
     return exit_code
 
 
+def run_measure(options: argparse.Namespace) -> int:
+    """Repeat the measured statements.  Return 1 if the library or the emulator gives another result."""
+    deck, vectors = object_deck(), load()
+    again = [measure(vector.statement, vector.cards, deck) for vector in vectors]
+    changed = sum(not same(first.outcome, second.outcome) for first, second in zip(vectors, again, strict=True))
+    print(f"{len(vectors)} measured statements: {changed} different on the library")
+    drawn = islice(at_random(options.seed), options.random)
+    again += [measure(statement, cards, deck) for statement, cards in drawn]
+    wrong = [vector for vector in again if not same(emulate(vector.statement, cards=vector.cards), vector.outcome)]
+    print(f"{len(again)} statements: {len(wrong)} different in the emulator")
+    operations = arithmetic.at_random(options.seed, options.random)
+    results = list(arithmetic.different(operations, deck)) if operations else []
+    print(f"{len(operations)} operations: {len(results)} different in the emulator")
+    for vector in wrong:
+        print(vector.line())
+    for result in results:
+        print(*result)
+    return int(bool(changed or wrong or results))
+
+
 def run_compile(options: argparse.Namespace) -> int:
     """Compare a source with the program in the deck.  Return 1 if the object programs differ."""
     positions, different, cards = against_deck(compile_deck(read_deck(options.source)), object_deck())
@@ -109,6 +137,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 return show(options)
             case "chapter6":
                 return run_chapter6(options)
+            case "measure":
+                return run_measure(options)
             case "programs":
                 return run_programs()
             case _:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Iterator, Sequence
 
 from emulator.language.ibm1962 import ALONE, FROM_FAC, OPERATIONS, TO_FAC, call, field_text, fixed_field, floating_field
@@ -22,6 +23,9 @@ _EMULATED = {
     "FMP": accumulator.multiply,
     "FDV": accumulator.divide,
 }
+
+# The operations of :func:`at_random`; sums are the most frequent.
+_DRAWN = ("FAD", "FAD", "FSB", "FSB", "FMP", "FDV", "FDVR", "RSGN", "FIX", "FLOAT")
 
 # An operation with its operands: FAC and the other number, such as ``.25000000E+01``, or one number.
 Case = tuple[str, str, str]
@@ -93,6 +97,30 @@ def number_text(mantissa: int, exponent: int) -> str:
     minus = "-" if mantissa < 0 or exponent == MINUS_ZERO else ""
     exponent = ZERO if mantissa == 0 else exponent
     return f"{minus}.{abs(mantissa):08}E{'-' if exponent < 0 else '+'}{abs(exponent):02}"
+
+
+def at_random(seed: int, count: int) -> list[Case]:
+    """Return random operations: equal and opposite operands, zeros of both signs, and exponents at both limits."""
+    r = random.Random(seed)
+    cases = []
+    for _ in range(count):
+        operation = r.choice(_DRAWN)
+        # The library divides wrongly if the dividend has the smallest exponent (docs/reference/ibm-library.md).
+        low = -98 if operation.startswith("FDV") else -99
+        near = r.choice([r.randint(-5, 5), r.randint(-5, 5), r.randint(-5, 5), r.randint(-99, 99), -98, 98])
+        first = _number(r, near, low)
+        second = r.choice([_number(r, near, low), first, number_text(*accumulator.negate(*pair(first)))])
+        if operation == "FLOAT":
+            first = str(r.randint(-9999, 9999))
+        cases.append((operation, first, second if operation in OPERATIONS else ""))
+    return cases
+
+
+def _number(r: random.Random, near: int, low: int) -> str:
+    if r.random() < 0.05:
+        return r.choice(["", "-"]) + ".00000000E-99"
+    size = r.choice([r.randint(10**7, 10**8 - 1), r.randint(1, 9) * 10**7, 10**7 + r.randint(0, 99), 10**8 - 1])
+    return number_text(r.choice([1, -1]) * size, max(low, min(99, near + r.randint(-2, 2))))
 
 
 def different(cases: Sequence[Case], deck: Sequence[str]) -> Iterator[tuple[Case, tuple[str, str], tuple[str, str]]]:
