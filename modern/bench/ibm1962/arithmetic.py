@@ -59,9 +59,9 @@ def _batch(cases: Sequence[Case], deck: Sequence[str]) -> list[tuple[str, str]]:
         error = next(codes, "?") if emulated(case)[1] else ""
         results.append((field_text(output.field(TOP - 30 * k - 20), kind).replace("E-00", "E+00"), error))
     # A code that the emulator did not expect is added to the last result, so that the comparison fails.
-    left = " ".join(codes)
-    if left:
-        results[-1] = (results[-1][0], f"{results[-1][1]} and {left}")
+    unassigned = " ".join(codes)
+    if unassigned:
+        results[-1] = (results[-1][0], f"{results[-1][1]} and {unassigned}")
     return results
 
 

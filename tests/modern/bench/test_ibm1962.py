@@ -11,7 +11,7 @@ from modern.bench.ibm1962.measured import Measured, load, same
 @pytest.mark.parametrize("verb", ["PUNCH", "READ", "TYPE"])
 def test_the_emulator_reads_and_writes_as_the_library_was_measured(verb: str) -> None:
     vectors = [vector for vector in load() if vector.statement.verb == verb]
-    assert len(vectors) > 100
+    assert len(vectors) > 30
     wrong = [vector for vector in vectors if not agrees(vector)]
     assert wrong == []
 
