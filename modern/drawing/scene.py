@@ -115,7 +115,7 @@ def _direction(
         integers = lowest(eye)
         direction = (Fraction(integers[0]), Fraction(integers[1]), Fraction(integers[2]))
         if not any(integers):
-            raise ExportError("the direction of view is 0,0,0")
+            raise ExportError("expected a direction of view other than 0,0,0")
         if surface.dimension == 1 and not any(cross(minus(points[1], points[0]), direction)):
             raise ExportError("the direction of view is along the segment, which would appear as a point")
         if surface.dimension == 2 and not along(integers, normals[0]):

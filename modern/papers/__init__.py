@@ -27,7 +27,7 @@ independent method on random input, ``test_NAME_cli.py`` runs the command, and `
 
 from collections.abc import Mapping, Sequence
 
-# Printed or computed lines by the id of the published result they belong to. The module ``results`` of a paper defines
-# ``produced(printed: Lines) -> Lines``. It receives the lines of the corrected print and returns, for every result that
-# can be computed, one line for each printed line. Comparison is word by word.
+# Printed or computed lines, by the id of the published result to which they belong. The module ``results`` of a paper
+# defines ``produced(printed: Lines) -> Lines``. It receives the printed lines after our emendations and returns, for
+# each result that can be computed, one line for each printed line. The lines are then compared word by word.
 Lines = Mapping[str, Sequence[str]]

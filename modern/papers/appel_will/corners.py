@@ -12,7 +12,7 @@ from modern.papers.appel_will.surfaces import Line, Surface, lines, oriented
 
 Rule = Literal["any", "two", "concave"]
 RULES: tuple[Rule, ...] = get_args(Rule)
-# The greatest number of planes that intersect at a point of a well behaved object.
+# At most this number of planes meet at each point of an object that the paper calls well behaved.
 PLANES = 3
 
 
@@ -56,13 +56,13 @@ def vectors(points: Sequence[IntPoint], surfaces: Sequence[Surface], line: Line)
 
 
 def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Rule) -> Preprocessing:
-    """Choose the points to delete.
+    """Choose the points to delete before the projections.
 
-    ``any`` deletes every point on an inside corner, which is correct for well behaved objects only (Fig. 15).
+    ``any`` deletes each point on at least one inside corner, which is correct for well behaved objects only (Fig. 15).
     ``two`` deletes a point on at least two inside corners and at most one outside corner (Fig. 16, 1). This is correct
-    for every object, because a vertex of the hull is on at least three outside corners.
-    ``concave`` deletes a point on an inside corner that is a concave point of a surface (Fig. 16, 2). This is correct
-    for every object too, because the angle of a surface at a vertex of the hull is less than 180 degrees.
+    for every object, because a vertex of the hull is on at least three outside corners. ``concave`` deletes a point on
+    an inside corner that is a concave point of a surface (Fig. 16, 2). This is correct for every object too, because
+    the angle of a surface at a vertex of the hull is less than 180 degrees.
 
     Raise MapError if the surfaces do not form a closed polyhedron, ValueError for an unknown rule.
     """
@@ -79,7 +79,7 @@ def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Ru
     elif rule == "concave":
         deleted = set(at_inside).intersection(_concave(points, surfaces_outward))
     else:
-        raise ValueError(f"{quoted(rule)} is not a rule; the rules are {', '.join(RULES)}")
+        raise ValueError(f"{quoted(rule)} is not a rule for inside corners; the rules are {', '.join(RULES)}")
     return Preprocessing(rule, inside, tuple(sorted(deleted)), _crowded(points, surfaces_outward))
 
 
@@ -87,7 +87,7 @@ def _crowded(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[i
     planes_at: dict[int, set[tuple[int, ...]]] = {}
     for surface in surfaces:
         normal = lowest(area_vector(points, surface))
-        # The greater of the two opposite normals is the key, so that surfaces facing both ways share one plane.
+        # The greater of two opposite normals is the key, so that surfaces on both sides of a plane share it.
         key = max(normal, (-normal[0], -normal[1], -normal[2]))
         for index in surface:
             planes_at.setdefault(index, set()).add((*key, dot(key, points[surface[0]])))

@@ -1,4 +1,4 @@
-"""The complete method: remove duplicates and inside corners, find the convex edges, assemble loops and map."""
+"""Appel and Will's complete method: inside corners are deleted, convex edges found, loops and map assembled."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from modern.papers.appel_will.surfaces import Fates, Surface, check_surfaces, fa
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """A choice of the star polygon test, the reading of the appendix and the rule for inside corners, if any."""
+    """A choice of the star polygon test, the reading of the appendix and, optionally, the rule for inside corners."""
 
     star: StarTest = in_one_pass
     rules: Rules = PREFERRED
@@ -23,7 +23,7 @@ class Method:
 
 
 CORRECTED = Method()
-# The names of the rules that can be applied as printed: that of Fig. 12 and five steps of the appendix.
+# Rules that can be applied as printed, although wrong: the star test of Fig. 12 and five steps of the appendix.
 PRINTED = ("star", "step3", "step5", "step7", "step9", "step10")
 
 
@@ -76,16 +76,16 @@ class Assembled:
 
     @property
     def fault(self) -> str:
-        """The reason why edges and loops are not a hull, which only rules as printed can cause, or an empty string."""
+        """The reason why edges and loops are not a hull (only rules as printed can cause one), or an empty string."""
         v, e, f = len(self.vertices), len(self.edges), len(self.surfaces)
         if self.table.stopped:
             return self.table.stopped
         if self.dimension == 3 and not self.table.closed:
-            return f"{sum(count != 2 for count in self.table.uses)} of {e} edges are not used twice"
+            return f"{sum(count != 2 for count in self.table.uses)} of {e} edges are not used by exactly two loops"
         if self.dimension == 3 and v - e + f != 2:
             return f"V - E + F is {v} - {e} + {f} = {v - e + f}, not 2"
         if self.dimension == 2 and (f != 1 or any(count != 1 for count in self.table.uses)):
-            return f"{e} edges and {f} loops do not make one polygon"
+            return f"{e} edges and {f} loops do not form one polygon"
         return ""
 
     def outward(self) -> tuple[Surface, ...]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will.star import IntPoint, Pair
 
-# The number of loops that use each edge: an edge is the intersection of two convex planes.
+# An edge is used by this number of loops, because it is the intersection of two planes of the hull.
 TIMES = 2
 
 
@@ -36,7 +36,7 @@ class Rules:
     step_10: bool = False
 
 
-# The reading that reproduces all printed loops and finds every face of every hull.
+# This reading of the appendix reproduces all printed loops and finds all faces of any hull.
 PREFERRED = Rules()
 
 
@@ -142,7 +142,7 @@ class _Table:
 
 
 def _begin(table: _Table) -> Intersection | None:
-    """Find the first two lines of the next loop (steps 2 to 8). Return None when step 2 has addressed all edges."""
+    """Find the first two lines of the next loop (steps 2 to 8), or return None if step 2 has gone through all edges."""
     for first in range(len(table.edges)):
         if table.uses[first] == TIMES:
             continue
@@ -150,7 +150,7 @@ def _begin(table: _Table) -> Intersection | None:
         chosen = next(admissible, None)
         if chosen is None:
             continue
-        # The first admissible L2 is the fallback: in a cube no two edges have a positive product.
+        # If no L2 has a positive product, as in a cube, the first admissible L2 is taken.
         if table.rules.dot_condition and not _acute(table, chosen):
             return next((candidate for candidate in admissible if _acute(table, candidate)), chosen)
         return chosen
@@ -187,7 +187,7 @@ def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
 def _follow(table: _Table, crossing: Intersection) -> list[int] | None:
     """Complete the loop that two lines begin (steps 9 and 10). Return its entries, or None if it does not close.
 
-    The list is searched at most once for each line, as the appendix advises.
+    The edge list is searched at most once for each line, as the appendix advises.
     """
     normal, origin = _plane(table.points, crossing)
     entries = [*crossing.entries]
@@ -221,6 +221,6 @@ def _plane(points: Sequence[IntPoint], crossing: Intersection) -> tuple[IntPoint
 
 
 def _acute(table: _Table, crossing: Intersection) -> bool:
-    """Return True if a_k a_l + b_k b_l + c_k c_l > 0 for the lines directed from LC1 to LC2."""
+    """Return True if the lines, directed from LC1 to LC2, make an acute angle: a_k a_l + b_k b_l + c_k c_l > 0."""
     points, (p, q), (r, s) = table.points, table.edges[crossing.first], table.edges[crossing.second]
     return dot(minus(points[q], points[p]), minus(points[s], points[r])) > 0

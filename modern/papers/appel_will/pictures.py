@@ -47,7 +47,7 @@ CENTRE = Style("centre", "C", "dot", 'fill="#fff" stroke="#000" stroke-width="1.
 
 
 class PictureError(ExportError):
-    """A picture that cannot be drawn of this hull. The message is one line."""
+    """A picture cannot be drawn of this hull; the message of one line says why."""
 
 
 def solid_svg(
@@ -149,9 +149,10 @@ def joined_points(hull: Assembled, joined: Joined) -> list[tuple[int, ...]]:
 class Star:
     """The star polygon of a line (Figs. 8 to 12).
 
-    ``line`` lists the points on the line from end to end, ``order`` the points off it by the angle of their images
-    about C, and ``images`` those images relative to C. ``outside`` is True if C is outside, so that the line is a
-    convex edge. ``clockwise`` holds the indices of the sides that turn clockwise about C (at most one).
+    C is the image of the line, seen along it. ``line`` lists the points on the line from end to end, ``order`` the
+    points off it by the angle of their images about C, and ``images`` those images relative to C. ``outside`` is True
+    if C is outside the star polygon, so that the line is a convex edge. ``clockwise`` holds the indices of the sides
+    that turn clockwise about C (at most one).
     """
 
     line: tuple[int, ...]
@@ -162,7 +163,7 @@ class Star:
 
 
 def star(hull: Assembled, pair: Pair) -> Star:
-    """Compute the star polygon of two points. Raise PictureError if they are equal, deleted, or do not exist."""
+    """Compute the star polygon of two points. Raise PictureError if they are equal or deleted, or do not exist."""
     a, b = pair
     reason = {
         entry.point: f"it lies between {entry.between[0] + 1} and {entry.between[1] + 1}" for entry in hull.deleted
@@ -252,7 +253,7 @@ def numbers(
     size: tuple[int, int],
     occupied: Sequence[tuple[float, float]] = (),
 ) -> Iterator[str]:
-    """Draw the numbers of points and, in italics, of lines, off the ``edges`` and ``occupied`` places if possible."""
+    """Draw the numbers of points and, in italics, of lines; keep them off ``edges`` and ``occupied`` if possible."""
     together: dict[Pixel, list[int]] = {}
     for index, place in sorted(at.items()):
         together.setdefault(place, []).append(index)

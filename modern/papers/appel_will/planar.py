@@ -34,9 +34,9 @@ from modern.papers.appel_will.star import Pair
 from modern.papers.appel_will.surfaces import Surface
 
 Place = tuple[float, float]
-# The greatest number of points that can be told apart in a map, and the greatest number in a map of normal width.
+# A map with more points than the first number is illegible; with more than the second it needs a wider picture.
 MOST, CROWD = 100, 24
-# Changes of the weights, relaxations before the first and before each later change, greatest factor of a change.
+# The number of changes of the weights, of relaxations before the first and each later change, and the largest factor.
 _TURNS, _FIRST, _ROUNDS, _STEP = 150, 200, 10, 1.1
 # The distance of legend lines in pixels, and the smallest region, in square pixels, that has its number.
 _LINE, _SMALLEST = 19, 160.0
@@ -52,7 +52,7 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
     Raise ExportError for a map without surfaces or with more than ``MOST`` points, and for a width out of range.
     """
     if not surfaces:
-        raise PictureError("there are no surfaces, so there is no map to draw")
+        raise PictureError("expected a hull with surfaces, found none: there is no map to draw")
     count = len({index for surface in surfaces for index in surface})
     if count > MOST:
         raise PictureError(f"a map of {count} points cannot be drawn legibly; the limit is {MOST} points")

@@ -1,6 +1,6 @@
-"""The computed lines of every published result of the paper, in the words of the print.
+"""The computed lines of each published result of Appel and Will, in the words of the print.
 
-The object of Fig. 4 is read from the corrected print. The paper draws the other objects without data. Coordinates that
+The object of Fig. 4 is read from the corrected print. The paper draws the other objects without coordinates; those that
 this project chose for them are in ``coordinates.toml`` next to the print.
 """
 
@@ -19,9 +19,9 @@ from modern.papers.appel_will.hull import Assembled, Method, appel_will
 from modern.papers.appel_will.star import IntPoint, Pair, as_corrected, project
 from modern.papers.appel_will.surfaces import Line, Surface, oriented
 
-# The folder of the print under ``transcripts``.
+# The folder below ``transcripts`` with the printed values.
 FOLDER = "appel_will_1976"
-# The method with sorted star polygons, as in the paper, instead of the test in one pass.
+# Here the images are sorted into star polygons, as in the paper; elsewhere the test makes one pass without sorting.
 BY_STAR = Method(star=as_corrected)
 ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 # The lines of Fig. 18 by label: surface k, on which the line runs counterclockwise, and surface l.
@@ -80,9 +80,9 @@ def produced(printed: Lines) -> Lines:
 
 
 def _vertex_list(solid: Solid) -> Iterator[str]:
-    """Compute every point as the intersection of its three surfaces.
+    """Compute each point as the intersection of its three surfaces.
 
-    Each plane comes from the other points of its surface. A misread coordinate thus cannot confirm its own value.
+    The plane of each surface comes from its other points, so that a misread coordinate cannot confirm its own value.
     """
     for index in range(len(solid.points)):
         planes = []
@@ -104,7 +104,7 @@ def _map(surfaces: Sequence[Surface]) -> Iterator[str]:
         path = [surface[0]]
         while len(path) < len(surface):
             neighbours = [p for p in surface if p not in path and any({p, path[-1]} <= points for points in others)]
-            # The print's second point decides between the two directions around the surface.
+            # The second printed point shows in which direction the print runs around the surface.
             path.append(surface[1] if len(path) == 1 and surface[1] in neighbours else neighbours[0])
         yield f"{ROMAN[number]} {','.join(_named(path))}"
 

@@ -20,7 +20,7 @@ def vorticity(a: Image, b: Image) -> int:
 
 
 def on_one_ray(a: Image, b: Image) -> bool:
-    """Return True if a and b lie in one direction from C (I and II of Fig. 12; in III they are opposite)."""
+    """Return True if a and b lie in the same direction from C (I and II of Fig. 12), not in opposite ones (III)."""
     return vorticity(a, b) == 0 and a[0] * b[0] + a[1] * b[1] > 0
 
 
@@ -30,7 +30,7 @@ def star_polygon(images: Sequence[Image]) -> list[Image]:
 
 
 def as_printed(images: Sequence[Image]) -> bool:
-    """Apply the test as printed: outside if a side turns clockwise *or if two images are on one ray*.
+    """Apply the test as printed: C is outside if a side turns clockwise *or if two images are on one ray*.
 
     The second condition ("In instances I and II ... the point being tested is considered as being outside") is wrong.
     For a cube it makes the diagonals of all faces convex edges.
@@ -40,7 +40,7 @@ def as_printed(images: Sequence[Image]) -> bool:
 
 
 def as_corrected(images: Sequence[Image]) -> bool:
-    """Apply the corrected test: outside if a side turns clockwise, or if all images are on one ray.
+    """Apply the corrected test: C is outside if a side turns clockwise, or if all images are on one ray.
 
     A side of exactly 180 degrees (possibility III of Fig. 12) contains C, so C is not a corner.
     """

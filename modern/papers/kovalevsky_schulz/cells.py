@@ -20,7 +20,7 @@ IntPoint = tuple[int, int, int]
 Plane = tuple[int, int, int, int]
 Numbers = NDArray[np.int64]
 Array = NDArray[Any]
-# The number of values computed at a time: they fit the processor's cache, and BLAS does not start a second thread.
+# The number of values in one batch: few enough for the processor's cache and for BLAS to stay in one thread.
 _BLOCK = 1 << 15
 
 
@@ -30,7 +30,7 @@ class CellListError(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class Vertex:
-    """A 0-cell (Table 1). ``edges`` are those at the vertex by number: -e if edge e starts here, +e if it ends here."""
+    """A 0-cell (Table 1). ``edges`` has the number of each edge at it: -e if it starts here, +e if it ends here."""
 
     point: IntPoint
     edges: tuple[int, ...]
@@ -51,7 +51,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A 2-cell (Table 3): pairs (P, L), counterclockwise as seen from outside.
+    """A 2-cell (Table 3): pairs (P, L) of a vertex and an edge, counterclockwise as seen from outside.
 
     Edge L leads from vertex P to the P of the next pair. L is positive if the edge is followed from its start to its
     end, so that the face is on its left.
@@ -66,13 +66,13 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class Economical:
-    """The economical encoding: the coordinates of vertices, and the vertices of each face, counterclockwise."""
+    """The economical encoding of a polyhedron: the coordinates of the vertices, and each face as a cycle of them."""
 
     points: tuple[IntPoint, ...]
     faces: tuple[tuple[int, ...], ...]
 
     def integers(self) -> tuple[int, ...]:
-        """Return the encoding as integers: the counts, the vertices, and the size and vertices of each face."""
+        """Return the encoding as integers: two counts, the coordinates, and the size and vertices of each face."""
         head = (len(self.points), len(self.faces))
         coordinates = (number for point in self.points for number in point)
         return (*head, *coordinates, *(number for face in self.faces for number in (len(face), *face)))
@@ -95,12 +95,12 @@ class CellList:
         return Economical(self.points, tuple(face.vertices for face in self.faces))
 
     def planes(self) -> tuple[Plane, ...]:
-        """Return (a, b, c, d) of every face in lowest terms; a x + b y + c z + d is at most 0 in the polyhedron."""
+        """Return (a, b, c, d) of each face in lowest terms; in the polyhedron a x + b y + c z + d is at most 0."""
         return tuple(planes_of(self.points, [face.vertices for face in self.faces]))
 
 
 def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> list[Plane]:
-    """Return the planes of plane polygons in lowest terms, outward if a polygon is counterclockwise from outside.
+    """Return the planes of plane polygons in lowest terms, positive on the side where they run counterclockwise.
 
     ``cycles`` lists the vertices of each polygon by point number from 1. Vertices in line with their neighbours are
     allowed. Raise CellListError for a polygon without area.
@@ -118,7 +118,7 @@ def _shifted(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Arra
     x, y, z = (min(axis) for axis in zip(*points, strict=True))
     shifted = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
     extent = max(map(max, shifted))
-    # A normal is a sum of at most one cross product per vertex, each at most 2 extent^2. The value of a plane at a
+    # A normal is the sum of at most one cross product per vertex, each at most 2 extent^2. The value of a plane at a
     # point has three products of normal and coordinate, and its constant term has three more.
     fits = 12 * int(sizes.max()) * extent**3 < 2**62
     return (x, y, z), np.array(shifted, dtype=np.int64 if fits else object)
@@ -130,7 +130,7 @@ def _flat(cycles: Sequence[Sequence[int]]) -> tuple[Numbers, Numbers]:
 
 
 def _planes(points: Array, sizes: Numbers, vertex: Numbers) -> tuple[Array, Array]:
-    """Return primitive normals, shape (n, 3), and the constant terms that make each plane's value 0 on its polygon."""
+    """Return the normal of each polygon in lowest terms, shape (n, 3), and the constant term of its plane."""
     first = np.cumsum(sizes) - sizes
     corner = points[vertex - 1]
     origin = points[vertex[first] - 1]
@@ -159,7 +159,7 @@ def assembled(points: Sequence[IntPoint], starts: Numbers, ends: Numbers, sizes:
     vertex = np.where(signed > 0, starts[edge], ends[edge])
     first = np.cumsum(sizes) - sizes
     face = np.repeat(np.arange(len(sizes)), sizes)
-    # Rotate each cycle: ``place`` is the old index of every new entry.
+    # Rotate each cycle of edges: ``place`` has the old index of each new entry.
     lowest = np.flatnonzero(vertex == np.minimum.reduceat(vertex, first)[face])
     shift = np.empty(len(sizes), np.int64)
     shift[face[lowest[::-1]]] = lowest[::-1]
@@ -191,10 +191,10 @@ def expanded(encoding: Economical) -> CellList:
     try:
         sizes, start = _flat(faces)
     except OverflowError:
-        raise CellListError("the number of a vertex is beyond 64 bits") from None
+        raise CellListError("expected numbers of vertices below 2^63, found a larger one") from None
     face = np.repeat(np.arange(len(faces)), sizes)
     _check_cycles(sizes, start, face, len(points))
-    # Every entry of a cycle is a half-edge from its vertex to the next one, the last entry to the first.
+    # Each entry of a cycle is a half-edge from its vertex to that of the next entry, cyclically.
     following = np.arange(1, len(start) + 1)
     last = np.cumsum(sizes) - 1
     following[last] = last + 1 - sizes
@@ -204,15 +204,15 @@ def expanded(encoding: Economical) -> CellList:
         np.minimum(start, end) * (len(points) + 1) + np.maximum(start, end), return_index=True, return_inverse=True
     )
     forward = start == start[first][edge_of]
-    # An edge must have as many half-edges in one direction as in the other. Euler's formula then excludes all
+    # Each edge must have as many half-edges in one direction as in the other. Euler's formula then excludes all
     # surfaces but the sphere, and convexity is checked last.
     unpaired = np.bincount(edge_of, np.where(forward, 1, -1)).astype(bool)
     if unpaired.any():
         edge = first[unpaired].min()
-        raise CellListError(f"the edge from vertex {start[edge]} to {end[edge]} has a face on one side only")
+        raise CellListError(f"the edge from vertex {start[edge]} to {end[edge]} has a face on only one of its sides")
     unused = np.setdiff1d(np.arange(1, len(points) + 1), start)
     if unused.size:
-        raise CellListError(f"vertex {unused[0]}: it belongs to no face")
+        raise CellListError(f"vertex {unused[0]} belongs to no face")
     if 2 * len(first) != len(start) or len(points) - len(first) + len(faces) != 2:
         raise CellListError(f"{len(points)} vertices, {len(first)} edges and {len(faces)} faces are not a polyhedron")
     _check_convex(points, sizes, start, face)
@@ -228,15 +228,15 @@ def _check_cycles(sizes: Numbers, start: Numbers, face: Numbers, count: int) -> 
     twice = (face[order][1:] == face[order][:-1]) & (start[order][1:] == start[order][:-1])
     invalid = np.concatenate([too_short, face[order][1:][twice]])
     missing = np.flatnonzero((start < 1) | (start > count))
-    # Report the face of lowest number.
+    # If several faces are invalid, report the one with the lowest number.
     if invalid.size and (not missing.size or invalid.min() <= face[missing[0]]):
-        raise CellListError(f"face {invalid.min() + 1}: it has fewer than three vertices, or one of them twice")
+        raise CellListError(f"face {invalid.min() + 1} has fewer than three vertices, or names a vertex twice")
     if missing.size:
         raise CellListError(f"face {face[missing[0]] + 1}: vertex {start[missing[0]]} does not exist")
 
 
 def _check_convex(points: Sequence[IntPoint], sizes: Numbers, vertex: Numbers, face: Numbers) -> None:
-    """Raise CellListError if a vertex is outside of a face's plane, or a face's vertex is not in it (Definition CP)."""
+    """Raise CellListError unless each face is plane and no vertex is outside its plane (Definition CP)."""
     _, shifted = _shifted(points, sizes)
     normals, constants = _planes(shifted, sizes, vertex)
     greatest = sum(int(abs(part).max()) * int(shifted.max()) for part in normals.T) + int(abs(constants).max())
@@ -293,17 +293,17 @@ def _listed(items: Iterable[object]) -> str:
 
 
 def triangulation_size(triangles: int) -> Fraction:
-    """Return formula (5): 3 NV + 3 NT = (3/2 + 3) NT, with half as many vertices as triangles."""
+    """Return the integers of a triangulation by formula (5): 3 NV + 3 NT, with half as many vertices as triangles."""
     return (Fraction(3, 2) + 3) * triangles
 
 
 def cell_list_size(vertices: int, faces: int) -> int:
-    """Return formula (6): 3 NV + 5 NF, which assumes five vertices per face. Table 5 uses it."""
+    """Return the integers of a cell list by formula (6), 3 NV + 5 NF, which assumes five vertices for each face."""
     return 3 * vertices + 5 * faces
 
 
 def economical_size(cells: CellList) -> int:
-    """Return the number that formula (6) estimates: three coordinates per vertex and the vertices of all faces."""
+    """Return the exact number that formula (6) estimates: three coordinates per vertex, and each face's vertices."""
     return 3 * len(cells.vertices) + sum(len(face.pairs) for face in cells.faces)
 
 

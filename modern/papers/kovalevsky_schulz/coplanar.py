@@ -1,6 +1,6 @@
 """The two alternative treatments of coplanar faces (section 2, Figs. 7 and 8), which the paper tried and abandoned.
 
-Both concern a new point P in the plane of a face that does not face it. *Quadrangles* (Fig. 7): the face counts as
+Both concern a new point P in the plane of a face. *Quadrangles* (Fig. 7): the face counts as
 invisible. All of its edges to visible faces, together with P, form one new coplanar face instead of a triangle for each
 edge, and the two faces are merged. *Extended* (Fig. 8): the face itself is extended to P by a hull in its plane.
 
@@ -43,13 +43,18 @@ class Treated:
 
 
 def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> Treated:
-    """Compute the hull of integer points by a treatment. Raise ValueError for points in one plane."""
+    """Compute the hull of points with integer coordinates; ``treatment`` is ``quadrangles`` or ``extended``.
+
+    Raise ValueError for points in one plane or another treatment.
+    """
     if treatment not in (QUADRANGLES, EXTENDED):
-        raise ValueError(f"the treatment of coplanar faces is {QUADRANGLES} or {EXTENDED}, not {quoted(treatment)}")
+        raise ValueError(
+            f"expected {QUADRANGLES} or {EXTENDED} as the treatment of coplanar faces, found {quoted(treatment)}"
+        )
     distinct = list(dict.fromkeys((int(x), int(y), int(z)) for x, y, z in points))
     simplex = independent(distinct)
     if len(simplex) < 4:
-        raise ValueError("the points lie in one plane")
+        raise ValueError("expected points in space, but all points lie in one plane")
     hull = _Growing(distinct, simplex)
     for number in range(len(distinct)):
         if number not in simplex:
@@ -59,7 +64,7 @@ def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> Trea
 
 
 class _Growing:
-    """The current faces by plane, each as the cycle of its vertices."""
+    """The faces of the growing hull, by plane; each is the cycle of its vertices."""
 
     def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int]) -> None:
         self.points = points
@@ -87,7 +92,7 @@ class _Growing:
                     boundary.setdefault(plane_at[b, a], []).append((a, b))
         for plane in visible:
             del self.faces[plane]
-        # A coplanar face is treated as Fig. 7 or 8 says; all other boundary edges give triangles, as usual.
+        # A coplanar face is treated as in Fig. 7 or 8; each other boundary edge gives a triangle with the new point.
         for plane, edges in boundary.items():
             if values[plane] == 0:
                 self.join_coplanar(plane, edges, new, treatment)
@@ -149,7 +154,7 @@ class _Growing:
         """Return the convex chain of sorted points (Andrew's monotone chain)."""
         chain: list[int] = []
         for k in order:
-            # A point at a right turn or in line with its neighbours is no vertex of the face.
+            # A point where the chain turns right or goes straight on is no vertex of the face.
             while len(chain) > 1:
                 p, q, r = (self.points[i] for i in (*chain[-2:], k))
                 turn = (q[u] - p[u]) * (r[v] - p[v]) - (q[v] - p[v]) * (r[u] - p[u])

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from emulator.errors import quoted
 from modern.digital.solids import Volume, VolumeError, Voxels
 
-# The points whose hull is computed: the centres of voxels or their corners.
+# The two kinds of points whose hull can be computed: the centres of voxels or their corners.
 Of = Literal["centres", "vertices"]
 CENTRES: Final = "centres"
 VERTICES: Final = "vertices"
@@ -54,12 +54,12 @@ def _extra(volume: Volume, of: Of) -> int:
     if volume.dimension != 3:
         raise VolumeError(f"{volume.source}: expected a volume of three dimensions, found two")
     if of not in (CENTRES, VERTICES):
-        raise ValueError(f"the hull is of {CENTRES} or {VERTICES}, not {quoted(of)}")
+        raise ValueError(f"expected the hull of {CENTRES} or {VERTICES}, found {quoted(of)}")
     return int(of == VERTICES)
 
 
 def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points]:
-    """Return the local corners by 6 and by 26 neighbours, each as ``local_corners`` does."""
+    """Return two arrays: the local corners by a test of 6 neighbours and by a test of 26, see ``local_corners``."""
     extra = _extra(volume, of)
     # The slabs are cut across the axis with the largest stride, so that each is contiguous in memory.
     order = sorted(range(3), key=lambda axis: -abs(volume.array.strides[axis]))
@@ -73,7 +73,7 @@ def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points
             if neighbours != 6:
                 for step in _steps():
                     if sum(map(abs, step)) > 1:
-                        # In the flat array the two opposite neighbours are ``offset`` after and before the point.
+                        # In the flat array two opposite neighbours are ``offset`` entries after and before the point.
                         offset = sum(way * stride for way, stride in zip(step, strides, strict=True))
                         at = at[~(flat[at + offset] & flat[at - offset])]
             indices = np.stack(np.unravel_index(at, slab.shape), axis=1)

@@ -28,7 +28,7 @@ _SEED = 1963
 
 
 def merged(cells: CellList) -> CellList:
-    """Merge the faces that lie in one plane.
+    """Merge the faces that lie in one plane into one face.
 
     Their common boundary disappears, whether it is one edge or several, and with it the vertices within the merged
     face. A vertex on the boundary of the merged face remains, even if its two edges lie in one line.
@@ -77,21 +77,21 @@ def _renumbered(cells: CellList, cycles: list[list[int]]) -> CellList:
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """The surface as a cell list with merged faces, and as triangles if an order of insertion was requested."""
+    """A hull's surface: a cell list with merged faces and, if an order of insertion was requested, triangles."""
 
     faces: CellList
     triangulation: CellList | None = None
 
     @property
     def triangles(self) -> CellList:
-        """The triangles that result from inserting the points one by one. Raises VolumeError if none were inserted."""
+        """The triangles that result from inserting points one by one. Raises VolumeError if none were inserted."""
         if self.triangulation is None:
-            raise VolumeError("triangles exist only if points are inserted: choose an order, such as raster")
+            raise VolumeError("triangles exist only if points are inserted: set the order, for example to raster")
         return self.triangulation
 
     @property
     def straight(self) -> CellList:
-        """The list with edges in one line merged too, so that all its vertices are vertices of the hull."""
+        """The cell list with edges in one line merged too, so that it has only the vertices of the hull."""
         return straightened(self.faces)
 
 
@@ -119,7 +119,9 @@ class VoxelHull:
     def polyhedron(self) -> Surface:
         """The surface of the hull. Raises VolumeError for a flat hull."""
         if isinstance(self.surface, Flat):
-            raise VolumeError(f"{self.source}: the hull is flat, a {self.surface.kind}, and has no cell list")
+            raise VolumeError(
+                f"{self.source}: expected a hull in space, found a {self.surface.kind}, which has no cell list"
+            )
         return self.surface
 
     def mesh(self, straight: bool = False) -> Mesh:
@@ -182,7 +184,7 @@ def voxel_hull(
         raise ValueError(f"expected 6 or 26 neighbours, found {neighbours}")
     if order is None and coplanar is not None:
         order = RASTER
-    # Section 2: the local corners are the only candidates for vertices. Both numbers of them are reported.
+    # Section 2: only local corners can be vertices. Their numbers by 6 and by 26 neighbours are both reported.
     corners = corners_by_neighbours(volume, of)
     counts = {count: len(corners[count]) for count in NEIGHBOURS}
     surface = _surface(corners[neighbours], order, coplanar or VISIBLE)
@@ -203,5 +205,5 @@ def ordered(points: Points, order: Order) -> Points:
     if order == SHUFFLED:
         return np.random.default_rng(_SEED).permutation(points)
     if order != RASTER:
-        raise ValueError(f"the order of insertion is {RASTER} or {SHUFFLED}, not {quoted(order)}")
+        raise ValueError(f"expected {RASTER} or {SHUFFLED} as the order of insertion, found {quoted(order)}")
     return points

@@ -35,7 +35,7 @@ def hull_cells(points: Points) -> CellList | Flat:
     number = np.empty_like(raster)
     number[raster] = np.arange(len(raster))
     cycles = _cycles(number[triangles.reshape(-1, 3)], plane)
-    # Vertices that are in no cycle any more lose their numbers.
+    # Vertices that are in no cycle after the merging lose their numbers.
     vertices, renumbered = np.unique(np.concatenate(cycles), return_inverse=True)
     bounds = np.cumsum([0, *map(len, cycles)]).tolist()
     numbers = (renumbered + 1).tolist()
@@ -44,7 +44,10 @@ def hull_cells(points: Points) -> CellList | Flat:
 
 
 def column_ends_of(points: Points) -> Points:
-    """Reduce points with no negative coordinates to possible vertices: column ends that lie on no chord."""
+    """Return those points, of points without negative coordinates, that can be vertices of the hull.
+
+    They are the ends of columns (points with equal x and y) that lie on no chord of other ends.
+    """
     x, y, z = points[np.lexsort(points.T[::-1])].T
     # A column is the points with one (x, y). Only its first and its last point can be vertices of the hull.
     new = np.concatenate(([True], (x[1:] != x[:-1]) | (y[1:] != y[:-1])))
@@ -59,9 +62,10 @@ def _tuples(points: Points) -> list[IntPoint]:
 
 
 def _cycles(triangles: Numbers, plane: Numbers) -> list[list[int]]:
-    """Merge triangles into faces. Return their vertices, lowest number first, without those in line with two others.
+    """Merge triangles in one plane into faces, and return the cycle of each face's vertices.
 
-    ``triangles`` has the shape (n, 3) and ``plane`` the shape (n, 4).
+    A cycle begins with its lowest number and omits vertices in line with two others. ``triangles`` has the shape (n, 3)
+    and ``plane`` the shape (n, 4).
     """
     plane = plane // np.gcd.reduce(plane, axis=1)[:, None]
     # Half-edge k belongs to triangle k // 3; group is the number of its plane.
@@ -74,7 +78,7 @@ def _cycles(triangles: Numbers, plane: Numbers) -> list[list[int]]:
     is_vertex = np.bincount(start[border], minlength=int(triangles.max()) + 1) > 2
     border = border[np.lexsort((start[border], group[border]))]
     group, start, end = group[border], start[border], end[border]
-    # Within a plane every vertex starts exactly one border half-edge, so the successor is found by (plane, vertex).
+    # In each plane a vertex starts at most one border half-edge, so (plane, vertex) determines the successor.
     width = len(is_vertex)
     following = np.searchsorted(group * width + start, group * width + end).tolist()
     firsts = np.flatnonzero(np.concatenate(([True], group[1:] != group[:-1])))

@@ -17,7 +17,7 @@ from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
 
-# Finding the first visible face. The faces visible from a point are connected through edges. This is true even if a
+# How to find one visible face. The faces visible from a point are connected through edges. This is true even if a
 # face whose plane contains the point counts as visible: that face or another face of its plane has a neighbour that
 # faces the point, or the point lies in the face itself.
 #
@@ -32,12 +32,12 @@ from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
 #    the segment, in or above the plane of m's face, meets only faces of this plane in the old polyhedron, and all of
 #    them are removed together. So x lies on an edge between them and the remaining face. This is a boundary edge, x
 #    lies in a new face at this edge, and P sees that face too.
-# The treatment of a face whose plane contains the new point.
+# The two treatments of a face whose plane contains the new point.
 Coplanar = Literal["visible", "invisible"]
 VISIBLE: Final = "visible"
 INVISIBLE: Final = "invisible"
 _KINDS = ("point", "segment", "polygon")
-# The least number of points times faces for which the values are computed by one matrix product.
+# If points times faces are at least this number, one matrix product computes the values of all planes at all points.
 _MANY = 128
 # Three signed edges and the four coefficients of the plane, whose value is positive outside.
 Triangle = tuple[int, int, int, int, int, int, int]
@@ -172,7 +172,7 @@ class CurrentPolyhedron:
         u1, u2, u3 = self.shifted[q]
         v1, v2, v3 = self.shifted[r]
         u1, u2, u3, v1, v2, v3 = u1 - x, u2 - y, u3 - z, v1 - x, v2 - y, v3 - z
-        # The plane is not reduced to lowest terms: only the sign of its values matters here.
+        # The plane need not be in lowest terms, because only the signs of its values are used.
         a, b, c = u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1
         self.faces[face] = (first, second, third, a, b, c, -(a * x + b * y + c * z))
 
@@ -231,7 +231,7 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
     Raise ValueError if there are no points or ``coplanar`` is unknown.
     """
     if coplanar not in (VISIBLE, INVISIBLE):
-        raise ValueError(f"coplanar faces are {VISIBLE} or {INVISIBLE}, not {quoted(coplanar)}")
+        raise ValueError(f"expected {VISIBLE} or {INVISIBLE} for coplanar faces, found {quoted(coplanar)}")
     distinct = list(dict.fromkeys((int(x), int(y), int(z)) for x, y, z in points))
     if not distinct:
         raise ValueError("there are no points")
@@ -240,7 +240,7 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
         return flat_hull(distinct)
     polyhedron = CurrentPolyhedron(distinct, simplex, coplanar)
     remaining = sorted(set(range(len(distinct))).difference(simplex))
-    # Raster order is by z, then y, then x: it allows the first way of finding a visible face.
+    # Raster order (by z, then y, then x) allows the first of the two ways to find a visible face.
     if all(p[::-1] < q[::-1] for p, q in pairwise(distinct)):
         for number in remaining:
             first = polyhedron.first_visible(number)

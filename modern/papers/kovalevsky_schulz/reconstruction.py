@@ -25,16 +25,14 @@ def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "recons
     not a convex polyhedron, VolumeError for one that is too large, or for a hull of vertices that contains no voxel.
     """
     if of not in (CENTRES, VERTICES):
-        raise ValueError(f"the hull is of {CENTRES} or {VERTICES}, not {quoted(of)}")
+        raise ValueError(f"expected the hull of {CENTRES} or {VERTICES}, found {quoted(of)}")
     extra = 1 if of == VERTICES else 0
     columns = list(zip(*encoding.points, strict=True))
     low = tuple(min(column) for column in columns)
     sizes = [max(column) - least + 1 - extra for column, least in zip(columns, low, strict=True)]
     if min(sizes) < 1 or np.prod(sizes, dtype=object) > MAX_CELLS:
-        raise VolumeError(
-            f"{source}: a box of {' x '.join(map(str, sizes))} voxels is empty or has more than {MAX_CELLS}"
-        )
-    # All corners of a voxel are inside of a plane if the corner farthest along the normal is.
+        raise VolumeError(f"{source}: a box of {' x '.join(map(str, sizes))} voxels: expected 1 to {MAX_CELLS} voxels")
+    # All corners of a voxel are inside a plane if the corner that is farthest along its normal is inside.
     planes = [
         (a, b, c, d + a * low[0] + b * low[1] + c * low[2] + extra * (max(a, 0) + max(b, 0) + max(c, 0)))
         for a, b, c, d in expanded(encoding).planes()
@@ -43,12 +41,12 @@ def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "recons
     z = np.arange(sizes[2])
     array = (first[:, :, None] <= z) & (z <= last[:, :, None])
     if not array.any():
-        raise VolumeError(f"{source}: no voxel fits into the hull")
+        raise VolumeError(f"{source}: the hull contains no whole voxel")
     return Volume(np.asarray(array, dtype=np.bool_), low, source)
 
 
 def _intervals(planes: list[Plane], sizes: list[int]) -> tuple[Places, Places]:
-    """Return the first and last z within all planes for every (x, y) of the box. An empty column has first > last.
+    """Return, for each (x, y) of the box, the first and the last z inside all planes; first > last if there is none.
 
     A component of a normal is at most twice the product of two sides of the box, so no term of a plane's value exceeds
     twice ``MAX_CELLS``, and all values fit 64 bits.

@@ -1,9 +1,9 @@
-"""The computed lines of every published result of the paper.
+"""The computed lines of each published result of Kovalevsky and Schulz.
 
-The paper does not define its bodies. The definitions here are those that reproduce its numbers. The ball of diameter 32
-is centred on a voxel, and the half-balls of Table 5 are centred on a corner of voxels. All hulls are hulls of the
-voxels' corners. The tables and the 1404 triangles need 6 neighbours and coplanar faces treated as invisible, although
-the text prefers 26 neighbours and visible faces.
+The paper does not define its bodies. The definitions here reproduce its numbers: the ball of diameter 32 is centred on
+a voxel, and the half-balls of Table 5 are centred on a corner of voxels. All hulls are hulls of the voxels' corners.
+The tables and the 1404 triangles need 6 neighbours and coplanar faces treated as invisible, although the text prefers
+26 neighbours and visible faces.
 """
 
 from collections.abc import Iterator, Sequence
@@ -68,7 +68,7 @@ def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _table_5_row(printed: str) -> str:
-    # The digitisation behind the numbers of triangles is not stated, so they cannot be computed.
+    # The paper does not state how the bodies were digitised for Marching Cubes, so its triangles cannot be counted.
     diameter, triangles = map(int, printed.split()[:2])
     size = triangulation_size(triangles)
     cells = voxel_hull(half_ball(diameter), neighbours=6, coplanar=INVISIBLE).polyhedron.faces

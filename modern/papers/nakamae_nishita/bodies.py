@@ -1,9 +1,10 @@
-"""Convex polyhedra from a file with faces: its connected components, each proved to be convex.
+"""Convex polyhedra from a file with faces: its connected components, each of which is proved to be convex.
 
-Faces are connected if two of them, and no others, share an edge. A component must be closed, its faces plane and all
-its edges convex. The exact hull then confirms that its faces lie on the hull of its vertices. If a component is not
-convex, the message names the deepest reflex edge, where the solid can be divided. Alternatives are its hull, and
-merging faces within a distance of one plane. Faces and vertices are counted from 1 in the order of the file.
+Two faces are connected if they share an edge to which no third face belongs. A component must be closed, its faces
+plane and all its edges convex. The exact hull then confirms that its faces lie on the hull of its vertices. If a
+component is not convex, the message names the deepest reflex edge, where the solid can be divided. Alternatives are to
+take its hull, or to merge faces that are within a distance of one plane. Faces and vertices are counted from 1 in the
+order of the file.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -74,7 +75,9 @@ def read_bodies(data: bytes, name: str, reading: Reading) -> Bodies:
     notes = [*table.notes]
     if table.kind == "json" and b'"faces"' in data:
         notes.append(f"{name}: the faces of a JSON file are not read; the hull of its points is drawn")
-    notes += (f"{name}: {table.places[k]}: the point of {table.places[first]} again" for k, first in hull.duplicates)
+    notes += (
+        f"{name}: {table.places[k]}: this point repeats that of {table.places[first]}" for k, first in hull.duplicates
+    )
     joined = None if reading.within is None or hull.dimension < 3 else _joined(hull, reading.within, name)
     if reading.within is not None:
         notes.append(f"{name}: {FLAT if joined is None else join_summary(joined)}")
@@ -258,7 +261,7 @@ def _joined(hull: Hull, within: Fraction, name: str) -> Joined:
 
 
 def _far(closed: _Closed, hull: Hull, joined: Joined) -> int | None:
-    """Return a face whose vertices are not all within the distance of the plane of one merged face, or None."""
+    """Return a face that is in no plane of a merged face to within the distance, or None if there is none."""
     planes, around = [], dict[int, set[int]]()
     for number, group in enumerate(joined.groups):
         a, b, c, d = hull.faces[group[0]].lowest

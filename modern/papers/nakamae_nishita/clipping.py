@@ -1,8 +1,8 @@
-"""The near plane of a perspective: polyhedra beyond it are drawn, those it intersects are clipped, others are omitted.
+"""The near plane of a perspective: polyhedra beyond it are drawn, those that it cuts are clipped, others omitted.
 
 The plane is perpendicular to the direction of view, at a distance from the eye that is a fraction within 1/10^15 of the
-requested one. The intersections of edges with this plane are exact, so a clipped polyhedron is convex again and has a
-face in the plane.
+requested distance. The intersections of edges with this plane are exact, so a clipped polyhedron is convex again and
+has a face in the plane.
 """
 
 from collections.abc import Sequence
@@ -39,7 +39,7 @@ def beyond_near(polyhedra: Sequence[Polyhedron], observer: Observer) -> Clipped:
             remaining.append(_clipped(polyhedron, depths, observer))
             cut.append(polyhedron.name)
     if polyhedra and not remaining:
-        raise SceneError("everything lies behind the near plane")
+        raise SceneError("expected a polyhedron beyond the near plane, but all lie in front of it")
     return Clipped(tuple(remaining), tuple(cut), tuple(behind))
 
 
@@ -78,7 +78,7 @@ def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Obser
                 clipped_face.append(crossing(a, b))
         faces.append(tuple(clipped_face))
         orders.append(order)
-    # The edges with only one face are in the plane. Followed in reverse, they are the boundary of the section.
+    # After clipping, the edges with only one face lie in the near plane. In reverse, they bound the section.
     edges = {edge for face in faces for edge in sides(face)}
     ahead = {b: a for a, b in edges if (b, a) not in edges}
     groups = [polyhedron.joined[order] for order in orders] if polyhedron.joined else []
@@ -111,7 +111,7 @@ def _cut(corners: Sequence[Vector], observer: Observer) -> tuple[Vector, ...]:
 
 
 def _between(p: Vector, q: Vector, at_p: Fraction, at_q: Fraction) -> Vector:
-    """Return the point between p and q where a linear function with these values of opposite signs is 0."""
+    """Return the point between p and q where a linear function is 0; ``at_p`` and ``at_q`` are its values there."""
     share = at_p / (at_p - at_q)
     x, y, z = (a + share * (b - a) for a, b in zip(p, q, strict=True))
     return x, y, z

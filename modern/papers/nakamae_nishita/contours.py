@@ -86,7 +86,7 @@ CROSSING = -4
 
 
 def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -> Values | None:
-    """Evaluate formula (1) for every line (outer lists) and point. Return None if all points are outside of a line.
+    """Evaluate formula (1) for each line (rows) and each point. Return None if all points are outside one of the lines.
 
     This is property 1: if a column of PL or a row of LP has no 1, the contours do not overlap.
     """
@@ -102,7 +102,7 @@ def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -
 
 @dataclass(frozen=True, slots=True)
 class Tables:
-    """The two tables with rows for the vertices of V' and columns for those of V, as in the paper."""
+    """The tables PL and LP, with rows for the vertices of V' and columns for those of V, as in the paper."""
 
     pl: tuple[Row, ...]
     lp: tuple[Row, ...]
@@ -140,6 +140,6 @@ class Tables:
 
 
 def tables(of_near: Values, of_far: Values) -> Tables:
-    """Compute the tables from formula (1) of V's segments at the P_j, and of the segments of V' at the P_i."""
+    """Compute PL and LP from the values of formula (1): V's segments at the P_j, and the segments of V' at the P_i."""
     signs = [[(f > 0) - (f < 0) for f in column] for column in of_near]
     return Tables(tuple(zip(*signs, strict=True)), tuple(tuple((f > 0) - (f < 0) for f in row) for row in of_far))

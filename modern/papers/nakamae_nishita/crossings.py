@@ -1,7 +1,7 @@
 """The points at which a segment passes behind a contour and emerges from it (sections 3.4 and 3.5, formula (6)).
 
-A point on a segment from P_A to P_B is given by the fraction s of the segment before it, in space. Its index is +k if
-the segment enters the contour there and -k if it leaves, where k is the number of intersections with the contour.
+A point on a segment from P_A to P_B is given by s, its distance from P_A in space as a fraction of the segment. Its
+index is +k if the segment enters the contour there and -k if it leaves, where k is the number of intersections.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ Mark = tuple[Fraction, int]
 class Passage:
     """The course of a segment behind one contour: its intersections with their indices I_0, in order from P_A.
 
-    ``enclosed`` is True if the whole segment lies within the contour, without an intersection.
+    ``enclosed`` is True if the whole segment lies within the contour and so has no intersection.
     """
 
     marks: tuple[Mark, ...]

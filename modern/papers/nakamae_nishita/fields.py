@@ -85,7 +85,7 @@ class Fields:
     def done(self) -> None:
         """Raise SceneError if a field remains that was not read."""
         for key in self._data:
-            raise SceneError(f"{self.place}: {quoted(key)} is not a field of this table")
+            raise SceneError(f"{self.place}: {quoted(key)} is not a known field of this table")
 
     def _typed(self, key: str, kind: type, message: str) -> Any:
         raw = self.take(key)

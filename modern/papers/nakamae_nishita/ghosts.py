@@ -14,14 +14,14 @@ from modern.papers.nakamae_nishita.projection import Homogeneous
 from modern.papers.nakamae_nishita.solids import Solid
 
 Span = tuple[Fraction, Fraction]
-# The name of an edge: the number of a solid and the indices of two vertices, the smaller first.
+# An edge is named by the number of its solid and the indices of its two vertices, the smaller first.
 Name = tuple[int, int, int]
 
 _Key = tuple[object, ...]
 
 
 def ghosts(solids: Sequence[Solid], facing: int = 1) -> dict[Name, list[Span]]:
-    """Return the ghost parts of edges, by edge, as intervals of fractions of the edge.
+    """Return the parts of edges that are ghosts, by edge, as intervals of fractions of the edge.
 
     ``facing`` is 1 for front faces, as in the paper, or -1 for back faces, which matter only if hidden lines are drawn.
     """

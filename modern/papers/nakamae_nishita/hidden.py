@@ -18,7 +18,7 @@ from modern.papers.nakamae_nishita.projection import Observer
 from modern.papers.nakamae_nishita.solids import Solid, solid
 
 ENCLOSED, TOUCHING, ENDS, GHOSTS = "enclosed", "touching", "ends", "ghosts"
-# The refinements that can be switched off to show their effect. The first three close gaps of the paper. ``enclosed``:
+# Refinements that can be switched off to show their effect. The first three close gaps of the paper. ``enclosed``:
 # a segment entirely within a nearer contour has no intersection, so section 3.5 does not count it. ``touching``:
 # formulas (4) and (5) may both be 0 for polyhedra that touch, and a separating plane decides. ``ends``: d is -2 or -1
 # if a segment ends on a contour or runs through its vertex, which formula (6) does not cover. ``ghosts``: the paper's
@@ -58,9 +58,9 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Passages:
-    """The course of one segment, given by its polyhedron and its index in ``Solid.segments``.
+    """The course of one segment, which is given by its polyhedron and its index in ``Solid.segments``.
 
-    ``behind`` lists its passage behind each nearer polyhedron by number, ``ghosts`` its ghost parts.
+    ``behind`` lists its passage behind each nearer polyhedron by number, ``ghosts`` the parts of it that are ghosts.
     """
 
     solid: int
@@ -70,7 +70,7 @@ class Passages:
 
     @property
     def order(self) -> int:
-        """The order of invisibility of P_A."""
+        """The order of invisibility of P_A: the number of contours that hide the segment's first end."""
         return sum(passage.order + passage.enclosed for _, passage in self.behind)
 
 
@@ -130,8 +130,8 @@ def draw(
     # Time II: project the polyhedra and find their edges and contours.
     searched = time.perf_counter()
     if not polyhedra:
-        raise SceneError("there are no polyhedra")
-    # An integer point near the scene as origin keeps the coordinates short.
+        raise SceneError("expected at least one polyhedron, found none")
+    # Moving the origin to an integer point near the scene keeps the coordinates short.
     x, y, z = (Fraction(math.floor(number)) for number in polyhedra[0].vertices[0])
     solids = tuple(solid(number, polyhedron, observer, (x, y, z)) for number, polyhedron in enumerate(polyhedra))
     # Time III: compare the contours in pairs (sections 3.2 and 3.3). Only the segments of the farther polyhedron can be
@@ -184,7 +184,9 @@ def _relations(
         if check or (by == UNDECIDED and TOUCHING not in without):
             side, plane = by_plane(v, w)
             if plane is None:
-                raise SceneError(f"{v.polyhedron.name} and {w.polyhedron.name} intersect")
+                raise SceneError(
+                    f"{v.polyhedron.name} and {w.polyhedron.name} intersect; the polyhedra of a scene must not"
+                )
             if by == UNDECIDED and TOUCHING not in without:
                 nearer, by = side, BY_PLANE
         yield Relation(first, second, pair, nearer, by), of_v, of_w
@@ -208,7 +210,7 @@ def _pass(
 def _pieces(
     solids: Sequence[Solid], passages: Passages, back_ghosts: dict[Name, list[Span]], hidden: bool
 ) -> Iterator[Piece]:
-    """Yield the parts of a segment by adding the indices from P_A on. It is visible where the sum, the order, is 0.
+    """Yield the parts of a segment. A part is visible where the sum of the indices from P_A on, the order, is 0.
 
     Ghost parts are omitted from visible and hidden pieces, ghosts between back faces only from hidden pieces.
     """
@@ -245,7 +247,7 @@ def _pieces(
 def _back_edges(item: Solid, back_ghosts: dict[Name, list[Span]]) -> Iterator[Piece]:
     for edge in item.edges:
         if edge.kind == BACK:
-            # Edges between back faces are hidden everywhere. What lies between their ghost parts is drawn dashed.
+            # Edges between back faces are hidden everywhere. They are drawn dashed except for their ghost parts.
             since = _START
             for low, high in sorted(back_ghosts.get((item.number, edge.start, edge.end), ())):
                 if low > since:

@@ -12,7 +12,7 @@ from modern.papers.nakamae_nishita.contours import Tables, Values
 from modern.papers.nakamae_nishita.projection import Homogeneous
 from modern.papers.nakamae_nishita.solids import Plane, Solid, height, plane_through
 
-# The criterion that decides: formula (4) at a crossing, formula (5) at a face, a separating plane, or none.
+# The criterion that decided: formula (4) at a crossing of contours, formula (5) at a face, a separating plane, or none.
 By = Literal["(4)", "(5)", "plane", "undecided"]
 BY_CROSSING: Final = "(4)"
 BY_FACE: Final = "(5)"
@@ -37,7 +37,7 @@ def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) ->
     # Formula (5): if one contour encloses the other, test the inner vertices against the face around them.
     for outer, inner, encloses, which in ((v, w, pair.encloses, -1), (w, v, pair.enclosed, 1)):
         if encloses:
-            # A vertex may touch the face around it, where formula (5) is 0. Another vertex then decides.
+            # If a vertex touches the face around it, formula (5) is 0. Another vertex then decides.
             for place in inner.contour:
                 side = sign(height(_enclosing_face(outer, inner.points[place]), inner.points[place]))
                 if side:
@@ -49,7 +49,7 @@ def crossing(solid: Solid, order: int, values: list[int]) -> Homogeneous:
     """Return the point of a contour segment whose image is on a line with these ``values`` at the solid's points."""
     after = (order + 1) % len(solid.contour)
     p, q = solid.images[order], solid.images[after]
-    # The two values have opposite signs. Each end is weighted with the value at the other one.
+    # The values at the two ends have opposite signs. Each end is weighted with the value at the other end.
     m, n = abs(values[after]), abs(values[order])
     return m * p[0] + n * q[0], m * p[1] + n * q[1], m * p[2] + n * q[2], m * p[3] + n * q[3]
 

@@ -57,7 +57,7 @@ def part(fields: Fields, folder: str = "") -> Parts:
     place = f"{fields.place} ({name})" if name else fields.place
     if "file" in fields:
         if "shape" in fields:
-            raise fields.wrong("file", "a part has a shape or a file, not both")
+            raise fields.wrong("file", "expected a shape or a file, found both")
         made = _from_file(fields, folder, place)
     else:
         name_of_shape = fields.text("shape", "")
@@ -69,7 +69,7 @@ def part(fields: Fields, folder: str = "") -> Parts:
         raise fields.wrong("count", f"expected at least 1 copy along each axis and at most {MOST:,} in all")
     step = fields.vector("step")
     if max(count) > 1 and step is None:
-        raise fields.wrong("step", "copies need the distance between them")
+        raise fields.wrong("step", "several copies need the field step, the distance between them")
     scale = fields.number("scale")
     if scale is not None and scale <= 0:
         raise fields.wrong("scale", "expected a number greater than 0")
@@ -129,7 +129,7 @@ def _figure(place: str, shape: Polyhedron, corners: tuple[Vector, ...]) -> Figur
             for corner in corners
         ):
             return Figure(order, corners)
-    raise SceneError(f"{place}: figures: no face contains all corners of a figure")
+    raise SceneError(f"{place}: figures: expected all corners of a figure in one face; no face contains them")
 
 
 def _cuboid(fields: Fields) -> Callable[[str], Polyhedron]:
@@ -142,7 +142,7 @@ def _cuboid(fields: Fields) -> Callable[[str], Polyhedron]:
 def _parallelepiped(fields: Fields) -> Callable[[str], Polyhedron]:
     edges = fields.vectors("edges") or ()
     if len(edges) != 3:
-        raise fields.wrong("edges", f"a parallelepiped has 3 edges, found {len(edges)}")
+        raise fields.wrong("edges", f"expected 3 edges of a parallelepiped, found {len(edges)}")
     return partial(shapes.parallelepiped, a=edges[0], b=edges[1], c=edges[2])
 
 
@@ -162,7 +162,7 @@ def _column(fields: Fields) -> Callable[[str], Polyhedron]:
 def _polyhedron(fields: Fields) -> Callable[[str], Polyhedron]:
     vertices, faces = fields.vectors("vertices") or (), fields.counts("faces")
     if not all(1 <= place <= len(vertices) for face in faces for place in face):
-        raise fields.wrong("faces", f"the vertices have the numbers 1 to {len(vertices)}")
+        raise fields.wrong("faces", f"expected numbers of vertices from 1 to {len(vertices)}")
     from_zero = tuple(tuple(place - 1 for place in face) for face in faces)
     return lambda name: checked(Polyhedron(name, vertices, from_zero))
 

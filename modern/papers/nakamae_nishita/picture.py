@@ -22,7 +22,7 @@ from modern.papers.nakamae_nishita.projection import Homogeneous, image
 Point = tuple[int, int]
 Stroke = tuple[Point, Point]
 
-# The area, in plotter units of 0.025 mm, that fits a sheet of A4 on every such plotter.
+# An area, in plotter units of 0.025 mm, that fits a sheet of A4 on all plotters that read HPGL.
 PLOT_WIDTH, PLOT_HEIGHT = 10_000, 7_200
 
 SOLID, DASHED = "LT;", "LT2,2;"
@@ -90,7 +90,7 @@ def as_hpgl(drawing: Drawing) -> str:
 
     def strokes(visible: bool) -> Iterator[Stroke]:
         for _, *stroke in _strokes(drawing, pixel, visible):
-            # Hundredths of a pixel are tenths of a plotter unit. A plotter's y axis points upward.
+            # A hundredth of a pixel of the drawing is a tenth of a plotter unit. A plotter's y axis points upward.
             start, end = ((round(p.x / 10), 10 * height - round(p.y / 10)) for p in stroke)
             if start != end:
                 yield start, end
@@ -120,7 +120,7 @@ _KINDS: tuple[Kind, ...] = get_args(Kind)
 
 
 def table1(drawing: Drawing) -> Iterator[str]:
-    """Yield the columns of the paper's Table 1 with the seconds that its three steps took here."""
+    """Yield the heading and the row of the paper's Table 1 for a drawing, with the seconds that its steps took here."""
     counts = drawing.counts
     yield "polyhedra  vertices  faces  points       I      II     III  (seconds)"
     times = "".join(f"{seconds:8.3f}" for seconds in drawing.seconds)

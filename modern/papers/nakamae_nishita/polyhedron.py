@@ -33,8 +33,8 @@ class Figure:
 class Polyhedron:
     """A convex polyhedron.
 
-    ``thing`` names the object it is a part of; lines that only divide an object are not drawn. ``joined`` has a group
-    number for every face, and no edge is drawn between faces of one group (``modern.geometry.coplanar``). If it is
+    ``thing`` names the object of which it is a part; lines that only divide an object are not drawn. ``joined`` has a
+    group number for each face, and no edge is drawn between faces of one group (``modern.geometry.coplanar``). If it is
     empty, no faces are merged.
     """
 
@@ -58,7 +58,7 @@ def checked(polyhedron: Polyhedron) -> Polyhedron:
     """
     name, points, faces = polyhedron.name, polyhedron.vertices, polyhedron.faces
     if not faces:
-        raise SceneError(f"{name}: there are no faces")
+        raise SceneError(f"{name}: expected faces, found none")
     gaps = open_faults(dict(enumerate(faces)), dict(enumerate(points)), lambda a, b: f"{a + 1} and {b + 1}")
     for gap in gaps:
         raise SceneError(f"{name}: {gap}")
@@ -68,7 +68,7 @@ def checked(polyhedron: Polyhedron) -> Polyhedron:
         return polyhedron
     if not faults[1]:
         return reversed_faces
-    # Report what is wrong in the sense in which most faces run: clockwise faces give a negative volume.
+    # Report the fault for the direction in which most faces run: a negative volume means clockwise.
     raise SceneError(f"{name}: {faults[0] if six_volumes(points, faces) <= 0 else faults[1]}")
 
 
@@ -86,7 +86,7 @@ def open_faults(
         if times > 1:
             yield f"two faces run in the same direction along vertices {edge_name(a, b)}"
         if not directed[b, a]:
-            yield f"not closed: only one face at vertices {edge_name(a, b)}"
+            yield f"not closed: only one face at the edge of vertices {edge_name(a, b)}"
     used = {place for edge in directed for place in edge}
     first: dict[Vector, int] = {}
     for place, point in points.items():
@@ -132,7 +132,7 @@ def turns_once(points: Sequence[tuple[N, N, N]], normal: tuple[N, N, N]) -> bool
     bends = [dot(cross(steps[a], steps[b]), normal) for a, b in lines]
     if any(bend < 0 for bend in bends) or not all(map(any, steps)):
         return False
-    # A polygon with left turns only may still run around twice. Then some corner is to the right of some side.
+    # A polygon that turns left at all corners may run around twice. Then a corner is to the right of a side.
     return all(dot(cross(steps[a], minus(q, points[a])), normal) >= 0 for a, _ in lines for q in points)
 
 
@@ -143,7 +143,9 @@ def polyhedron_of_hull(hull: Hull, name: str = "hull", joined: Joined | None = N
     """
     surface = mesh(hull)
     if surface.dimension < 2:
-        raise SceneError(f"{name}: a {('point', 'segment')[surface.dimension]} is not a polyhedron")
+        raise SceneError(
+            f"{name}: a {('point', 'segment')[surface.dimension]} is not a polyhedron; expected points not on one line"
+        )
     faces = tuple(face[::-1] for face in surface.faces)
     if surface.dimension == 2:
         faces = (faces[0], surface.faces[0])

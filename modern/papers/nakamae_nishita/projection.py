@@ -35,7 +35,7 @@ class Observer:
 def parallel(direction: Sequence[Fraction | int]) -> Observer:
     """Return the observer at infinity in a direction. Raise SceneError for 0,0,0."""
     if not any(direction):
-        raise SceneError("the direction of view is 0,0,0")
+        raise SceneError("expected a direction of view other than 0,0,0")
     sight = view(lowest([Fraction(number) for number in direction]))
     return Observer(sight.eye, sight.right, sight.up, None, sight.stretch)
 
@@ -43,7 +43,7 @@ def parallel(direction: Sequence[Fraction | int]) -> Observer:
 def perspective(point: Vector, towards: Vector, near: Fraction | None = None) -> Observer:
     """Return the observer at a point who looks towards another point. Raise SceneError if they are the same."""
     if point == towards:
-        raise SceneError("the observation point is the point looked at")
+        raise SceneError("expected an observation point other than the point looked at")
     sight = parallel(minus(point, towards))
     return Observer(sight.eye, sight.right, sight.up, point, sight.stretch, near)
 
@@ -72,10 +72,12 @@ def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[
     if observer.point is None:
         return [(x, y, z, scale) for x, y, z in flat]
     if any(z >= 0 for _, _, z in flat):
-        raise SceneError(f"{polyhedron.name}: not entirely in front of the observation point; a near plane can clip it")
+        raise SceneError(
+            f"{polyhedron.name}: not entirely in front of the observation point; set a near plane to clip it"
+        )
     return [(x, y, scale, -z) for x, y, z in flat]
 
 
 def image(point: Homogeneous, observer: Observer) -> tuple[Fraction, Fraction]:
-    """Return the position of a point in the picture, true to scale, with y upwards."""
+    """Return the position of a point in the picture, with equal scales on both axes and y pointing upwards."""
     return Fraction(point[0], point[3]) * observer.stretch, Fraction(point[1], point[3])

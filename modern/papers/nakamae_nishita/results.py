@@ -1,4 +1,4 @@
-"""The computed lines of every published result of the paper."""
+"""The computed lines of each published result of Nakamae and Nishita."""
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
@@ -18,7 +18,7 @@ _OTHER_SIDE = (-34, 37, 41)
 
 
 def produced(_: Lines) -> Lines:
-    """Compute the lines of every result that can be computed, by its id. The print is not needed for this."""
+    """Compute the lines of each result that can be computed, by its id. The printed lines are not needed for this."""
     lines: dict[str, Sequence[str]] = dict(_crossing_numbers())
     drawings = {name: drawing(name) for name in names()}
     most = max(
@@ -50,8 +50,11 @@ def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
 
 
 def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
-    """Compute d of a square's upper side, from (0, 4) to (4, 4), and the first side of a polygon in each position."""
-    # Section 3.2 lists four positions of two segments. Each polygon's first side has one of them to the square's side.
+    """Compute d of formula (3) for a square's upper side and a segment in each of four positions.
+
+    The side runs from (0, 4) to (4, 4). The segment is the first side of a polygon.
+    """
+    # Section 3.2 lists four positions of two segments. The first side of each polygon and the square's side are in one.
     upper = 1
     for name, meaning, polygon in (
         ("d-crossing", "means that $[P_i, P_{i+1}]$ intersects", ((2, 2), (2, 6), (6, 6), (6, 2))),

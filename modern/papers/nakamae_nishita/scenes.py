@@ -79,7 +79,7 @@ def names() -> tuple[str, ...]:
 def scene(name: str) -> SceneFile:
     """Return a scene of the project by its name. Raise SceneError if it does not exist."""
     if name not in names():
-        raise SceneError(f"{quoted(name)} is not a scene of the project; the scenes are {', '.join(names())}")
+        raise SceneError(f"{quoted(name)} is not a scene of the project; its scenes are {', '.join(names())}")
     text = files("modern.papers.nakamae_nishita").joinpath("scenes", f"{name}.toml").read_text(encoding="utf-8")
     return parse(text, name)
 
@@ -112,7 +112,7 @@ def parse(text: str, source: str, folder: str = "") -> SceneFile:
     tables = fields.tables("part")
     fields.done()
     if not tables:
-        raise SceneError(f"{source}: there are no parts")
+        raise SceneError(f"{source}: expected at least one part, found none")
     entries = [part(Fields(table, f"{source}: part {k}"), folder) for k, table in enumerate(tables, 1)]
     parts = tuple(item for entry in entries for item in entry.parts)
     paths = tuple(entry.file for entry in entries if entry.file)
@@ -127,11 +127,11 @@ def _sight(fields: Fields) -> Sight:
     projection: Projection = PERSPECTIVE if named == PERSPECTIVE else PARALLEL
     towards = fields.vector("towards")
     if towards and projection == PARALLEL:
-        raise fields.wrong("towards", "a parallel projection has a direction only, eye")
+        raise fields.wrong("towards", "a parallel projection has only a direction, in the field eye")
     if projection == PARALLEL and not any(eye):
-        raise fields.wrong("eye", "the direction of view is 0,0,0")
+        raise fields.wrong("eye", "expected a direction of view other than 0,0,0")
     if towards == eye:
-        raise fields.wrong("towards", "it is the observation point")
+        raise fields.wrong("towards", "expected another point than the observation point, eye")
     near = fields.number("near")
     if near is not None and projection == PARALLEL:
         raise fields.wrong("near", "a parallel projection has no near plane")

@@ -19,14 +19,14 @@ _FINEST = 100_000
 def parallelepiped(name: str, a: Vector, b: Vector, c: Vector) -> Polyhedron:
     """Return the parallelepiped at the origin with these three edges. Raise SceneError if they lie in one plane."""
     if not dot(cross(a, b), c):
-        raise SceneError(f"{name}: the three edges lie in one plane")
+        raise SceneError(f"{name}: expected three edges that do not lie in one plane")
     return column(name, [_ZERO, a, plus(a, b), b], c)
 
 
 def cuboid(name: str, x: Fraction, y: Fraction, z: Fraction) -> Polyhedron:
     """Return the cuboid from the origin to (x, y, z). Raise SceneError for a side of length 0."""
     if not (x and y and z):
-        raise SceneError(f"{name}: a side of a cuboid has the length 0")
+        raise SceneError(f"{name}: expected sides longer than 0")
     return parallelepiped(name, (x, _N, _N), (_N, y, _N), (_N, _N, z))
 
 
@@ -38,10 +38,10 @@ def column(name: str, base: Sequence[Vector], along: Vector) -> Polyhedron:
     normal = _normal(name, base)
     rise = dot(normal, along)
     if not rise:
-        raise SceneError(f"{name}: the column does not rise from its base")
+        raise SceneError(f"{name}: the column rises within the plane of its base; expected another direction")
     corners = list(base) if rise > 0 else [base[0], *base[:0:-1]]
     # Section 2 describes a column by its base and the direction in which the base is moved.
-    # As seen from the top the base runs counterclockwise, which is clockwise from outside, below it.
+    # The base runs counterclockwise as seen from the top, so it is clockwise as seen from outside, from below.
     n = len(corners)
     walls = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
     faces = (tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *walls)
@@ -62,7 +62,7 @@ def round_base(name: str, sides: int, radius: Fraction) -> list[Vector]:
     than 1000 sides.
     """
     if not 3 <= sides <= _MOST_SIDES:
-        raise SceneError(f"{name}: the number of sides is from 3 to {_MOST_SIDES}, found {sides}")
+        raise SceneError(f"{name}: expected 3 to {_MOST_SIDES} sides, found {sides}")
     rotations = [rotation(Fraction(360 * k, sides)) for k in range(sides)]
     return [(radius * cosine, radius * sine, _N) for cosine, sine in rotations]
 

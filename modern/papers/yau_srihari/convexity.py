@@ -46,7 +46,7 @@ def is_simple(region: Voxels) -> bool:
 
 
 def is_midpoint_convex(region: Voxels) -> bool:
-    """Return True if the region contains a midpoint voxel of any two of its voxels (3.2.2)."""
+    """Return True if, for any two of its voxels, the region contains at least one of their midpoint voxels (3.2.2)."""
     inside = set(voxels_of(region))
     return all(any(z in inside for z in midpoint_cover(x, y)) for x, y in combinations(inside, 2))
 
@@ -54,8 +54,9 @@ def is_midpoint_convex(region: Voxels) -> bool:
 def midpoint_cover(x: Voxel, y: Voxel) -> list[Voxel]:
     """Return the midpoint voxels of two voxels (3.2.2).
 
-    The midpoints of points of X and Y fill a unit cube around the midpoint of the two centres. On each axis on which
-    X + Y is odd, this cube reaches into two voxels, so there are one, two, four or eight midpoint voxels.
+    The midpoints of the points of both voxels fill a unit cube around the midpoint of the two centres. On each axis on
+    which the sum of the two coordinates is odd, this cube reaches into two voxels, so there are one, two, four or eight
+    midpoint voxels.
     """
     ranges = [range((a + b) // 2, (a + b + 1) // 2 + 1) for a, b in zip(x, y, strict=True)]
     return [(i, j, k) for i, j, k in product(*ranges)]

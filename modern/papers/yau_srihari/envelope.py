@@ -23,7 +23,7 @@ from modern.papers.yau_srihari.search import Candidates, Normal, Search, normal_
 def reduced_tree(tree: Quadtree) -> Quadtree:
     """Reduce a floor tree to the columns that can be vertices of the envelope (sections 4.6.1 and 5).
 
-    They are vertices of the lower chains of both lines through them, x = const and then y = const.
+    Their points are vertices of the lower chain along x = const and then of the lower chain along y = const.
     """
     for axis in (0, 1):
         vertices = [(at, t, z) for at in range(tree.side) for t, z in lower_chain(trees.line(tree, axis, at))]
@@ -33,9 +33,9 @@ def reduced_tree(tree: Quadtree) -> Quadtree:
 
 
 def outline(places: Iterable[Place]) -> list[Place]:
-    """Return the vertices of the hull of places (x, y), counterclockwise, from the floor and ceiling in y (section 5).
+    """Return the vertices of the hull of the projected columns (x, y), counterclockwise (section 5).
 
-    The hull of places on one line has two vertices, that of a single place has one.
+    The hull of columns on one line has two vertices, that of a single column has one.
     """
     least: dict[int, int] = {}
     most: dict[int, int] = {}
@@ -48,10 +48,10 @@ def outline(places: Iterable[Place]) -> list[Place]:
 
 
 def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
-    """Return the lower chain of points (n, 3), one above each place, from ``start`` to ``end`` inclusive."""
+    """Return the lower chain of points (n, 3), each above another place, from ``start`` to ``end`` inclusive."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     x, y = points[:, 0] - start[0], points[:, 1] - start[1]
-    # The product with the direction of the segment measures the position along it, in units of its length.
+    # The product with the segment's direction orders the points along the segment.
     along = dx * x + dy * y
     above = np.flatnonzero((dx * y == dy * x) & (along >= 0) & (along <= dx * dx + dy * dy))
     point_at: dict[int, Point] = {
@@ -61,9 +61,9 @@ def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
 
 
 def over_edges(corners: list[Place], points: Grid, whole: bool) -> list[tuple[Point, Point]]:
-    """List the edges above those of H(A), counterclockwise.
+    """List the edges of the envelope above the edges of H(A), counterclockwise.
 
-    They are all edges of the lower chains, or with ``whole`` one edge above each edge of H(A) as printed.
+    They are all edges of the lower chains or, with ``whole``, a single edge above each edge of H(A), as printed.
     """
     edges: list[tuple[Point, Point]] = []
     for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
@@ -92,7 +92,7 @@ class Face:
         """Yield the digital points of the face's projection, including its boundary."""
         x = [vertex[0] for vertex in self.vertices]
         y = [vertex[1] for vertex in self.vertices]
-        # As seen from above the vertices run clockwise, so the face is to the right of every side.
+        # As seen from above the vertices run clockwise, so the face is to the right of each of its sides.
         sides = list(zip(self.vertices, self.vertices[1:] + self.vertices[:1], strict=True))
         for i in range(min(x), max(x) + 1):
             for j in range(min(y), max(y) + 1):
@@ -167,7 +167,7 @@ def envelope(floor: Quadtree, printed: Printed) -> Envelope:
 
 
 def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
-    """Return the reversed edges above those of H(A), each with the outward normal of its upright starting face."""
+    """Return the edges above those of H(A), reversed, each with the outward normal of its upright starting face."""
     return {(end, start): normal_of(start, end, (start[0], start[1], start[2] + 1)) for start, end in edges}
 
 
@@ -180,7 +180,7 @@ def _by_candidates(edges: list[Edge], points: tuple[Point, ...]) -> tuple[Face, 
         edge = next(iter(queue))
         in_plane = candidates.face_on(*edge, queue.pop(edge))
         if not in_plane or len(faces) > _most(points):
-            raise AssertionError(f"the edge {edge} has no second face")
+            raise AssertionError(f"no second face was found on the edge {edge}")
         face = Face(_polygon(*edge, in_plane), normal_of(*edge, in_plane[0]))
         _update_queue(face, edge, queue)
         candidates.mark(in_plane, face.vertices)
@@ -202,7 +202,7 @@ def _by_steps(
         step, tree = _step(edge, queue.pop(edge), queue, tree, printed)
         steps.append(step)
         if step.face is None and not printed.names():
-            raise AssertionError(f"the edge {edge} has no second face")
+            raise AssertionError(f"no second face was found on the edge {edge}")
         if len(steps) > _most(points):
             return tuple(steps), tree, f"the queue is not empty after {len(steps)} faces"
     without_face = sum(step.face is None for step in steps)
@@ -217,7 +217,7 @@ def _most(points: Sized) -> int:
 def _step(
     edge: Edge, normal: Normal, queue: dict[Edge, Normal], tree: Quadtree, printed: Printed
 ) -> tuple[Step, Quadtree]:
-    """Search the tree for the face on an edge, update the queue and enter the heights of the face in the tree."""
+    """Find the face on an edge by a search of the tree, update the queue, and enter the face's heights in the tree."""
     search = Search(*edge, normal, printed)
     in_plane = search.run(tree)
     if not in_plane:
@@ -297,7 +297,7 @@ def _rounded(numerator: int, denominator: int, printed: Printed) -> int:
 def _along(chain: list[Point], printed: Printed) -> dict[Place, Leaf]:
     leaves = {(x, y): Leaf(z) for x, y, z in chain}
     for (x, y, z), (i, j, k) in pairwise(chain):
-        # An edge passes over gcd - 1 digital points between its ends, at equal distances.
+        # Between its ends an edge has gcd - 1 digital points of the plane (x, y), at equal distances.
         steps = math.gcd(i - x, j - y)
         for n in range(1, steps):
             place = x + n * (i - x) // steps, y + n * (j - y) // steps

@@ -103,15 +103,16 @@ class OctreeHull:
 
     @property
     def faults(self) -> tuple[str, ...]:
-        """The reasons why a construction stopped early. The corrected algorithm has none."""
+        """The reasons why a construction stopped early. The corrected algorithm never stops early."""
         envelopes = (("floor", self.lower), ("ceiling", self.upper))
         return tuple(f"{name}: {side.fault}" for name, side in envelopes if side.fault)
 
 
 def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = None) -> OctreeHull:
-    """Compute the digital hull of a volume, or of truth values, by octrees; ``printed`` selects printed statements.
+    """Compute the digital hull of a volume, or of an array of truth values, by octrees.
 
-    Raise VolumeError for other arrays, no voxels, or a cube of more than ``MAX_CELLS`` voxels.
+    ``printed`` selects statements of the paper to apply as printed. Raise VolumeError for other arrays, no voxels, or a
+    cube of more than ``MAX_CELLS`` voxels.
     """
     volume = as_volume(volume)
     printed = printed or Printed()

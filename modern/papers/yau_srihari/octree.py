@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from modern.digital.intervals import SLAB, Grid
 
-# The x and y half of each quadrant.
+# The halves of x and y that each quadrant covers: 0 lower, 1 upper.
 QUADRANTS = ((0, 0), (1, 0), (0, 1), (1, 1))
 # The bits of a son's number that select the half of x, of y and of z.
 ACROSS, UP, ALONG = 1, 2, 0
@@ -68,7 +68,7 @@ class Octree:
 
 
 def interleaved(x: Grid, y: Grid) -> Grid:
-    """Return the position of cells in the order of a quadtree's sons, for coordinates from 0 to below 2 ** 20."""
+    """Return the position of each cell (x, y) in the order of a quadtree's sons, for coordinates from 0 to 2^20 - 1."""
     return _bits(x, 20, 1, 2) | _bits(y, 20, 1, 2) << 1
 
 
@@ -98,7 +98,7 @@ def octree(array: NDArray[np.bool_]) -> Octree:
 
 
 def intersection(a: Octree, b: Octree) -> Octree:
-    """Return the intersection of two trees of one cube (section 5).
+    """Return the tree of the voxels that two trees over the same cube have in common (section 5).
 
     Two nodes are either nested or disjoint. The leaves of the intersection are therefore the leaves of each tree that
     lie in a leaf of the other. No eight of them fill a node, because that node would be full in both trees.
@@ -117,7 +117,7 @@ def count(tree: Octree) -> int:
 
 
 def nodes(tree: Octree) -> int:
-    """Count the nodes including leaves: the root and eight sons of every divided node."""
+    """Count the nodes of a tree, including leaves: the root and the eight sons of each divided node."""
     return 1 + 8 * sum(divided(tree, level) for level in range(tree.depth))
 
 

@@ -295,7 +295,7 @@ def test_edges_of_a_sliver_are_hidden_as_those_of_a_solid() -> None:
 
 def test_invalid_directions_widths_and_hulls_are_refused() -> None:
     hull = convex_hull(CUBE)
-    with pytest.raises(ExportError, match=r"^the direction of view is 0,0,0$"):
+    with pytest.raises(ExportError, match=r"^expected a direction of view other than 0,0,0$"):
         draw_svg(hull, (0, 0, 0))
     with pytest.raises(ExportError, match=r"^there is no hull: DATA NOT ACCEPTABLE$"):
         draw_svg(replace(hull, status="DATA NOT ACCEPTABLE"))

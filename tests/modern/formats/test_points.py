@@ -205,7 +205,7 @@ BAD_ARGUMENTS = [
     (("export", "none.csv", "-o", "t.off"), "none.csv: no such file or directory"),
     (("export", "s.csv", "-o", "s.stl"), "STL holds triangles; the hull is a segment and has no area"),
     (("draw", "none.csv", "-o", "t.svg"), "none.csv: no such file or directory"),
-    (("draw", "t.csv", "--eye", "0,0,0"), "the direction of view is 0,0,0"),
+    (("draw", "t.csv", "--eye", "0,0,0"), "expected a direction of view other than 0,0,0"),
     (("draw", "t.csv", "--eye", "1,2"), "the direction of view: expected 3 numbers X,Y,Z, found 2"),
     (("draw", "t.csv", "--eye", "1,2,z"), "the direction of view: 'z' is not a number"),
     (("draw", "s.csv", "--eye", "1,1,1"), "the direction of view is along the segment, which would appear as a point"),

@@ -100,7 +100,7 @@ def test_step_10_as_printed_finds_every_loop_but_clears_the_counts() -> None:
     hull = appel_will(FIG_14, method=printed("step10"))
     assert [set(s) for s in hull.surfaces] == [set(s) for s in appel_will(FIG_14).surfaces]
     assert all(max(loop.uses) == 1 for loop in hull.table.loops)
-    assert hull.fault == "9 of 9 edges are not used twice"
+    assert hull.fault == "9 of 9 edges are not used by exactly two loops"
 
 
 def test_printed_selects_rules_by_name() -> None:

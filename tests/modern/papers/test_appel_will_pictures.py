@@ -211,7 +211,7 @@ def test_the_map_has_every_line_point_and_surface_once() -> None:
 def test_a_polygon_has_a_map_and_maps_that_cannot_be_drawn_are_rejected() -> None:
     square = appel_will([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)])
     assert [item.text for item in groups(map_svg(square.surfaces, square.edges))["surfaces"]] == ["1"]
-    with pytest.raises(PictureError, match=r"^there are no surfaces, so there is no map to draw$"):
+    with pytest.raises(PictureError, match=r"^expected a hull with surfaces, found none: there is no map to draw$"):
         map_svg(appel_will([(0, 0, 0), (4, 0, 0)]).surfaces, ())
     ring = tuple(range(MOST + 1))
     with pytest.raises(PictureError, match=rf"^a map of {MOST + 1} points cannot be drawn legibly"):

@@ -292,7 +292,7 @@ def test_the_hull_of_a_ball_keeps_its_48_symmetries(centre: str, of: str) -> Non
 
 
 def test_a_flat_hull_has_no_polyhedron() -> None:
-    with pytest.raises(VolumeError, match="rod: the hull is flat, a segment, and has no cell list"):
+    with pytest.raises(VolumeError, match="rod: expected a hull in space, found a segment, which has no cell list"):
         _ = voxel_hull(Volume(np.ones((1, 1, 5), dtype=np.bool_), (0, 0, 0), "rod"), CENTRES).polyhedron
 
 

@@ -111,13 +111,13 @@ def faces(*cycles: tuple[int, ...]) -> Economical:
 @pytest.mark.parametrize(
     ("encoding", "message"),
     [
-        (faces((1, 3), *CUBE.faces[1:]), "face 1: it has fewer than three vertices"),
-        (faces((1, 3, 1, 2), *CUBE.faces[1:]), "face 1: it has fewer than three vertices, or one of them twice"),
+        (faces((1, 3), *CUBE.faces[1:]), "face 1 has fewer than three vertices"),
+        (faces((1, 3, 1, 2), *CUBE.faces[1:]), "face 1 has fewer than three vertices, or names a vertex twice"),
         (faces((1, 3, 4, 9), *CUBE.faces[1:]), "face 1: vertex 9 does not exist"),
         (faces((0, 3, 4, 2), *CUBE.faces[1:]), "face 1: vertex 0 does not exist"),
-        (faces(*CUBE.faces[1:]), "has a face on one side only"),
-        (faces((1, 2, 4, 3), *CUBE.faces[1:]), "has a face on one side only"),
-        (replace(CUBE, points=(*CUBE.points, (1, 1, 1))), "vertex 9: it belongs to no face"),
+        (faces(*CUBE.faces[1:]), "has a face on only one of its sides"),
+        (faces((1, 2, 4, 3), *CUBE.faces[1:]), "has a face on only one of its sides"),
+        (replace(CUBE, points=(*CUBE.points, (1, 1, 1))), "vertex 9 belongs to no face"),
         (
             Economical(
                 (*CUBE.points, *((x + 9, y, z) for x, y, z in CUBE.points)),

@@ -203,7 +203,7 @@ def test_the_outline_is_complete_when_a_merged_face_is_edge_on() -> None:
 @pytest.mark.parametrize(
     ("points", "faces", "message"),
     [
-        (CUBE, CUBE_FACES[1:], "f: not closed: only one face at vertices 1 and 2, (0, 0, 0) and (1, 0, 0)"),
+        (CUBE, CUBE_FACES[1:], "f: not closed: only one face at the edge of vertices 1 and 2, (0, 0, 0) and (1, 0, 0)"),
         (CUBE, [(3, 2, 1, 1), *CUBE_FACES[1:]], "f: face 1 does not have at least three different vertices"),
         (CUBE, [(0, 1, 2, 3), *CUBE_FACES[1:]], "f: two faces run in the same direction along vertices 1 and 2"),
         ([*CUBE[:7], (0, 0, 0)], CUBE_FACES, "f: vertices 1 and 8 are the same point"),
@@ -267,7 +267,7 @@ def test_notes_report_unused_vertices_and_repeated_points() -> None:
     for data in (b"0,0,0\n1,0,0\n0,1,0\n0,0,1\n0,0,0\n", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 0\n"):
         of_points = read_bodies(data, "a", Reading(hull=True))
         assert len(of_points.polyhedra[0].faces) == 4
-        assert of_points.notes == ("a: line 5: the point of line 1 again",)
+        assert of_points.notes == ("a: line 5: this point repeats that of line 1",)
     flat = read_bodies(b"0,0,0\n1,0,0\n0,1,0\n", "a", Reading(hull=True, within=Fraction(1)))
     assert (len(flat.polyhedra[0].faces), flat.notes) == (
         2,

@@ -87,7 +87,7 @@ def test_paths_of_parts_are_relative_to_the_folder_of_the_scene(
         ("hull = true\n", "", "part 3 (ell): file: ell.obj: not convex: between faces 5 and 6"),
         ("hull = true\n", "hull = 1\n", "part 3: hull: expected true or false"),
         ("scale = 0.5", "scale = 0", "part 3: scale: expected a number greater than 0"),
-        ('"ell"\n', '"ell"\nshape = "cuboid"\n', "part 3: file: a part has a shape or a file, not both"),
+        ('"ell"\n', '"ell"\nshape = "cuboid"\n', "part 3: file: expected a shape or a file, found both"),
         (
             "step = [0, 4, 0]\n",
             "figures = [[[0, 0, 0]]]\nstep = [0, 4, 0]\n",
@@ -98,7 +98,7 @@ def test_paths_of_parts_are_relative_to_the_folder_of_the_scene(
             "count = [1, 10001, 1]",
             "part 2: count: expected at least 1 copy along each axis and at most 20,000",
         ),
-        ("at = [4, 0, 0]\n", "hul = true\n", "part 2: 'hul' is not a field of this table"),
+        ("at = [4, 0, 0]\n", "hul = true\n", "part 2: 'hul' is not a known field of this table"),
     ],
 )
 def test_an_invalid_part_is_rejected_with_one_line(

@@ -49,7 +49,7 @@ def test_a_clipped_polyhedron_is_the_hull_of_the_vertices_beyond_and_the_crossin
     # The near plane is y = level, because the eye looks along the y axis.
     level = Fraction(source.randint(-8, 8), 2)
     if all(p[1] <= level for p in polyhedron.vertices):
-        with pytest.raises(SceneError, match="everything lies behind"):
+        with pytest.raises(SceneError, match="expected a polyhedron beyond the near plane"):
             clip(polyhedron, level + 10)
         return
     clipped = clip(polyhedron, level + 10)
@@ -101,7 +101,7 @@ def test_the_distance_is_measured_along_the_direction_of_view() -> None:
 def test_a_polyhedron_that_the_plane_only_touches_is_not_clipped() -> None:
     solid = box((0, 0, 0), (2, 2, 2))
     assert clip(solid, 10) == Clipped((solid,))
-    with pytest.raises(SceneError, match=r"^everything lies behind the near plane$"):
+    with pytest.raises(SceneError, match=r"^expected a polyhedron beyond the near plane, but all lie in front of it$"):
         clip(solid, 12)
     clipped = beyond_near([solid, box((5, 5, 5), (6, 6, 6), "far")], looking(12))
     assert ([p.name for p in clipped.polyhedra], clipped.cut, clipped.behind) == (["far"], (), ("box",))
@@ -166,9 +166,14 @@ def test_the_command_reports_clipped_and_omitted_parts(tmp_path: Path, monkeypat
     ("old", "new", "arguments", "message"),
     [
         ("near = 8", "near = 0", (), "s.toml: view: near: expected a distance greater than 0"),
-        ('projection = "perspective"\n', "", (), "towards: a parallel projection has a direction only, eye"),
+        (
+            'projection = "perspective"\n',
+            "",
+            (),
+            "towards: a parallel projection has only a direction, in the field eye",
+        ),
         ('projection = "perspective"\neye', "eye", ("--towards", "1,2,3"), "towards: a parallel projection"),
-        ("near = 8", "near = 99", (), "everything lies behind the near plane"),
+        ("near = 8", "near = 99", (), "expected a polyhedron beyond the near plane, but all lie in front of it"),
         ("near = 8", "", ("--near", "0"), "--near: expected a distance greater than 0, found '0'"),
         ("near = 8", "", ("--near", "a"), "--near: 'a' is not a decimal number"),
         ("near = 8", "", ("--near", "-1"), "--near: expected a distance greater than 0, found '-1'"),
@@ -190,7 +195,7 @@ def test_a_near_plane_is_for_perspective_only_and_is_suggested_there(capsys) -> 
     code, _, err = call(capsys, "hidden-line", "house", "--near", "2")
     assert (code, err) == (2, "hull1620: --near needs --perspective; a parallel projection has only a direction\n")
     with pytest.raises(
-        SceneError, match=r"^box: not entirely in front of the observation point; a near plane can clip it$"
+        SceneError, match=r"^box: not entirely in front of the observation point; set a near plane to clip it$"
     ):
         draw([box((-1, -11, -1), (1, 1, 1))], perspective(EYE, vector(0, 0, 0)))
 

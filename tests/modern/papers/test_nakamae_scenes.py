@@ -77,7 +77,7 @@ def test_the_vertices_of_a_parallelepiped_are_the_sums_of_its_edges(edges: list[
     a, b, c = (point(*edge) for edge in edges)
     volume = sum(a[k] * (b[k - 2] * c[k - 1] - b[k - 1] * c[k - 2]) for k in range(3))
     if not volume:
-        with pytest.raises(SceneError, match="the three edges lie in one plane"):
+        with pytest.raises(SceneError, match="expected three edges that do not lie in one plane"):
             parallelepiped("p", a, b, c)
         return
     polyhedron = parallelepiped("p", a, b, c)
@@ -101,9 +101,9 @@ def test_invalid_shapes_are_rejected() -> None:
         plate("c", [point(k, k, k) for k in range(3)])
     with pytest.raises(SceneError, match="at least 3 corners, found"):
         plate("c", corner[:2])
-    with pytest.raises(SceneError, match="length 0"):
+    with pytest.raises(SceneError, match="sides longer than 0"):
         cuboid("c", Fraction(1), Fraction(0), Fraction(1))
-    with pytest.raises(SceneError, match="the number of sides is from 3 to 1000, found 2"):
+    with pytest.raises(SceneError, match="expected 3 to 1000 sides, found 2"):
         round_base("c", 2, Fraction(1))
 
 
@@ -129,7 +129,7 @@ def test_a_hull_of_two_or_three_dimensions_is_a_polyhedron() -> None:
     assert {tuple(map(str, map(int, v))) for v in polyhedron.vertices} == {hull.points[k] for k in hull.vertices}
     flat = polyhedron_of_hull(convex_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0)]))
     assert len(flat.faces) == 2
-    with pytest.raises(SceneError, match="a segment is not a polyhedron"):
+    with pytest.raises(SceneError, match="a segment is not a polyhedron; expected points not on one line"):
         polyhedron_of_hull(convex_hull([(0, 0, 0), (4, 0, 0)]))
 
 
@@ -142,34 +142,37 @@ BOX = HEAD + "'cuboid'\nsize = [1, 1, 1]\n"
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "s: there are no parts"),
+        ("", "s: expected at least one part, found none"),
         ("a = = 1", "s: line 1, column 5: invalid value"),
         ("[[part]]\nshape = 'cuboid", "s: line 2, column 16"),
-        ("a = 1\n" + BOX, "s: 'a' is not a field of this table"),
+        ("a = 1\n" + BOX, "s: 'a' is not a known field of this table"),
         (HEAD + "'ball'", "s: part 1: shape: 'ball' is not one of cuboid, parallelepiped, column, plate, polyhedron"),
         (HEAD + "'cuboid'", "s: part 1: size: a cuboid needs the lengths of its sides"),
         (HEAD + "'cuboid'\nsize = [1, 1]", "s: part 1: size: expected a point, three numbers in brackets"),
         (HEAD + "'cuboid'\nsize = [1, 1, true]", "s: part 1: size: expected a number"),
         (HEAD + "'cuboid'\nsize = [1, 1, inf]", "s: 'inf' is not a decimal number"),
         (HEAD + "'cuboid'\nsize = [1, 1, '1/0']", "s: part 1: size: '1/0' has the denominator 0"),
-        (BOX + "count = [2, 1, 1]", "s: part 1: step: copies need the distance"),
+        (BOX + "count = [2, 1, 1]", "s: part 1: step: several copies need the field step"),
         (BOX + "count = [200, 200, 1]\nstep = [2, 2, 2]", "at most 20,000 in all"),
         (BOX + "name = 3", "s: part 1: name: expected a string"),
         (HEAD + "'column'\nsides = 5\nheight = 2", "s: part 1: base: a column needs either a base, or"),
         (HEAD + "'column'\nsides = 5\nradius = 1", "s: part 1: height: a column needs either a height, or"),
-        (HEAD + "'polyhedron'\nvertices = [[0, 0, 0]]\nfaces = [[0]]", "faces: the vertices have the numbers 1 to 1"),
+        (
+            HEAD + "'polyhedron'\nvertices = [[0, 0, 0]]\nfaces = [[0]]",
+            "faces: expected numbers of vertices from 1 to 1",
+        ),
         ("view = 3\n" + BOX, "s: view: expected a table"),
         ("[view]\nprojection = 'flat'\n" + BOX, "'flat' is neither parallel nor"),
-        ("[view]\neye = [0, 0, 0]\n" + BOX, "view: eye: the direction of view is 0,0,0"),
+        ("[view]\neye = [0, 0, 0]\n" + BOX, "view: eye: expected a direction of view other than 0,0,0"),
         (
             "[view]\nprojection = 'perspective'\neye = [3, 2, 1]\ntowards = [3, 2, 1]\n"
             + HEAD
             + "'cuboid'\nsize = [1, 1, 1]",
-            "view: towards: it is the observation point",
+            "view: towards: expected another point than the observation point, eye",
         ),
-        ("[view]\ntowards = [1, 1, 1]\n" + BOX, "has a direction only, eye"),
-        (BOX + "figures = [[[0, 0, 0], [1, 1, 1], [0, 1, 0]]]", "no face contains all corners"),
-        (BOX + "figures = [[[0, 0, 0], [2, 0, 0], [0, 1, 0]]]", "no face contains all corners"),
+        ("[view]\ntowards = [1, 1, 1]\n" + BOX, "has only a direction, in the field eye"),
+        (BOX + "figures = [[[0, 0, 0], [1, 1, 1], [0, 1, 0]]]", "expected all corners of a figure in one face"),
+        (BOX + "figures = [[[0, 0, 0], [2, 0, 0], [0, 1, 0]]]", "expected all corners of a figure in one face"),
         (BOX + "figures = [[[0, 0, 0], [1, 0, 0]]]", "expected at least 3 corners, found 2"),
     ],
 )
@@ -207,7 +210,7 @@ def test_the_scenes_of_the_project_have_the_counts_of_table_1() -> None:
     assert counts["columns"] == (11, 116, 80, 0)
     assert counts["house"][3] == 32
     with pytest.raises(
-        SceneError, match="'barn' is not a scene of the project; the scenes are columns, cuboids, house"
+        SceneError, match="'barn' is not a scene of the project; its scenes are columns, cuboids, house"
     ):
         scene("barn")
 
