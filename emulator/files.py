@@ -49,7 +49,7 @@ def read_bytes(path: str, name: str = "", limit: int = TEXT_LIMIT) -> bytes:
             while chunk := file.read(_CHUNK):
                 data += chunk
                 if len(data) > limit:
-                    most = f"at most {limit >> 20} MiB are read from a pipe or device"
+                    most = f"at most {limit >> 20} MiB can be read from a pipe or device"
                     raise FileError(f"{name or source_name(path)}: {most}; write the data to a file")
             return bytes(data)
     except OSError as error:
@@ -88,7 +88,7 @@ def parse_toml(text: str, parse_float: Callable[[str], Any] = float) -> dict[str
     try:
         return tomllib.loads(text, parse_float=parse_float)
     except RecursionError:
-        raise ValueError("nested too deeply") from None
+        raise ValueError("the text is nested too deeply") from None
     except tomllib.TOMLDecodeError as error:
         raise ValueError(str(error).splitlines()[0]) from None
     except ValueError as error:

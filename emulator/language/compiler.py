@@ -112,7 +112,7 @@ class _Translation:
         for do in self.open_dos:
             if str(do.label) in self.refused:
                 continue
-            self._error(do.place, f"the last statement of this DO, number {do.label}, does not follow")
+            self._error(do.place, f"the last statement of this DO, number {do.label}, is missing")
         if self.statements and not self.ended and not broken:
             card = self.statements[-1].place.card
             self.diagnostics.append(Diagnostic(card, 0, "the deck has no END card", warning=True))
@@ -200,7 +200,7 @@ class _Translation:
         if label in self.formats:
             return f"statement {label} is a FORMAT; a program cannot branch to it"
         if label in self.labels:
-            return f"statement {label} cannot be executed"
+            return f"statement {label} cannot be executed, so a program cannot branch to it"
         return f"there is no statement number {label}"
 
     def _statement(self, statement: tree.Statement) -> None:
@@ -284,7 +284,7 @@ class _Translation:
     def _dimension(self, body: tree.Dimension) -> None:
         for name, shape, place in body.arrays:
             if name in self.emitter.arrays:
-                raise Refused(place, f"{name} has its dimensions already", 9)
+                raise Refused(place, f"{name} already has dimensions", 9)
             if ("variable", name) in self.emitter.allocator.entries:
                 raise Refused(place, f"{name} was used before its DIMENSION", 9)
             if 0 in shape:

@@ -105,7 +105,7 @@ def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]
     # Error type 12 is only a warning here, because the deck still runs (p. 56).
     if widest > MAX_RECORD:
         place = statement.places[0]
-        message = f"a record of {widest} characters; those after {MAX_RECORD} typed or 72 punched are lost"
+        message = f"a record of {widest} characters; at most {MAX_RECORD} are typed and 72 punched, the rest is lost"
         warnings.append(Diagnostic(place.card, place.column, message, 12, warning=True))
     return spec, tuple(warnings)
 

@@ -153,7 +153,7 @@ def _column_warnings(source: Source) -> Iterator[Diagnostic]:
     not_read = f"columns {_EDGE[1]} to 80 are identification and not read"
     for card in source.cards:
         if " " not in card.columns(*_EDGE):
-            what = f"{not_read}, but column {_EDGE[0]} before them is punched"
+            what = f"{not_read}, but a punch in column {_EDGE[0]} suggests that the statement continues there"
             yield Diagnostic(card.number, _EDGE[1], what, warning=True, about="identification")
         elif _CODE.search(card.columns(_EDGE[1], COLUMNS)):
             what = f"{not_read}, but they look like a part of the statement"

@@ -20,7 +20,7 @@ from emulator.numbers.arithmetic import UNDEFINED
 
 COMMANDS = {
     "START": "START (or Enter): continue the run",
-    "STEP": "STEP [N]: run one statement, or N",
+    "STEP": "STEP [N]: run one statement, or N statements",
     "STOP": "STOP: end the run and keep its output",
     "SWITCH": "SWITCH [N [ON or OFF]]: show, flip or set sense switches",
     "BREAK": "BREAK [N or CARD N]: show or set breakpoints",
@@ -86,7 +86,7 @@ def command(session: Session, text: str, cards: Cards, width: int) -> Action | l
     except ValueError as error:
         return wrapped(str(error), width)
     if request.word in ("BREAK", "CLEAR") and request.number and not session.places(request):
-        return wrapped(f"{session.program.source} has no statement there", width)
+        return wrapped(f"{session.program.source} has no statement of that number or card", width)
     return request
 
 

@@ -110,17 +110,17 @@ def _trouble_in(ending: Ending, line: Line) -> str:
         case "outside":
             return f"a subscript reaches outside the data into the program, {there}"
         case "select":
-            return f"a computed GO TO with value {ending.subscripts[0]}, {there}"
+            return f"the value {ending.subscripts[0]} selects no statement number, {there}"
         case "undefined" if ending.put_out:
             return f"{ending.name} is undefined but is written, in {line.text}"
         case "undefined":
-            return f"{ending.name} is undefined but is computed with, {there}"
+            return f"{ending.name} is undefined but is used in a calculation, {there}"
         case "mode" if ending.field is not None:
             return f"{ending.name} is {ending.mode} point, but its field in FORMAT {ending.format} is {ending.field}"
         case "mode" if ending.format:
             return f"FORMAT {ending.format} has no field for the list"
         case "mode" if ending.put_out:
-            return f"{ending.name} holds a number of the other mode"
+            return f"{ending.name} holds a number in {ending.mode} point, which cannot be written, {there}"
         case "record":
             return f"ERROR F9: a record of FORMAT {ending.format} is longer than the columns of its device, {there}"
         case "mode":

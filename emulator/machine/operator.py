@@ -66,7 +66,7 @@ class Operator:
         if halt.what == "accept":
             line = next(self._keyboard, None)
             if line is None:
-                raise DeckError(f"{session.program.source}: nothing is typed for ACCEPT in {halt.line.name}")
+                raise DeckError(f"{session.program.source}: no typed line is left for ACCEPT in {halt.line.name}")
             return Action("ENTER", text=line)
         return Action("START", unasked=True)
 
@@ -144,7 +144,8 @@ class FromFile(Operator):
     def _next_action(self, session: Session) -> Action:
         line = self._lines.popleft()
         if line.action.word in ("BREAK", "CLEAR") and line.action.number and not session.places(line.action):
-            raise OperatorError(f"{self.name}: line {line.number}: {session.program.source} has no statement there")
+            problem = f"{session.program.source} has no statement of that number or card"
+            raise OperatorError(f"{self.name}: line {line.number}: {problem}")
         return line.action
 
 

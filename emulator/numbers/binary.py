@@ -102,12 +102,12 @@ class FloatNumbers(Numbers):
 
     def sign(self, value: float) -> int:
         if value != value:
-            raise Undecided(f"{self.name} has no sign for what is not a number (NaN)")
+            raise Undecided(f"{self.name} cannot determine the sign of NaN (not a number)")
         return (value > 0) - (value < 0)
 
     def to_integer(self, value: float) -> int:
         if value - value != 0:
-            raise Undecided(f"{self.name} has no whole number for {value}")
+            raise Undecided(f"{self.name} has no integer for {value}")
         size = int(abs(value)) % 10000
         return -size if value < 0 else size
 

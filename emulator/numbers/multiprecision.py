@@ -83,12 +83,12 @@ class MultiprecisionNumbers(Numbers):
 
     def sign(self, value: Any) -> int:
         if self._context.isnan(value):
-            raise Undecided(f"{self.name} has no sign for what is not a number (NaN)")
+            raise Undecided(f"{self.name} cannot determine the sign of NaN (not a number)")
         return int(value > 0) - int(value < 0)
 
     def to_integer(self, value: Any) -> int:
         if not self._context.isfinite(value):
-            raise Undecided(f"{self.name} has no whole number for {value}")
+            raise Undecided(f"{self.name} has no integer for {value}")
         size = int(abs(value)) % 10000
         return -size if value < 0 else size
 

@@ -36,7 +36,7 @@ def object_cards(program: Program, core: int) -> list[str]:
     """
     code = generate(program, core)
     if code.missing:
-        message = f"no routine for {' and '.join(code.missing)} is known; an object deck can use SQRT only"
+        message = f"no routine for {' and '.join(code.missing)} is known; SQRT is the only function of object decks"
         raise DeckError(f"{program.source}: {message}")
     if overlap := extent(program).overlap(core):
         raise DeckError(f"{program.source}: {overlap}")

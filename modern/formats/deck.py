@@ -191,7 +191,7 @@ def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) ->
         for card in points:
             first = first_cards.setdefault(_point(deck, card, rules, warnings), card.number)
             if first != card.number:
-                message = f"the point of card {first} again; the thesis requires distinct points"
+                message = f"the same point as on card {first}; the thesis requires distinct points"
                 warnings.append(DeckWarning(deck.source, card.number, 1, message))
         sets.append(DataSet(n, (cards[at], *points)))
         at += 1 + n

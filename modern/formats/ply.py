@@ -87,7 +87,7 @@ def surface(data: bytes, source: str, with_faces: bool = True) -> FileMesh:
     if None in columns:
         raise FileError(f"{source}: line 1, column 1: a vertex has no properties x, y and z")
     if with_faces and (strips := {"tristrips", "tristrip"} & by_name.keys()):
-        raise FileError(f"{source}: the faces are an element {strips.pop()}, which is not read; only face is")
+        raise FileError(f"{source}: the faces are an element {strips.pop()}, but only an element face can be read")
     indices = by_name["face"].index("vertex_indices", "vertex_index") if "face" in by_name else None
     if with_faces and "face" in by_name and (indices is None or by_name["face"].properties[indices][1] in "fd"):
         raise FileError(f"{source}: line 1, column 1: a face has no list vertex_indices")

@@ -185,7 +185,7 @@ def _face(hull: Hull, group: Sequence[int], loop: Sequence[int], left_out: set[i
 def join_summary(joined: Joined) -> str:
     """Return a line for the user: the numbers of faces, the largest deviation, and the next E that joins more faces."""
     within = distance_text(joined.within)
-    following = "" if joined.beyond is None else f"the next face would be joined from {root_text(joined.beyond)} on"
+    following = "" if joined.beyond is None else f"the next face is joined if E is at least {root_text(joined.beyond)}"
     if len(joined.groups) == joined.faces:
         return f"no two of {joined.faces} faces lie within {within} of one plane" + (following and f"; {following}")
     parts = [

@@ -56,8 +56,8 @@ def test_a_command_can_be_an_action(halted: tuple[Session, Cards], text: str, ac
     [
         ("s", "S is ambiguous: START, STEP, STOP, SWITCH"),
         ("jump", "JUMP is not a command: START, STEP, STOP, SWITCH, BREAK,"),
-        ("break 8", "deck.f has no statement there"),
-        ("clear card 8", "deck.f has no statement there"),
+        ("break 8", "deck.f has no statement of that number or card"),
+        ("clear card 8", "deck.f has no statement of that number or card"),
         ("step 0", "expected STEP, or STEP and a number"),
         ("switch 5", "expected SWITCH, 1 to 4, ON or OFF"),
         ("variables q", "deck.f has no variable Q"),

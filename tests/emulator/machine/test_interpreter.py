@@ -151,7 +151,7 @@ def test_an_undefined_number_ends_the_run() -> None:
     result = results("exact", "A=B+1.", "END")
     assert (result.ending.kind, result.ending.message) == (
         "undefined",
-        "deck.f: card 1: B is undefined but is computed with, in A=B+1.",
+        "deck.f: card 1: B is undefined but is used in a calculation, in A=B+1.",
     )
 
 

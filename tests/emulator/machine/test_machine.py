@@ -158,7 +158,7 @@ def test_a_computed_go_to_out_of_range_ends_the_run(index: int) -> None:
     result = run("READ 90,K", "GO TO (1,1,1),K", "1 STOP", "90 FORMAT(I5)", "END", data=[f"{index:5d}"])
     assert (result.ending.kind, result.ending.message) == (
         "select",
-        f"deck.f: card 2: a computed GO TO with value {index}, in GO TO (1,1,1),K",
+        f"deck.f: card 2: the value {index} selects no statement number, in GO TO (1,1,1),K",
     )
 
 
@@ -232,7 +232,7 @@ def test_accept_reads_and_type_writes_lines() -> None:
 
 
 def test_accept_without_a_line_is_an_error() -> None:
-    with pytest.raises(DeckError, match=r"nothing is typed for ACCEPT in the statement on card 1"):
+    with pytest.raises(DeckError, match=r"no typed line is left for ACCEPT in the statement on card 1"):
         run("ACCEPT 90,K", F, "END")
 
 
@@ -273,7 +273,7 @@ def test_an_undefined_operand_ends_the_run(statement: str) -> None:
     result = run("X=1.", statement, "END")
     assert result.ending.kind == "undefined"
     name = re.search("[BL]", statement)[0]  # type: ignore[index]
-    assert result.ending.message == (f"deck.f: card 2: {name} is undefined but is computed with, in {statement}")
+    assert result.ending.message == f"deck.f: card 2: {name} is undefined but is used in a calculation, in {statement}"
 
 
 @pytest.mark.parametrize(

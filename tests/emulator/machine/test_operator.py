@@ -33,7 +33,7 @@ def test_a_file_types_lines_and_presses_start_without_a_warning() -> None:
 def test_after_the_last_line_of_a_file_nobody_operates_the_machine() -> None:
     result = answered(ASKING, "ENTER    0\n")
     assert [notice.kind for notice in result.notices] == ["pause"]
-    with pytest.raises(DeckError, match="nothing is typed for ACCEPT in statement 5"):
+    with pytest.raises(DeckError, match="no typed line is left for ACCEPT in statement 5"):
         answered(ASKING, "ENTER    1\n")
 
 
@@ -132,8 +132,8 @@ def test_an_error_in_a_line_names_file_and_line(line: str, message: str) -> None
             "line 2: ENTER 5, but stopped (step) before statement 3 (card 1): PAUSE",
         ),
         (ASKING, "AT 90 ATTN\n", "line 1: AT 90 ATTN, but ACCEPT waits for a line, statement 5 (card 1)"),
-        (ASKING, "BREAK 8\n", "line 1: deck.f has no statement there"),
-        (ASKING, "BREAK CARD 7\n", "line 1: deck.f has no statement there"),
+        (ASKING, "BREAK 8\n", "line 1: deck.f has no statement of that number or card"),
+        (ASKING, "BREAK CARD 7\n", "line 1: deck.f has no statement of that number or card"),
     ],
 )
 def test_an_action_that_does_not_fit_names_file_and_line(lines: list[str], text: str, message: str) -> None:

@@ -182,7 +182,7 @@ def test_nan_has_no_sign() -> None:
         result = run(name, "Z=0.", "A=Z/Z", "7 IF(A)1,1,1", "1 STOP")
         assert (result.ending.kind, result.ending.message) == (
             "undecided",
-            f"deck.f: card 3: {name} has no sign for what is not a number (NaN), in 7 IF(A)1,1,1",
+            f"deck.f: card 3: {name} cannot determine the sign of NaN (not a number), in 7 IF(A)1,1,1",
         )
 
 
@@ -248,7 +248,7 @@ def test_number_too_large_for_a_card_ends_the_run() -> None:
 def test_infinity_cannot_become_an_integer(name: str) -> None:
     result = run(name, "A=0.", "B=1./A", "K=B")
     assert result.ending.kind == "undecided"
-    assert "has no whole number for" in result.ending.message
+    assert "has no integer for" in result.ending.message
 
 
 @pytest.mark.parametrize(

@@ -147,7 +147,7 @@ def test_line_ends_and_blank_fields_are_accepted(room: Path, capsys: pytest.Capt
 def test_a_repeated_point_is_noted(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("twice.deck").write_text(DECK.replace(" 4", " 5") + "1.0           -.0           .0\n", encoding="utf-8")
     _, _, err = call(capsys, "hull", "twice.deck")
-    assert "warning: twice.deck: card 6, column 1: the point of card 3 again" in err
+    assert "warning: twice.deck: card 6, column 1: the same point as on card 3" in err
 
 
 def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys: pytest.CaptureFixture[str]) -> None:

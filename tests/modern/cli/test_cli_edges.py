@@ -185,7 +185,7 @@ def test_draw_writes_png_and_pdf(
         ("voxel-hull labels.npy --spacing=-1,1,1", "spacing: expected positive numbers, found -1"),
         ("study many.toml", "many.toml: line 1: samples: expected an integer of at least 1, found 'many'"),
         ("study digits.toml", "digits.toml: a number has 10000 digits (at line 1, column 11)"),
-        ("study deep.toml", "deep.toml: nested too deeply"),
+        ("study deep.toml", "deep.toml: the text is nested too deeply"),
         ("hidden-line digits.toml", "digits.toml: line 1, column 11: a number has 10000 digits"),
         ("diff long.npy", "long.npy: row 1, x: 4901 digits; at most 4000 are read"),
         ("voxel-hull device.mhd", "device.mhd: /dev/zero: expected a regular file"),
@@ -247,7 +247,7 @@ def test_a_device_without_an_end_is_read_up_to_the_limit_of_its_kind(
     monkeypatch.setattr("modern.cli.shared.inputs.POINTS_LIMIT", 2 << 20)
     monkeypatch.setattr("modern.digital.volumes.VOLUME_LIMIT", 3 << 20)
     os.symlink("/dev/zero", "zero.toml")
-    most = f"at most {size} MiB are read from a pipe or device; write the data to a file"
+    most = f"at most {size} MiB can be read from a pipe or device; write the data to a file"
     assert call(capsys, *words.split()) == (2, "", f"hull1620: {words.split()[-1]}: {most}\n")
 
 

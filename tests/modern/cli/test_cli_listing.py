@@ -100,7 +100,7 @@ def test_a_program_with_accept_is_listed_with_an_operator_file(mine: Path, capsy
     assert [columns(line)[1] for line in (mine / "list.txt").read_text().splitlines()[3:]] == ["2", "2", "1", "", "0"]
     code, out, err = call(capsys, "listing", "ask.f", "one.deck")
     assert (code, out) == (2, "")
-    assert "nothing is typed for ACCEPT" in err
+    assert "no typed line is left for ACCEPT" in err
     code, out, err = call(capsys, "listing", "ask.f", "one.deck", "--operator")
     assert (code, out, err.count("\n")) == (2, "", 1)
 

@@ -322,7 +322,7 @@ def test_the_operator_is_asked_only_if_all_streams_are_one_terminal(folder: Path
 def test_the_operator_is_not_asked_without_a_deck_or_on_request(folder: Path, more: list[str]) -> None:
     with Person(folder, "run", "ask.f", *(["one.deck", *more] if more else [])) as person:
         assert person.ended() == 2
-        assert "nothing is typed for ACCEPT" in person.output
+        assert "no typed line is left for ACCEPT" in person.output
 
 
 def test_the_option_without_a_terminal_is_an_error(capsys: pytest.CaptureFixture[str], folder: Path) -> None:

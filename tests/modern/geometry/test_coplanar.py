@@ -67,7 +67,7 @@ def test_a_distance_of_zero_joins_nothing() -> None:
     found, joined = coplanar(hull, 0)
     assert joined is not None
     assert (found.faces, found.vertices, joined.square) == (hull.faces, hull.vertices, 0)
-    assert "no two of 36 faces lie within 0 of one plane; the next face would be joined from " in join_summary(joined)
+    assert "no two of 36 faces lie within 0 of one plane; the next face is joined if E is " in join_summary(joined)
 
 
 @settings(deadline=None, max_examples=40)
