@@ -2,7 +2,7 @@
 
 ``building``, ``deposit``, ``metadata``: the builds.  ``site/``: the website; its docstring explains how to add a page.
 ``book/``: the book.  ``tei``, ``tei_reading``: the TEI documents.  ``flow``, ``chart``, ``chart_svg``: flow charts.
-``console``, ``desk``, ``parting``: the emulator in the browser.  The other modules hold the facts that pages show, as
-frozen dataclasses without HTML: ``facing``, ``uses``, ``measured``, ``core`` (programs), ``examples``, ``numbered``
-(numbered lists in documents), ``steps`` (pictures of papers), ``figures`` (results quoted by name in documents).
+``console``, ``desk``, ``parting``: the emulator in the browser.  The other modules collect the facts that pages show,
+as frozen dataclasses without HTML: ``facing``, ``uses``, ``measured`` and ``core`` about the programs, ``examples``,
+``numbered`` (numbered lists in documents), ``steps`` (pictures of papers), ``figures`` (results quoted in documents).
 """

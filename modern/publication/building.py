@@ -31,9 +31,9 @@ def run(name: str, build: Callable[[], str]) -> int:
 
 
 def check_replaceable(folder: Path, marker: str, kind: str) -> None:
-    """Raise BuildError if a folder is neither empty nor an earlier result, which holds the file ``marker``."""
+    """Raise BuildError unless a folder is missing, empty, or an earlier result, which contains the file ``marker``."""
     if folder.exists() and not (folder / marker).exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise BuildError(f"{folder}: exists and is not {kind}; it is not replaced")
+        raise BuildError(f"{folder}: exists and is not {kind}, so it is not replaced")
 
 
 @cache

@@ -52,7 +52,10 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """The line of an exit as corners, its lane (0 next to the boxes, -1 for none), and the centre of its connector."""
+    """The line that leaves exit ``way`` of a box: its corners, its lane, and the centre of its connector, if any.
+
+    Lane 0 is next to the boxes; -1 means that the line uses no lane.
+    """
 
     box: int
     way: int
@@ -63,7 +66,7 @@ class Path:
 
 @dataclass(frozen=True, slots=True)
 class Landing:
-    """A connector that leads to a box: its centre, and the corners of the line to the box."""
+    """A connector from which a line leads to a box: its centre, and the corners of that line."""
 
     box: int
     centre: tuple[int, int]
@@ -128,7 +131,7 @@ def _size(box: Box) -> tuple[int, tuple[str, ...]]:
 
 
 def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
-    """Return the first box of each page and the box after its last.
+    """Divide the boxes into pages: return the first box of each page and the box after the last one.
 
     The breaks minimise the number of jumps between pages plus ten for each page (dynamic programming).
     """
@@ -147,7 +150,7 @@ def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
         candidates, used = [], 0
         for start in range(end - 1, -1, -1):
             used += sizes[start]
-            # The sum of the sizes is a lower bound; only the plan knows the room for connectors and joins.
+            # The sum of the sizes is a lower bound, because it ignores connectors and joins, so make the plan too.
             if start < end - 1 and (used > height or _plan(flow, range(start, end)).height > height):
                 break
             candidates.append((best[start][0] + 10 + across[start], start))
@@ -174,8 +177,9 @@ class _Rail:
 class _Plan:
     """The layout of a page before its lines are drawn.
 
-    ``lanes`` has the lane of each rail by target and side; ``landed`` are the boxes that connectors lead to.  The lists
-    have a vertical coordinate for each box: of the turn below it, of its connector, and of the end of its rails.
+    ``lanes`` has the lane of each rail by target and side; ``landed`` are the boxes that connectors lead to.  For each
+    box, ``turns``, ``lands`` and ``joins`` have the vertical coordinate of the turn below the box, of the connector
+    that leads to it, and of the end of its rails.
     """
 
     height: int
@@ -233,7 +237,7 @@ def _page(flow: Flow, first: int, end: int) -> Page:
 
 
 def _side(flow: Flow, place: int, k: int) -> Where:
-    """Return the side on which an exit runs that does not go straight down."""
+    """Return the side of the boxes on which the line of an exit runs if it does not go straight down."""
     way = flow.boxes[place].exits[k]
     if way.side != "down":
         return way.side
@@ -247,7 +251,7 @@ def _straight(flow: Flow, inside: range, place: int, k: int) -> bool:
 
 
 def _joined(flow: Flow, inside: range, lanes: dict[tuple[int, Where], int], place: int, k: int) -> bool:
-    """Return True if a line is drawn to its target without connectors."""
+    """Return True if the line of an exit is drawn to its target without connectors."""
     return _straight(flow, inside, place, k) or (flow.boxes[place].exits[k].target, _side(flow, place, k)) in lanes
 
 

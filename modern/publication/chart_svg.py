@@ -10,7 +10,7 @@ from modern.drawing.svg import escape
 from modern.publication.chart import BOX, LEFT, MARGIN, RADIUS, RIGHT, ROW, SPINE, ZONE, Chart, Page, Path, Placed
 from modern.publication.flow import Box
 
-# Returns the address to which a box links, or an empty string.
+# A function that returns the address to which a box links, or an empty string for no link.
 Link = Callable[[Box], str]
 
 _STYLE = (

@@ -39,7 +39,7 @@ def console_page() -> str:
 
 
 def parting_page() -> str:
-    """Return the HTML of the comparison of the programs with exact arithmetic, with the answer for the first set."""
+    """Return the HTML of the page that compares the programs with exact arithmetic, with the result for one set."""
     sets = point_sets()
     first = next(iter(sets.values()))
     return _filled("parting.html", POINTS=html.escape(first), SETS=_json(sets), FIRST=_json(parted(first)))
@@ -60,7 +60,7 @@ def point_sets() -> dict[str, str]:
 
 
 def recorded() -> str:
-    """Return the operator's log of example 4: program 1 in the state of the examples, then program 2 with its cards."""
+    """Return the operator's log of example 4: a run of program1_examples, then of program 2 with the punched cards."""
     desk = Desk(clock=lambda: 0.0)
     for program, deck in (("program1_examples", "example4"), ("program2", "stacker")):
         desk.load({"program": program, "deck": deck})
@@ -74,7 +74,8 @@ def recorded() -> str:
 def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> int:
     """Write the files that the pages load into ``folder`` and return their size in bytes.
 
-    Without a wheel or the npm package, the size is 0 and only ``size.js`` is written, which tells the pages so.
+    Without a wheel or the npm package, the size is 0, and only ``size.js`` is written, from which the pages learn that
+    the emulator is missing.
     """
     folder.mkdir(parents=True, exist_ok=True)
     npm, size = source / "node_modules" / "pyodide", 0

@@ -31,12 +31,12 @@ _CACHES = {"node_modules", "__pycache__", ".mypy_cache", ".ruff_cache", ".pytest
 _NOT_SOURCE = {".git", ".venv", "dist", "build"} | _CACHES
 # The folders of a deposit and a description of each.
 FOLDERS = {
-    "source": "all files of the project: decks in fortran_src, prints in transcripts, vectors in tests/data",
+    "source": "all files of the project: programs in fortran_src, printed results in transcripts, tests",
     "wheel": "the package that pip installs",
     "site": "the edition as a website: open site/index.html",
     "book": "the edition as a book, PDF/A",
-    "tei": "listings and prints with their apparatus, TEI P5",
-    "rows": "rows of studies, one for each judged hull",
+    "tei": "listings and printed results with their emendations, TEI P5",
+    "rows": "the results of studies, one row for each hull",
 }
 
 
@@ -120,7 +120,7 @@ def with_descriptions(parts: Parts, root: Path = ROOT) -> Parts:
 
 
 def readme(about: Work, parts: Parts, root: Path = ROOT) -> str:
-    """Return the README.txt of a deposit, for a reader who has only the bag."""
+    """Return the README.txt of a deposit, for a reader who has only the deposit."""
     files = parts.files
     wheel = next(name for name in files if name.startswith("wheel/"))
     lock = (root / "locks" / "run.lock").read_text(encoding="utf-8")
@@ -161,7 +161,7 @@ def _has_folder(files: Mapping[str, bytes], folder: str) -> bool:
 
 
 def swhid(files: Mapping[str, bytes], executable: set[str]) -> str:
-    """Return the Software Heritage identifier of a folder (SWHID 1.2, section 5.3), which is git's hash of its tree."""
+    """Return the Software Heritage identifier of a folder: git's hash of its tree (SWHID 1.2, section 5.3)."""
 
     def tree(prefix: str) -> bytes:
         entries: dict[bytes, bytes] = {}

@@ -2,9 +2,9 @@
 
 Requests and answers are plain data that JSON can represent; the page is ``docs/console``.  The machine runs in slices
 of some milliseconds.  The operator has the same questions, commands and log as on the command line
-(:mod:`emulator.machine.operator`, :mod:`emulator.machine.console`).  Without a terminal nothing can wait for an answer,
-so a halt without an answer ends the slice, and the next slice continues there.  The module imports only the standard
-library, lark and mpmath, which are available in the browser, but not numpy.
+(:mod:`emulator.machine.operator`, :mod:`emulator.machine.console`).  Python in the browser cannot wait for an answer.
+If the machine halts and the page has sent no answer, the slice ends, and the next slice continues there.  The module
+imports only the standard library, lark and mpmath, which are available in the browser, but not numpy.
 """
 
 import io
@@ -61,7 +61,10 @@ class _Visitor(Operator):
 
 @dataclass
 class Desk:
-    """A machine with program, decks and operator. ``clock``, read after every ``small`` operations, ends a slice."""
+    """A machine with program, decks and operator.
+
+    ``clock`` decides when a slice ends; it is read after each ``small`` operations.
+    """
 
     clock: Callable[[], float] = time.monotonic
     small: int = 2_000
@@ -187,7 +190,7 @@ class Desk:
         return {"lines": lines if isinstance(lines, list) else []}
 
     def log(self) -> str:
-        """Return everything since the page was opened as an operator file for the command line."""
+        """Return the operator's actions since the page was opened, as a log that ``--operator=FILE`` accepts."""
         return self._log.getvalue()
 
     def _source(self, program: Any, upcase: bool) -> Deck:

@@ -1,7 +1,7 @@
-"""The printed examples as data: witness, corrected print and today's run, card by card.
+"""The printed examples of chapter 6 as data: OCR text, corrected text and our run, card by card.
 
-The corrected print and its relation to the lines of the witness come from :mod:`modern.edition.chapter6_cards`.  The
-run and its comparison with the print come from :mod:`modern.edition.reproduce`.
+The corrected text and its relation to the OCR text come from :mod:`modern.edition.chapter6_cards`.  The run and its
+comparison with the corrected text come from :mod:`modern.edition.reproduce`.
 """
 
 from collections.abc import Sequence
@@ -24,7 +24,7 @@ VERDICTS = {EXACT: "identical", ORDER: "the same hull in another order"}
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A line of the witness: its number, its line ``at`` in the document, its text, and the spans that rows change."""
+    """A line of the OCR text: its number in the excerpt, ``at`` in the document, and the spans that rows change."""
 
     line: str
     page: str
@@ -35,11 +35,11 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A card as printed and as produced today.
+    """A card as printed and as our run punches it.
 
-    ``print`` is the corrected print, ``run`` the card of the run, or None for an input deck.  ``sources`` are the lines
-    of the witness that begin on this card, ``continued`` the lines that began on an earlier card.  ``differs`` are the
-    columns of ``run`` that differ from the print.
+    ``print`` is the card in the corrected text, ``run`` that of the run, or None for an input deck.  ``sources`` are
+    the lines of the witness that begin on this card, ``continued`` the lines that began on an earlier card.
+    ``differs`` are the spans of ``run`` that differ from ``print``.
     """
 
     number: int
@@ -74,7 +74,7 @@ class Part:
 
 @cache
 def example(number: int) -> tuple[Part, ...]:
-    """Return the devices of an example of chapter 6 in the order of the print."""
+    """Return the devices of an example of chapter 6 in the order in which the thesis prints them."""
     chapter = load_chapter()
     reports = tuple(reproduce((number,)))
     lines = _origins(segments(chapter.text))
@@ -83,7 +83,7 @@ def example(number: int) -> tuple[Part, ...]:
 
 @cache
 def homes() -> dict[str, tuple[int, str]]:
-    """Return the first example and device that show each row; a row may concern several."""
+    """Return, for each row of the apparatus, the first example and device whose page shows it."""
     first_shown: dict[str, tuple[int, str]] = {}
     for number in EXAMPLES:
         for part in example(number):
@@ -93,12 +93,12 @@ def homes() -> dict[str, tuple[int, str]]:
 
 
 def rest() -> tuple[Row, ...]:
-    """Return the rows of chapter 6 that concern no card; they drop text between the cards, such as page numbers."""
+    """Return the rows of chapter 6 that concern no card, but remove text between cards, such as page numbers."""
     return tuple(row for row in load_chapter().text.rows if row.id not in homes())
 
 
 def _origins(lines: Sequence[Segments]) -> dict[str, list[Segments]]:
-    """Map each line of the corrected print to its line of the witness and the lines that rows made from that."""
+    """Map each line of the corrected text to its family: a witness line and the lines that rows made from it."""
     families: dict[str, list[Segments]] = {}
     family: list[Segments] = []
     for line in lines:
@@ -140,7 +140,7 @@ def _shown(
 
 
 def _source(family: Sequence[Segments]) -> Source:
-    """Return a line of the witness with the spans that rows change; the insertion of a line break is no change."""
+    """Return a line of the witness with the spans that rows change.  Inserted line breaks do not count as changes."""
     line, *inserted = family
     text, spans = "", []
     for piece in line.pieces:
@@ -157,7 +157,7 @@ def _source(family: Sequence[Segments]) -> Source:
 
 
 def differing(expected: str, actual: str) -> Spans:
-    """Return the spans of ``actual`` that differ from ``expected``, or all of it if it only lacks characters."""
+    """Return the spans of ``actual`` that differ from ``expected``; all of it if it only lacks characters."""
     if expected == actual:
         return ()
     codes = SequenceMatcher(None, expected, actual, autojunk=False).get_opcodes()

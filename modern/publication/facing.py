@@ -1,6 +1,6 @@
-"""The facing text of a listing: for each card the witness, the deck, and the rows of the apparatus between them.
+"""The facing text of a listing: the OCR text (witness) of each card next to the card, with the rows that change it.
 
-The module holds facts only; the site and the book present them.
+The module collects facts only; the site and the book present them.
 
 Every card has a *place*, a name that stays valid when the numbering of the deck changes, because it is counted from the
 programmer's statement numbers.  ``147+2`` is the second statement after statement 147.  ``0+1`` is the first statement
@@ -47,7 +47,7 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """The cards that replace a card if a further layer is applied.  A layer that removes the card has no cards here."""
+    """The cards that replace a card if a further layer is applied; none if the layer removes the card."""
 
     layer: str
     rows: tuple[str, ...]
@@ -59,7 +59,7 @@ class Card:
     """A card of a deck with the witness that it was made from.
 
     ``number`` is its number in the deck, counted from 1, ``label`` its statement number or 0, and ``page`` the page of
-    the thesis.  ``also`` are its further places.  ``witness`` is empty for a card that the witness does not have.
+    the thesis.  ``also`` are its other names (places).  ``witness`` is empty for a card that the witness lacks.
     ``changed`` are the characters that differ from the witness.  ``rows`` are the rows that changed this card, except
     those that changed most cards of the deck.  ``variants`` are the readings of further layers.
     """
@@ -193,7 +193,7 @@ def _pieces(
     for line in lines:
         if bases[line.id]:
             cards_of_base.setdefault(bases[line.id], []).append(line.id)
-    # A witness line without a card was joined to a card nearby by the same row, or dropped by its row.
+    # If a witness line has no card, the last row that changed it joined it to a nearby card, or dropped it.
     joined: dict[str, list[str]] = {}
     dropped: dict[str, list[Piece]] = {}
     for name in witness:
@@ -241,7 +241,7 @@ def _base(text: Text, line: str) -> str:
 
 
 def _emptying_row(text: Text, line: str, layers: Collection[str], everywhere: Collection[str]) -> str:
-    """Return the last row in the layers of the deck that changes a witness line of which nothing remains."""
+    """Return the last row in the layers of the deck that changes a witness line from which no card was made."""
     for row in reversed([row for row in text.rows if row.layer in layers and row.id not in everywhere]):
         for change in row.changes:
             span = range(int(change.line), int(change.through) + 1) if change.through else ()
@@ -270,7 +270,7 @@ def _divided(line: str, cards: Sequence[str]) -> list[str]:
 
 
 def _compared(pieces: Sequence[Piece], card: str) -> tuple[tuple[Piece, ...], tuple[Span, ...]]:
-    """Return the pieces with the characters that the card lacks, and those that only the card has, without blanks."""
+    """Mark the differences between pieces and card: characters that the card lacks, and that only the card has."""
     if not pieces:
         return (), ((0, len(card)),)
     joined = "\n".join(piece.text for piece in pieces)

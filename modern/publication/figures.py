@@ -1,4 +1,4 @@
-"""Figures of committed results by name, and the function that fills them into documents.
+"""Numbers quoted from committed results, by name, and the function that fills them into documents.
 
 A document quotes a figure by its name between double braces, such as ``{{ seventy.failures }}``.  :func:`filled`
 replaces the names in Markdown text, for the site and for the book.  The figures come from the tables in
@@ -26,7 +26,7 @@ _PLACE = re.compile(r"\{\{ *([a-z][\w.-]*) *\}\}")
 
 
 class FigureError(ValueError):
-    """A document names an unknown figure, or a table does not have the cell of a figure."""
+    """A document names an unknown figure, or the table of a figure lacks its cell."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -76,7 +76,7 @@ def flow(program: Program) -> Flow:
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """The instructions of a statement, or, if ``begins`` is False, those that close a DO."""
+    """The instructions of a statement or, if ``begins`` is False, the instructions that close a DO."""
 
     start: int
     end: int
@@ -104,7 +104,7 @@ def _parts(program: Program) -> list[_Part]:
 
 
 def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
-    """Return the box of a part.  Its exits lead to indices of parts."""
+    """Return the box of a part, whose exits name their targets by the indices of the parts."""
     index_of = {known.start: index for index, known in enumerate(parts)}
     code = program.code[part.start : part.end]
     last = code[-1]

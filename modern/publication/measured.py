@@ -69,9 +69,10 @@ def _job(example: int, first: str) -> tuple[Run, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Weight:
-    """The altered readings of a card, counted by the check of :data:`DETECTED_BY` that detects them first.
+    """The numbers of altered readings of a card, by the check of :data:`DETECTED_BY` that detects them first.
 
-    Readings that change nothing are not counted.  ``formula`` is what the card computes.
+    Readings that leave the object code unchanged are not counted.  ``formula`` names the formula of chapter 3 that the
+    card computes.
     """
 
     detected: tuple[int, ...]

@@ -74,7 +74,10 @@ def codemeta(about: Work) -> str:
 
 
 def crate(about: Work, folders: Mapping[str, str], files: Mapping[str, tuple[str, str]]) -> str:
-    """Return ro-crate-metadata.json for datasets and files by path; a file has a description and a media type."""
+    """Return ro-crate-metadata.json.
+
+    ``folders`` maps a path to its description, and ``files`` a path to its description and media type.
+    """
     from rocrate.model.data_entity import DataEntity
     from rocrate.model.person import Person
     from rocrate.rocrate import ROCrate
@@ -130,7 +133,7 @@ def data_package(about: Work, tables: Mapping[str, str]) -> str:
 
 
 def _fields(path: str, text: str) -> list[dict[str, str]]:
-    """Return the columns of a table with their types, which all cells of the column must have."""
+    """Return the columns of a table with their types: the narrowest type that all cells of the column have."""
     head, *rows = list(csv.reader(StringIO(text)))
     if duplicates := [name for name in head if head.count(name) > 1]:
         raise ValueError(f"{path}: two columns are called {duplicates[0]}")

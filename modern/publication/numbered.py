@@ -32,7 +32,7 @@ class Item:
 
 @cache
 def numbered(file: str) -> tuple[str, tuple[Item, ...], tuple[str, str]]:
-    """Return the text before the items of a file, the items, and the heading and text of the section after them.
+    """Return the text before the items of a Markdown file, the items, and heading and text of the section after them.
 
     An item begins with its number at the start of a line.  Its title is the bold text that follows, or its first
     sentence.  Raise ValueError if the numbers are not 1, 2, 3 and so on.

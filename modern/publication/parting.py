@@ -28,13 +28,13 @@ from modern.thesis.refusals import Cause, explain_run
 
 # The largest number of points; the arrays of the programs have 51 elements.
 MOST = 51
-# The largest number of operations of a run, three times the need of 51 points.
+# The largest number of statements that a run may execute, three times the number that 51 points need.
 LIMIT = 300_000
 Whole = tuple[int, int, int]
 
 
 def parted(text: str) -> dict[str, Any]:
-    """Compare the two hulls of points that are given as text, one point per line.
+    """Compare the hull that the 1963 programs find with the true hull, for points as text, one point per line.
 
     The answer has ``points`` (as typed), and ``true`` and ``found`` for the two hulls.  Each hull has ``dimension``,
     ``vertices`` (indices from 0) and ``faces`` (loops of indices; a polygon or a line is one face).  ``says`` are
@@ -150,7 +150,7 @@ def _program_hull(
         if cause is not None and cause.decision is not None:
             lines.append(f"decided by program {cause.program}, card {cause.decision.place.card}: {cause.decision.text}")
         if cause is not None and cause.fault:
-            lines.append(f"known fault {cause.fault}")
+            lines.append(f"the cause is known fault {cause.fault} of the programs")
         return lines, no_hull
     hull = read_hull(run.final.result.punched)
     index_of: dict[tuple[Fraction, ...], int] = {}
@@ -188,17 +188,17 @@ def _differences(true_vertices: set[int], punched: set[int], points: Sequence[Wh
     missed = [f"point {n + 1}" for n in sorted(true_vertices) if points[n] not in punched_points]
     extra = [f"point {n + 1}" for n in sorted(punched) if points[n] not in true_points]
     if not missed and not extra:
-        return ["its vertices are those of the true hull"]
+        return ["the vertices are those of the true hull"]
     messages = []
     if missed:
-        messages.append(f"missed: {', '.join(missed)}")
+        messages.append(f"vertices of the true hull that the programs missed: {', '.join(missed)}")
     if extra:
-        messages.append(f"not a vertex of the true hull: {', '.join(extra)}")
+        messages.append(f"punched, but not vertices of the true hull: {', '.join(extra)}")
     return messages
 
 
 def _part(run: HullRun, deck: Deck) -> Iterator[str]:
-    """Yield the first decision of the run that exact arithmetic takes differently, with both values and targets."""
+    """Yield the first branch that eight-digit and exact arithmetic decide differently, with both values and targets."""
     for step in run.steps:
         try:
             divergence = diverge(

@@ -31,7 +31,7 @@ from modern.papers.yau_srihari.quadtree import Quadtree, ceiling, sons_of
 EYE: Eye = (24, -55, 29)
 # A direction of view from which all three axes point towards the eye.
 ABOVE: Eye = (57, 31, 43)
-# The kinds of strokes; ``removed`` means removed by this step.
+# The kinds of strokes; a ``removed`` stroke is one that the step of the picture removes.
 SEEN, EDGE_OF_CONTOUR, HIDDEN, REMOVED = "seen", "contour", "hidden", "removed"
 
 
@@ -83,9 +83,9 @@ def hidden_lines(name: str = "house") -> tuple[Eye, tuple[Plate, ...]]:
     visible, result = _visible_spans(with_ghosts), _visible_spans(final)
     fronts: list[Stroke] = []
     backs: list[Stroke] = []
-    behind: list[Stroke] = []  # removed in the third step, and what remains
+    behind: list[Stroke] = []  # strokes that the third step removes; ``before`` are those that remain
     before: list[Stroke] = []
-    ghosts: list[Stroke] = []  # removed in the fourth step, and what remains
+    ghosts: list[Stroke] = []  # strokes that the fourth step removes; ``after`` are those that remain
     after: list[Stroke] = []
     for item in final.solids:
         places = (*item.polyhedron.vertices, *(p for f in item.polyhedron.figures for p in f.corners))
@@ -151,7 +151,7 @@ class Cells:
 
 @cache
 def cells(diameter: int = 5) -> Cells:
-    """Return the ball of a diameter, its hull, and the numbers of cells of both (3-cells, and boundary cells)."""
+    """Return pictures of a ball of voxels and its hull, and the numbers of their 3-cells and boundary cells."""
     volume = ball(diameter)
     polyhedron = voxel_hull(volume, order=RASTER).polyhedron
     counts = [("the ball's voxels and their boundary", (*_boundary(volume), volume.count))]
@@ -238,7 +238,7 @@ def _moved(cell: tuple[int, ...], axis: int, step: int) -> tuple[int, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Quadrant:
-    """A square of the quadtree of heights. ``height`` is None without a column; ``whole`` is True for a leaf."""
+    """A square of the quadtree of heights: ``height`` is None if it has no column; ``whole`` is True for a leaf."""
 
     x: int
     y: int

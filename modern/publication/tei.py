@@ -1,10 +1,10 @@
-"""Write a text as TEI P5 with parallel segmentation: listings and prints with their witness and every emendation.
+"""Write a text of the edition as TEI P5 with parallel segmentation: its witness with every emendation.
 
 An *app* element holds the readings of a passage.  ``lem`` is the reading of this edition (the layers of the deck, or
-the corrected print).  ``rdg`` with ``wit="#ocr"`` is the reading of the witness, and ``rdg`` with ``resp`` but no
-witness that of a further layer.  An empty reading is an omission.  Apps are nested if a later row changes the reading
-of an earlier one.  A card or line is an ``ab`` element: ``n`` is the line of the witness, and the ``lb`` in it the line
-of the whole document.  :mod:`modern.publication.tei_reading` restores witness, corrected text and cards from the file.
+the corrected text).  ``rdg`` with ``wit="#ocr"`` is the reading of the witness.  ``rdg`` with ``resp`` but without
+``wit`` is that of a further layer.  An empty reading is an omission.  Apps are nested if a later row changes the
+reading of an earlier one.  A card or line is an ``ab`` element: its ``n`` is the line of the witness, and the ``lb`` in
+it the line of the whole document.  :mod:`modern.publication.tei_reading` restores witness, corrected text and cards.
 
 Source: TEI P5 Guidelines, chapter 2 (header), 12.1 (apparatus entries), 12.2.3 (parallel segmentation).
 """
@@ -29,12 +29,12 @@ LAYERS = {
     "ocr": "a misreading of the OCR; the page certainly has this reading",
     "typist": "a typing error on the page",
     "author": "an error of the author, or indistinguishable from one",
-    "print": "proved by the printed output",
-    "lacuna": "conjecture: missing from the listing or the OCR, and needed to run",
-    "examples": "the earlier state of program 1 that ran the examples, reconstructed from the printed order",
-    "epsilon": "proposal of chapter 7: values from -e to +e count as zero",
-    "translation": "proposal of chapter 7: the origin is moved to C",
-    "corrected": "our corrections of faults of the original",
+    "print": "a correction that the printed output of the examples proves",
+    "lacuna": "a conjecture: text that the listing or the OCR lacks, without which the program does not work",
+    "examples": "the earlier state of program 1 that ran the examples, reconstructed from the printed order of points",
+    "epsilon": "a proposal of chapter 7: values from -e to +e count as zero",
+    "translation": "a proposal of chapter 7: the origin is moved to the inside point C",
+    "corrected": "corrections by the project of faults of the original programs",
 }
 
 
@@ -154,7 +154,7 @@ def _witness(div: Element, edition: _Edition, source: str) -> None:
 
 
 def _ab(div: Element, edition: _Edition, place: str, kind: str, pieces: tuple[Piece, ...]) -> None:
-    """Write a line.  The id of a line of the witness is its number after an l; other lines have the id of a row."""
+    """Write a line as ``ab``.  The id of witness line 17 ends with ``l17``, that of an inserted line with its row."""
     attributes = {_ID: f"{edition.text.id}-{place}", "type": kind, _SPACE: "preserve"}
     number = place.removeprefix("l") if place.startswith("l") else ""
     ab = SubElement(div, "ab", attributes | ({"n": number} if number else {}))

@@ -1,6 +1,6 @@
 """Cross references of a deck: the jumps between its cards, and the cards that use each name and FORMAT.
 
-They are read from the syntax tree and therefore do not depend on a run.
+The module reads them from the syntax tree; no program is run.
 """
 
 from collections.abc import Iterator

@@ -24,7 +24,7 @@ from modern.publication.numbered import numbered
 DOCS = ROOT / "docs"
 STANDARD: Final = "a-2a"
 MISSING_TYPST = "Typst typesets the book: pip install 'hull1620[edition]'"
-# The chapters: documents below ``docs``; a name with ``@`` is a part that is generated from data.
+# The chapters with their documents below ``docs``; a name that begins with ``@`` is a part generated from data.
 CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("Introduction", ("article.md",)),
     ("The algorithm", ("explanation/method.md", "explanation/eight-digits.md", "reference/concordance.md")),

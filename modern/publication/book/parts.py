@@ -76,7 +76,7 @@ def _entry(row: Row, listing: Facing) -> str:
         at += f" and {len(cards) - 6} more"
     kinds = call("text", say(f"{row.layer}, {row.kind}; {row.certainty}"), style='"italic"')
     rejected = "".join(f" Rejected: {code(r.reading)} {say(r.reason)}" for r in row.rejected)
-    ground = row.ground.get("kind", "none: a conjecture")
+    ground = row.ground.get("kind", "none: the reading is a conjecture")
     text = f"{_head(row)}{say(at)} {kinds}. {_readings(row)}{say(row.reason)}{rejected} {say(row.evidence)} "
     return f"#entry[{text}{say(f'Ground: {ground}.')}]\n\n"
 

@@ -18,10 +18,10 @@ GROUNDS = {
     "width": "without the row, a field does not have 14 characters or is not a number",
     "arithmetic": "with the row, the printed plane equation vanishes at its printed vertices",
     "sibling": "the same words are printed in another place",
-    "order": "a column in the witness, a numbering, or the page number",
+    "order": "the columns of the witness, a numbering or the page number prove the order",
     "result": "with the row, a computation reproduces a published result",
 }
-# The possible causes of a difference between the witness and our reading.
+# The possible origins of an error in the witness, as shown on the page of a row.
 CAUSES = {
     "ocr": "the OCR",
     "typist": "the typist",
@@ -77,7 +77,7 @@ def _reading(reading: str) -> str:
 def _ground(row: Row) -> str:
     kind = str(row.ground.get("kind", ""))
     if not kind:
-        return "none: a conjecture"
+        return "none: the reading is a conjecture"
     values = ((key, value) for key, value in row.ground.items() if key != "kind")
     parameters = ", ".join(f"{k} {', '.join(map(str, v)) if isinstance(v, list) else v}" for k, v in values)
     in_program = row.text in programs.TEXTS

@@ -46,7 +46,7 @@ def details(summary: str, inner: str, **attributes: str | bool) -> str:
 
 
 def bar(shares: Iterable[tuple[str, int]]) -> str:
-    """Return a bar that is divided in proportion to numbers, each with the CSS class of its part."""
+    """Return a bar divided into parts in proportion to numbers; each number comes with the CSS class of its part."""
     parts = (element("span", "", cls=cls, style=f"flex-grow:{share}") for cls, share in shares if share)
     return element("span", "".join(parts), cls="weight", aria_hidden="true")
 

@@ -171,7 +171,7 @@ def test_missing_parts_and_foreign_folders_are_reported_in_one_line(
     in_the_way = tmp_path / f"{about.name}-{about.version}-deposit"
     in_the_way.mkdir()
     (in_the_way / "notes.txt").write_text("x")
-    with pytest.raises(BuildError, match="exists and is not a BagIt bag; it is not replaced"):
+    with pytest.raises(BuildError, match="exists and is not a BagIt bag, so it is not replaced"):
         write(tmp_path, parts())
     monkeypatch.setattr(deposit, "DIST", tmp_path / "dist")
     assert deposit.main([str(tmp_path)]) == 2

@@ -162,7 +162,7 @@ def test_a_folder_without_a_site_is_not_replaced(tmp_path: Path, capsys: pytest.
     assert site_build.main([str(tmp_path)]) == 2
     assert (
         capsys.readouterr().err
-        == f"edition: {tmp_path}: exists and is not a site built by hull1620; it is not replaced\n"
+        == f"edition: {tmp_path}: exists and is not a site built by hull1620, so it is not replaced\n"
     )
     assert (tmp_path / "thesis.txt").read_text() == "kept"
 

@@ -43,7 +43,7 @@ def _errors() -> Iterable[tuple[str, str]]:
 def _rows() -> Iterable[tuple[str, str]]:
     for name in programs.TEXTS:
         for row in programs.text(name).rows:
-            # The state of the examples shows the rows that its listing does not have.
+            # The page of program1_examples shows only the rows that the listing of program 1 does not have.
             page = name if row in facing(name).rows() else f"{name}_examples"
             description = f"{row.layer}, {row.kind}, {row.certainty}: {programs.cards_of(row)}"
             yield link(page, row.id, row.id), description

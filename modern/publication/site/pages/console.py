@@ -24,14 +24,14 @@ FILE = "transcripts/counterexamples/silent.deck"
 
 
 def make(argument: str) -> Made:
-    """Return the controls of a page, ``machine`` or ``parting``, or ``wrong``, the comparison of a set of points."""
+    """Return the controls of a page (``machine`` or ``parting``), or a set with a wrong hull (``wrong``)."""
     if one_of(argument, ("machine", "parting", "wrong")) == "wrong":
         return _wrong()
     return Made((Part(html=console_page() if argument == "machine" else parting_page()),))
 
 
 def _wrong() -> Made:
-    """Return the comparison: picture, differences, cards punched and exact calculation."""
+    """Compare the hull that the programs punch for a set with the true hull: picture, differences and calculation."""
     source = read(FILE)
     points = parse_input(source, "silent.deck").points
     run = run_hull(deck_from_text("silent.deck", source), program)
@@ -64,7 +64,7 @@ def _statement_link(divergence: str) -> str:
 
 
 def _worked(points: tuple[tuple[str, ...], ...]) -> str:
-    """Return the exact value of each plane through three of the points at the fourth point: a triple product."""
+    """Return, for each of four points, the exact value there of the plane through the other three points."""
     exact = [coordinates(point) for point in points]
     rows = []
     for out in range(4):
@@ -72,5 +72,5 @@ def _worked(points: tuple[tuple[str, ...], ...]) -> str:
         value = dot(cross(minus(b, a), minus(c, a)), minus(exact[out], a))
         number = out + 1
         rows.append(f"<li>The plane through all points except {number} has the value {int(value):,} at {number}.</li>")
-    conclusion = "No value is zero, so every point is a vertex and each plane has one point on its inner side."
+    conclusion = "No value is zero, so the points form a tetrahedron, and each of the four points is a vertex."
     return element("ul", "".join(rows)) + text("p", conclusion)

@@ -1,4 +1,4 @@
-"""A printed example: verdicts, hull, construction and time, and each print next to its witness and today's run."""
+"""A printed example: verdicts, hull, construction and time, and the printed cards next to OCR text and our run."""
 
 from collections.abc import Iterator
 
@@ -96,7 +96,7 @@ def _part(part: Part) -> str:
         shown_elsewhere = [link(f"example{homes()[r.id][0]}", r.id, r.id) for r in part.rows if r not in shown_here]
         if shown_elsewhere:
             rows += element("p", f"And {', '.join(shown_elsewhere)}, which also concern other cards.")
-        summary = f"{len(part.rows)} rows of the apparatus correct the witness of this print"
+        summary = f"{len(part.rows)} rows of the apparatus correct the OCR text of these cards"
         html += details(summary, rows, cls="rows-of-print")
     return html
 
@@ -125,7 +125,7 @@ def _time(number: int) -> str:
                 times = (f"{run.statements:,}", _seconds(run.seconds), _seconds(run.total))
                 rows.append((link(name, "", program(name).source), *times))
     head = ("program", "statements", "processor", "with reader, punch and typewriter, without overlap")
-    accuracy = (("how sure", "within ten per cent where IBM gives times; the rest are estimates"),)
+    accuracy = (("how sure", "within ten per cent if IBM states the times; the other times are estimates"),)
     return table(head, rows, name="Time on a 1620 Model 1") + definitions(accuracy, cls="facts")
 
 

@@ -112,7 +112,7 @@ def _loop(hull: Assembled, number: int, loop: Loop) -> str:
 
 
 def loop_svg(hull: Assembled, number: int) -> str:
-    """Draw the topological map when a loop was closed: its surface in grey, and at each edge its uses so far.
+    """Draw the topological map after a loop is closed: the loop's surface in grey, and at each edge its uses so far.
 
     The largest surface is the outside of the map, so its grey area surrounds the map.
     """
@@ -154,7 +154,7 @@ def loop_svg(hull: Assembled, number: int) -> str:
 
 
 def plates_svg(plates: Sequence[Plate], eye: Eye, titles: Sequence[str]) -> tuple[str, ...]:
-    """Draw plates as SVG, all from the same direction and at the same scale."""
+    """Draw the steps of a method as SVG, all from the same direction and at the same scale."""
     sight = view(eye)
 
     def ends(plate: Plate) -> Iterator[Vector]:

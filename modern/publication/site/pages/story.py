@@ -51,7 +51,10 @@ def _growth() -> str:
 
 
 def plane_values(arithmetic: Numbers, points: Sequence[Sequence[int]]) -> tuple[str, list[str]]:
-    """Return D of the plane through three points, and its values at them (program 3, 130+3 to 130+10 and 116+4)."""
+    """Return D of the plane through three points, and the plane's values at them, which should be 0.
+
+    The calculation is that of program 3 (cards 130+3 to 130+10 and 116+4) in the given arithmetic.
+    """
     x, y, z = (tuple(arithmetic.from_integer(point[axis]) for point in points) for axis in range(3))
 
     def total(plus: Sequence[Sequence[Number]], minus: Sequence[Sequence[Number]]) -> Number:
@@ -79,7 +82,8 @@ def plane_values(arithmetic: Numbers, points: Sequence[Sequence[int]]) -> tuple[
 
 
 def _truncation() -> str:
-    """Return a slider for one coordinate of three points, with the plane's values at the points in eight digits."""
+    """Return a slider for x of the first of three points, and the values of their plane at them in eight digits."""
+
     rows = []
     for x in XS:
         points = ((x, *FIRST), *CORNERS)
