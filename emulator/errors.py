@@ -25,7 +25,7 @@ class ArgumentError(EmulatorError, ValueError):
 
 
 def expect(value: object, kind: type | tuple[type, ...], name: str) -> None:
-    """Raise ArgumentError unless an argument called ``name`` has one of these types."""
+    """Raise ArgumentError unless the value of the argument called ``name`` has one of the given types."""
     if not isinstance(value, kind):
         kinds = kind if isinstance(kind, tuple) else (kind,)
         expected = " or ".join(each.__name__ for each in kinds)
@@ -125,7 +125,7 @@ class Refused(Exception):
 
 
 class CompileError(EmulatorError):
-    """A source deck that does not compile.  ``diagnostics`` holds every message, and ``str`` is the first error."""
+    """A source deck that does not compile.  ``diagnostics`` has all messages; ``str()`` returns the first error."""
 
     def __init__(self, source: str, diagnostics: Iterable[Diagnostic]) -> None:
         self.source = source

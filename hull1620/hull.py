@@ -60,7 +60,7 @@ class Hull:
     record : modern.geometry.hull.Hull
         All data of the hull as exact text.  The other attributes are derived from it.
     certificate : Certificate or None
-        The counts of the proof, from ``exact_hull`` only.
+        The counts of the proof; None for a hull of ``convex_hull``.
     """
 
     record: Record
@@ -91,7 +91,7 @@ class Hull:
 
     @property
     def statement(self) -> str:
-        """Program and label of the statement in the listing that decided the status; empty from ``exact_hull``."""
+        """Program and label of the statement in the listing that decided the status; empty for ``exact_hull``."""
         return self.record.statement
 
     @property

@@ -48,8 +48,8 @@ def convex_hull(
         ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the eight digits of the thesis), ``ibm1962``,
         ``truncating:P``, ``guarded:P`` or ``rounding:P``.
     epsilon : number or str, optional
-        The e of chapter 7: values from -e to e count as zero.  ``"rel:1e-9"`` is relative to the equation.  If e is so
-        large that the faces do not close to a surface, there is no hull.
+        The e of chapter 7: values of an equation from -e to e count as zero.  ``"rel:1e-9"`` is relative to the
+        equation.  If e is so large that the faces do not close to a surface, there is no hull.
     translate : bool, optional
         Move the origin to the point C first, as chapter 7 proposes.
     history : bool, optional
@@ -61,7 +61,7 @@ def convex_hull(
         What happens if the procedure finds no hull in this arithmetic, as for most doubles in ``float64``: raise
         HullRefused, or return the incomplete result.
     text : bool, optional
-        Follow the text of chapter 3 where it differs from the listing.
+        Follow the text of chapter 3 of the thesis, not the listing, in the two steps in which they differ.
 
     Returns
     -------
@@ -214,7 +214,7 @@ def run_hull(deck: Deck, layers: Sequence[str] = (), options: Options | None = N
     layers : sequence of str, optional
         Layers of the apparatus, such as ``corrected``, that are added to the listings.
     options : Options, optional
-        The machine: its arithmetic, its core memory, a limit of statements, and others.
+        The options of the machine: arithmetic, core memory, limit of statements, and others.
 
     Returns
     -------

@@ -192,7 +192,7 @@ class Runner:
                     at += 1
 
     def _some(self, packed: list[bytes]) -> list[Run | None]:
-        """Run as many decks as fit into the log."""
+        """Run as many of the decks as have room in the log."""
         return [self._run(d) for d in range(self.kernel(*self._arguments(packed)))]
 
     def _arguments(self, packed: list[bytes]) -> tuple[Any, ...]:

@@ -25,10 +25,10 @@ _DECISIONS = (op.IF, op.IFX, op.SELECT, op.DOTEST)
 class Difference:
     """A value that differs between the studied run and the reference run.
 
-    ``time`` counts the executions of the statement ``line``.  ``names`` and ``values`` are the variable and its value
-    in each run.  ``relative`` is the difference divided by the value in the reference run, or None if that value is
-    zero or not a number.  ``bound`` is the largest possible error of the value in the reference run, 0 if nothing was
-    rounded.
+    ``time`` is the number of the execution of the statement ``line``, from 1.  ``names`` and ``values`` are the
+    variable and its value in each run.  ``relative`` is the difference divided by the value in the reference run, or
+    None if that value is zero or not a number.  ``bound`` is the largest possible error of the value in the reference
+    run, 0 if nothing was rounded.
     """
 
     line: Line

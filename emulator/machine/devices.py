@@ -310,7 +310,7 @@ class Devices:
         self.state.work += self.state.owe(ERROR)
 
     def note(self, notice: Notice) -> None:
-        """Add a notice, once."""
+        """Add a notice, unless the same notice has been added before."""
         self.notices[notice] = None
 
     def ending(self, kind: Kind) -> Ending:

@@ -58,7 +58,7 @@ def run(
     journal: Journal | None = None,
     enters: Sequence[bool] = (),
 ) -> int:
-    """Run until there is a reason to return, and return it.  ``state`` is changed in place.
+    """Run until the session must act or the run ends, and return the reason.  ``state`` is changed in place.
 
     Parameters
     ----------

@@ -18,8 +18,8 @@ from emulator.numbers.work import STEPS
 # The kind of a field that holds a floating-point number, in any arithmetic.
 FLOATING = ZERO
 
-# An entry of a journal: instruction, field changed or next instruction, value stored or tested.  A COUNT has 0 and
-# None.
+# An entry of a journal: instruction, field changed or next instruction, value stored or tested.  For a COUNT, the field
+# is 0 and the value None.
 Entry = tuple[int, int, Number]
 
 

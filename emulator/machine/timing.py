@@ -93,7 +93,7 @@ class Timing:
 
 
 def measure(program: Program, result: Result) -> Timing:
-    """Return the time table of a run.  ``statements`` pairs an index into ``program.statements`` with its count."""
+    """Return the time table of a run.  Its ``statements`` pair an index into ``program.statements`` with a count."""
     expect(program, Program, "program")
     expect(result, Result, "result")
     operations: Tally[str] = Tally()

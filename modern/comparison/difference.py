@@ -25,8 +25,8 @@ class Disagreement:
 
     ``misfiled`` points have the wrong class, boundary or inside.  ``error`` is the largest error of a coefficient among
     the matched equations, relative to the largest coefficient of x, y and z (the error of D: to the largest of all
-    four).  ``excluded`` is the largest distance of an input point outside an equation, to about twelve digits.
-    ``places`` has for each equation of the outcome the index of the exact equation that it matches, or -1.
+    four).  ``excluded`` is the largest distance by which an input point is outside of an equation, to about twelve
+    digits.  ``places`` has for each equation of the outcome the index of the exact equation that it matches, or -1.
     """
 
     missed: frozenset[int]
@@ -165,7 +165,7 @@ class UnrelatedCards(EmulatorError):
 class CardDifferences:
     """The vertices that punched cards lack or add, the faces of the exact hull that they lack, and false faces.
 
-    ``polygons`` are false faces by the vertices on their cards; ``others`` counts those with fewer than two.
+    ``polygons`` gives each false face as the vertices on its cards; ``others`` counts false faces with fewer than two.
     """
 
     missed: tuple[int, ...] = ()

@@ -23,9 +23,10 @@ class Surface(NamedTuple):
     """Triangles in numbered slots, which are reused after removal, and linked lists of the points waiting outside each.
 
     grid (n, 3): the points. corners, neighbours, normals (slots, 3), images (slots, 4): as in ``proposal``. first,
-    farthest, height: the first and the farthest waiting point of each triangle, and the value of its plane at the
-    latter. mark: twice the number of the step that last tested the triangle, plus 1 if it is not visible. following:
-    the next waiting point in the list of each point, or -1. leaving: the new triangle whose first corner each point is.
+    farthest, height: for each triangle the first and the farthest of its waiting points, and the value of its plane at
+    the farthest. mark: twice the number of the step that last tested the triangle, plus 1 if it is not visible.
+    following: the next waiting point in the list of each point, or -1. leaving: for each point, the new triangle whose
+    first corner it is.
     """
 
     grid: NDArray[np.int64]

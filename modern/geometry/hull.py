@@ -74,12 +74,12 @@ class Face:
     Attributes
     ----------
     coefficients
-        A, B, C, D scaled as in the thesis, products of coordinate differences of the defining points.  For a line the
+        A, B, C, D in the scale of the thesis, sums of products of coordinates of the defining points.  For a line the
         coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).
     lowest
         The same equation as integers without a common divisor.
     defining
-        The points MM, NN, KK (for a line MM, NN) from which the equation was made.
+        The points MM, NN, KK (for a line MM, NN) through which the equation was computed.
     polygon
         The vertices on the plane in cyclic order, counterclockwise seen from outside.  A line has two vertices.
     on

@@ -124,7 +124,7 @@ def read_epsilon(epsilon: object) -> tuple[Fraction, bool] | None:
 
 def value_of(text: str) -> Fraction:
     """Return the value of a valid decimal or fraction ``p/q`` of any length, such as a number of a hull."""
-    # Decimals of any length can be converted, whereas int() refuses more than 4300 digits.
+    # The conversion goes through Decimal, which has no limit of length, whereas int() refuses more than 4300 digits.
     over, _, under = text.partition("/")
     return Fraction(Decimal(over)) / Fraction(Decimal(under)) if under else Fraction(Decimal(over))
 

@@ -19,7 +19,8 @@ from modern.port.workspace import Cloud, Rules, Slots
 _CORRECTIONS = {THROUGH_CENTRE: workspace.THROUGH, TABLE_OF_PLANES: workspace.TABLE, LAST_PAIR: workspace.PAIR}
 
 _H1_VERTICES = 4
-# Initial free slots in addition to six for each equation. A stage needs at most four and a half for each plane.
+# The number of free slots with which a table begins, in addition to six for each equation. A stage needs at most four
+# and a half for each plane.
 _SPARE_SLOTS = 1024
 # Per this number of points, there is one more free slot. For most hulls the arrays are then large enough and need not
 # be copied to larger ones.
