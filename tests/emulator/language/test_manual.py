@@ -16,10 +16,10 @@ WORDS = " ".join(TEXT.split())
 def test_manual_explains_every_error(number: str) -> None:
     explanation = explanations()[number]
     (section,) = re.findall(rf"^### Error {number}: (.*?)(?=^### |\Z)", TEXT, re.DOTALL | re.MULTILINE)
-    example = "\n".join(explanation.example)
-    assert f"```text\n{example}\n```" in section
+    example = "```text\n" + "\n".join(explanation.example) + "\n```" if explanation.example else ""
+    assert example in section
     remedy = f"*Remedy:* {explanation.remedy}. *Source:* {explanation.source}."
-    expected = f"{explanation.title} {explanation.meaning} ```text {example} ``` {remedy}"
+    expected = f"{explanation.title} {explanation.meaning} {example} {remedy}"
     assert " ".join(section.split()) == " ".join(expected.split())
 
 
