@@ -230,7 +230,7 @@ def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
 
 
 def finish_list(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
-    """End a READ with a list as the library of 1962 does: a slash before a field reads no record."""
+    """End a READ with a list as the library of 1962 does: a slash followed by an unused field reads no record."""
     devices, specs = desk.devices, forms.specs
     status = GO_ON
     while status == GO_ON and devices[SPEC] < devices[LAST_SPEC]:

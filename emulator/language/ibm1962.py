@@ -108,7 +108,7 @@ def _literal(item: Literal) -> Iterator[list[int]]:
 def call(entry: int, address: int = 0) -> list[int]:
     """Return the twelve positions of an instruction that calls a verb (BT), or another routine (BTM), with an address.
 
-    An operation on FAC alone is called by BT with the position before it, which the instruction leaves unchanged.
+    An operation on FAC alone is called by BT with the position before its entry, so that the call changes nothing.
     """
     if entry in ALONE.values():
         return [int(digit) for digit in f"27{entry:05}{entry - 1:05}"]

@@ -160,7 +160,8 @@ class Devices:
             raise self._too_long() from None
 
     def _too_long(self) -> Ended:
-        # The library goes on with a wrong place of the FORMAT, so that nothing after this error has a meaning.
+        # After this error the library continues at a wrong position of the FORMAT. Its further output is meaningless,
+        # so the run ends.
         self.error("F9")
         return Ended(replace(self.ending("record"), format=self._format))
 

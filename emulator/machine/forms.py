@@ -23,7 +23,7 @@ class NoField(Exception):
 
 
 class TooLong(Exception):
-    """A record is longer than the columns of its device, which IBM's library of 1962 rejects with ERROR F9."""
+    """Raised if a record is longer than the columns of its device, for which IBM's library of 1962 types ERROR F9."""
 
 
 @dataclass
@@ -148,10 +148,10 @@ class Input(_Walk):
 
 @dataclass
 class Output1962(Output):
-    """An output statement in progress, as IBM's library of 1962 ends records (docs/reference/ibm-library.md).
+    """An output statement in progress that ends records as IBM's library of 1962 does (docs/reference/ibm-library.md).
 
-    room: the columns of the device.  ``_blank`` is set until the record receives columns, and ``_after_error`` from the
-    record of an error to the next columns.  ``_has_list`` is set after the first number.
+    room: the columns of the device.  ``_blank`` is True while the record has received no columns.  ``_after_error`` is
+    True from the record of an error code until columns are written.  ``_has_list`` is True after the first number.
     """
 
     room: int = field(kw_only=True)
@@ -173,10 +173,10 @@ class Output1962(Output):
         self._blank = self._after_error = False
 
     def end_before(self, width: int, exponent: str) -> str:
-        """End the record before that of an error, leave the field blank, and return the columns of the error's record.
+        """End the record before an error code, leave the number's field blank, and return the columns before the code.
 
-        ``exponent`` is what the library has already stored at the end of an E field that is too narrow.  It remains in
-        the record, but a typed line ends before it.
+        ``exponent`` is the text that the library has already stored at the end of a too narrow E field.  It remains in
+        a punched record, but a typed line ends before it.
         """
         column = self.width + width
         text = f"{''.join(self._parts):{column}}"
@@ -190,7 +190,8 @@ class Output1962(Output):
         return text
 
     def finish(self) -> None:
-        # The end of the FORMAT writes a record, but an unused field writes only one that has received columns.
+        # At the end of the FORMAT the record is always written.  At an unused field it is written only if it has
+        # received columns.
         unused = self._advance()
         if unused is None or (self._has_list and not self._blank):
             self._end_record()
@@ -206,7 +207,7 @@ class Output1962(Output):
 
 @dataclass
 class Input1962(Input):
-    """An input statement in progress, as IBM's library of 1962 ends it.  room: the columns of the device."""
+    """An input statement in progress that ends as in IBM's library of 1962.  room: the columns of the device."""
 
     room: int = field(kw_only=True)
     _has_list: bool = False

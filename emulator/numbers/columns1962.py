@@ -15,10 +15,10 @@ BLANK, DOLLAR, CLOSE, STAR, PLUS, MINUS, POINT, DIGIT, LETTER_E = 32, 36, 41, 42
 # The letters of fields.
 E_FIELD, F_FIELD, I_FIELD = range(3)
 
-# The status of a field that the library rejects with ERROR F7; FINE is that of any other.
+# The status of a field that was read: REJECTED if the library types ERROR F7 for it, otherwise FINE.
 FINE, REJECTED = 0, -3
 
-# How far a character of a number has been scanned: nothing but leading zeros, the mantissa, the exponent.
+# The part of a number that a scan of its characters has reached: leading zeros, the mantissa, the exponent.
 LEADING, MANTISSA, EXPONENT = range(3)
 
 
@@ -44,7 +44,7 @@ def read_number(
     Every blank inside or after a number is a zero.  An exponent keeps its last two digits.
     """
     negative, below = False, False
-    # A sign before the first digit that is not zero, and before any point, is that of the number.
+    # A sign that precedes the point and the first digit that is not zero is the sign of the number.
     begun, pointed = False, kind == I_FIELD
     state = LEADING
     mantissa, digits, exponent, tens, units = 0, 0, 0, 0, 0
@@ -113,7 +113,8 @@ def write_e(
     if decimals + 6 > width:
         return -1
     count = 8 if width >= 14 else width - 6
-    # The exponent shown starts from minus the number of digits before the point, so that a zero has a minus sign.
+    # The library computes the exponent from minus the number of digits before the point, so that a zero exponent gets a
+    # minus sign.
     before = count - decimals
     shown = (MIN_EXPONENT if mantissa == 0 else exponent) - before
     minus = shown < 0 or (shown == 0 and before >= 0 and count > 0)
@@ -138,7 +139,7 @@ def write_f(
 ) -> int:
     """Write an F field from column ``at`` on.  Return the column after it, or -1 if the number does not fit."""
     exponent_stored = ZERO if mantissa == 0 else exponent
-    # The count of the columns has two digits, and the field reserves one column for the sign.
+    # The library counts the columns used with two digits, and reserves one column for the sign.
     columns_used = exponent_stored + decimals + 2
     if columns_used > MAX_EXPONENT or columns_used > width or decimals + 2 > width:
         return -1
@@ -203,7 +204,7 @@ def write_floating(
 
 
 def write_fixed(columns: MutableSequence[int], at: int, width: int, value: int) -> int:
-    """Write an I field: the last four digits or, in a narrower field, one column less than its width for the sign."""
+    """Write an I field: the last four digits, or the last w - 1 if only w < 5 columns, one for the sign, are there."""
     size = -value if value < 0 else value
     end = at + width
     for k in range(at, end):

@@ -129,7 +129,7 @@ def _remark(status: int) -> Remark | None:
 
 
 def write_as_1962(field: Field, mantissa: int, exponent: int, rules: Rules) -> tuple[str, bool]:
-    """Return the columns that IBM's library writes, or those of E14.8 and True if the number does not fit."""
+    """Return the columns that IBM's library writes and False, or those of E14.8 and True if the number does not fit."""
     codes = bytearray(field.width)
     end = columns1962.write_floating(
         codes, 0, field.kind == "E", field.width, field.decimals, mantissa, exponent, rules
