@@ -1,7 +1,7 @@
 """The speed of the engines, compared with each other and with the same program compiled by a modern Fortran compiler.
 
-All measurements use one thread, like the programs they are compared with. numpy's linear algebra library would start a
-second one, whose busy waiting would count as processor time.
+All measurements use one thread, like the programs that are compared. numpy's linear algebra library would start a
+second thread, whose busy waiting would count as processor time.
 """
 
 import os

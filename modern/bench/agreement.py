@@ -22,7 +22,7 @@ _ZERO = " .00000000E-99"
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """The numbers of decks that are the same, have different digits or a different hull, and the first difference."""
+    """Counts of decks with the same results, different digits or a different hull, and the first difference."""
 
     same: int
     digits: int

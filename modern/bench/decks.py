@@ -1,6 +1,7 @@
-"""The benchmark's work: program 3 with the layer ``corrected`` over decks of 51 points, as program 1 punches them.
+"""The work that the benchmarks time: program 3 with the layer ``corrected`` over decks of 51 points.
 
-``python -m modern.bench.decks`` runs one deck, read from standard input, on the compiled engine.
+The decks are those that program 1 punches. ``python -m modern.bench.decks`` runs one deck, read from standard input, on
+the compiled engine.
 """
 
 import random

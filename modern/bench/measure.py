@@ -1,4 +1,4 @@
-"""The engines compared in one run: plain, compiled, the port in doubles, and the same program compiled natively."""
+"""Measure the engines in one run: plain, compiled, the port in doubles, and the same program compiled natively."""
 
 import importlib.metadata
 import os
@@ -22,7 +22,7 @@ from modern.bench.timing import Figure, side_by_side, timed, timed_once
 from modern.edition import programs
 from modern.port import convex_hull
 
-# The plain engine runs one of fifty decks of the compiled engine, and the port one of five.
+# For fifty decks that the compiled engine runs, the plain engine runs one; for five decks, the port runs one.
 PLAIN_SHARE, PORT_SHARE = 50, 5
 
 PLAIN, COMPILED, PORT, NATIVE = "plain engine", "compiled engine", "port, float64", "native program"
@@ -34,7 +34,7 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A figure and the number of decks in each of its runs."""
+    """A figure of the table: the seconds of its runs, and the number of decks in each run."""
 
     figure: Figure
     decks: int

@@ -11,7 +11,7 @@ from emulator.errors import EmulatorError
 from emulator.language.cards import Deck
 from modern.bench.translate import translated
 
-# The compilers tried in this order, after the one that the environment variable FC names.
+# Compilers, tried in this order after the one that the environment variable FC names.
 COMPILERS = ("gfortran", "flang", "flang-new", "ifx", "f95")
 
 _EXTRA = {"gfortran": ("-std=legacy", "-w"), "ifx": ("-w",)}
@@ -35,7 +35,9 @@ def compiler() -> Compiler:
     try:
         command_of_fc = shlex.split(os.environ.get("FC", ""))
     except ValueError as error:
-        raise NoCompiler(f"FC is not a command, {os.environ['FC']}: {error}") from None
+        raise NoCompiler(
+            f"expected a command in the environment variable FC, found {os.environ['FC']}: {error}"
+        ) from None
     commands = [tuple(command_of_fc)] if command_of_fc else [(name,) for name in COMPILERS]
     for command in commands:
         if shutil.which(command[0]):

@@ -13,7 +13,7 @@ Clock = Callable[[], float]
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A measured figure: the seconds of each run and a note to compare them with."""
+    """A measured figure: the seconds of each run, and a note with a value to compare them with."""
 
     what: str
     seconds: tuple[float, ...]
@@ -41,7 +41,7 @@ def timed(what: str, work: Callable[[], object], note: str = "") -> Figure:
 def side_by_side(
     works: Mapping[str, Callable[[], object]], note: str = "", clock: Clock = time.perf_counter
 ) -> list[Figure]:
-    """Time several works in turn, in five rounds, so that other activity on the machine affects all of them."""
+    """Time several works in turn, in five rounds, so that other activity on the machine affects all of them equally."""
     for work in works.values():
         work()
     rounds = [[_seconds(work, clock) for work in works.values()] for _ in range(RUNS)]
@@ -49,7 +49,7 @@ def side_by_side(
 
 
 class Measured(float):
-    """Seconds that a work measured itself, for example a process that must first read its points."""
+    """The seconds that a work measured itself, for example a process that must first read its points."""
 
 
 def _seconds(work: Callable[[], object], clock: Clock = time.perf_counter) -> float:
@@ -60,7 +60,7 @@ def _seconds(work: Callable[[], object], clock: Clock = time.perf_counter) -> fl
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """Seconds by size, and the style in which matplotlib draws them. Curves differ in grey."""
+    """The seconds by size, and the style in which matplotlib draws them as a curve; curves differ in grey."""
 
     name: str
     points: Sequence[tuple[int, float]]

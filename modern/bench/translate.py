@@ -11,7 +11,8 @@ The differences of the two languages are translated as follows:
 - Hollerith texts of a FORMAT become quoted texts, and blanks on input.
 - Floating-point constants become double precision, names keep their implicit type, and SQRTF becomes SQRT.
 
-Integers are those of the compiler, not four digits modulo 10000. ACCEPT has no counterpart and is refused.
+Integers are those of the compiler, not four digits modulo 10000. An ACCEPT statement raises DeckError, because a
+program without a typewriter has no counterpart of it.
 """
 
 from collections.abc import Collection, Iterator
@@ -77,7 +78,7 @@ class _Writer:
             self.open.append((body, self.top))
             return
         yield from _wrapped(label + self.translated_line(body, statement))
-        # Loops that end at this statement end innermost first.
+        # If several loops end at this statement, the innermost ends first.
         while self.open and statement.label and self.open[-1][0].label == statement.label:
             loop, top = self.open.pop()
             name, step = loop.variable.name, self.text(loop.step) if loop.step else "1"
@@ -154,7 +155,7 @@ class _Writer:
                 return head + "".join(sign + self.factor(operand) for sign, operand in rest)
 
     def factor(self, node: tree.Expression) -> str:
-        """Return an operand, in parentheses if it is an expression, so that the order of the tree is preserved."""
+        """Return an operand as text, in parentheses if it is an expression, so that the order is preserved."""
         simple = isinstance(node, tree.Reference) or (isinstance(node, tree.Number) and node.text[0] not in "+-")
         return self.text(node) if simple else f"({self.text(node)})"
 

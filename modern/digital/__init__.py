@@ -2,8 +2,8 @@
 
 :mod:`~modern.digital.solids` defines a volume and :mod:`~modern.digital.world` its position in physical coordinates.
 :mod:`~modern.digital.volumes` reads files and :mod:`~modern.digital.scans` selects voxels by value.
-:mod:`~modern.digital.hull` computes the digital hull with :mod:`~modern.digital.intervals`,
-:mod:`~modern.digital.polytope` and :mod:`~modern.digital.intervals`. :mod:`~modern.digital.measures` measures it.
+:mod:`~modern.digital.hull` computes the digital hull with :mod:`~modern.digital.polytope` and
+:mod:`~modern.digital.intervals`. :mod:`~modern.digital.measures` measures it.
 
 To add a file format:
 

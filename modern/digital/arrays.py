@@ -24,7 +24,7 @@ def parse_npy(data: bytes, source: str) -> NDArray[Any]:
     file = io.BytesIO(data)
     try:
         with warnings.catch_warnings():
-            # numpy reads the header as Python source, whose warnings would only confuse the user.
+            # numpy reads the header as Python source; warnings about that source would only confuse the user.
             warnings.simplefilter("ignore")
             version = npy.read_magic(file)
             if version not in _HEADERS:
@@ -55,7 +55,7 @@ def parse_npz(data: bytes, source: str, name: str | None = None) -> NDArray[Any]
             members = {info.filename.removesuffix(".npy"): info for info in packed.infolist()}
             array_name = _member(sorted(members), source, name)
             with packed.open(members[array_name]) as file:
-                # A damaged file may unpack to any size. One byte more than stated is enough to report it.
+                # A damaged file may unpack to any size. One byte more than the header states shows it.
                 size = members[array_name].file_size
                 if size > 16 * MAX_CELLS:
                     raise VolumeError(f"{source}: {array_name}: expected at most {MAX_CELLS} numbers")
@@ -82,7 +82,7 @@ def parse_raw(data: bytes, source: str, shape: Sequence[int] | None, dtype: str)
     """Return an array of raw data in which x varies fastest. Raise VolumeError if shape, type and size do not match."""
     try:
         kind = np.dtype(dtype)
-    except (TypeError, ValueError, SyntaxError, OverflowError):  # numpy reads a small language here
+    except (TypeError, ValueError, SyntaxError, OverflowError):  # numpy accepts more than names of types here
         raise VolumeError(
             f"--dtype: {quoted(dtype)} is not a type of numbers; examples are uint8, int16, >i2"
         ) from None
@@ -101,7 +101,7 @@ def parse_raw(data: bytes, source: str, shape: Sequence[int] | None, dtype: str)
 
 
 def check_size(shape: Sequence[int], source: str) -> None:
-    """Raise VolumeError, which names the limit, for more than ``MAX_CELLS`` voxels."""
+    """Raise VolumeError for a shape with more than ``MAX_CELLS`` voxels; the message states this limit."""
     if min(shape, default=0) < 0:
         raise VolumeError(f"{source}: invalid shape {quoted(str(tuple(shape)))}")
     if max(math.prod(shape), *shape, 0) > MAX_CELLS:

@@ -1,8 +1,8 @@
-"""The digital hull of a volume: every grid point in the convex hull of its voxels' centres, exactly.
+"""The digital hull of a volume: all grid points in the convex hull of its voxels' centres, computed exactly.
 
-Only the two ends of every column can be vertices. Of these, only the vertices of the hulls of rows and columns are
-used. Planes have integer coefficients, and integers decide whether a voxel on a plane belongs to the hull. For a
-6-connected solid this is the digital convex hull of Yau and Srihari (section 3.3), and the set of grid points in
+Only the two ends of a column can be vertices of the hull. Of these ends, only the vertices of the hulls of rows and
+columns are used. Planes have integer coefficients, and integers decide whether a voxel on a plane belongs to the hull.
+For a 6-connected solid this is the digital convex hull of Yau and Srihari (section 3.3), and the set of grid points in
 Kovalevsky and Schulz's polyhedron of voxel centres.
 """
 
@@ -23,7 +23,7 @@ from modern.digital.world import World, voxel_volume, world_of
 
 # The largest volume for which a product of three lengths fits in 64 bits. No memory holds as many voxels.
 MAX_VOXELS = 1 << 56
-# The number of candidates from which compiled code is used if numba is installed.
+# Compiled code is used if numba is installed and there are at least this number of candidates for vertices.
 WORTH_COMPILING = 1000
 Kind = Literal["point", "segment", "polygon", "polyhedron"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
@@ -135,7 +135,9 @@ def placed(
         array = _truth(_array(volume))
         volume = Volume(array, (0,) * array.ndim, world=world_of(array.ndim, spacing, origin, directions))
     elif spacing is not None or origin is not None or directions is not None:
-        raise VolumeError(f"{volume.source}: a Volume has a position; spacing, origin and directions are for arrays")
+        raise VolumeError(
+            f"{volume.source}: spacing, origin and directions are only for arrays; a Volume has its own position"
+        )
     if not _truth(volume.array).any():
         raise NoVoxels("there are no points")
     return volume
@@ -181,7 +183,7 @@ def _hull(solid: Truth, fast: bool | None) -> tuple[int, Truth]:
     points = np.unique(np.concatenate((lower, upper)), axis=0)
     simplex = independent(points)
     if len(simplex) < 4:
-        _compile(bool(fast), len(points))  # raises if ``fast`` cannot be honoured
+        _compile(bool(fast), len(points))  # raises VolumeError if ``fast`` is True and numba is missing
         filled = np.zeros(solid.shape, dtype=np.bool_)
         if len(simplex) == 3:
             _fill_polygon(filled, points, simplex)
@@ -241,7 +243,7 @@ def _fill_polygon(filled: Truth, points: Grid, simplex: list[int]) -> None:
         return
     u, v = np.nonzero(inside)
     over = -(normal[first] * (u - origin[first]) + normal[second] * (v - origin[second]))
-    # The hull has a grid point only at positions where the plane passes through a grid point.
+    # A position has a grid point of the hull only if the plane passes through a grid point there.
     exact = over % normal[axis] == 0
     indices = {axis: origin[axis] + over[exact] // normal[axis], first: u[exact], second: v[exact]}
     filled[indices[0], indices[1], indices[2]] = True

@@ -1,4 +1,4 @@
-"""The columns of a volume: their ends, and the interval of every column between both sides of a hull, exactly.
+"""The columns of a volume: their ends, and the interval of each column that lies in a hull, computed exactly.
 
 A column is a line of voxels along the last axis. The hull of a volume is the hull of the ends of its columns.
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 # The approximate number of voxels processed at a time.
 SLAB = 1 << 24
-# Another round of removal runs while the last one removed at least one point in this number.
+# Removal is repeated as long as the last round removed at least one of this number of points.
 STILL_PAYS = 64
 
 Grid = NDArray[np.int64]
@@ -41,7 +41,7 @@ def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
 
 
 def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove points on or above a chord of their row or column of (x, y). They are never vertices of the lower side.
+    """Remove points on or above a chord between other points of their row or column: they are no lower vertices.
 
     The arrays x, y, z hold one point for each (x, y), in raster order, and so does the result.
     """
@@ -53,7 +53,7 @@ def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove points on or above the chord between their neighbours on a line, as long as it removes enough."""
+    """Remove points of lines that are on or above the chord between their two neighbours, while enough are removed."""
     removed = np.ones(len(line), dtype=np.bool_)
     while len(line) > 2 and STILL_PAYS * np.count_nonzero(removed) >= len(line):
         before, after = t[1:-1] - t[:-2], t[2:] - t[1:-1]
@@ -66,7 +66,7 @@ def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def fill(low: Grid, high: Grid, depth: int) -> Truth:
-    """Return a volume whose column (x, y) of ``depth`` voxels is filled from low[x, y] to high[x, y]."""
+    """Return a volume in which the column (x, y) of ``depth`` voxels is filled from low[x, y] to high[x, y]."""
     filled = np.empty((*low.shape, depth), dtype=np.bool_)
     index = np.arange(depth, dtype=np.int32)
     for part in slabs(filled):
@@ -93,7 +93,7 @@ BATCH = 1 << 20
 
 
 def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]) -> tuple[Grid, Grid]:
-    """Return the lowest and the highest grid point of a polyhedron over every position (x, y) of a grid of this shape.
+    """Return, for each position (x, y) of a grid of this shape, a polyhedron's lowest and highest grid point.
 
     ``points`` has the shape (n, 3). ``corner`` has three point indices for each facet, counterclockwise as seen from
     outside, and ``plane`` its four coefficients, positive outside. At a position without a grid point of the
@@ -109,7 +109,7 @@ def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]
 
 
 def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) -> None:
-    """Write the rounded height of each triangle at the positions below it; later triangles overwrite earlier ones.
+    """Write into ``grid`` the rounded height of each triangle at the positions below it; later triangles overwrite.
 
     ``triangles`` (n, 3, 3) are counterclockwise seen from above. ``plane`` has four coefficients, the third positive.
     """
@@ -146,13 +146,13 @@ def _sides(x: Grid, y: Grid, row: Grid, width: int) -> tuple[Grid, Grid]:
 
 
 def _count_up(counts: Grid) -> Grid:
-    """Return 0, 1, ... up to each count minus one, concatenated."""
+    """Return 0, 1, ..., count - 1 for each of the counts, joined into one array."""
     ends = np.cumsum(counts)
     return np.arange(int(ends[-1]) if len(ends) else 0) - np.repeat(ends - counts, counts)
 
 
 def below_edges(u: Grid, v: Grid, width: int) -> tuple[Grid, Grid]:
-    """Return the lowest and the highest grid point of the polygon of points (u, v) for every u below ``width``."""
+    """Return, for each u below ``width``, the lowest and highest grid point (u, v) of a polygon with these corners."""
     low, high = np.ones(width, dtype=np.int64), np.zeros(width, dtype=np.int64)
     places = np.arange(u.min(), u.max() + 1)
     low[places] = _chain(u, v, places)

@@ -94,7 +94,10 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
 
 
 def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | None, str]:
-    """Return the sizes along the axes, the header of NIfTI and a note, as far as known. Raise VolumeError."""
+    """Check a file by its format and return the sizes along its axes, its NIfTI header, and a note, if known.
+
+    Raise VolumeError if the file is damaged.
+    """
     if kind == "NIfTI":
         header = check_nifti(path)
         return header.sizes, header, ""

@@ -38,7 +38,7 @@ def main(arguments: Sequence[str]) -> None:
     except MemoryError:
         facts = {"error": "there is not enough memory for this"}
     except Exception as error:
-        facts = {"error": f"SimpleITK cannot read it as {kind}: {_message_of(error)}"}
+        facts = {"error": f"SimpleITK cannot read the file as {kind}: {_message_of(error)}"}
     answer.write_text(json.dumps(facts), encoding="ascii")
 
 
@@ -71,7 +71,7 @@ def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str
     size, spacing, origin = image.GetSize(), image.GetSpacing(), image.GetOrigin()
     direction, width = image.GetDirection(), len(size)
     if array.ndim == 4 and size[3] == 1:
-        # Four axes with a single point in time are a volume.
+        # An image with four axes is a volume if the fourth axis, time, has only one point.
         array, width = array[..., 0], 3
         direction = [direction[4 * row + column] for row in range(3) for column in range(3)]
     if array.ndim not in (2, 3):
@@ -91,7 +91,7 @@ def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str
 
 
 def _check(size: Sequence[int], numbers: int, most: int) -> None:
-    """Raise Refused if the image is not a volume, before its data are read."""
+    """Raise Refused before the data of an image are read, if it is not a volume with one number per voxel."""
     count = 1
     for side in size:
         count *= side
@@ -158,7 +158,7 @@ def _message_of(error: Exception) -> str:
     message = re.split(r"(?:itk::|sitk::|ITK )ERROR: ", message)[-1]
     message = re.sub(r"\b\w+\((?:0x)?[0-9a-fA-F]+\): ", "", message)
     message = re.sub(r"(?:/[^\s/]+)+/", "", message)
-    message = re.sub(r"\W*Reason: Success\W*$", "", message)  # the system's text for no error
+    message = re.sub(r"\W*Reason: Success\W*$", "", message)  # The text that the system has for "no error".
     return (message or type(error).__name__)[:_LONGEST_MESSAGE]
 
 

@@ -1,7 +1,7 @@
 """Exact measures of a voxel solid and of its hull: volumes, areas, solidity, convex deficiency.
 
-The hull's vertices have integer coordinates (of voxel centres or corners). Volumes are fractions. The area of a
-surface is a sum of square roots, computed to ``AREA_DIGITS`` significant digits. It is exact if no root needs more.
+The hull's vertices have integer coordinates (of voxel centres or corners). Volumes are fractions. The area of a surface
+is a sum of square roots, computed to ``AREA_DIGITS`` significant digits. The area is exact if no root has more digits.
 """
 
 import math
@@ -32,7 +32,7 @@ class Measures:
 
     @property
     def solidity(self) -> Fraction:
-        """The fraction of a hull of voxel corners that the solid fills. Raise VolumeError for a flat hull."""
+        """The fraction of the hull of the voxels' corners that the solid fills. Raise VolumeError for a flat hull."""
         if not self.hull_volume:
             raise VolumeError("a flat hull has no volume, so its solidity is undefined")
         return self.volume / self.hull_volume

@@ -104,7 +104,10 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
 
 
 def write_nrrd(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
-    """Write truth values as NRRD with the volume's position, which must have finite decimals (else VolumeError)."""
+    """Write truth values and the position of a volume as NRRD.
+
+    Raise VolumeError if a number of the position has no finite decimal.
+    """
     world = volume.world
     if world is None and any(volume.origin):
         world = world_of(array.ndim, origin=(0,) * array.ndim)
@@ -189,7 +192,7 @@ def _read_data_file(source: str, line: int, name: str) -> bytes:
 
 
 def _unpacked(body: bytes, expected: int, source: str) -> bytes:
-    """Decompress the data and verify their checksum. Data that are too long are cut to one byte more than expected."""
+    """Decompress the data and verify their checksum. Of data that are too long, keep one byte more than expected."""
     try:
         with gzip.GzipFile(fileobj=io.BytesIO(body)) as packed:
             data = packed.read(expected)
@@ -247,7 +250,7 @@ def _steps(
     line, text = fields["space directions"]
     if any(word.lower() != "nan" for word in fields.get("spacings", (0, ""))[1].split()):
         raise VolumeError(
-            f"{source}: line {fields['spacings'][0]}: spacings and space directions contradict each other"
+            f"{source}: line {fields['spacings'][0]}: spacings and space directions state different steps"
         )
     vectors = _vectors(text, dimension, f"{source}: line {line}: space directions")
     if any(vector is None or None in vector for vector in vectors):
@@ -267,7 +270,7 @@ def _origin(fields: Mapping[str, tuple[int, str]], width: int, source: str) -> P
 
 
 def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | None]:
-    """Read ``count`` vectors with equal numbers of components, such as ``(1,0,0)``. ``none`` stands for no vector."""
+    """Read ``count`` vectors such as ``(1,0,0)`` with equal numbers of components. ``none`` gives no vector."""
     matches = list(_VECTOR.finditer(text))
     if len(matches) != count or _VECTOR.sub("", text).strip():
         raise VolumeError(f"{what}: expected {count} vectors such as (1,0,0), found {quoted(text)}")

@@ -1,12 +1,12 @@
-"""The convex polyhedron of grid points, exactly: quickhull with integers.
+"""The convex polyhedron of grid points, computed exactly: quickhull with integers.
 
-The distance of a point outside a facet is the value of the facet's plane, an integer. A point on the plane is not
-outside. Coplanar points therefore leave a face divided into triangles. No triangle is degenerate: an edge of the
+The distance of a point outside a facet is measured by the value of the facet's plane, an integer. A point on the plane
+is not outside, so coplanar points leave a face divided into triangles. No triangle is degenerate: an edge of the
 horizon that is collinear with the new point would lie in the plane of the facet that sees the point.
 
-The functions up to ``hull`` use flat sequences of integers only. The same source runs on Python lists and, compiled,
-on arrays of 64-bit integers. With coordinates from 0 on, the coefficients of a plane and its values at points of a box
-of X by Y by Z cells are at most 12 XYZ. No volume that fits in memory comes near 63 bits.
+The functions up to ``hull`` use flat sequences of integers only. The same source runs on Python lists and, compiled, on
+arrays of 64-bit integers. With coordinates from 0 on, the coefficients of a plane and its values at points of a box of
+X by Y by Z cells are at most 12 XYZ. Any volume that fits in memory needs far fewer than 63 bits.
 """
 
 from collections.abc import Callable, MutableSequence, Sequence
@@ -72,7 +72,7 @@ def set_facet(at: Points, surface: Surface, f: int, p: int, q: int, r: int) -> N
 
 
 def distribute(at: Points, surface: Surface, first: int, chosen: Integers, count: int) -> None:
-    """Assign each point of the list that starts at ``first`` to a chosen facet that it sees, or drop it."""
+    """Assign each point of the list that starts at ``first`` to one of the chosen facets that it sees, or drop it."""
     head, after, depth = surface.head, surface.after, surface.depth
     p = first
     while p >= 0:
@@ -91,7 +91,7 @@ def distribute(at: Points, surface: Surface, first: int, chosen: Integers, count
 
 
 def find_visible(at: Points, surface: Surface, p: int, first: int) -> tuple[int, int]:
-    """Find the facets that ``p`` sees, starting at ``first``, and the horizon. Return how many facets and edges."""
+    """Find the facets that ``p`` sees, from ``first`` on, and the horizon; return the numbers of both."""
     visible, mark, across, horizon = surface.visible, surface.mark, surface.across, surface.horizon
     mark[first], visible[0] = p + 1, first
     count, edges, at_facet = 1, 0, 0
@@ -115,7 +115,7 @@ def find_visible(at: Points, surface: Surface, p: int, first: int) -> tuple[int,
 
 
 def cone(at: Points, surface: Surface, p: int, slots: Integers, edges: int) -> None:
-    """Create facets from ``p`` to every edge of the horizon in the given slots, and link them to their neighbours."""
+    """Create, in the given slots, a facet from ``p`` to each edge of the horizon, and link it to its neighbours."""
     corner, across, horizon, starting = surface.corner, surface.across, surface.horizon, surface.starting
     for k in range(edges):
         a, b, g = horizon[3 * k], horizon[3 * k + 1], horizon[3 * k + 2]
@@ -136,7 +136,10 @@ def cone(at: Points, surface: Surface, p: int, slots: Integers, edges: int) -> N
 
 
 def grow(at: Points, surface: Surface, used: int) -> int:
-    """Add the farthest outside point of a facet until no facet has outside points. Return the number of slots used."""
+    """Add to the hull the farthest outside point of each facet in turn, until no facet has outside points.
+
+    Return the number of slots used.
+    """
     head, after, visible, spare = surface.head, surface.after, surface.visible, surface.spare
     empty, f, idle = 0, 0, 0
     while idle < used:

@@ -16,7 +16,7 @@ from modern.digital.solids import NoVoxels, Volume, VolumeError
 from modern.digital.world import World, decimal_or_fraction
 from modern.geometry.numbers import finite_decimal
 
-# The largest range of values that is counted in a table. Other values are sorted.
+# Values within a range of at most this size are counted in a table; otherwise they are sorted.
 _TABLE_SIZE = 1 << 16
 
 
@@ -60,8 +60,9 @@ class Choice:
 class Chosen:
     """The voxels selected from a scan, and facts about the scan.
 
-    ``lowest`` and ``highest`` are those of all values. ``present`` has all labels of the scan, its integer values
-    except 0, if labels were selected. ``truth`` is True if the scan holds truth values, which need no selection.
+    ``lowest`` and ``highest`` are the least and greatest of all values. ``present`` has all labels of the scan, its
+    integer values except 0, if labels were selected. ``truth`` is True if the scan holds truth values, which need no
+    selection.
     """
 
     volume: Volume
@@ -73,9 +74,10 @@ class Chosen:
 
 
 def chosen(scan: Scan, choice: Choice | None = None) -> Chosen:
-    """Return the voxels of a scan whose values are selected.
+    """Return the voxels of a scan whose values the user has selected.
 
-    Raise VolumeError for both a threshold and labels and for a label without voxels, NoVoxels if no voxel is selected.
+    Raise VolumeError if both a threshold and labels are given and for a label without voxels, NoVoxels if no voxel is
+    selected.
     """
     choice = choice or Choice()
     if choice.threshold is not None and choice.labels:
@@ -193,7 +195,7 @@ def _at_least(values: NDArray[Any], threshold: Fraction) -> NDArray[np.bool_]:
 
 
 def _least(kind: Any, threshold: Fraction) -> Any:
-    """Return the least number of a binary type that is not below the threshold."""
+    """Return the least number of a binary type that is at least the threshold."""
     text = finite_decimal(threshold)
     try:
         near = kind(float(threshold) if text is None else text)

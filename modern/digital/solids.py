@@ -138,12 +138,12 @@ def _widest() -> int:
 
 def _ball(name: str, diameter: int, centre: str, half: bool) -> Volume:
     if centre not in (VOXEL, VERTEX):
-        raise VolumeError(f"{name}: the centre is {VOXEL} or {VERTEX}")
+        raise VolumeError(f"{name}: expected the centre {VOXEL} or {VERTEX}")
     if diameter < 1:
-        raise VolumeError(f"{name}: the diameter is a positive integer")
+        raise VolumeError(f"{name}: expected a positive integer as the diameter")
     if (diameter + 1) ** 3 > MAX_CELLS:
-        raise VolumeError(f"{name}: the diameter is at most {_widest()}, for a box of {MAX_CELLS} voxels")
-    # Twice the distance from the ball's centre is an integer, even for a centre in a voxel and odd otherwise.
+        raise VolumeError(f"{name}: expected a diameter of at most {_widest()}, for a box of {MAX_CELLS} voxels")
+    # Along each axis, twice the distance from the centre is an integer: even if the centre is a voxel, otherwise odd.
     shift = 0 if centre == VOXEL else 1
     first = -((diameter - shift) // 2)
     twice = 2 * np.arange(first, (diameter + shift) // 2 + 1, dtype=np.int64) - shift
@@ -154,5 +154,5 @@ def _ball(name: str, diameter: int, centre: str, half: bool) -> Volume:
     for x, square in enumerate(squares):
         np.less_equal(plane, diameter**2 - square, out=array[x])
     if not array.any():
-        raise NoVoxels(f"{name}: it contains no voxel")
+        raise NoVoxels(f"{name}: the ball contains no voxel; choose a larger diameter")
     return Volume(array, (first, first, low), name)

@@ -102,7 +102,7 @@ def read_scan(path: str, stated: Stated | None = None) -> Scan:
     ball_name = _BALL.fullmatch(path)
     if ball_name:
         if stated.shape is not None or stated.dtype is not None:
-            raise VolumeError(f"{path}: a ball has no --shape and no --dtype")
+            raise VolumeError(f"{path}: --shape and --dtype are for raw data and cannot be used with a ball")
         make, default = (half_ball, VERTEX) if ball_name[1] else (ball, VOXEL)
         return _with_position(_scan(make(int(ball_name[2]), ball_name[3] or default)), stated)
     if re.match(r"(half-)?ball:", path) and not os.path.exists(path):
@@ -197,7 +197,7 @@ _MESH = re.compile(r"(\s|#[^\n]*\n)*((ST|C|N|4|n)*OFF|ply|solid|v|vn|vt|mtllib|o
 
 def _listed(text: str, source: str) -> Volume:
     """Return the voxels of a list with a line ``x,y,z`` (or ``x,y``) for each."""
-    # The heading of a mesh would pass for a heading of columns, and its counts for a voxel.
+    # Without this test, the heading of a mesh would be read as a heading of columns and its counts as a voxel.
     if _MESH.match(text):
         raise VolumeError(
             f"{source}: expected voxels, found a mesh (OFF, OBJ, PLY or STL); hull1620 hull reads its points"

@@ -1,9 +1,9 @@
-"""The position of voxels: the affine map from a voxel's integer coordinates to physical coordinates, in exact numbers.
+"""The position of voxels: the exact affine map from a voxel's integer coordinates to physical coordinates.
 
-A position is that of a voxel's centre. The centre of voxel (0, 0, 0) is the origin, and a step along an axis of the
-array adds the step of that axis. As a solid, a voxel extends half a step from its centre in each direction. Spacing,
-origin and directions are read as decimal text and stay exact. Therefore a hull in physical coordinates is the exact
-image of the hull of indices.
+A position is that of a voxel's centre. The centre of voxel (0, 0, 0) is the origin, and the next voxel along an axis of
+the array is one step of that axis away. As a solid, a voxel extends half a step from its centre in each direction.
+Spacing, origin and directions are read as decimal text and stay exact. Therefore a hull in physical coordinates is the
+exact image of the hull of indices.
 """
 
 from collections.abc import Sequence
@@ -68,7 +68,7 @@ class World:
         return len(self.steps) == len(self.origin) == 3 and determinant(self.steps) < 0
 
     def moved(self, voxel: Sequence[int]) -> "World":
-        """Return the position with coordinates counted from another voxel."""
+        """Return the same position for coordinates that are counted from another voxel."""
         return replace(self, origin=self.place(voxel))
 
     def turned(self, space: str) -> "World":
@@ -83,11 +83,11 @@ class World:
         return replace(self, steps=steps, origin=tuple(map(_product, signs, self.origin)), space=space)
 
     def spacings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the length of every step as decimal text, and True if it is exact. Inexact lengths have six digits."""
+        """Return the length of each step as decimal text, and True if it is exact; otherwise it has six digits."""
         return tuple(_length(step) for step in self.steps)
 
     def bearings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the anatomical direction of each axis, and True if it is exact; empty for another space."""
+        """Return the anatomical direction of each axis, and True if it is exact; empty if the space has none."""
         if self.space not in ANATOMICAL or len(self.steps) != 3:
             return ()
         names = self.space.split("-")

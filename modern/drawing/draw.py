@@ -1,8 +1,8 @@
 """Line drawings of hulls: parallel projection, hidden edges dashed, vertices numbered as the programs number them.
 
-A convex solid hides an edge exactly if both faces of the edge are turned away from the eye. The sign of formula (1) of
-Nakamae and Nishita (``modern.drawing.visible``) decides this, in fractions of the exact coordinates. Floating-point
-numbers only choose the positions of labels.
+An edge of a convex solid is hidden if and only if both of its faces are turned away from the eye. The sign of formula
+(1) of Nakamae and Nishita (``modern.drawing.visible``) decides this, in fractions of the exact coordinates.
+Floating-point numbers only choose the positions of labels.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -22,7 +22,7 @@ from modern.geometry.mesh import ExportError
 MOST_NUMBERS = 400
 
 _WIDTH, _WIDER, _NARROWEST, _WIDEST = 640, 1000, 320, 4000
-# The numbers of points above which marks and numbers are smaller, and above which hidden vertices are not numbered.
+# With more points than the first number, marks and numbers are smaller; beyond the second, hidden vertices have none.
 _MANY, _CROWD = 60, 120
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _DARKEST, _RANGE = 196, 56
@@ -77,7 +77,7 @@ def draw_svg(
 
 
 def filter_scene(picture: Scene, show: Show) -> Scene:
-    """Return the picture without the parts that are not to be shown."""
+    """Return the picture without the parts that the user does not want to show."""
     if not show.points:
         picture = replace(picture, boundary=(), inside=())
     if not show.hidden:
@@ -150,7 +150,7 @@ def _faces(picture: Scene, layout: Layout) -> list[str]:
 
 
 def number_items(hull: Hull, picture: Scene, layout: Layout, which: Labels) -> list[str]:
-    """Return the numbers of the vertices, grey if all vertices of a label are hidden."""
+    """Return the numbers of the vertices as labels; a label is grey if all of its vertices are hidden."""
     count = _points(picture)
     size = HEIGHT if count <= _MANY else 10.0 if count <= _CROWD else 9.0
     behind = picture.behind and count <= _CROWD

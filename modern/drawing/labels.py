@@ -45,7 +45,7 @@ class Label:
 def place_labels(
     labels: Sequence[Label], lines: Sequence[Line], marks: Sequence[Place], size: Place
 ) -> tuple[Place, ...]:
-    """Return the centre of every label. ``marks`` are other points to avoid, ``size`` is that of the picture."""
+    """Return the centre of each label. ``marks`` are further points to avoid; ``size`` is that of the picture."""
     if not labels:
         return ()
     middle = (sum(label.x for label in labels) / len(labels), sum(label.y for label in labels) / len(labels))
@@ -124,7 +124,7 @@ def _overlap(a: _Box, b: _Box) -> bool:
 
 
 def crosses(line: Line, box: _Box) -> bool:
-    """Return True if part of a line is in a box (Liang and Barsky, ACM Transactions on Graphics 3 (1984))."""
+    """Return True if some part of a line is in a box (Liang and Barsky, ACM Transactions on Graphics 3 (1984))."""
     (x, y), (to_x, to_y) = line
     first, last = 0.0, 1.0
     for step, low, high in ((to_x - x, box[0] - x, box[2] - x), (to_y - y, box[1] - y, box[3] - y)):

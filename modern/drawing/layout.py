@@ -1,4 +1,4 @@
-"""The layout of a picture: exact images of points converted to pixels, in hundredths."""
+"""The layout of a picture: the exact images of points, converted to integers in hundredths of a pixel."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -55,7 +55,7 @@ def lay_out(picture: Scene, width: int) -> Layout:
 
 
 def fit(images: Sequence[Flat], width: int, highest: int, margin: int = MARGIN) -> tuple[Callable[[Flat], Pixel], int]:
-    """Return a function that maps images to pixels so that they fit the width, and the height including the margins."""
+    """Return a function from images to pixels such that all images fit the width and height with the margins."""
     x_min, x_max = _ends(image[0] for image in images)
     y_min, y_max = _ends(image[1] for image in images)
     available = width - 2 * margin

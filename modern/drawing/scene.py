@@ -70,7 +70,7 @@ def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
     normals = [area_vector(points, face) for face in surface.faces]
     sight = view(_direction(surface, points, normals, eye))
     images = tuple(sight.project(point) for point in points)
-    # Faces of a mesh are counterclockwise from outside, those of the paper clockwise.
+    # The faces of a mesh are counterclockwise from outside, whereas the paper's method expects them clockwise.
     faces = [face[::-1] for face in surface.faces]
     signs = [facing([(*images[place], _ONE) for place in face]) for face in faces]
     if surface.dimension == 2:
@@ -165,7 +165,7 @@ def _light(normal: Vector, sight: View) -> Fraction:
     level = root(Fraction(dot(sight.right, sight.right)))
     tall = level * length
     r, u, e = sight.right, sight.up, sight.eye
-    # The axes of the image have different lengths, so each component is divided by the length of its axis.
+    # The axes of the image are vectors of different lengths, so each component is divided by the length of its axis.
     lamp = tuple(Fraction(7 * e[k]) / (10 * length) - r[k] / (2 * level) + 5 * u[k] / (9 * tall) for k in range(3))
     direction = (lamp[0], lamp[1], lamp[2])
     # The cosine is the scalar product divided by both lengths. Its square is rational, so only one root is rounded.

@@ -16,7 +16,7 @@ from modern.port import convex_hull
 
 _CELL, _BAND = 250, 46
 _COLUMNS = 3
-# The seconds for which a stage is shown, and the factor for the last stage.
+# An animation shows each stage for this number of seconds, and the last stage for a multiple of it.
 _SECONDS, _LAST = 1.6, 3
 _FONT = f'font-family="{svg.FONT}" font-size="12" fill="#000"'
 ADDED = svg.Style("added", "added", "dot", 'fill="#000" stroke="#fff" stroke-width="1"')
@@ -50,14 +50,14 @@ def frames(hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int =
     if not hull.determined:
         raise ExportError(f"there is no hull: {hull.status}")
     if not hull.history:
-        raise ExportError("there are no stages: the hull is its first approximation")
+        raise ExportError("there are no stages: the first approximation is already the hull")
     whole = scene(hull, None if eye is None else [Fraction(number) for number in eye])
     sight = whole.view
     flat = {index: sight.project(coordinates(point)) for index, point in enumerate(hull.points)}
     pixel, height = fit(list(flat.values()), width, 10 * width)
     places = {index: pixel(image) for index, image in flat.items()}
     stage_frames, vertices, eliminated = [], set[int](), set[int]()
-    # The stage's hull is computed again, exactly, from the vertices so far.
+    # The hull of a stage is computed again, exactly, from the vertices added so far.
     for stage in hull.history:
         vertices |= set(stage.added)
         eliminated |= set(stage.struck)
@@ -95,7 +95,10 @@ def strip(all_frames: Sequence[Frame], title: str = "") -> str:
 
 
 def played(all_frames: Sequence[Frame], title: str = "") -> str:
-    """Return an endless animation as an SVG file; a reader with reduced motion sees the last stage only."""
+    """Return an endless animation of the stages as an SVG file.
+
+    If the viewer's system asks for reduced motion, only the last stage is shown.
+    """
     width, height = all_frames[0].layout.width, all_frames[0].layout.height + _BAND
     steps = len(all_frames) + _LAST - 1
     # The last stage is shown longer. Percentages of the whole cycle, as CSS keyframes require.

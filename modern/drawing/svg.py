@@ -19,7 +19,7 @@ FONT = "Helvetica, Arial, sans-serif"
 # The file name extensions for a picture.
 PICTURES = (".svg", ".pdf", ".png")
 _PAGE = b'#set page(width: auto, height: auto, margin: 0pt)\n#image(bytes(sys.inputs.svg), format: "svg")'
-_PIXELS_PER_INCH = 192  # two pixels of PNG for one of SVG
+_PIXELS_PER_INCH = 192  # A PNG has two pixels for each pixel of the SVG.
 
 
 def number(hundredths: int) -> str:
@@ -77,7 +77,7 @@ def group(name: str, attributes: str, items: Iterable[str]) -> list[str]:
 
 
 def page(width: int, height: int, title: str, items: Iterable[str], description: str = "") -> str:
-    """Return a complete file with a white background; with a description it is a document with readable text."""
+    """Return a complete SVG file with a white background; with a description, screen readers can read its text."""
     role = "graphics-document document" if description else "img"
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '

@@ -51,7 +51,7 @@ _ROOT = 10**15
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """A direction of view in lowest terms, and the two axes of the image, which are not of unit length."""
+    """A direction of view in lowest terms, and the two axes of the image, whose lengths are not 1."""
 
     eye: Eye
     right: Eye
@@ -102,7 +102,7 @@ def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
 
 
 def across(line: Vector) -> Eye:
-    """Return a horizontal direction, from the front, that shows a segment of direction ``line`` at its full length."""
+    """Return a horizontal direction of view, from the front, at right angles to the direction ``line`` of a segment."""
     if not (line[0] or line[1]):
         return 0, -1, 0
     x, y, _ = lowest((line[1], -line[0], Fraction(0)))
@@ -110,7 +110,7 @@ def across(line: Vector) -> Eye:
 
 
 def towards(normal: Vector) -> Eye:
-    """Return the direction perpendicular to a polygon, from above, otherwise from the front or the right."""
+    """Return the direction of view perpendicular to a polygon: from above, or else from the front or the right."""
     x, y, z = lowest(normal)
     return (x, y, z) if (z, -y, x) > (0, 0, 0) else (-x, -y, -z)
 
@@ -128,7 +128,7 @@ def _axes(eye: Eye) -> tuple[Eye, Eye]:
 
 
 def _clearness(points: Sequence[Eye], normals: Sequence[Eye], eye: Eye) -> Fraction:
-    """Return 0 if the direction is unsuitable, 1 if it shows everything clearly, otherwise a value in between."""
+    """Rate a direction of view: 0 if it is unsuitable, 1 if it shows all clearly, otherwise a value in between."""
     if not _is_suitable(points, normals, eye):
         return Fraction(0)
     square = dot(eye, eye)

@@ -16,7 +16,7 @@ N = TypeVar("N", int, Fraction)
 
 # The kinds of edges.
 #
-# inner: both faces are visible. contour: one face is visible. outline: no face is visible and one is edge-on, behind
+# inner: both faces are visible. contour: one face is visible. outline: no face is visible but one is edge-on, behind
 # the contour in the image. back: both faces are turned away. flat: both faces are in one plane, so that it is no edge
 # of the solid. joined: both faces are read as one, both visible or both turned away; an edge that is not drawn.
 Kind = Literal["inner", "contour", "outline", "back", "flat", "joined"]
@@ -55,7 +55,8 @@ def sign(number: int | Fraction) -> int:
 def facing(corners: Sequence[tuple[N, N, N]]) -> int:
     """Return 1 if a face with these images, clockwise from outside, is visible, -1 if it is turned away, 0 if edge-on.
 
-    The paper uses one triangle, whose formula (1) is 0 for collinear corners. The sum over all triangles has its sign.
+    The paper evaluates formula (1) for one triangle of the face, which gives 0 for collinear corners. Here the values
+    of all triangles are added, which gives the same sign.
     """
     first = corners[0]
     return sign(sum(value(line_through(first, corners[k]), corners[k + 1]) for k in range(1, len(corners) - 1)))

@@ -87,7 +87,7 @@ def run_chapter6(options: argparse.Namespace) -> int:
 
 
 def run_programs() -> int:
-    """Compare all programs.  Return 1 if a card or a line differs."""
+    """Compare all programs on the library and on the emulator.  Return 1 if a card or a line differs."""
     library()
     exit_code = 0
     for name, program, deck in subjects():
@@ -129,7 +129,7 @@ def run_compile(options: argparse.Namespace) -> int:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command.  Print a line and return 0 if the simulator or the deck is missing."""
+    """Run the command of the given arguments.  Print a line and return 0 if the simulator or the deck is missing."""
     options = parser().parse_args(arguments)
     try:
         match options.command:

@@ -54,7 +54,7 @@ def _judged(example: int, printed: Print, cards: Sequence[str]) -> Iterator[Card
 
 @cache
 def _cards(example: int, name: str) -> tuple[str, ...]:
-    """Return the cards that a program punches on the library, from the cards of program 1 before it."""
+    """Return the cards that a program punches on the library from the cards that program 1 has punched."""
     return punched(execute(programs.program(name), _input(example, name)))
 
 

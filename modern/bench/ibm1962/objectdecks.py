@@ -30,7 +30,7 @@ OPTIONS = Options(numbers("ibm1962"), core=CORE, bounds="core", hopper="any", li
 COUNTEREXAMPLES = "transcripts/counterexamples"
 FOLDERS = ("tests/data/period", "tests/data/programs", "tests/data/compiler_runs")
 
-# A place that neither the library nor a program uses after loading.
+# An address in core storage that neither the library nor a program uses after loading.
 _HALT_AT = 60
 
 _PROBE = [
@@ -46,7 +46,10 @@ _PROBE = [
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """The cards and lines that both machines write, without blanks at their ends, and the error if one did not run."""
+    """The cards and lines that the library and the emulator write, and the error if one of them did not run.
+
+    Blanks at the ends of cards and lines are removed.
+    """
 
     name: str
     library: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
@@ -63,7 +66,7 @@ class Comparison:
 
 @cache
 def library() -> tuple[str, ...]:
-    """Return the cards of the object deck.  Raise Unavailable if it, or a simulator that can run it, is missing.
+    """Return the cards of the library's object deck.  Raise Unavailable if it or a suitable simulator is missing.
 
     Before 2015 the simulator's compare instruction set the overflow indicator, which the library's addition tests.
     """

@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 
 SECONDS = 20.0
 
-# Lines that the simulator writes, and not the program.
+# Lines of the output that the simulator itself writes, not the simulated program.
 _SIMULATOR = re.compile(r"IBM 1620 simulator|CD[PR]: |HALT instruction|Goodbye|\d{5}:\t|Invalid |No card in")
 # What it writes may follow a typed line at once, because the carriage returns only before the next line.
 _POSITION = re.compile(r"(\d{5}):\t([0-9A-F]{2})\n?")
@@ -43,7 +43,7 @@ class Run:
     trouble: str = ""
 
     def field(self, address: int) -> list[int]:
-        """Return the ten examined positions of a field, whose low-order position is ``address``."""
+        """Return ten examined digits, those of the field whose low-order position is ``address``."""
         return [self.core[position] for position in range(address - 9, address + 1)]
 
 

@@ -1,4 +1,4 @@
-"""One input or output statement, executed by the library: its object code, its data, and the numbers it leaves."""
+"""One input or output statement, executed by the library: its object code, its data, and the numbers that it stores."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from modern.bench.ibm1962.simulator import Run, run
 CALLS, WORDS, LABEL, NUMBERS = 9000, 10000, 15186, 14700
 HALT = [4, 8, *[0] * 10]
 
-# The contents of a number before a statement reads it.  No card of the comparisons holds them.
+# A number has these contents before a statement reads it.  No card of the comparisons contains this value.
 BEFORE = {"I": "5555", "E": ".55555555E+55"}
 
 

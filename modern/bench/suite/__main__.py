@@ -16,7 +16,7 @@ DECKS = 1_000
 
 
 def process(*arguments: str) -> Callable[[], object]:
-    """Return a function that runs the command in a new process and discards its output."""
+    """Return a function that runs a command in a new process and discards the output."""
     command = [sys.executable, "-m", "modern.cli.main", *arguments]
     return lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
@@ -53,7 +53,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[str]]] = {
 def main(names: Sequence[str]) -> int:
     unknown = [name for name in names if name not in GROUPS]
     if unknown:
-        print(f"bench: unknown group {unknown[0]!r}; the groups are {', '.join(GROUPS)}", file=sys.stderr)
+        print(f"bench: unknown group {unknown[0]!r}; expected some of {', '.join(GROUPS)}", file=sys.stderr)
         return 2
     print(f"medians of {RUNS}")
     for name in names or GROUPS:

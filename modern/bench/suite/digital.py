@@ -24,7 +24,7 @@ from modern.papers.yau_srihari import octree_hull
 
 BARS = {128: "bar 1 s", 256: "bar 4 s", 512: "bar 30 s"}
 
-# The diameters of the balls whose octrees are measured. Their cubes have sides of 16, 32, ... 256.
+# The diameters of the balls whose octree hulls are measured. The octrees' cubes have sides of 16, 32, ... 256.
 DIAMETERS = (15, 31, 63, 127, 254)
 # Complete processes: the hull, the diameter of a ball, and the bars.
 COMMANDS = (
@@ -34,7 +34,7 @@ COMMANDS = (
     ("voxel", 511, "bar 10 s"),
 )
 CURVES = (STYLES[0], STYLES[1], STYLES[2], STYLES[4])
-# Smaller solids measure the cost of a call.
+# The slope of a curve is fitted from this number of voxels on; smaller solids measure the cost of a call.
 SLOPES_FROM = 10_000
 OCTREE, CELLS, FILLED, SCIKIT_IMAGE = "octree hull", "voxel hull, cell list", "digital hull", "skimage"
 # The largest diameter measured with scikit-image in a table. In the plot it is 63, which takes half a minute.
@@ -101,7 +101,7 @@ def process_of(name: str, diameter: int) -> Work:
 
 
 def works(volume: Volume) -> dict[str, Work]:
-    """Return the hulls of a solid's voxel centres, as rows of the table and curves of the plot."""
+    """Return the functions to time, which compute hulls of a solid's voxel centres, by their name in table and plot."""
     return {
         OCTREE: lambda: octree_hull(volume),
         CELLS: lambda: voxel_hull(volume, CENTRES),
@@ -154,13 +154,13 @@ def by_scikit_image(array: Any) -> Any:
 
 
 def memory(side: int, way: str) -> str:
-    """Return the peak memory of a process that creates the ball and fills its hull, next to the bar."""
+    """Return, as text, the peak memory of a process that creates a ball and fills its hull, and the limit for it."""
     size, most = peak(side, way)
     return f"{most / 1e6:.0f} MB, bar {(4 * size + 300e6) / 1e6:.0f} MB"
 
 
 def peak(side: int, way: str) -> tuple[int, float]:
-    """Return the number of voxels in a ball's box and the median peak memory of three such processes, in bytes."""
+    """Return the voxels in the box of a ball and the peak memory, in bytes, of such a process (median of three)."""
     runs = []
     for _ in range(3):
         run = subprocess.run([sys.executable, "-c", PEAK, str(side), way], check=True, capture_output=True, text=True)

@@ -23,7 +23,7 @@ from modern.geometry.hull import as_tuple
 from modern.port import convex_hull
 
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000)
-# Smaller sets measure the cost of a call.
+# The slope of a curve is fitted from this number of points on; smaller sets measure the cost of a call.
 SLOPES_FROM = 1_000
 WITH_FACES = "port, fast, with its faces as text"
 STYLES = (
@@ -65,7 +65,7 @@ def eight_digits(points: Any) -> Any:
 
 
 def judge(points: Any) -> dict[str, Work]:
-    """Return the judge with numpy alone, and with its proposals compiled if numba is installed."""
+    """Return ways to run the exact hull: with numpy alone and, if numba is installed, with compiled proposals."""
     works: dict[str, Work] = {"judge, numpy": lambda: exact_hull(points, fast=False)}
     if find_spec("numba"):
         works["judge, fast"] = lambda: exact_hull(points, fast=True)
@@ -73,7 +73,7 @@ def judge(points: Any) -> dict[str, Work]:
 
 
 def port(points: Any) -> dict[str, Work]:
-    """Return the port in float64 with numpy alone, and with compiled kernels if numba is installed."""
+    """Return ways to run the port in float64: with numpy alone and, if numba is installed, with compiled kernels."""
     works: dict[str, Work] = {"port, numpy": lambda: convex_hull(points, "float64", fast=False)}
     if find_spec("numba"):
         works["port, fast"] = lambda: convex_hull(points, "float64", fast=True)
@@ -83,7 +83,7 @@ def port(points: Any) -> dict[str, Work]:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Works on one set of points, measured in turn in processor seconds. The peers are the last of them."""
+    """Functions that compute hulls of one set of points, timed in turn in processor seconds; the peers come last."""
 
     points: str
     rows: tuple[Figure, ...]
@@ -152,7 +152,7 @@ def small_hull(fast: bool, cache: str = "") -> Callable[[], object]:
 
 
 def growth(peers: Peers, counts: Sequence[int] = COUNTS) -> list[Curve]:
-    """Return median seconds by route and size for points in a ball. Judge and peers get eight digits."""
+    """Return median seconds by method and number of points in a ball. The exact hull and the peers get eight digits."""
     points_by_route: dict[str, list[tuple[int, float]]] = {}
     for count in counts:
         integer_points, eight_digit_points = exact_in_doubles(ball(count)), eight_digits(ball(count))

@@ -1,5 +1,4 @@
-"""The later papers: Appel and Will's convex edges compared with the judge, hidden lines, and cell lists of digital
-balls.
+"""Benchmarks of the later papers: Appel and Will's convex edges compared with the exact hull, hidden lines, cell lists.
 
 Appel and Will's 60 points are computed exactly, with the star polygon and with its short form. The figures of
 Kovalevsky and Schulz's cell list are seconds, and microseconds for each inserted local corner.
@@ -37,7 +36,7 @@ WAYS: tuple[tuple[Of, int, Coplanar], ...] = (
     (VERTICES, 6, INVISIBLE),
     (CENTRES, 26, VISIBLE),
 )
-# The diameter of the paper's ball, to which the bar of 2 s applies.
+# The ball of this diameter, which the paper uses, must take less than 2 s.
 BAR = 32
 
 
@@ -87,7 +86,7 @@ def cell_lists(largest: int = LARGEST_BALL) -> Iterator[Figure]:
 
 
 def cell_list(volume: solids.Volume, of: Of, neighbours: int, coplanar: Coplanar, bar: str) -> Figure:
-    """Measure the cell list of a solid's hull. The note gives the time for each corner."""
+    """Measure the cell list of a solid's hull. The note of the figure gives the time for each local corner."""
     corners = len(local_corners(volume, of, neighbours))
     figure = timed(
         f"cell list, {volume.source}, {of}, {neighbours}, {coplanar}",

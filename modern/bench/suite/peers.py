@@ -12,7 +12,7 @@ from typing import Any
 
 from modern.bench.timing import Measured
 
-# The compilers tried in this order, after the one that the environment variable CXX names.
+# Compilers, tried in this order after the one that the environment variable CXX names.
 COMPILERS = ("c++", "g++", "clang++")
 
 # ``convex_hull_3`` with exact predicates, run twice to fill caches first. Prints processor seconds and vertices.
@@ -41,12 +41,15 @@ _LIBRARIES = (("-lgmp", "-lmpfr"), ("-lgmp",), ())
 _PATIENCE = 300
 
 Work = Callable[[], object]
-# A function from points (n, 3) to the computation of one hull.
+# A peer: a function that prepares points of shape (n, 3) and returns the function that computes their hull.
 Peer = Callable[[Any], Work]
 
 
 class Peers(AbstractContextManager["Peers"]):
-    """Those that there are, by name, and why others are missing; a folder for compiled programs while it is open."""
+    """The available programs to compare with, by name, and the reasons why others are missing.
+
+    It is a context manager, which provides a folder for compiled programs.
+    """
 
     def __init__(self) -> None:
         self._folder = TemporaryDirectory()

@@ -13,10 +13,10 @@ from emulator.errors import quoted
 from modern.digital.integrity.streams import check_length, check_sizes
 from modern.digital.solids import VolumeError
 
-# The position and the bytes of the signature of a DICOM file.
+# A DICOM file has these bytes, its signature, at this position.
 SIGNATURE = (128, b"DICM")
 _LONG = frozenset({b"OB", b"OD", b"OF", b"OL", b"OV", b"OW", b"SQ", b"SV", b"UC", b"UN", b"UR", b"UT", b"UV"})
-# Types of values: those with two reserved bytes and a four-byte length, and those with a two-byte length.
+# Types of values: first those with two reserved bytes and a four-byte length, then those with a two-byte length.
 _SHORT = frozenset(
     {b"AE", b"AS", b"AT", b"CS", b"DA", b"DS", b"DT", b"FD", b"FL", b"IS", b"LO", b"LT", b"PN", b"SH", b"SL", b"SS"}
     | {b"ST", b"TM", b"UI", b"UL", b"US"}
@@ -137,7 +137,7 @@ def check_dicom(path: str) -> tuple[int, ...] | None:
         elements = _Elements(file, path, os.fstat(file.fileno()).st_size)
         position, mark = SIGNATURE
         if file.read(position + len(mark))[position:] != mark:
-            raise VolumeError(f"{path}: not a DICOM file: it has no mark DICM after {position} bytes")
+            raise VolumeError(f"{path}: not a DICOM file: expected the bytes DICM at position {position}")
         # The file meta information states its own length and is always explicit little endian.
         tag = elements.tag()
         if tag != (0x0002, 0x0000) or elements.length(tag) != (b"UL", 4):
@@ -159,7 +159,7 @@ def check_dicom(path: str) -> tuple[int, ...] | None:
     sizes = (elements.integer(_COLUMNS), elements.integer(_ROWS), int(frames))
     check_sizes(path, sizes)
     bits = sizes[0] * sizes[1] * sizes[2] * elements.integer(_SAMPLES, 1) * elements.integer(_BITS)
-    # A value has an even number of bytes.
+    # Every value is padded to an even number of bytes.
     check_length(path, 2 * -(-bits // 16), elements.pixels + elements.pixels % 2)
     return sizes
 

@@ -113,7 +113,7 @@ def _fields(head: bytes, path: str) -> tuple[dict[str, str], int]:
 
 
 def _listed(lines: bytes, name: str, sizes: tuple[int, ...], path: str) -> tuple[list[str], int]:
-    """Return the file names in a list, and the number of axes of each file."""
+    """Return the names of the files in a list, and the number of axes that each file has."""
     words = name.split()
     axes = int(words[1]) if len(words) == 2 and re.fullmatch("[1-9]", words[1], re.ASCII) else len(sizes) - 1
     if words[0] != "LIST" or len(words) > 2 or not 1 <= axes < len(sizes):

@@ -98,7 +98,7 @@ def _parsed(head: bytes, path: str) -> tuple[NiftiHeader, int, int]:
 
 
 def _scaling(slope: float, intercept: float, path: str) -> str:
-    # 0 means that values are not scaled. nan, which nibabel writes, means the same.
+    # A slope of 0 means that values are not scaled, and so does nan, which nibabel writes.
     if slope == 0 or math.isnan(slope):
         if intercept != 0 and not math.isnan(intercept):
             raise VolumeError(f"{path}: scl_inter is {intercept:g}, but scl_slope is {slope:g} (values not scaled)")
@@ -140,7 +140,7 @@ def _forms(
 
 
 def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
-    """Return notes about contradictory positions in the header. They say which position ``world`` has."""
+    """Return notes on positions in the header that contradict each other; the notes say which one ``world`` has."""
     if world is None or len(world.steps) != 3:
         return []
     used = np.array([[float(number) for number in vector] for vector in (*world.steps, world.origin)]).T

@@ -10,7 +10,7 @@ from typing import BinaryIO
 from modern.digital.solids import MAX_CELLS, VolumeError
 
 CHUNK = 1 << 20
-# The ``wbits`` of zlib that recognise both headers. Each format ends with a checksum.
+# With this ``wbits`` zlib recognises both headers, zlib and gzip. Each of the formats ends with a checksum.
 _ZLIB_OR_GZIP = 47
 
 
@@ -40,7 +40,7 @@ def outside_note(header: str, name: str) -> str:
 
 
 def chunks_of(file: BinaryIO, count: int) -> Iterator[bytes]:
-    """Yield the next ``count`` bytes of a file, or fewer at its end, in pieces."""
+    """Yield, in pieces, the next ``count`` bytes of a file, or fewer if the file ends before."""
     while count > 0 and (chunk := file.read(min(CHUNK, count))):
         count -= len(chunk)
         yield chunk
@@ -77,7 +77,7 @@ def check_compressed(source: str, file: BinaryIO, stored: int, expected: int) ->
 
 
 def read_gzip(source: str, path: str, most: int, keep: int) -> tuple[bytes, int]:
-    """Return the first ``keep`` decompressed bytes of a gzip file, and the number of all, at most ``most`` + 1.
+    """Return the first ``keep`` decompressed bytes of a gzip file, and the length of all, which counts to ``most`` + 1.
 
     Raise VolumeError if the file is damaged. The checksum is verified unless there are more than ``most`` bytes.
     """

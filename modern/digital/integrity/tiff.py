@@ -12,7 +12,7 @@ from typing import Any, BinaryIO
 from modern.digital.integrity.streams import check_compressed, check_sizes
 from modern.digital.solids import MAX_CELLS, VolumeError
 
-# The ``struct`` code of a value, by the code of its type. Fractions are not needed.
+# The ``struct`` code of a value by the TIFF code of its type. The types of fractions are not needed.
 _FORMATS = {1: "B", 2: "B", 3: "H", 4: "I", 6: "b", 7: "B", 8: "h", 9: "i", 11: "f", 12: "d", 13: "I", 16: "Q", 17: "q"}
 _WIDTH, _HEIGHT, _BITS, _COMPRESSION, _DESCRIPTION, _SAMPLES, _ROWS, _PLANAR = 256, 257, 258, 259, 270, 277, 278, 284
 _STRIPS, _TILES = (273, 279), (324, 325)
@@ -146,7 +146,7 @@ class _Reader:
 
 
 def _one(page: Tags, tag: int, source: str, default: int = 0) -> int:
-    """Return the value of a tag, which may be repeated for each sample."""
+    """Return the only value of a tag; all values must be equal if the tag is repeated for each sample."""
     values = page.get(tag, (default,))
     if not values or isinstance(values, bytes) or len(set(values)) != 1 or not isinstance(values[0], int):
         raise VolumeError(f"{source}: damaged: tag {tag} has no valid value")
@@ -154,7 +154,10 @@ def _one(page: Tags, tag: int, source: str, default: int = 0) -> int:
 
 
 def _images(page: Tags) -> int:
-    """Return the number of images that the description by ImageJ states (over 4 GB they are one page), or 0."""
+    """Return the number of images that ImageJ states in the description, or 0.
+
+    ImageJ writes more than 4 GB of images as one page.
+    """
     description = page.get(_DESCRIPTION, b"")
     if isinstance(description, bytes) and description.startswith(b"ImageJ="):
         for line in description.splitlines():

@@ -205,7 +205,7 @@ def test_command_measures_without_compiler_and_numba(
 @pytest.mark.parametrize(
     ("command", "message"),
     [
-        ('gfortran "', "FC is not a command"),
+        ('gfortran "', "expected a command in the environment variable FC"),
         ("true", "true is not a Fortran compiler: it produced no program"),
         ("false", "^false.* cannot compile the translated program: no reason given"),
     ],

@@ -85,7 +85,10 @@ def test_ignored_fields_are_noted(fields: tuple[str, ...], note: str) -> None:
         (("space directions: (1,0,0) (0,1,0) (0,0)",), "line 6: space directions: expected 3 numbers, found 2"),
         (("space directions: (1,0,0) (0,1,0) (0,0,1) 7",), "line 6: space directions: expected 3 vectors"),
         (("space directions: (1,0,0) (0,1,0) (1,1,0)",), "the directions of the axes are linearly dependent"),
-        (("spacings: 1 1 1", "space directions: (1,0,0) (0,1,0) (0,0,1)"), "spacings and space directions contradict"),
+        (
+            ("spacings: 1 1 1", "space directions: (1,0,0) (0,1,0) (0,0,1)"),
+            "spacings and space directions state different steps",
+        ),
         (
             ("spacings: 1 1 1", "space origin: (1,2)"),
             "line 7: space origin: expected 3 numbers in parentheses, found '(1,2)'",

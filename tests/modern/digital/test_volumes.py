@@ -229,9 +229,9 @@ def test_invalid_shapes_and_types_are_reported(shape: tuple[int, ...] | None, dt
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("ball:0", "ball:0:voxel: the diameter is a positive integer"),
-        ("ball:1:vertex", "ball:1:vertex: it contains no voxel"),
-        ("half-ball:99999", "half-ball:99999:vertex: the diameter is at most 1289"),
+        ("ball:0", "ball:0:voxel: expected a positive integer as the diameter"),
+        ("ball:1:vertex", "ball:1:vertex: the ball contains no voxel"),
+        ("half-ball:99999", "half-ball:99999:vertex: expected a diameter of at most 1289"),
         ("ball:x", "ball:x: expected ball:DIAMETER"),
         ("ball:8:centre", "ball:8:centre: expected ball:DIAMETER"),
         ("missing.npy", "missing.npy: no such file or directory"),
@@ -281,9 +281,9 @@ def test_invalid_lists_of_coordinates_are_reported(coordinates: Any, message: st
 
 
 def test_balls_accept_no_shape_and_no_other_centre() -> None:
-    with pytest.raises(VolumeError, match="no --shape"):
+    with pytest.raises(VolumeError, match="--shape and --dtype are for raw data"):
         read_volume("ball:8", (2, 2, 2))
-    with pytest.raises(VolumeError, match="the centre is voxel or vertex"):
+    with pytest.raises(VolumeError, match="expected the centre voxel or vertex"):
         ball(8, "edge")
 
 

@@ -185,5 +185,5 @@ def test_numbers_of_headers_are_decimals_of_limited_size(text: str) -> None:
 def test_a_volume_needs_a_step_for_every_axis() -> None:
     with pytest.raises(VolumeError, match="expected 3 steps of the position, found 2"):
         Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0), world=world_of(2, (1, 1)))
-    with pytest.raises(VolumeError, match="a Volume has a position"):
+    with pytest.raises(VolumeError, match="a Volume has its own position"):
         hull_of_voxels(Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0)), spacing=(1, 1, 1))
