@@ -1,6 +1,7 @@
 """Studies of numerical error: many point sets, computed in several ways and compared with their exact hulls.
 
-A study is described by data, a :class:`Plan`: families of point sets, and the routes through which every set is sent.
+A study is described by data, a :class:`Plan`: families of point sets, and the routes (ways to compute a hull) that
+each set takes.
 :func:`run_study` carries it out in a folder.  It can be interrupted at any moment and resumed.  ``plan.py``
 explains the terms sample, route, cell and chunk.
 

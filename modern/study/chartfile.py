@@ -29,14 +29,14 @@ def write_charts(folder: Path, charts: Iterable[Chart]) -> None:
 
 
 def read_charts(folder: Path) -> tuple[Chart, ...]:
-    """Read the charts from the folder of a study.  Raise StudyFileError if the file is absent or not of this format."""
+    """Read the charts from the folder of a study.  Raise StudyFileError if the file is missing or invalid."""
     path = folder / NAME
     try:
         return tuple(_chart(data) for data in json.loads(path.read_text(encoding="utf-8")))
     except OSError as error:
         raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError, OverflowError):
-        raise StudyFileError(f"{path}: not the charts of a study") from None
+        raise StudyFileError(f"{path}: expected a file charts.json that a study has written") from None
 
 
 def _text(chart: Chart) -> str:

@@ -1,8 +1,8 @@
-"""The SQLite index of a study, from which reports are computed.  Every run makes it from the rows again.
+"""The SQLite index of a study, from which reports are computed.  Each run builds it again from the rows.
 
 The table ``samples`` has the columns cell, place (the index of the sample), n, dimension, vertices, planes, boundary,
-inside and tags (JSON); the table ``runs`` has cell, place, route, outcome, detail and figures (JSON).  One connection
-writes and locks the file, so a second run in the same folder fails.
+inside and tags (JSON); the table ``runs`` has cell, place, route, outcome, detail and figures (JSON).  The connection
+that writes locks the file, so a second run in the same folder fails.
 """
 
 import json
@@ -29,7 +29,7 @@ JUDGE = ("n", "dimension", "vertices", "planes", "boundary", "inside")
 
 
 class RouteRow(TypedDict):
-    """The answer of one route to a sample, as part of a row."""
+    """The answer of one route to one sample, as a part of a row."""
 
     outcome: str
     detail: str
@@ -50,7 +50,7 @@ class Row(TypedDict):
 
 
 def open_index(folder: Path) -> sqlite3.Connection:
-    """Open and lock the index of a folder; replace a damaged one. Raise StudyFileError if it is locked."""
+    """Open and lock the index of a folder; replace a damaged index.  Raise StudyFileError if it is locked."""
     path = folder / NAME
     try:
         try:
@@ -63,7 +63,7 @@ def open_index(folder: Path) -> sqlite3.Connection:
             return _opened(path)
     except sqlite3.Error as error:
         busy = error.sqlite_errorcode in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
-        reason = "another run is using this folder" if busy else str(error)
+        reason = "another run is using this folder; wait until it ends" if busy else str(error)
         raise StudyFileError(f"{path}: {reason}") from None
     except OSError as error:
         raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
@@ -73,7 +73,7 @@ def _opened(path: Path) -> sqlite3.Connection:
     connection = sqlite3.connect(path, timeout=0.5, isolation_level=None)
     try:
         connection.execute("PRAGMA locking_mode = EXCLUSIVE")
-        # An interruption may leave a damaged index.  This does no harm, because the next run makes the index again.
+        # An interruption may leave a damaged index.  This does no harm, because the next run builds the index again.
         connection.execute("PRAGMA synchronous = OFF")
         connection.execute("PRAGMA journal_mode = MEMORY")
         connection.execute("BEGIN EXCLUSIVE")

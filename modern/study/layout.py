@@ -15,11 +15,11 @@ from modern.study.report import Bars, Chart, Lines
 WIDTH, HEIGHT = 430.0, 220.0
 # The least distance, in points, at which two markers can be distinguished.
 APART = 3.4
-# The greatest shift, in points, from one series to the next at the same x.
+# At the same x, each series is shifted from the one before it by at most this number of points.
 _WIDEST = 5.5
 # The share of the distance between two x values that the markers at one of them may occupy.
 _FILLED = 0.8
-# A series counts as hidden if more than this share of its markers is hidden.
+# A series counts as hidden if other series cover more than this share of its markers.
 _HIDDEN = 1 / 3
 # The greatest number of bars side by side in one chart.
 _MANY_BARS = 48
@@ -27,7 +27,7 @@ _RAISED = str.maketrans("0123456789-+k", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᵏ")
 
 
 def typeset(text: str) -> str:
-    """Return text with typographic characters: 10⁻³ for ``10^-3`` and ``1E-3``, and a minus sign before a number."""
+    """Return text with typographic characters: 10⁻³ for ``10^-3`` or ``1E-3``, and a minus sign before a number."""
     text = re.sub(r"(?<![\w.])(\d+\.?\d*)E([+-]?\d+)\b", _power, text)
     text = re.sub(r"(?<=\d)\^([+-]?\d+|k\b)", lambda match: match[1].translate(_RAISED), text)
     return re.sub(r"(?<![\w.)-])-(?=\.?\d)", "\N{MINUS SIGN}", text)
@@ -49,14 +49,14 @@ def names(chart: Chart) -> list[str]:
 
 
 def panels(chart: Chart) -> bool:
-    """Return True if each series needs separate axes."""
+    """Return True if each series of the chart needs separate axes, because series would hide each other."""
     if isinstance(chart, Bars):
         return len(chart.series) * len(names(chart)) > _MANY_BARS
     return isinstance(chart, Lines) and any(part > _HIDDEN for part in hidden(chart))
 
 
 def steps(chart: Lines) -> tuple[float, ...]:
-    """Return the shift of each series to the right of its x values, in points.  It is as large as they permit."""
+    """Return the shift of each series to the right of its x values, in points: as large as these values permit."""
     count = len(chart.series)
     positions = sorted({float(x) for series in chart.series for x, _ in series.points})
     gap = min((b - a for a, b in pairwise(_scaled(positions, WIDTH, chart.log_x))), default=WIDTH)
@@ -65,7 +65,7 @@ def steps(chart: Lines) -> tuple[float, ...]:
 
 
 def hidden(chart: Lines) -> tuple[float, ...]:
-    """Return for each series the share of its markers that markers of other series hide when drawn side by side."""
+    """Return, for each series, the share of its markers that other series hide if all are drawn in one panel."""
     shifts = steps(chart)
     heights = _heights(chart)
     shares = []

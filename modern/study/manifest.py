@@ -1,4 +1,4 @@
-"""The manifest of a study: its plan, the versions and the code of its run, and hashes for comparing a repetition."""
+"""The manifest of a study: its plan, the versions and the code of its run, and hashes to compare a repetition with."""
 
 import hashlib
 import json
@@ -21,7 +21,7 @@ _LATER_PROGRAMS = ("program2", "program3")
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of Python and of the packages a study depends on; empty for a package not installed."""
+    """Return the versions of Python and of the packages on which a study depends; empty if one is not installed."""
     installed = {"python": platform.python_version()}
     for package in _PACKAGES:
         try:
@@ -39,7 +39,7 @@ _HASHED_PACKAGES = (
 
 
 def code_sums(plan: Plan) -> dict[str, str]:
-    """Return the SHA-256 of the code that makes the rows: that of hull1620 and of each user-defined module."""
+    """Return the SHA-256 of hull1620's code and of each user-defined module, which together make the rows."""
     names = {cell.family for cell in plan.cells}
     names |= {name for cell in plan.cells for route in cell.routes for name in route.measures}
     modules = sorted({name.partition(":")[0] for name in names if ":" in name})
@@ -101,7 +101,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
 
 
 def first_difference(earlier: Mapping[str, Any], current: Mapping[str, Any]) -> str:
-    """Describe the first difference between the manifest in the folder and the current one, or return an empty text."""
+    """Describe the first difference between the manifest in the folder and that of this run; empty if they agree."""
     plan, current_plan = earlier["plan"], current["plan"]
     if plan.get("name") != current_plan["name"]:
         return f"the folder holds the study {plan.get('name')}, not {current_plan['name']}"
@@ -113,15 +113,15 @@ def first_difference(earlier: Mapping[str, Any], current: Mapping[str, Any]) -> 
             "repeat the --samples of the command that began it"
         )
     if plan != current_plan:
-        return "its plan is different"
+        return "its plan differs from that of this command"
     for package, installed in current["versions"].items():
         before = earlier["versions"].get(package, "")
         if before != installed:
             return f"it was begun with {package} {before or '(not installed)'}, not {installed or '(not installed)'}"
     if earlier["programs_sha256"] != current["programs_sha256"]:
-        return "its programs are different: the listings or their apparatus have changed"
+        return "the listings of the programs or their apparatus have changed since it was begun"
     if "code_sha256" not in earlier:
-        return "its manifest does not record the code it was begun with"
+        return "its manifest does not record with which code it was begun"
     for name, digest in current["code_sha256"].items():
         if earlier["code_sha256"].get(name) != digest:
             return "the code of hull1620 has changed" if name == "hull1620" else f"the module {name} has changed"

@@ -22,7 +22,7 @@ from modern.study.sample import Sample
 from modern.thesis.cards import planes_hold, read_intermediate
 from modern.thesis.job import HullRun
 
-# A measure accepts a sample and its run, a HullRun or a Hull.
+# A measure is a function of a sample and of its run, which is a HullRun or a Hull.
 Measure = Callable[[Sample, Any], Figures]
 _MILLISECOND = Decimal("0.001")
 
@@ -50,7 +50,7 @@ def operations(sample: Sample, run: HullRun) -> Figures:
 
 
 def plane_table(sample: Sample, run: Hull) -> Figures:
-    """The largest number of entries of program 3's plane table in use at once, from the history of a run of the port.
+    """The largest number of entries that a run uses at once in program 3's plane table, from the port's history.
 
     New planes are appended before the planes they replace are deleted, so a stage that begins with L planes and
     replaces m of them reaches L + 2m + 1 entries (thesis p. 32, statements 126 to 140).
@@ -71,7 +71,7 @@ def divergence(sample: Sample, run: HullRun) -> Figures:
     """
     studied, exact = numbers("truncating"), numbers("exact")
     for step in run.steps:
-        # The cards between two programs can already be wrong, before the next program decides anything.
+        # The cards that pass from one program to the next can be wrong before the next program decides anything.
         intermediate = read_intermediate([card.text for card in step.deck.cards]) if step is not run.steps[0] else None
         if intermediate is not None and not planes_hold(intermediate):
             return {"diverges": f"cards to {step.name}"}
@@ -92,7 +92,7 @@ MEASURES: Mapping[str, Measure] = {
 }
 
 
-# The measures of runs of the port; the others measure runs of the programs.
+# These measures need runs of the port; all others need runs of the programs.
 OF_PORT = frozenset({"plane_table"})
 
 

@@ -119,7 +119,7 @@ def answer_of_hull(hull: Hull, sample: Sample) -> Answer:
 
 
 def reordered(answer: Answer, reference: Answer) -> Answer:
-    """Return the answer, marked as reordered if it and the reference are right and their orders differ."""
+    """Return the answer, marked as reordered if it and the reference are right but have different orders."""
     differs = answer.outcome == reference.outcome == "right" and answer.order != reference.order
     return replace(answer, outcome="reordered") if differs else answer
 
@@ -136,7 +136,7 @@ def position(program: Program, line: Line) -> str:
 
 
 def _refused_at(step: Step, message: str) -> str:
-    """Return the statement at which a program typed DATA NOT ACCEPTABLE or ERROR IN PROGRAM: ``program3 119``.
+    """Return the statement that made a program type DATA NOT ACCEPTABLE or ERROR IN PROGRAM: ``program3 119``.
 
     A program types all its errors with one statement, so for an error the last decision before it is returned.
     """
@@ -186,7 +186,7 @@ def _determined(outcome: compared.Outcome, sample: Sample, hull: CardHull | Hull
 
 
 def _fault(outcome: compared.Outcome, sample: Sample, difference: Disagreement, hull: CardHull | Hull) -> Fault | None:
-    """Return the first fault of a hull in the order of the table above; None if it has none."""
+    """Return the first fault of a hull in the order of the table at the top of this module; None if it has none."""
     faults: tuple[tuple[object, Fault], ...] = (
         (outcome.dimension != sample.hull.dimension, "dimension wrong"),
         (outcome.strange, "coordinates changed"),
@@ -228,7 +228,7 @@ def _incidences_are_right(hull: CardHull | Hull, sample: Sample, difference: Dis
     if isinstance(hull, Hull):
         listed = [set(face.polygon) for face in hull.faces]
     else:
-        # Cards number the vertices in the order in which they were punched.
+        # On the cards, vertices are numbered in the order in which the program punched them.
         index_of = {point: index for index, point in enumerate(sample.points)}
         for numbers, equation in hull.satisfied:
             if not 1 <= equation <= len(listed) or max(numbers, default=1) > len(hull.vertices):

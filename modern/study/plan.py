@@ -39,7 +39,7 @@ CHUNK = 200
 
 
 class PlanError(EmulatorError):
-    """A study that cannot be carried out as it is written, with a one-line message."""
+    """A study that cannot be carried out as its plan is written; the message is one line."""
 
 
 class StudyFileError(PlanError):
@@ -48,7 +48,7 @@ class StudyFileError(PlanError):
 
 @dataclass(frozen=True, slots=True)
 class Programs:
-    """A route through the emulated programs: program 1, then program 2 or 3, whichever program 1 asks for.
+    """A route through the emulated programs: program 1, then program 2 or 3, as program 1 requests.
 
     name: the name in tables.  state: the version of program 1, ``listing`` or ``examples``.  layers: the layers of the
     apparatus (the register of corrections to the printed listings) that are added to the three programs.  rows: single
@@ -96,7 +96,7 @@ Route = Programs | Port
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """Samples of one kind, from one family with fixed parameters.  Every sample goes through every route.
+    """Samples of one kind, from one family with fixed parameters.  Each sample goes through all routes of the cell.
 
     key: the parameters that tables show, in order; it is unique in a plan.  family: a name in
     :data:`modern.study.families.FAMILIES`, or ``module:function``.  parameters: the keyword arguments of the family.
@@ -118,13 +118,13 @@ class Cell:
         return " ".join(f"{name}={value}" for name, value in self.key.items())
 
     def seed(self, study: int, index: int) -> str:
-        """Return the seed of a sample: 32 hexadecimal digits of the SHA-256 of study seed, key and index."""
+        """Return the seed of a sample: 32 hexadecimal digits of the SHA-256 of the study's seed, key and index."""
         text = json.dumps([study, list(self.key.items()), index])
         return hashlib.sha256(text.encode("ascii")).hexdigest()[:32]
 
 
 def named(kind: str, name: str, known: Mapping[str, F]) -> F:
-    """Return the known function of that name or the user's ``module:function``. Raise PlanError if it is missing."""
+    """Return the known function of that name, or the user's ``module:function``.  Raise PlanError if there is none."""
     if name in known:
         return known[name]
     module, colon, function = name.partition(":")
@@ -158,7 +158,7 @@ def _user_error(error: Exception, module: str) -> str:
         return f"{Path(error.filename or module).name}, line {error.lineno}: {error.msg}"
     try:
         spec = find_spec(module)
-    except (ImportError, ValueError):  # a name that no module can have
+    except (ImportError, ValueError):  # find_spec rejects names that no module can have
         spec = None
     lines = [frame.lineno for frame in extract_tb(error.__traceback__) if spec and frame.filename == spec.origin]
     location = f"{Path(spec.origin or module).name}, line {lines[-1]}: " if spec and lines else ""
@@ -173,7 +173,7 @@ def random_of(seed: str) -> Random:
 
 @dataclass(frozen=True, slots=True)
 class Chunk:
-    """The samples ``start`` to ``stop`` (excluded) of the cell with number ``cell``, counted from 0."""
+    """Consecutive samples of cell number ``cell``, from number ``start`` to before ``stop``, all counted from 0."""
 
     cell: int
     start: int
@@ -181,7 +181,7 @@ class Chunk:
 
     @property
     def name(self) -> str:
-        """Return the name of its file; the names sort in the order of cells and samples."""
+        """Return the name of the chunk's file; sorted by name, files are in the order of cells and samples."""
         return f"{self.cell:04d}-{self.start:09d}.jsonl"
 
 
@@ -208,7 +208,7 @@ class Plan:
                 yield Chunk(number, start, min(start + cell.chunk, cell.samples))
 
     def document(self) -> dict[str, object]:
-        """Return the plan as JSON data, which is equal exactly for equal plans."""
+        """Return the plan as JSON data.  Two plans have equal data if and only if they are equal."""
         data = asdict(self)
         data["cells"] = [
             {**asdict(cell), "key": list(map(list, cell.key.items())), "routes": [document(r) for r in cell.routes]}

@@ -30,7 +30,7 @@ _MANY_DECADES = 1e4
 _ROW = 0.17
 # The height of the note at the bottom, in inches.
 _NOTE = 0.22
-# The greatest length of a line below a bar, in characters, if names must be wrapped.
+# If the names below bars must be wrapped, their lines have at most this number of characters.
 _WRAPPED = 14
 _STYLE: Any = {
     "font.size": 10,
@@ -52,7 +52,7 @@ _NO_MATPLOTLIB = "plots need matplotlib: pip install 'hull1620[plot]'"
 
 
 def can_plot() -> str:
-    """Return an empty text if plots can be drawn, otherwise a line that names what is missing."""
+    """Return an empty text if plots can be drawn, otherwise a line that says which package is missing."""
     try:
         import matplotlib  # noqa: F401
     except ImportError:
@@ -95,7 +95,7 @@ def drawn(chart: Chart) -> Any:
     # A single series is named by the title of the chart, a series in a panel by the title of the panel.
     titled = len(chart.series) == 1 or panels(chart)
     if marks or not titled:
-        # matplotlib lists marks first; the legend shows them last.
+        # matplotlib lists marks before series; the legend shows them after series.
         handles, labels = ((p[:marks] if titled else p[marks:] + p[:marks]) for p in (handles, labels))
         has_long_labels = max(map(len, labels)) > 20
         # The legend is placed above the note.
@@ -203,7 +203,7 @@ def _scales(axes: Any, chart: Lines, margin: float = 0.0) -> None:
 
 
 def _range(numbers: list[float], logarithmic: bool, margin: float = 0.0) -> tuple[float, float] | None:
-    """Return the limits of an axis for these numbers, with a margin; None if it can show none of them."""
+    """Return the limits of an axis that shows these numbers with a margin; None if the axis can show none of them."""
     finite = [value for value in numbers if isfinite(value) and (value > 0 or not logarithmic)]
     if not finite:
         return None

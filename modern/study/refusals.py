@@ -1,4 +1,4 @@
-"""Data sheets with decimals: how often the programs reject them, and which share explains two rejections in 70.
+"""Data sheets with decimals: how often the programs reject them, and how many of them explain two rejections in 70.
 
 The thesis attributes its two failures to the eight digits of the machine.  The programs reject sets like the data sheet
 of chapter 5 (:func:`modern.study.families.thesis.data_sheet`) more often if more of their coordinates are decimals.
@@ -16,7 +16,7 @@ from modern.study.statistics import Interval, count, exact
 from modern.study.store import Store
 
 SEVENTY, TWO = 70, 2
-# Numbers of decimals in a thousand coordinates; 333 is the share on the data sheet.
+# How many of a thousand coordinates are decimals; 333 is the share on the data sheet of chapter 5.
 SHARES = (0, 2, 5, 10, 20, 50, 100, 250, 333)
 FORMS = {"alone": "as on the sheet (.0146)", "added": "added to a whole number (12.0146)"}
 
@@ -39,7 +39,7 @@ def cells(samples: int, route: Programs) -> tuple[Cell, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Sheets:
-    """Data sheets with one share and form of decimals: sets drawn, sets rejected, and sets that fail otherwise."""
+    """Counts for one share and form of decimals: data sheets drawn, rejected, and failing otherwise."""
 
     share: int
     form: str
@@ -58,7 +58,7 @@ TWO_LIKELIEST = (TWO / (SEVENTY + 1), (TWO + 1) / (SEVENTY + 1))
 
 
 def measured(plan: Plan, store: Store) -> tuple[Sheets, ...]:
-    """Return the counts of each cell of data sheets."""
+    """Return the counts of the study for each share and form of decimals."""
     sheets = []
     for number, cell in enumerate(plan.cells):
         if "decimals" not in cell.key:
@@ -72,7 +72,7 @@ def measured(plan: Plan, store: Store) -> tuple[Sheets, ...]:
 
 
 def table(sheets: tuple[Sheets, ...]) -> Table:
-    """Return a table with a row for each share and form."""
+    """Return a table with a row for each share and form of decimals."""
     head = ("decimals", "drawn", "sets", "refused", "of seventy", "failed otherwise", "sheets in 70 for two")
     rows = []
     for s in sheets:
@@ -87,7 +87,7 @@ def table(sheets: tuple[Sheets, ...]) -> Table:
 
 
 def needed(sheets: Sheets) -> str:
-    """Return the range of the number of sheets for which two rejections are most probable, or ``-`` if above 70."""
+    """Return for how many sheets in seventy two rejections are most probable, as a range, or ``-`` if for none."""
     if not sheets.refused:
         return "-"
     low, high = (SEVENTY * bound / sheets.rate.value for bound in TWO_LIKELIEST)
@@ -109,7 +109,7 @@ def likely_shares(rates: tuple[tuple[int, float], ...]) -> tuple[float, float] |
 
 
 def chart(sheets: tuple[Sheets, ...]) -> Bars:
-    """Return the chart of rejections against the share of decimals."""
+    """Return the chart of the share of rejected data sheets against the share of decimals."""
     series = tuple(
         Series(description, tuple((f"{s.share / 10:g}", s.rate) for s in sheets if s.form == form or not s.share))
         for form, description in FORMS.items()
@@ -126,7 +126,7 @@ def chart(sheets: tuple[Sheets, ...]) -> Bars:
 
 
 def conclusions(sheets: tuple[Sheets, ...]) -> tuple[str, ...]:
-    """Return a paragraph about each form of decimals."""
+    """Return the conclusions about data sheets, one paragraph for each form of decimals."""
     paragraphs = []
     for form, drawn in FORMS.items():
         of_form = [s for s in sheets if s.form == form or not s.share]

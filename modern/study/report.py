@@ -57,7 +57,7 @@ def percent(share: Interval) -> str:
 
 
 def row(*cells: object) -> tuple[str, ...]:
-    """Format the cells of a row: None as a dash, an interval as a proportion in percent."""
+    """Format the cells of a row of a table: None as a dash, an interval as a proportion in percent."""
     return tuple("-" if cell is None else percent(cell) if isinstance(cell, Interval) else str(cell) for cell in cells)
 
 
@@ -94,7 +94,7 @@ def powers(exponents: Iterable[int]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """Values with intervals; each belongs to a named bar or to a number on the x axis."""
+    """The values of a series, with intervals; each belongs to a named bar or to a number on the x axis."""
 
     name: str
     points: tuple[tuple[Place, Interval], ...]
@@ -102,7 +102,7 @@ class Series:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A value to compare with: a line across the chart at an x (``upright``) or a y, explained in the legend."""
+    """A value of reference: a line across the chart at an x (``upright``) or a y, explained in the legend."""
 
     at: float
     label: str

@@ -23,7 +23,7 @@ from modern.thesis.job import HullRun, Load, run_hull
 
 
 def carry_out(route: Route, samples: Sequence[Sample], runs: Runs) -> list[Answer]:
-    """Send each sample through the route.  ``runs`` shares runs of programs among routes of the same samples."""
+    """Send each sample through the route.  ``runs`` stores runs of programs that several routes of a sample share."""
     if isinstance(route, Programs):
         return _programs(route, samples, runs)
     return [_port(route, sample) for sample in samples]
@@ -44,10 +44,12 @@ def programs_of(route: Programs) -> tuple[str, Load]:
     rows = [row for name in programs.TEXTS for row in programs.text(name).rows]
     missing = [layer for layer in route.layers if layer not in {row.layer for row in rows}]
     if missing:
-        raise PlanError(f"route {route.name}: no program has rows of a layer {quoted(missing[0])}")
+        raise PlanError(
+            f"route {route.name}: expected the name of a layer, found {quoted(missing[0])}, which no program has"
+        )
     missing = [row for row in route.rows if row not in {row.id for row in rows}]
     if missing:
-        raise PlanError(f"route {route.name}: the apparatus has no row {quoted(missing[0])}")
+        raise PlanError(f"route {route.name}: expected a row of the apparatus, found {quoted(missing[0])}")
     return first, lambda name: _program(name, route.layers, route.rows)
 
 

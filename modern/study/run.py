@@ -32,7 +32,7 @@ from modern.study.sample import CARD_DIGITS
 from modern.study.store import ROWS, Store
 from modern.study.workers import connect, in_processes, on_cluster, processes
 
-# Files of rows that a study may have. Their names are held in memory while it runs.
+# A study has at most this number of files of rows, because their names are held in memory while it runs.
 MOST_FILES = 1_000_000
 
 Reporter = Callable[[Plan, Store], Report]
@@ -92,7 +92,7 @@ def run_study(
     with ExitStack() as stack:
         client = stack.enter_context(closing(connect(dask))) if dask else None
         document = _begin(plan, folder, resume, command)
-        # Nothing is known here about the engine that the workers of a cluster have.
+        # This process does not know which engine the workers of a cluster have.
         for line in () if quiet or client else plain_lines(plan):
             print(line, file=sys.stderr)
         store = stack.enter_context(closing(Store.open(folder, plan)))
@@ -122,7 +122,7 @@ def verify_study(folder: Path) -> tuple[Plan, int, list[str]]:
     except (KeyError, TypeError, ValueError, AttributeError):
         is_plan = False
     if not is_plan:
-        raise StudyFileError(f"{folder / NAME}: the plan of the study is damaged")
+        raise StudyFileError(f"{folder / NAME}: the plan in the manifest is damaged")
     # The index is not needed, and another run may be using it.
     with closing(Store(folder, plan, sqlite3.connect(":memory:"))) as store:
         intact, messages = store.verify()
@@ -135,7 +135,7 @@ def verify_study(folder: Path) -> tuple[Plan, int, list[str]]:
 
 
 def plain_lines(plan: Plan) -> tuple[str, ...]:
-    """Return the reasons why routes of a plan need the plain engine, each once; empty if all routes can be compiled."""
+    """Return a line for each reason why routes of a plan need the plain engine; none if all can be compiled."""
     reasons = dict.fromkeys(why_plain(options_of(route)) for route in _program_routes(plan))
     return tuple(reason for reason in reasons if reason)
 
@@ -207,7 +207,7 @@ def check_plan(plan: Plan) -> None:
     if not plan.name or not plan.name.replace("-", "").replace("_", "").isalnum():
         raise PlanError(f"the name of a study consists of letters, digits, - and _; {quoted(plan.name)} does not")
     if not plan.cells:
-        raise PlanError(f"{plan.name}: the plan has no cells")
+        raise PlanError(f"{plan.name}: expected at least one cell in the plan, found none")
     _check_distinct((cell.name for cell in plan.cells), f"{plan.name}: two cells have the key")
     files = 0
     for route in dict.fromkeys(route for cell in plan.cells for route in cell.routes):
@@ -222,7 +222,7 @@ def check_plan(plan: Plan) -> None:
 
 
 def check_cell(cell: Cell, seed: int) -> None:
-    """Check a cell except its routes, and draw its first sample.  Raise PlanError or FamilyError."""
+    """Check a cell except for its routes, and draw its first sample.  Raise PlanError or FamilyError for a fault."""
     where = f"cell {cell.name}".rstrip()
     if cell.samples < 1 or cell.chunk < 1:
         raise PlanError(f"{where}: samples and chunk must be at least 1")
@@ -259,12 +259,12 @@ def check_route(route: Route) -> None:
             f"route {route.name}: state must be listing or examples, bounds strict or core, limit 1 or more"
         )
     if bool(route.epsilon) != ("epsilon" in route.layers):
-        raise PlanError(f"route {route.name}: an epsilon needs the layer 'epsilon', and that layer an epsilon")
+        raise PlanError(f"route {route.name}: an epsilon and the layer 'epsilon' must be given together")
     try:
         with_epsilon(deck_from_lines(route.name, ["1"]), route.epsilon or "0")
     except ValueError as error:
         raise PlanError(f"route {route.name}: {error}") from None
-    # A machine is made for each program: this fails if a program does not fit into the core.
+    # Making a machine for each program checks that the program fits into core storage.
     options = options_of(route)
     first, load = programs_of(route)
     for name in (first, *(text for text in programs.TEXTS if text != "program1")):

@@ -11,13 +11,13 @@ from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.deck import data_deck, read_coordinates
 from modern.study.families.draws import Drawn
 
-# Significant digits of a number on a card.
+# A number on a card has this number of significant digits.
 CARD_DIGITS = 8
 
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """A sample, its deck and the exact points on it, its exact hull in two forms, and the vertices on each equation."""
+    """A sample: its deck and the exact points on it, the exact hull in two forms, and the vertices on each equation."""
 
     drawn: Drawn
     deck: Deck
@@ -38,7 +38,7 @@ class Sample:
         }
 
     def points_read(self, rules: Rules) -> Sequence[Vector]:
-        """Return the points as an arithmetic reads them from the cards; one with fewer than eight digits truncates."""
+        """Return the points as an arithmetic reads them from cards; it truncates them if it has fewer digits."""
         if rules.digits >= CARD_DIGITS:
             return self.points
         points = []
@@ -49,7 +49,7 @@ class Sample:
 
 
 def judge(drawn: Drawn, name: str) -> Sample:
-    """Return the sample of a drawn set.  Raise ValueError if the points do not fit on the cards of a deck."""
+    """Return the sample of a drawn set, with its exact hull.  Raise ValueError if no deck can hold its points."""
     deck = data_deck(drawn.points, name)
     points = tuple(tuple(map(Fraction, point)) for point in drawn.points)
     hull = exact_hull(drawn.points)

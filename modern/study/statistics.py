@@ -1,19 +1,19 @@
 """Confidence intervals: Clopper and Pearson's exact ones for proportions and counts, Student's for other means.
 
-Proportions, and counts out of a known total, get Clopper and Pearson's interval.  Its coverage is at least the level
+A proportion, or a count out of a known total, gets Clopper and Pearson's interval.  Its coverage is at least the level
 for every true proportion, and it never extends below 0 or above the total.  It keeps the level if samples of several
 kinds, each with its own proportion, are counted together, because the count then varies less (Hoeffding).
 
-Student's interval assumes that means are normally distributed.  It serves for quantities that are not counts, such as
-minutes, and is truncated at bounds that the quantity itself has (no time is below 0), which does not lower its level.
+Student's interval assumes that means are normally distributed.  It is used for quantities that are not counts, such as
+minutes.  It is truncated at limits of the quantity (no time is below 0), which does not lower its level.
 
-Both tails of every interval are equal.  The default ``level`` is .95.
+Both tails of each interval are equal.  The default ``level`` is .95.
 
 References
 ----------
 C. J. Clopper and E. S. Pearson, The use of confidence or fiducial limits illustrated in the case of the binomial,
-Biometrika 26 (1934) 404-413.  W. Hoeffding, On the distribution of the number of successes in independent trials,
-Ann. Math. Statist. 27 (1956) 713-721.  Student (W. S. Gosset), The probable error of a mean, Biometrika 6 (1908) 1-25.
+Biometrika 26 (1934) 404-413.  W. Hoeffding, On the distribution of the number of successes in independent trials, Ann.
+Math. Statist. 27 (1956) 713-721.  Student (W. S. Gosset), The probable error of a mean, Biometrika 6 (1908) 1-25.
 """
 
 from collections.abc import Callable, Iterable
@@ -33,7 +33,7 @@ class Interval:
 def exact(hits: int, of: int, level: float = LEVEL) -> Interval:
     """Return the exact (Clopper and Pearson) interval of a proportion of ``hits`` in ``of`` samples."""
     if of < 1 or not 0 <= hits <= of:
-        raise ValueError(f"{hits} of {of} is not a proportion")
+        raise ValueError(f"expected hits from 0 to the number of samples, found {hits} of {of}")
     tail = (1 - level) / 2
     low = 0.0 if hits == 0 else _root(lambda p: incomplete_beta(hits, of - hits + 1, p) - tail)
     high = 1.0 if hits == of else _root(lambda p: incomplete_beta(hits + 1, of - hits, p) - (1 - tail))
@@ -41,7 +41,7 @@ def exact(hits: int, of: int, level: float = LEVEL) -> Interval:
 
 
 def count(hits: int, of: int, times: int, level: float = LEVEL) -> Interval:
-    """Return the number of hits to expect in ``times`` samples if ``of`` samples had ``hits``, from 0 to ``times``."""
+    """Return the expected number of hits in ``times`` samples, with its interval, if ``of`` samples had ``hits``."""
     share = exact(hits, of, level)
     return Interval(times * share.value, times * share.low, times * share.high)
 
@@ -74,8 +74,8 @@ def mean_of(
 
 
 def student(degrees: int, level: float = LEVEL) -> float:
-    """Return the t such that a variable with Student's distribution lies from -t to t with probability ``level``."""
-    # P(|T| > t) is the incomplete beta function of n/2, 1/2 at n/(n + t*t).
+    """Return t such that a variable with Student's distribution is between -t and t with probability ``level``."""
+    # The probability that |T| > t is the incomplete beta function I_x(n/2, 1/2) at x = n/(n + t*t).
     x = _root(lambda p: incomplete_beta(degrees / 2, 0.5, p) - (1 - level))
     return sqrt(degrees * (1 - x) / x)
 

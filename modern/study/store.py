@@ -77,7 +77,7 @@ class Store:
         self.database.close()
 
     def missing(self) -> list[Chunk]:
-        """Make the index from all files of rows, and return the chunks that have no file.
+        """Build the index from all files of rows, and return the chunks that have no file.
 
         Raise StudyFileError if a row is damaged.  The index is never reused, because a change in it would go unnoticed.
         """
@@ -105,7 +105,7 @@ class Store:
         present = {path.name for path in (self.folder / ROWS).glob("*.jsonl")}
         foreign = present - {chunk.name for chunk in self.plan.chunks()}
         if foreign:
-            raise StudyFileError(f"{self.folder / ROWS}: {min(foreign)} is not a chunk of this study")
+            raise StudyFileError(f"{self.folder / ROWS}: {min(foreign)} is not a file of rows of this study")
         return ((chunk, chunk.name in present) for chunk in self.plan.chunks())
 
     def add(self, chunk: Chunk, text: str) -> None:
@@ -126,7 +126,7 @@ class Store:
         return digest.hexdigest()
 
     def runs(self, cell: int | None = None, route: str | None = None) -> Iterator[Run]:
-        """Yield the answers of one cell or route, or of all cells and routes."""
+        """Yield the answers to the samples of one cell or of all, by one route or by all."""
         where, values = _where(cell, route)
         answers = self.database.execute(
             "SELECT runs.cell, runs.place, n, dimension, tags, route, outcome, detail, figures FROM runs "
@@ -138,7 +138,7 @@ class Store:
             yield Run(c, place, n, dimension, json.loads(tags), name, outcome, detail, json.loads(figures))
 
     def counts(self, *columns: str, cell: int | None = None, route: str | None = None) -> dict[tuple[Any, ...], int]:
-        """Return the number of answers for each combination of columns of the index or tags (``tags.kind``), sorted."""
+        """Return the number of answers for each combination of the columns or tags (``tags.kind``), sorted."""
         names = [_column(name) for name in columns]
         where, values = _where(cell, route)
         answers = self.database.execute(
@@ -178,7 +178,7 @@ class Store:
 
 
 def _with_checksum(line: bytes) -> bytes:
-    """Return a row with a checksum as its last field: 16 hexadecimal digits of the SHA-256 of all that precedes it."""
+    """Return a row with a checksum as its last field: 16 hexadecimal digits of the SHA-256 of the row before it."""
     fields = line.removesuffix(b"}")
     return b'%s%s%s"}\n' % (fields, _CHECKSUM_FIELD, hashlib.sha256(fields).hexdigest()[:16].encode("ascii"))
 

@@ -1,4 +1,4 @@
-"""Count outcomes by cell and route, for most of the reports, and select cells by their keys."""
+"""Count outcomes by cell and route, as most reports need them, and select cells by their keys."""
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -11,12 +11,12 @@ from modern.study.store import Store
 
 
 def values(plan: Plan, key: str) -> tuple[Value, ...]:
-    """Return the values that a part of the key has in a plan, in the order of the cells."""
+    """Return the values that one parameter of the keys has in a plan, in the order of the cells."""
     return tuple(dict.fromkeys(cell.key[key] for cell in plan.cells if key in cell.key))
 
 
 def cells(plan: Plan, **key: Value) -> tuple[tuple[int, Cell], ...]:
-    """Return the cells whose keys have these values, with their numbers."""
+    """Return the cells whose keys have all the given values, each with its number."""
     return tuple(
         (number, cell)
         for number, cell in enumerate(plan.cells)
@@ -42,7 +42,7 @@ class Summary:
         return self.of(cell, route) - self.hits(cell, route)
 
     def sound_from(self, cell: int, route: Callable[[int], str], tried: Sequence[int]) -> int | None:
-        """Return the least of the ascending numbers such that no sample failed at it or after it, or None."""
+        """Return the least of the ascending numbers such that no sample failed at it or at a later number, or None."""
         least = None
         for number in reversed(tried):
             if self.failed(cell, route(number)):

@@ -71,7 +71,7 @@ class _Section:
     number: int = 0
 
     def error(self, message: str, key: str = "") -> PlanError:
-        """Return an error that names the file, the line of the key or else of the section, and the section."""
+        """Return an error that names the file, the section, and the line of the key or else of the section."""
         section = f"{self.name} {self.number}: " if self.name else ""
         return PlanError(f"{self._place(key)}: {section}{message}")
 
@@ -84,7 +84,7 @@ class _Section:
             raise PlanError(f"{self._place(key)}: {error}") from error
 
     def _place(self, key: str) -> str:
-        """Return the file and the line of a key in this section, or else of the section if it has a line."""
+        """Return the file and the line of a key in this section or, if the key has no line, of the section."""
         sections, header_line = {"": 0}, 0
         current = ("", 0)
         for line_number, line in enumerate(_masked(self.text).split("\n"), 1):
@@ -118,7 +118,7 @@ class _Section:
 
 
 def _masked(text: str) -> str:
-    """Return TOML with the characters of strings and comments replaced by spaces."""
+    """Return the text of a TOML file with the characters of strings and comments replaced by spaces."""
     return _MASKED.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
 
 
@@ -175,7 +175,7 @@ def _plan(data: Mapping[str, Any], path: str, text: str, samples: int | None, se
             raise section.error(f"two routes have the name {quoted(route.name)}", "name")
         routes[route.name] = route
     if not routes:
-        raise PlanError(f"{path}: there is no [[route]]")
+        raise PlanError(f"{path}: expected at least one section [[route]], found none")
     cells = []
     for number, raw in enumerate(data.get("cell", ()), 1):
         section = _Section(path, text, "cell", number)
@@ -231,7 +231,7 @@ def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, sec
     default_key = {"family": family, **{name: str(value) for name, value in parameters.items()}}
     if family == "file":
         if not isinstance(parameters.get("path"), str):
-            raise section.error("the family file needs a path", "parameters")
+            raise section.error("the family file needs the parameter path", "parameters")
         family, path = "points", Path(section.path).parent / parameters.pop("path")
         with section.locating("parameters"):
             parameters["points"] = file_points(str(path))

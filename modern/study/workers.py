@@ -30,7 +30,7 @@ from modern.study.routes import carry_out
 from modern.study.sample import Sample, judge
 from modern.thesis.batch import Runs
 
-# Chunks submitted for each worker: enough that no worker is idle, few enough that memory use does not grow.
+# The number of chunks submitted for each worker: enough to keep it busy, few enough to limit memory use.
 AHEAD = 2
 # Seconds to wait for a scheduler.
 TIMEOUT = 10
@@ -38,9 +38,9 @@ _ADDRESS = re.compile(r"(\w+://)?[^\s:/]+:\d{1,5}|\w+://\[[0-9a-fA-F:]+\]:\d{1,5
 
 # A chunk and its rows.
 FinishedChunk = tuple[Chunk, str]
-# The rows of a chunk, or an empty text and an error message.
+# A result: the rows of a chunk and an empty text, or an empty text and an error message.
 #
-# An exception would have to be unpickled by the receiving process; text always can be.
+# Text can always be sent to another process, whereas an exception might not be unpickled there.
 RowsOrError = tuple[str, str]
 
 

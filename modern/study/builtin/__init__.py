@@ -12,7 +12,7 @@ from modern.study.store import Store
 
 
 class Study(Protocol):
-    """The interface of a module of :mod:`modern.study.builtin`.
+    """The functions and constants that each module of :mod:`modern.study.builtin` defines.
 
     TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the module says what they count.  plan:
     makes the plan with the given number of samples.  report: makes the report from the finished rows.
@@ -28,7 +28,7 @@ class Study(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A built-in study as a list shows it: its default of ``--samples``, and the resulting number of sets and cells."""
+    """A built-in study as ``--list`` shows it: its default of ``--samples``, and its numbers of sets and cells."""
 
     name: str
     title: str

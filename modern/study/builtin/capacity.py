@@ -57,7 +57,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Peak:
-    """The largest number of entries in use at once: its mean over the sets with an interval, and its maximum."""
+    """The largest number of table entries in use at once: its mean over the sets, with an interval, and its maximum."""
 
     mean: Interval
     most: int
@@ -77,7 +77,7 @@ def _peaks(plan: Plan, store: Store) -> dict[int, _Peak]:
 
 
 def positions(places: int) -> int:
-    """Return the positions of core of program 3 with a plane table of that many entries, including subroutines."""
+    """Return the core positions, with subroutines, that program 3 needs with a plane table of this many entries."""
     program = programs.program("program3")
     longer = sum(places - PLACES for entry in program.storage.arrays() if entry.size == PLACES)
     return OBJECT_PROGRAM + FUNCTION_NAMES + code_positions(program) + (program.storage.fields + longer) * FIELD
@@ -138,7 +138,7 @@ def _chart(plan: Plan, peaks: dict[int, _Peak]) -> Lines:
     series = []
     for name in values(plan, "sets"):
         points = [(n, peaks[k]) for k, n in _along(plan, name) if k in peaks]
-        # The bar extends from the mean to the greatest number, for which a table must be large enough.
+        # The bar extends from the mean to the greatest number of entries, which the table must hold.
         series.append(Series(str(name), tuple((n, Interval(p.mean.value, p.mean.value, p.most)) for n, p in points)))
     return Lines(
         "places",

@@ -21,13 +21,13 @@ DIGITS = tuple(range(1, 9))
 WORKING = tuple(range(4, 29))
 POINTS = 10
 LISTED, CORRECTED = "as listed", "corrected"
-# The numbers of the cells, with the digits of their coordinates.
+# The digits of the coordinates, in the order of the cells' numbers.
 Cells = tuple[tuple[int, int], ...]
 _SHOWN = (1, 2, 3, 4, 6, 8)
 
 
 def working(digits: int) -> str:
-    """Return the name of the route with that many working digits."""
+    """Return the name of the route through the port with this number of working digits."""
     return f"P={digits}"
 
 

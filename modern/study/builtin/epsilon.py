@@ -48,7 +48,7 @@ def taken(power: int) -> str:
 
 
 def ported(power: int) -> str:
-    """Return the name of the route through the port with the same e."""
+    """Return the name of the route through the port with an absolute e of 10**power."""
     return f"port, e = 10^{power}"
 
 
@@ -101,11 +101,11 @@ class _Rows:
     swallowed: Mapping[tuple[int, str], int]
 
     def swallows(self, cell: int, route: str) -> Interval:
-        """Return the share of sets with a swallowed vertex."""
+        """Return the share of sets with a swallowed vertex: e makes the route miss it, or count a solid as flat."""
         return exact(self.swallowed.get((cell, route), 0), self.counts.of(cell, route))
 
     def clean(self, cell: int, name: Name, tried: tuple[int, ...]) -> list[int]:
-        """Return the exponents k at which no set failed with e = 10**k."""
+        """Return the exponents k at which no set of the cell failed with e = 10**k."""
         return [k for k in tried if not self.counts.failed(cell, name(k))]
 
     def begins(self, cell: int, name: Name, tried: tuple[int, ...]) -> int | None:

@@ -88,7 +88,7 @@ def _in_minutes(seconds: Interval) -> Interval:
 
 
 def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float, _Time]]:
-    """Return N and the times for a kind of set, without the N for which no set was timed."""
+    """Return the numbers N of points and the times for one kind of set, without each N at which no set was timed."""
     return [(float(cell.key["n"]), times[k]) for k, cell in cells(plan, sets=name) if k in times]
 
 

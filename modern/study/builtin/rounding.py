@@ -50,7 +50,7 @@ _SHOWN = "whole numbers of 4 digits"
 
 
 def within(way: str, power: int) -> str:
-    """Return the name of the route with the interval of that width."""
+    """Return the name of the route through the port with an arithmetic and an interval of width 10**power."""
     return f"{way}, e = 10^{power}"
 
 
@@ -101,7 +101,7 @@ class _Pairs:
 
     @property
     def verdict(self) -> str:
-        """Return the conclusion, which the exact interval of the share of better sets determines."""
+        """The verdict on an arithmetic, which the exact interval of its share of better sets determines."""
         if self.better + self.worse == 0:
             return "no difference"
         share = exact(self.better, self.better + self.worse)
@@ -127,7 +127,7 @@ def report(plan: Plan, store: Store) -> Report:
 
 
 def _compared(plan: Plan, store: Store, way: str, test: str) -> _Pairs:
-    """Compare two arithmetics on each set: is the hull found or, with the interval, at how many widths is it found?"""
+    """Compare an arithmetic with truncation on each set: is the hull found or, in the interval test, how often?"""
     better = worse = 0
     names = {way: (way, *(within(way, k) for k in WIDTHS)) for way in (way, TRUNCATING)}
     way_of = {route: way for way, routes in names.items() for route in routes}

@@ -39,7 +39,7 @@ SAMPLES = 2_000 * SEVENTY
 THESIS = 2
 LISTED, MENDED = "as listed", "last pair mended"
 _LIMIT = 200_000
-# An event that occurs in a smaller share of the groups of seventy is called unusual.
+# An event is called unusual if it occurs in a smaller share of the groups of seventy than this.
 _RARE = 0.05
 _IN_SPACE = ("slab", "plane and points")
 # The number of the cell with the sets modelled on chapter 6; the following cells hold the data sheets.
@@ -97,7 +97,7 @@ class _Route:
         return count(self.failed, self.sets, SEVENTY)
 
     def groups(self, least: int, most: int = SEVENTY) -> Interval:
-        """Return the share of the groups of seventy with ``least`` to ``most`` failures."""
+        """Return the share of those groups of seventy sets that have from ``least`` to ``most`` failures."""
         return exact(sum(least <= n <= most for n in self.failures), len(self.failures))
 
 

@@ -27,7 +27,7 @@ PLANES = "planes like example 4"
 WORKING = tuple(range(4, 17))
 EIGHT = 8
 PARTS = ("additions", "products", "quotients", "seconds_processor")
-# The class limits of the ratio of planes of the hull to points.
+# The limits of the classes into which sets are divided by their planes per point.
 RATIOS = (0.0, 0.5, 1.0, 1.5, inf)
 _TIMED: Mapping[str, tuple[str, Mapping[str, object], tuple[int, ...]]] = {
     PLANES: ("thesis", {"kinds": {"plane": 1}}, (8, 16, 32)),
@@ -53,7 +53,7 @@ _LAYERS: Mapping[str, tuple[str, ...]] = {PLAIN: ("corrected",), MOVED: ("correc
 
 
 def working(name: str, digits: int) -> str:
-    """Return the name of the route through the port with that many digits."""
+    """Return the name of the route through the port with this number of digits."""
     return f"{name}, P={digits}"
 
 
@@ -131,7 +131,7 @@ class _Pair:
 
     @property
     def saved_in_all(self) -> float:
-        """Return the share of the total time, including reader, punch and typewriter, that the translation saves."""
+        """Return the share of the total time that the translation saves, including reader, punch and typewriter."""
         plain, moved = (
             sum(value for name, value in figures.items() if name.startswith("seconds_"))
             for figures in (self.plain, self.moved)
@@ -167,7 +167,7 @@ def _numbers(figures: str) -> dict[str, float]:
 
 
 def _share(estimate: Interval) -> str:
-    """Format a saved share in percent with its interval.  A single set has no interval."""
+    """Format a saved share in percent with its interval, which a single set does not have."""
     if estimate.high == inf:
         return f"{100 * estimate.value:.1f} %"
     return f"{100 * estimate.value:.1f} ({100 * estimate.low:.1f} to {100 * estimate.high:.1f}) %"

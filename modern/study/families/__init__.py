@@ -46,7 +46,7 @@ def family_of(name: str) -> Family:
 
 
 def check_keywords(name: str, parameters: Mapping[str, object]) -> None:
-    """Raise PlanError, naming the parameters of a family, if it does not accept the given ones."""
+    """Raise PlanError, with the names of a family's parameters, if the family does not accept the given ones."""
     signature = inspect.signature(family_of(name))
     try:
         signature.bind(None, **_keywords(parameters))

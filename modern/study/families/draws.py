@@ -11,7 +11,7 @@ from modern.geometry.numbers import scaled_decimal
 T = TypeVar("T")
 Point = tuple[str, str, str]
 Whole = tuple[int, int, int]
-# A number of points, or a pair (least, greatest) from which the number is drawn.
+# The number of points of a set, or a pair (least, greatest) between which it is drawn.
 Count = int | Sequence[int]
 
 DIGITS = 8
@@ -20,7 +20,7 @@ _TRIES = 200
 
 
 class FamilyError(EmulatorError):
-    """Parameters for which no points exist, or points that do not fit a card.  The message is one line."""
+    """Parameters for which no points exist, or points that do not fit on a card.  The message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,9 @@ class Draw:
                 break
             points[point()] = None
         if len(points) < count:
-            raise FamilyError(f"{_TRIES * count} draws gave only {len(points)} of {count} distinct points")
+            raise FamilyError(
+                f"{_TRIES * count} draws gave only {len(points)} of {count} distinct points; change the parameters"
+            )
         return list(points)
 
 
@@ -73,7 +75,7 @@ def _text(number: int, places: int) -> str:
 
 
 def whole_range(value: Count, name: str) -> tuple[int, int]:
-    """Return a parameter as the least and the greatest integer; a single integer is both.  Raise FamilyError."""
+    """Return a parameter, one integer or two, as the least and the greatest integer.  Raise FamilyError otherwise."""
     ends = (value, value) if isinstance(value, int) else value
     if not isinstance(ends, list | tuple) or len(ends) != 2 or not all(isinstance(end, int) for end in ends):
         raise FamilyError(

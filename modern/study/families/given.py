@@ -21,7 +21,7 @@ def published_sets() -> dict[str, tuple[Point, ...]]:
         texts = [
             (finite_decimal(x), finite_decimal(y), finite_decimal(z)) for x, y, z in (p.at for p in theorem.points)
         ]
-        # A theorem whose points have coordinates without a finite decimal expansion cannot be punched.
+        # Points whose coordinates have no finite decimal expansion cannot be punched, so their theorem is left out.
         points = tuple((x, y, z) for x, y, z in texts if x and y and z)
         if len(points) == len(texts):
             sets[f"theorem {theorem.id}"] = points

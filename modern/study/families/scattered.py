@@ -8,7 +8,7 @@ from math import isqrt
 from modern.geometry.numbers import scaled_decimal
 from modern.study.families.draws import DIGITS, Count, Draw, Drawn, FamilyError, Whole, drawn, size_of, whole_range
 
-# The radius of the grid on which a direction is drawn before it is rounded.
+# A direction is drawn as a point of a grid with this radius, before the point is scaled and rounded.
 FINE = 10**12
 
 

@@ -115,7 +115,7 @@ def slab(draw: Draw, count: int) -> list[Whole]:
 
 
 def plane_and_points(draw: Draw, count: int) -> list[Whole]:
-    """Return two other points, then points of a plane, as example 6 puts two points before those of example 4."""
+    """Return two points, then points of a plane that does not contain them, in the order of example 6."""
     inner = plane(draw, max(count - 2, 2))
     outer = [p for p in draw.distinct(len(inner) + 2, lambda: _in_box(draw, _SMALL)) if p not in inner][:2]
     return [*outer, *inner]

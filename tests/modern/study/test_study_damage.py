@@ -49,7 +49,7 @@ def test_damaged_index_is_rebuilt(finished: Path, copied: Path, damage: str) -> 
 
 def test_file_of_rows_that_is_not_of_the_plan_is_named(copied: Path) -> None:
     (copied / "rows/0009-000000000.jsonl").write_text("{}\n")
-    with pytest.raises(StudyFileError, match=r"0009-000000000.jsonl is not a chunk of this study"):
+    with pytest.raises(StudyFileError, match=r"0009-000000000.jsonl is not a file of rows of this study"):
         run_study(PLAN, copied, workers=1, quiet=True, resume=True)
 
 

@@ -190,7 +190,7 @@ def test_damaged_file_of_charts_gives_a_one_line_error(
     assert main(["study", "--redraw", str(tmp_path)]) == 2
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.endswith("charts.json: not the charts of a study\n")
+    assert err.endswith("charts.json: expected a file charts.json that a study has written\n")
     assert err.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["charts.json"]
 

@@ -174,7 +174,7 @@ CELL = f"{ROUTE}[[cell]]\n"
     ("text", "message"),
     [
         ("name = ", "Invalid value"),
-        ("name = 'x'", "there is no [[route]]"),
+        ("name = 'x'", "expected at least one section [[route]], found none"),
         ("[[route]]\nlimit = 3", "bad.toml: line 1: route 1: it has no name"),
         (f"{ROUTE}limit = '3'", "line 3: route 1: limit = '3' has the wrong type"),
         (f"{ROUTE}limit = true", "limit = True has the wrong type"),
@@ -184,7 +184,7 @@ CELL = f"{ROUTE}[[cell]]\n"
         (f"{CELL}routes = ['b']\nfamily = 'thesis'", "line 4: cell 1: there is no route 'b'; the routes are a"),
         (f"{CELL}n = 3", "line 4: cell 1: unknown name 'n'; expected key, family, parameters, routes, samples"),
         (f"{CELL}samples = 3", "line 3: cell 1: it has no family"),
-        (f"{CELL}family = 'file'", "needs a path"),
+        (f"{CELL}family = 'file'", "the family file needs the parameter path"),
         (f"{CELL}family = 'file'\nparameters = {{path = 'no'}}", "no such file"),
         (f"{CELL}family = 'thesis'\nsamples = '3'", "line 5: cell 1: samples: expected an integer of at"),
         (f"notes = ['''\nsamples = 1\n''']\nsamples = 0\n{ROUTE}", "bad.toml: line 4: samples: expected"),

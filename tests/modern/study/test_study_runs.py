@@ -208,7 +208,9 @@ def test_study_is_not_overwritten_and_a_different_one_not_resumed(finished: Path
         "its seed is 5, not 7": replace(PLAN, seed=7),
         "it has 44 samples, not 45": replace(PLAN, cells=(replace(PLAN.cells[0], samples=25), PLAN.cells[1])),
         "the folder holds the study small, not other": replace(PLAN, name="other"),
-        "its plan is different": replace(PLAN, cells=(replace(PLAN.cells[0], chunk=6), PLAN.cells[1])),
+        "its plan differs from that of this command": replace(
+            PLAN, cells=(replace(PLAN.cells[0], chunk=6), PLAN.cells[1])
+        ),
     }
     for message, plan in different.items():
         with pytest.raises(PlanError, match=message):
@@ -230,7 +232,7 @@ def test_study_of_different_versions_or_programs_is_not_resumed(tmp_path: Path) 
     for change, message in (
         ({"plan": {}}, "the folder holds the study None"),
         ({"versions": {**whole["versions"], "numpy": "0.1"}}, "begun with numpy 0.1"),
-        ({"programs_sha256": {}}, "its programs are different"),
+        ({"programs_sha256": {}}, "the listings of the programs or their apparatus have changed"),
         ({"code_sha256": {}}, "the code of hull1620 has changed"),
     ):
         path.write_text(json.dumps({**whole, **change}))
@@ -259,7 +261,7 @@ def with_cell(**changes: Any) -> Plan:
     ("plan", "message"),
     [
         (replace(PLAN, name="a/b"), "letters, digits"),
-        (replace(PLAN, cells=()), "no cells"),
+        (replace(PLAN, cells=()), "expected at least one cell"),
         (replace(PLAN, cells=(PLAN.cells[0], PLAN.cells[0])), "two cells have the key 'n=5'"),
         (with_cell(samples=0), "samples and chunk"),
         (with_cell(routes=()), "no routes"),
@@ -267,11 +269,11 @@ def with_cell(**changes: Any) -> Plan:
         (with_cell(reference="x"), "the reference 'x' is not one of its routes"),
         (with_cell(family="x"), "no family is called 'x'"),
         (Programs("r", arithmetic="roman"), "no arithmetic is called 'roman'"),
-        (Programs("r", layers=("gold",)), "layer 'gold'"),
-        (Programs("r", rows=("P9-001",)), "no row 'P9-001'"),
+        (Programs("r", layers=("gold",)), "expected the name of a layer, found 'gold'"),
+        (Programs("r", rows=("P9-001",)), "expected a row of the apparatus, found 'P9-001'"),
         (Programs("r", rows=("P3-029",)), "depend on other rows"),
-        (Programs("r", layers=("epsilon",)), "an epsilon needs the layer"),
-        (Programs("r", epsilon="1"), "an epsilon needs the layer"),
+        (Programs("r", layers=("epsilon",)), "an epsilon and the layer 'epsilon' must be given together"),
+        (Programs("r", epsilon="1"), "an epsilon and the layer 'epsilon' must be given together"),
         (Programs("r", layers=("epsilon",), epsilon="one"), "epsilon: 'one' is not a decimal"),
         (Programs("r", layers=("corrected",)), "OVERLAP"),
         (Programs("r", limit=0), "limit 1 or more"),

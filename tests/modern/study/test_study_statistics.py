@@ -107,7 +107,7 @@ def test_interval_of_a_mean_agrees_with_the_standard_library(values: list[float]
 
 def test_impossible_counts_and_empty_samples_raise_value_error() -> None:
     for hits, of in ((1, 0), (-1, 5), (6, 5)):
-        with pytest.raises(ValueError, match="is not a proportion"):
+        with pytest.raises(ValueError, match="expected hits from 0 to the number of samples"):
             exact(hits, of)
     with pytest.raises(ValueError, match="at least one value"):
         mean([])
