@@ -260,7 +260,7 @@ def test_command_line_runs_resumes_and_lists_studies(plan_file: Path, capsys: py
         (["seventy", "--dask", ""], "--dask: expected a value, found an empty string"),
         (["seventy", "--samples", "70000000000"], "418,333,334 files of rows"),
         (["seventy", "--workers", "1", "--dask", "tcp://h:1"], "--workers and --dask cannot be combined"),
-        (["seventy", "--samples", "70", "--out", "three.toml"], "three.toml: exists"),
+        (["seventy", "--samples", "70", "--out", "three.toml"], "three.toml: not a directory"),
         (["seventy", "--samples", "70", "--out", "three.toml/in"], "not a directory"),
     ],
 )
