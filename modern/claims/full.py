@@ -55,7 +55,7 @@ def read_results(text: str) -> tuple[FullSearch, ...]:
 
 @cache
 def recorded_for(statement: str) -> tuple[FullSearch, ...]:
-    """Return the committed results of the checks that decide a statement."""
+    """Return the committed results of all checks that decide a statement."""
     return tuple(result for result in recorded() if statement in result.statements.split())
 
 
@@ -76,7 +76,7 @@ def _name(decision: Decision) -> str:
 
 
 def sources_of(decision: Decision) -> str:
-    """Return a digest of the module of a check and of the modules with evidence and samples."""
+    """Return a digest of the source of a check's module, of the evidence and of the samples."""
     names = (decision.function.__module__, "modern.claims.evidence", "modern.claims.sampled_sets")
     text = "".join(getsource(import_module(name)) for name in names)
     return hashlib.sha256(f"{decision.full} {text}".encode()).hexdigest()[:12]
@@ -101,7 +101,7 @@ def _table(results: Mapping[str, FullSearch]) -> str:
 
 
 def outstanding(results: Mapping[str, FullSearch]) -> Iterator[str]:
-    """Yield the names of the searches that have no result, or one from other sources."""
+    """Yield the names of searches that have no recorded result, or whose result was computed from other sources."""
     for name, (decision, ids) in searches().items():
         done = results.get(name)
         if done is None or done.sources != sources_of(decision) or done.statements != " ".join(ids):

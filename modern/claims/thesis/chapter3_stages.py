@@ -65,7 +65,7 @@ def stage_property(kind: str, cases: int = CASES) -> Check:
 
 @claim("thesis.264", "thesis.239")
 def number_of_the_hull() -> Check:
-    """Check the hull of P_1 to P_NV for H_j and the step from H_k to H_k+1, and both for the number 1 in our text."""
+    """Check that H_j is the hull of P_1 to P_NV, and H_k+1 that of H_k and a point; our text prints 1 for j and k."""
     first_alone = all(len(sampled.stages()) == 1 for sampled in sampled_sets(2, CASES))
     check, added = (stage_property(kind) for kind in ("equations", "added_triangle"))
     return (check if added.holds else added).misprinted(not first_alone, "j or k, for stages after the first")

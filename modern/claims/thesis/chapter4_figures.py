@@ -21,7 +21,7 @@ def _values(x: Polynomial, y: Polynomial) -> list[Polynomial]:
 
 @claim("thesis.140")
 def lines_of_figure_3() -> Check:
-    """Prove that each printed line contains two corners and is negative at the third."""
+    """Prove that each printed line of Fig. 3 contains two corners of the triangle and is negative at the third."""
     origin = polynomial(0)
     third, first, second = _values(origin, origin), _values(X1, Y1), _values(X1, Y2)
     on = [first[0], second[0], third[1], first[1], third[2], second[2]]
@@ -35,7 +35,7 @@ def lines_of_figure_3() -> Check:
 
 @claim("thesis.141")
 def outside_of_two_lines() -> Check:
-    """Prove that a point outside of lines 2 and 3 has a negative x if y_1 is less than y_2."""
+    """Prove that a point outside both lines 2 and 3 of Fig. 3 has a negative x if y_1 is less than y_2."""
     x, y = variables("x y")
     _, second, third = _values(x, y)
     signs = {"order": positive(Y2 - Y1), "line 2": positive(second), "line 3": positive(third)}
@@ -53,7 +53,7 @@ def third_equation() -> Check:
 
 
 def _printed_lines(x1: Polynomial, y1: Polynomial, y2: Polynomial) -> tuple[Point, ...]:
-    """Return the equations (1), (2) and (3) of page 53."""
+    """Return the coefficients of equations (1), (2) and (3) of page 53."""
     one, none = polynomial(1), polynomial(0)
     return (one, none, -x1), (y1, -x1, none), (-y2, x1, none)
 

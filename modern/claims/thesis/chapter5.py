@@ -44,7 +44,7 @@ def error_in_program() -> Check:
 
 @claim("thesis.282")
 def message_after_wrong_hull() -> Check:
-    """Check that a run that has lost vertices still punches CONVEX HULL HAS BEEN DETERMINED."""
+    """Check that examples 4 to 6 end with CONVEX HULL HAS BEEN DETERMINED; a run that has lost vertices does so too."""
     punched = run_of("silent.deck").final.result.punched
     punched_vertices, hull_vertices = vertices_of("silent.deck")
     announced = any("CONVEX HULL HAS BEEN DETERMINED" in card for card in punched)
@@ -55,7 +55,7 @@ def message_after_wrong_hull() -> Check:
 
 
 def _last_cards() -> Iterator[list[str]]:
-    """Yield the cards of the final outputs of examples 4 to 6 that are not blank."""
+    """Yield, for each of examples 4 to 6, the cards of its final output that are not blank."""
     chapter = load_chapter()
     for example, program in ((4, 2), (5, 3), (6, 3)):
         yield [card for card in card_images(chapter, example, program, "punch") if card.strip()]
@@ -223,7 +223,7 @@ _STEPS = {
 @claim("thesis.261", name="program2")
 @claim("thesis.262", name="program3")
 def comments_of_steps(name: str) -> Check:
-    """Check that the comments of a program mark its steps in the order of chapter 3."""
+    """Check that comment cards of a program mark its steps in the order of chapter 3."""
     comments = [card.text for card in programs.deck(name).cards if card.text.startswith("C") and "ING " in card.text]
     comments += [card.text for card in programs.deck(name).cards if "BUT ARE" in card.text]
     marked = [any(words in comment for comment in comments) for words in _STEPS[name]]
@@ -232,7 +232,7 @@ def comments_of_steps(name: str) -> Check:
 
 @claim("thesis.194")
 def storage_of_translation() -> Check:
-    """Check that program 3 with the translation does not fit 40,000 positions; as listed it does."""
+    """Check that program 3 fits 40,000 positions as listed, but not with the translation added."""
     deck = data_deck([["0", "0", "0"], ["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]], "four")
     fits = run_hull(deck, programs.program, Options()).final.name == "program3"
     try:
@@ -244,7 +244,7 @@ def storage_of_translation() -> Check:
 
 @claim("thesis.192")
 def points_moved_back() -> Check:
-    """Check that the programs with the translation punch the original coordinates, which the translation changes."""
+    """Check that the programs with the translation punch the original coordinates, not the translated ones."""
     points = [("1", "2", "3"), ("9", "2", "3"), ("1", "6", "3"), ("1", "2", "7")]
     run = run_hull(data_deck(points, "four"), programs.loader(("translation",)), Options(core=60_000))
     punched = {*read_hull(run.final.result.punched).vertices}

@@ -149,7 +149,7 @@ def theorem_4_4(cases: int = CASES) -> Check:
 
 @claim("thesis.126")
 def constant_terms() -> Check:
-    """Check that the constant terms of the coordinate planes are 0, and so their products with D_0."""
+    """Check that the constant term of each coordinate plane is 0, and so is its product with D_0."""
     units = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
     outcomes = [plane_through((0, 0, 0), p, q)[3] == 0 for p, q in combinations(units, 2)]
     return exhausted("coordinate planes", outcomes, "D_C is 0")
@@ -157,7 +157,7 @@ def constant_terms() -> Check:
 
 @claim("thesis.273")
 def sum_that_ends_with_plus() -> Check:
-    """Check that the plus at the end must be removed, or followed by a product that is 0."""
+    """Check that the printed sum, which ends with a plus, is right without it or with a last product that is 0."""
     return slip(
         False, constant_terms().holds, "a sum without the plus, or with D_0 D_C", "D_C is 0 for a coordinate plane"
     )

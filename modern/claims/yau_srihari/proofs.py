@@ -22,7 +22,7 @@ from modern.claims.yau_srihari.envelopes import algorithm_as_printed
 
 
 def combination_above() -> Step:
-    """Return the step that a combination of points on or above a graph is on or above that of the graph's points."""
+    """Return the step that a combination of points above a graph is not below that combination of graph points."""
     m, z_1, z_2, floor_1, floor_2 = variables("m z_1 z_2 floor_1 floor_2")
     return Step(
         "a combination of points on or above the floor is on or above that of the floor",
@@ -38,7 +38,7 @@ def combination_above() -> Step:
 
 
 def convex_epigraph() -> Proof:
-    """Prove that a function is convex if and only if its epigraph is."""
+    """Prove that a function is convex if and only if its epigraph, the set on and above its graph, is convex."""
     return Proof(
         "a function is convex if and only if the set on and above its graph is convex",
         "If f is convex, a point between two points of the epigraph is on or above the combination of two points of "
