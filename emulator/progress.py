@@ -18,7 +18,7 @@ _LINES = 60.0
 class Progress:
     """A counter of completed samples, which shows the count on ``file``.
 
-    ``what`` names the samples in the display.  Of the ``total`` samples, ``before`` were completed by earlier runs.
+    ``what`` names the samples in the display.  Earlier runs completed ``before`` of the ``total`` samples.
     """
 
     total: int

@@ -10,7 +10,7 @@ Lost digits are counted only up to the first decision that differs.  After that 
 program chose another point, although no digit was lost.  A value with the relative difference r from the reference has
 lost ``P + log10(r)`` digits, at least 0 and at most P, where P is the number of digits of the less precise arithmetic.
 
-A reference that rounds has an error of its own.  Its run computes a bound of that error for every number
+A reference that rounds is itself inexact.  Its run computes a bound of the error for every number
 (emulator/numbers/shadowed.py derives it).  A difference within the bound is counted as ``within``, not as a difference.
 If an IF has different outcomes and the reference's value is no farther from zero than its bound, the reference cannot
 tell which outcome is right, and the comparison ends there.

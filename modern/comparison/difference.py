@@ -96,7 +96,7 @@ class _Match(NamedTuple):
 
 
 def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Match]:
-    """Match each equation with the nearest exact equation. Of equally near ones, choose the first."""
+    """Match each equation with the nearest exact equation.  If several are equally near, choose the first."""
     by_integers: dict[tuple[int, ...], int] = {}
     for place, equation in enumerate(exact):
         by_integers.setdefault(integers_of(equation), place)

@@ -222,7 +222,7 @@ class _Proof:
                 raise CertificateError(f"facet {cones.facet[triangle]}: the polygon does not turn left at a vertex")
         first = int(size.argmax())
         middle = self.images.places[cones.corners[first]].mean(axis=0)
-        # The ray passes through the middle of the largest triangle, where it most clearly misses the other triangles.
+        # The ray passes through the middle of the largest triangle, because it then misses the others most clearly.
         wall_values = cones.walls @ (middle - self.o)
         missed = (wall_values < -BOUND).any(axis=1)
         for edge in np.flatnonzero(~(wall_values[first] > BOUND)).tolist():
@@ -269,7 +269,7 @@ class _Proof:
     def _located(self, away: Floats) -> tuple[Ints, NDArray[np.bool_]]:
         """Return for each point the triangle whose cone contains it, and True if the choice is certain."""
         cones = self.cones
-        # Of a sample of triangles, start at the one whose direction from o is closest to the direction of the point.
+        # Start at the triangle, in a sample of them, whose direction from o is closest to the direction of the point.
         sample = np.linspace(0, len(cones.corners) - 1, min(_STARTS, len(cones.corners))).astype(np.int64)
         middles = self.images.places[cones.corners[sample]].mean(axis=1) - self.o
         middles /= np.sqrt((middles**2).sum(axis=1))[:, None]

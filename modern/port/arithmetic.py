@@ -114,7 +114,7 @@ class Arithmetic(ABC):
         return np.array(order, np.intp)
 
     def last_largest_square(self, values: Vector) -> int:
-        """Return the index of the value with the largest square. Of equal squares, choose the last."""
+        """Return the index of the value with the largest square.  If squares are equal, choose the last."""
         return self.last_largest(values * values)
 
     def all_squares_zero(self, values: Vector) -> bool:
