@@ -1,9 +1,10 @@
 """The full searches of ``make claims``: each check with a full size runs at that size, and its result is recorded.
 
 The results are in ``transcripts/statements/full.csv`` with the generator, its seed and the number of cases.  A result
-is kept as long as the module of its check does not change, so that an interrupted run continues where it stopped.
+is kept as long as the code of its check does not change, so that an interrupted run continues where it stopped.
 """
 
+import ast
 import csv
 import hashlib
 import io
@@ -76,10 +77,20 @@ def _name(decision: Decision) -> str:
 
 
 def sources_of(decision: Decision) -> str:
-    """Return a digest of the source of a check's module, of the evidence and of the samples."""
+    """Return a digest of the code of a check's module, of the evidence and of the samples, without docstrings."""
     names = (decision.function.__module__, "modern.claims.evidence", "modern.claims.sampled_sets")
-    text = "".join(getsource(import_module(name)) for name in names)
+    text = "".join(_code(name) for name in names)
     return hashlib.sha256(f"{decision.full} {text}".encode()).hexdigest()[:12]
+
+
+@cache
+def _code(name: str) -> str:
+    """Return the syntax tree of a module as text; comments and docstrings leave it unchanged."""
+    tree = ast.parse(getsource(import_module(name)))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and ast.get_docstring(node) is not None:
+            del node.body[0]
+    return ast.dump(tree)
 
 
 def run(name: str) -> FullSearch:
