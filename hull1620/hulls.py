@@ -22,7 +22,8 @@ from modern.exact_hull.coordinates import read_points as exact_points
 from modern.formats import deck as decks
 from modern.formats.points import read_input
 from modern.geometry.hull import NOT_CLOSED, HullRefused
-from modern.geometry.numbers import Points, exact_text
+from modern.geometry.numbers import exact_text
+from modern.geometry.points import Points
 from modern.port.procedure import Epsilon, OnRefusal
 from modern.thesis import job
 from modern.thesis.job import HullRun

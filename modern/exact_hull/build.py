@@ -24,7 +24,7 @@ from modern.exact_hull.facets import (
 from modern.exact_hull.proposal import propose
 from modern.exact_hull.result import CertificateError, ExactHull, Facet, Plane
 from modern.exact_hull.surface import BOUND, convex_surface, frame, plane_image
-from modern.geometry.numbers import Points
+from modern.geometry.points import Points
 
 SEED = 1963
 # The number of points from which the hull is first proposed in rounded numbers, which is faster, and then proved.

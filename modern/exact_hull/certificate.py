@@ -31,7 +31,7 @@ from modern.exact_hull.coordinates import IntPoint, read_points
 from modern.exact_hull.incidences import Incidences, incidences
 from modern.exact_hull.polygons import check_convex, difference, dot, product
 from modern.exact_hull.result import Certificate, CertificateError, ExactHull, require
-from modern.geometry.numbers import Points
+from modern.geometry.points import Points
 
 # Why this is a proof.  By 2 the hull of the points is inside all planes, and each listed plane supports it.  Suppose
 # that two facets meet in an edge and that a point in the plane of the first one lay beyond that edge.  The point would

@@ -8,7 +8,8 @@ from typing import Any, TypeGuard
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.geometry.numbers import Exact, Points, PointsError, check_array, point_rows, real
+from modern.geometry.numbers import Exact, PointsError, real
+from modern.geometry.points import Points, check_array, point_rows
 
 ExactPoint = tuple[Exact, Exact, Exact]
 IntPoint = tuple[int, int, int]

@@ -1,18 +1,15 @@
-"""Exact numbers and their text, and points as rows of three numbers: decimals and fractions to numbers, and back.
+"""Exact numbers and their text: conversion of decimals and fractions to numbers, and of numbers to text.
 
 ``exact_text`` formats the numbers of a hull. ``decimal_text`` and ``finite_decimal`` format numbers in files and
-messages.  They differ in the length from which a number is written with an exponent.
+messages.  They switch to a decimal exponent at different lengths.  The module must not import numpy, which is missing
+in the browser.
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Sequence
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from numbers import Rational, Real
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from emulator.errors import ArgumentError, quoted
 
@@ -232,46 +229,3 @@ def exact_text(value: Exact) -> str:
     if places is None:
         return f"{integer_text(numerator)}/{integer_text(denominator)}"
     return scaled_decimal(numerator * 10**places // denominator, -places)
-
-
-Coordinate = int | float | Fraction | Decimal | str | np.integer[Any] | np.floating[Any]
-Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
-
-# Types of iterables that are rejected as sequences of points or coordinates: a set, for example, has no order.
-_NO_SEQUENCE = (str, bytes, bytearray, memoryview, Set, Mapping)
-
-
-def check_array(points: NDArray[Any]) -> None:
-    """Raise PointsError for an array that does not have the shape (n, 3) or does not hold real numbers."""
-    if points.dtype.kind not in "iufOU":
-        raise PointsError(f"expected an array of real numbers, found {points.dtype}")
-    if not points.size:
-        raise PointsError("there are no points")
-    if points.ndim != 2 or (points.shape[1] != 3 and points.dtype.kind != "O"):
-        raise PointsError(f"expected an array of shape (n, 3), found {points.shape}")
-    if isinstance(points, np.ma.MaskedArray) and (masked := np.argwhere(np.ma.getmaskarray(points))).size:
-        raise PointsError(f"point {masked[0][0]}: a coordinate is masked")
-
-
-def point_rows(points: Any) -> Iterator[list[Any]]:
-    """Yield the three coordinates of each point, unchecked.  Raise PointsError if this is not a sequence of points."""
-    if isinstance(points, np.ndarray):
-        check_array(points)
-        points = points.tolist()
-    if isinstance(points, _NO_SEQUENCE) or not isinstance(points, Iterable):
-        raise PointsError(f"expected a sequence of points, found {type(points).__name__}")
-    index = -1
-    for index, point in enumerate(points):
-        row = point
-        if type(point) is not list:
-            try:
-                row = [] if isinstance(point, _NO_SEQUENCE) else list(point)
-            except TypeError:
-                row = []
-            if not row:
-                raise PointsError(f"point {index}: expected 3 coordinates, found {type(point).__name__}")
-        if len(row) != 3:
-            raise PointsError(f"point {index}: expected 3 coordinates, found {len(row)}")
-        yield row
-    if index < 0:
-        raise PointsError("there are no points")

@@ -6,7 +6,8 @@ import numpy as np
 
 from emulator.errors import ArgumentError, expect, quoted
 from emulator.numbers.arithmetic import FAMILIES, PROFILES, profile
-from modern.geometry.numbers import Exact, Points, PointsError, check_array, point_rows, real
+from modern.geometry.numbers import Exact, PointsError, real
+from modern.geometry.points import Points, check_array, point_rows
 from modern.port.arithmetic import Arithmetic, RangeError, Vector
 from modern.port.binary import MAX_BITS, MIN_BITS, FloatArithmetic, MultiprecisionArithmetic
 from modern.port.decimal import Arithmetic1620

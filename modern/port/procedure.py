@@ -10,7 +10,8 @@ import numpy as np
 from emulator.errors import ArgumentError, expect, quoted
 from emulator.jit.functions import require_numba
 from modern.geometry.hull import DETERMINED, ERROR, Hull, HullRefused
-from modern.geometry.numbers import Points, read_epsilon
+from modern.geometry.numbers import read_epsilon
+from modern.geometry.points import Points
 from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector, at, less
 from modern.port.fast import choose
 from modern.port.growth import Progress, Stopped

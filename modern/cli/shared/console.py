@@ -110,4 +110,6 @@ def check_outputs(args: argparse.Namespace) -> None:
         raise UsageError(f"{output}: {args.command} expects a name that ends with {' or '.join(endings)}")
     check_writable(*outputs)
     for name in _FOLDERS:
-        check_folder(values.get(name))
+        # --all is a folder for tei and a switch for appel-will.
+        if isinstance(values.get(name), str):
+            check_folder(values[name])

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from emulator.errors import quoted
 from modern.exact_hull.coordinates import common_scale, read_points, to_integers
-from modern.geometry.numbers import Points
+from modern.geometry.points import Points
 from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers.appel_will.corners import Preprocessing, Rule, preprocess
 from modern.papers.appel_will.loops import PREFERRED, LoopTable, Rules, find_loops, surface
