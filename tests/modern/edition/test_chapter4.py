@@ -20,7 +20,8 @@ def test_every_claim_of_theorem(name: str) -> None:
     assert "programs" in found
     rows = [row for row in statements_of(THESIS) if row.part == name]
     subjects = {decision.subject for row in rows for decision in decisions()[row.id]}
-    assert {dict(subject)["claim"] for subject in subjects} == found.keys()
+    claims = [dict(subject).get("claim") for subject in subjects]
+    assert {claim for claim in claims if claim is not None} == found.keys()
 
 
 def moved(theorem: Theorem, name: str) -> Theorem:

@@ -88,12 +88,12 @@ def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch: pytest.Monkey
     names = ("id", "author", "title", "year", "kind", "institution", "volume", "extent", "doi", "held")
     document = sources.Document(**dict.fromkeys(names, "d"), sha256=digest(whole), bytes=22, characters=22, lines=2,
                                 rights="", pages=())  # fmt: skip
-    monkeypatch.setattr(sources, "sources", lambda: sources.Sources((document,), (excerpt,), ()))
+    monkeypatch.setattr(sources, "sources", lambda: sources.Sources((document,), (excerpt,), (), ()))
     for witness, holds in (("alpha gamma\n", True), ("gamma alpha\n", False), ("beta gamma\n", True)):
         monkeypatch.setattr(sources, "read", lambda file, witness=witness: witness)
         assert [same for _, same, _ in sources.check_against(whole)] == [True, holds]
     for wrong in ({"lines": 1}, {"bytes": 21}, {"characters": 23}):
-        table = sources.Sources((replace(document, **wrong),), (), ())  # type: ignore[arg-type]
+        table = sources.Sources((replace(document, **wrong),), (), (), ())  # type: ignore[arg-type]
         monkeypatch.setattr(sources, "sources", lambda table=table: table)
         assert [same for _, same, _ in sources.check_against(whole)] == [False]
 

@@ -164,7 +164,7 @@ def test_an_invalid_document_is_reported_in_one_line(tmp_path: Path, capsys: pyt
         (("tei", "--read", "good.xml", "--layers", "ocr,nosuch"), "good.xml: unknown layer 'nosuch'"),
         (("tei", "--read", "good.xml", "--part", "x"), "good.xml: unknown part 'x'; the document has none"),
         (("tei", "--read", "good.xml", "-o", "good.xml"), "which would be overwritten"),
-        (("tei", "--all", "good.xml"), "good.xml: file exists"),
+        (("tei", "--all", "good.xml"), "good.xml: not a directory"),
     ],
 )
 def test_wrong_use_is_reported_in_one_line(
