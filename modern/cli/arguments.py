@@ -147,7 +147,9 @@ def _apparatus(parser: ArgumentParser) -> None:
         help="alter the tokens of the listings one at a time, and record in FOLDER the first check that detects each "
         "alteration; results already in FOLDER are kept",
     )
-    parser.add_argument("--runs", metavar="FOLDER", help="with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards")
+    parser.add_argument(
+        "--runs", metavar="FOLDER", help="with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards"
+    )
     parser.add_argument(
         "--workers", metavar="N", type=int, default=1, help="with --weigh: use N processes (default: 1)"
     )
