@@ -18,7 +18,8 @@ _LINES = 60.0
 class Progress:
     """A counter of completed samples, which shows the count on ``file``.
 
-    ``what`` names the samples in the display.  Earlier runs completed ``before`` of the ``total`` samples.
+    ``what`` names the samples in the display.  ``before`` is the number of samples
+    that earlier runs completed.
     """
 
     total: int

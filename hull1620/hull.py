@@ -354,7 +354,7 @@ class Hull:
     def _closed(self) -> Mesh:
         """The surface as a mesh.  Raise ExportError if a polyhedron has an edge that does not belong to two faces."""
         if self.dimension == 3 and not self._mesh.closed:
-            raise ExportError(f"the faces determined in {self.arithmetic} do not close to a surface")
+            raise ExportError(f"the faces determined in {self.arithmetic} do not form a closed surface")
         return self._mesh
 
 

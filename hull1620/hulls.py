@@ -50,7 +50,7 @@ def convex_hull(
         ``truncating:P``, ``guarded:P`` or ``rounding:P``.
     epsilon : number or str, optional
         The e of chapter 7: values of an equation from -e to e count as zero.  ``"rel:1e-9"`` is relative to the
-        equation.  If e is so large that the faces do not close to a surface, there is no hull.
+        equation.  If e is so large that the faces do not form a closed surface, there is no hull.
     translate : bool, optional
         Move the origin to the point C first, as chapter 7 proposes.
     history : bool, optional

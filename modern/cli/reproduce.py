@@ -101,7 +101,7 @@ def _results_named(text: str) -> list[str]:
         return [text]
     if text not in DOCUMENTS and not any(row.id == text for row in _statements([text])):
         raise UsageError(
-            f"reproduce: unknown name {quoted(text)}; expected an example 1 to {EXAMPLES[-1]}, "
+            f"reproduce: unknown name {quoted(text)}; expected the number of an example (1 to {EXAMPLES[-1]}), "
             f"a theorem ({', '.join(THEOREMS)}), a document ({', '.join(DOCUMENTS)}) or the id of a statement"
         )
     return []

@@ -124,7 +124,7 @@ def _count(chapter: Chapter, row: Row, value: Decimal) -> int:
 
 
 def vertices(chapter: Chapter, example: int, program: int) -> tuple[tuple[Decimal, ...], ...]:
-    """Return the points that the planes of an output contain: its vertices or endpoints, else its first four points."""
+    """Return the vertices or endpoints that an output lists, or its first four points if it lists none."""
     roles: tuple[Role, ...] = ("vertex", "endpoint", "point")
     for role in roles:
         if point_cards := of_role(chapter, example, program, role):

@@ -17,7 +17,11 @@ BOUND = 2.0**-47
 
 @dataclass(frozen=True, slots=True)
 class Incidences:
-    """The pairs (plane, point) with the value 0, a pair whose point is outside, and the numbers of values computed."""
+    """The result of evaluating planes at points.
+
+    ``touching`` are the pairs (plane, point) whose point lies in the plane.  ``outside`` is one pair whose point lies
+    outside the plane, or None.  ``evaluations`` counts the values computed, ``in_integers`` those in Python integers.
+    """
 
     touching: list[tuple[int, int]]
     outside: tuple[int, int] | None

@@ -63,7 +63,7 @@ class Polygons:
 
 
 def polygons(hull: ExactHull) -> Polygons:
-    """Return the sides of all polygons.  Raise CertificateError if the polygons do not close to a surface."""
+    """Return the sides of all polygons.  Raise CertificateError if the polygons do not form a closed surface."""
     require(bool(hull.facets), "there are no facets")
     cycles = [facet.polygon for facet in hull.facets]
     count = np.array(list(map(len, cycles)), np.int64)

@@ -105,7 +105,7 @@ def join(surface: Mesh, within: Fraction) -> Joined:
             for a, b in sides(surface.faces[face]):
                 neighbour = face_left_of.get((b, a))
                 if neighbour is None:
-                    raise CoplanarError("the faces do not close to a surface")
+                    raise CoplanarError("the faces do not form a closed surface")
                 if owner[neighbour] >= 0 or dot(reduced[leader], reduced[neighbour]) <= 0:
                     continue
                 depth = _depth(points, reduced[leader], base, surface.faces[neighbour])

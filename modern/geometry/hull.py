@@ -15,7 +15,7 @@ DETERMINED = "determined"
 NOT_ACCEPTABLE = "DATA NOT ACCEPTABLE"
 ERROR = "ERROR IN PROGRAM"
 TABLE_FULL = "table of planes is full"
-NOT_CLOSED = "the faces do not close to a surface"
+NOT_CLOSED = "the faces do not form a closed surface"
 
 Coefficients = tuple[str, str, str, str]
 T = TypeVar("T")
@@ -135,7 +135,7 @@ class Hull:
 
     arithmetic: the name of the arithmetic.
     status: ``determined``, the message with which the programs end, ``table of planes is full`` if they would write
-        beyond their arrays, or ``the faces do not close to a surface`` if epsilon merged too many faces.
+        beyond their arrays, or ``the faces do not form a closed surface`` if epsilon merged too many faces.
     dimension: from 0 for a point to 3 for a polyhedron.
     points: the input as numbers of the arithmetic.
     vertices, boundary, inside: points in the order in which the programs punch them.  The programs punch only the ends

@@ -1,4 +1,4 @@
-"""Exact numbers and their text: conversion of decimals and fractions to numbers, and of numbers to text.
+"""Convert decimals and fractions to exact numbers, and exact numbers to text.
 
 ``exact_text`` formats the numbers of a hull. ``decimal_text`` and ``finite_decimal`` format numbers in files and
 messages.  They switch to a decimal exponent at different lengths.  The module must not import numpy, which is missing

@@ -154,14 +154,14 @@ def test_a_refusal_has_the_incomplete_result() -> None:
 def test_an_epsilon_that_merges_too_many_faces_is_refused_and_every_determined_hull_has_a_volume() -> None:
     points = np.random.default_rng(4).integers(-9, 10, (30, 3))
     hulls = [convex_hull(points, "float64", epsilon=e, on_refusal="return") for e in range(0, 400, 20)]
-    refused = [hull for hull in hulls if hull.status == "the faces do not close to a surface"]
+    refused = [hull for hull in hulls if hull.status == "the faces do not form a closed surface"]
     assert 0 < len(refused) < len(hulls)
     for hull in hulls:
         if hull.determined:
             assert 0 <= hull.volume <= exact_hull(points).volume * 2
     e = 20 * hulls.index(refused[0])
     with pytest.raises(
-        HullRefused, match=r"do not close to a surface, decided at .*; a smaller epsilon may find a hull"
+        HullRefused, match=r"do not form a closed surface, decided at .*; a smaller epsilon may find a hull"
     ):
         convex_hull(points, "float64", epsilon=e)
 

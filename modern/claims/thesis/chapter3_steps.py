@@ -262,7 +262,7 @@ def order_of_replacement(cases: int = CASES) -> Check:
 
 @claim("thesis.96")
 def without_constant_term() -> Check:
-    """Check that leaving out D makes the centre of a cube away from the origin appear to be outside a plane."""
+    """Check that, for a cube away from the origin, a plane without its term D has the centre on the wrong side."""
     *corners, middle = counterexample_points("without_d.csv")
     planes = [facet.plane for facet in exact_hull(corners).facets]
     values = [(dot(plane[:3], middle), plane_value(plane, middle)) for plane in planes]

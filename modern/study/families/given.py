@@ -51,7 +51,9 @@ def points(draw: Draw, points: Sequence[Sequence[str]], n: Count = 0, shuffle: b
         drawn_indices = draw.random.sample(range(len(in_plan)), count)
         in_plan = [in_plan[i] for i in (drawn_indices if shuffle else sorted(drawn_indices))]
     elif len(in_plan) > MOST:
-        raise FamilyError(f"{len(in_plan)} points, but the programs accept at most {MOST}; the parameter n draws fewer")
+        raise FamilyError(
+            f"{len(in_plan)} points, but the programs accept at most {MOST}; set the parameter n to draw fewer points"
+        )
     return _order(draw, in_plan, shuffle and not n, name)
 
 

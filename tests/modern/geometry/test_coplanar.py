@@ -180,7 +180,7 @@ def test_a_joined_face_with_a_hole_is_rejected() -> None:
     with pytest.raises(CoplanarError, match=r"^within 1 a joined face would not be one simple polygon$"):
         join(pit, Fraction(1))
     opened = Mesh(3, pit.points, pit.faces[1:])
-    with pytest.raises(CoplanarError, match=r"^the faces do not close to a surface$"):
+    with pytest.raises(CoplanarError, match=r"^the faces do not form a closed surface$"):
         join(opened, Fraction(1))
     with pytest.raises(CoplanarError, match=r"^face 1 has no area$"):
         join(Mesh(3, pit.points, ((0, 1, 0), *pit.faces)), Fraction(1))
