@@ -125,8 +125,8 @@ def sources(deck: Deck) -> Iterator[Source]:
     for card in deck.cards:
         if is_comment(card):
             continue
-        # What follows END may be data of any form.
-        if group and _continues(card) and _source(tuple(group)).kind != "end":
+        # What follows END may be data of any form.  Three cards hold END at most, so a longer statement is not read again.
+        if group and _continues(card) and (len(group) > len("END") or _source(tuple(group)).kind != "end"):
             group.append(card)
             continue
         if group:

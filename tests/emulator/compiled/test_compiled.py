@@ -246,8 +246,10 @@ def test_another_process_uses_the_cache() -> None:
 
 
 def lists(of: Any) -> Any:
-    """Return a tuple of arrays as lists of Python integers."""
-    return type(of)(*(lists(value) if isinstance(value, tuple) else value.tolist() for value in of))
+    """Return the arrays of a tuple and of its parts as lists of Python integers."""
+    if isinstance(of, int):
+        return of
+    return type(of)(*map(lists, of)) if isinstance(of, tuple) else of.tolist()
 
 
 @settings(max_examples=10)

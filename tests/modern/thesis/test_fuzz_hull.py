@@ -25,7 +25,7 @@ def run(text: str, *options: str) -> tuple[int, str]:
     """Return the exit code and the standard error of ``hull`` for a deck."""
     with tempfile.TemporaryDirectory() as room:
         path = Path(room) / "d"
-        path.write_text(text)
+        path.write_text(text, encoding="utf-8")
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             code = main(["hull", str(path), "--limit", "200000", *options])
