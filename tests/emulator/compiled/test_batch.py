@@ -253,9 +253,12 @@ def test_columns_beyond_a_card_are_blank() -> None:
 
 
 def test_every_limit_ends_both_engines_at_the_same_place() -> None:
-    """Statements, passes of lists, records and typed error codes all count."""
-    lines = ["A=1.E60", "1 B=A*A", "PUNCH 2,B,(A,I=1,2)", "GO TO 1", "2 FORMAT(F5.1/E14.8,3H E=/F9.2)", "END"]
-    for name in ("truncating", "ibm1962"):
+    """Statements, passes of lists, records and typed error codes all count.
+
+    Numbers too large for F fields are only punched by ``truncating``: under ibm1962 they run in the interpreter.
+    """
+    for name, form in (("truncating", "F5.1/E14.8,3H E=/F9.2"), ("ibm1962", "E14.8/E14.8,3H E=/E10.3")):
+        lines = ["A=1.E60", "1 B=A*A", "PUNCH 2,B,(A,I=1,2)", "GO TO 1", f"2 FORMAT({form})", "END"]
         for limit in range(40):
             assert count_compiled(lines, ["1"], options=Options(numbers=numbers(name), limit=limit)) == 1
 
@@ -280,6 +283,6 @@ def test_text_that_is_not_a_deck_is_rejected(text: str) -> None:
 def test_cards_with_other_characters_run_in_the_interpreter() -> None:
     """Such cards are built in Python; deck_from_lines rejects them."""
     copying = program("READ 1,I", "1 FORMAT(5H     ,I1)", "PUNCH 1,I", "END")
-    for text in ("\N{EURO SIGN}EUR 1", "x" * 5 + "1", " " * 5 + "1" + " " * 90):
+    for text in ("\N{EURO SIGN}EUR 1", "x" * 5 + "1", " " * 5 + "1" + " " * 90, " " * 5 + "1|"):
         deck = Deck("odd", (Card(1, text),))
         assert run_batch(copying, [deck]) == (Machine(copying, deck).run(),)

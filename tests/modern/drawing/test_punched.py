@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from emulator.errors import CardError, DeckError
-from emulator.language.cards import COLUMNS, PUNCHES, deck_from_lines
+from emulator.language.cards import COLUMNS, PUNCHES, RECORD_MARK, RECORD_MARKS, deck_from_lines
 from modern.cli.main import main
 from modern.drawing.punched import HEIGHT, MOST_CARDS, ROWS, WIDTH, cards_svg
 from modern.edition import programs
@@ -47,7 +47,7 @@ def read(card: ElementTree.Element) -> str:
         assert abs(column - round(column)) < Fraction(1, 50)
         assert row == round(row)
         rows_by_column.setdefault(round(column), set()).add(ROWS[int(row)])
-    by_holes = {frozenset(rows.split("-")): sign for sign, rows, _ in CODE}
+    by_holes = {frozenset(rows.split("-")): sign for sign, rows, _ in [*CODE, (RECORD_MARKS[0], "0-2-8", "")]}
     return "".join(
         by_holes[frozenset(rows_by_column[k])] if k in rows_by_column else " "
         for k in range(1, max(rows_by_column, default=0) + 1)
@@ -59,12 +59,13 @@ def words(card: ElementTree.Element) -> list[str]:
 
 
 def test_punches_are_the_code_of_the_026() -> None:
-    """The code has 48 characters with the blank. The commercial graphic @ has the holes of the apostrophe."""
+    """The code has 48 characters with the blank. The graphic @ has the holes of the apostrophe. A 1620 adds 0-2-8."""
     listed = {sign: set(rows.split("-")) for sign, rows, _ in CODE}
     assert len(listed) == 47
-    assert {sign: set(code.split("-")) for sign, code in PUNCHES.items() if sign not in " @"} == listed
+    assert {sign: set(code.split("-")) for sign, code in PUNCHES.items() if sign not in f" @{RECORD_MARKS}"} == listed
     assert PUNCHES["@"] == PUNCHES["'"]
     assert PUNCHES[" "] == ""
+    assert {PUNCHES[mark] for mark in RECORD_MARKS} == {"0-2-8"}
     assert set("+-*/()=.,$") < set(listed), "the signs of FORTRAN"
     for _, rows, column in CODE:
         assert len(column) == 12
@@ -105,7 +106,7 @@ def test_blank_form_has_a_cut_corner_and_its_digits() -> None:
 @given(st.lists(st.text(st.sampled_from(sorted(set(PUNCHES) - {"@"})), max_size=COLUMNS), min_size=1, max_size=4))
 def test_holes_and_characters_reproduce_the_deck(lines: list[str]) -> None:
     drawn = cards(cards_svg(deck_from_lines("deck", lines)))
-    assert [read(card) for card in drawn] == [line.rstrip(" ") for line in lines]
+    assert [read(card) for card in drawn] == [RECORD_MARK.sub(RECORD_MARKS[0], line).rstrip(" ") for line in lines]
     assert ["".join(words(card)) for card in drawn] == [line.rstrip(" ") for line in lines]
     for card, line in zip(drawn, lines, strict=True):
         for text in card.iter(f"{SVG}text"):
@@ -205,7 +206,7 @@ def test_command_accepts_a_built_in_program(deck: Path, capsys: pytest.CaptureFi
             ["my.deck", "-o", "%d-%d.svg"],
             "--output: '%d-%d.svg' has no place for a number; write a name such as 'card-%03d.svg'",
         ),
-        (["my.deck", "-o", "no/%d.svg"], "no/1.svg: no such file or directory"),
+        (["my.deck", "-o", "no/%d.svg"], "no/%d.svg: no such file or directory"),
         (["small.f", "-o", "%d.svg"], "small.f: card 2, column 4: 'x' is not in the card code: letters are capitals"),
         (["none.deck"], "none.deck: no such file or directory"),
     ],
