@@ -125,7 +125,7 @@ def sources(deck: Deck) -> Iterator[Source]:
     for card in deck.cards:
         if is_comment(card):
             continue
-        # What follows END may be data of any form.  Three cards hold END at most, so a longer statement is not read again.
+        # What follows END may be data of any form.  Three cards hold END at most, so longer groups are not checked.
         if group and _continues(card) and (len(group) > len("END") or _source(tuple(group)).kind != "end"):
             group.append(card)
             continue

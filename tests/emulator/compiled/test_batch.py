@@ -87,7 +87,7 @@ def test_random_programs_with_library_functions_agree(
 
 
 def test_many_random_programs_stay_in_the_compiled_engine() -> None:
-    """Otherwise the two tests above would compare the interpreter with itself. About six in ten programs do."""
+    """Otherwise the two tests above would compare the interpreter with itself. About seven in ten programs do."""
     compiled_runs: list[int] = []
 
     @settings(max_examples=40, derandomize=True, database=None)
