@@ -9,7 +9,7 @@ Like ``modern/cli/arguments.py``, this module imports nothing that is needed onl
 from __future__ import annotations
 
 import sys
-from argparse import Action, ArgumentParser, ArgumentTypeError
+from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterable
 
 from modern.formats import POINTS
@@ -218,11 +218,17 @@ NAMES: dict[str, tuple[str, ...]] = {
 def complete(parser: ArgumentParser) -> None:
     """Print the possible words for the line typed so far, and exit."""
     try:
-        from argcomplete import FilesCompleter, autocomplete
+        from argcomplete import autocomplete
+        from argcomplete.completers import BaseCompleter, FilesCompleter
     except ImportError:
         sys.exit(1)
 
-    def candidates(prefix: str, action: Action, **others: object) -> Iterable[str]:
-        return (*NAMES.get(action.dest, ()), *FilesCompleter()(prefix, action=action, **others))
+    class Candidates(BaseCompleter):
+        """The names that the argument accepts, and files."""
 
-    autocomplete(parser, default_completer=candidates)
+        def __call__(
+            self, *, prefix: str, action: Action, parser: ArgumentParser, parsed_args: Namespace
+        ) -> Iterable[str]:
+            return (*NAMES.get(action.dest, ()), *FilesCompleter()(prefix))
+
+    autocomplete(parser, default_completer=Candidates())
