@@ -273,7 +273,7 @@ def test_centres_in_a_hull_of_corners_would_include_too_many_voxels() -> None:
 def test_a_hull_without_voxels_or_with_too_many_is_rejected() -> None:
     thin = polyhedron([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]).economical()
     assert reconstructed(thin, CENTRES).count == 4
-    with pytest.raises(VolumeError, match="no voxel fits"):
+    with pytest.raises(VolumeError, match="contains no whole voxel"):
         reconstructed(thin, VERTICES)
     wide = polyhedron([(0, 0, 0), (9999, 0, 0), (0, 9999, 0), (0, 0, 9999)]).economical()
     with pytest.raises(VolumeError, match="a box of 10000 x 10000 x 10000 voxels"):

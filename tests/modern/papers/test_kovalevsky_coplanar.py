@@ -65,5 +65,5 @@ def test_a_point_on_the_line_of_an_edge_extends_both_of_its_faces() -> None:
 def test_flat_points_and_unknown_treatments_are_rejected() -> None:
     with pytest.raises(ValueError, match="in one plane"):
         coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], EXTENDED)
-    with pytest.raises(ValueError, match="not 'visible'"):
+    with pytest.raises(ValueError, match="found 'visible'"):
         coplanar_hull(GRID, "visible")  # type: ignore[arg-type]

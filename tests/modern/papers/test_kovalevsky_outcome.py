@@ -112,11 +112,11 @@ def test_faces_are_sorted_and_those_of_the_exact_hull(volume: Volume) -> None:
 def test_without_an_order_there_are_no_triangles() -> None:
     hull = voxel_hull(half_ball(8))
     assert (hull.order, hull.polyhedron.triangulation) == (None, None)
-    with pytest.raises(VolumeError, match="choose an order, such as raster"):
+    with pytest.raises(VolumeError, match="set the order, for example to raster"):
         _ = hull.polyhedron.triangles
     for choice in ({"order": RASTER}, {"coplanar": VISIBLE}):
         inserted = voxel_hull(half_ball(8), **choice)  # type: ignore[arg-type]
         assert inserted.order == RASTER
         assert len(inserted.polyhedron.triangles.faces) == 2 * len(inserted.polyhedron.faces.vertices) - 4
-    with pytest.raises(ValueError, match="raster or shuffled, not 'sorted'"):
+    with pytest.raises(ValueError, match="raster or shuffled as the order of insertion, found 'sorted'"):
         voxel_hull(ball(4), order="sorted")  # type: ignore[arg-type]

@@ -101,7 +101,7 @@ def test_the_faces_of_an_invalid_ply_file_are_rejected_with_their_place() -> Non
     for old, new, message in (
         (b"4 0 ", b"4 9 ", "there is no vertex 9; they are numbered from 0 to 7"),
         (b"vertex_indices", b"corners", "a face has no list vertex_indices"),
-        (b"element face 6", b"element tristrips 6", "an element tristrips, which is not read"),
+        (b"element face 6", b"element tristrips 6", "an element tristrips, but only an element face can be read"),
         (b"element vertex 8", b"element vertex 9", "the file ends after 8 of 9 vertices"),
     ):
         assert old in data

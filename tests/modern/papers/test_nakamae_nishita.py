@@ -249,7 +249,7 @@ def test_crossed_touching_edges_need_a_plane_through_an_edge_and_a_vertex() -> N
 
 
 def test_intersecting_polyhedra_are_rejected() -> None:
-    with pytest.raises(SceneError, match=r"^box at \(0, 0, 0\) and box at \(1, 1, 1\) intersect$"):
+    with pytest.raises(SceneError, match=r"^box at \(0, 0, 0\) and box at \(1, 1, 1\) intersect;"):
         draw([box((0, 0, 0), (2, 2, 2)), box((1, 1, 1), (3, 3, 3))], parallel((2, -3, 1)))
     with pytest.raises(SceneError, match="intersect"):
         draw([box((0, 0, 0), (9, 9, 9)), box((1, 1, 1), (3, 3, 3))], parallel((2, -3, 1)))

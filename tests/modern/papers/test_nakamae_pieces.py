@@ -175,5 +175,5 @@ def _length(drawing: Drawing, visible: bool) -> Fraction:
 def test_a_column_without_height_and_an_eye_inside_a_solid_are_rejected() -> None:
     with pytest.raises(SceneError, match="not entirely in front of the observation point"):
         draw([box((0, 0, 0), (2, 2, 2))], perspective(vector(1, 1, 1), vector(9, 9, 9)))
-    with pytest.raises(SceneError, match="does not rise"):
+    with pytest.raises(SceneError, match="rises within the plane of its base"):
         column("c", [vector(0, 0, 0), vector(1, 0, 0), vector(0, 1, 0)], vector(1, 1, 0))

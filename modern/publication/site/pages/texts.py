@@ -42,7 +42,8 @@ def _errors() -> Made:
     """Return a section for each error number of the compiler and error code of the machine, with an example."""
     parts, targets = [], []
     for number, explanation in explanations().items():
-        example = preformatted("\n".join(explanation.example), f"example of error {number}")
+        lines = "\n".join(explanation.example)
+        example = preformatted(lines, f"example of error {number}") if lines else ""
         facts = (("remedy", escape(explanation.remedy)), ("source", escape(explanation.source)))
         html = text("p", explanation.meaning) + example + definitions(facts, cls="facts")
         parts.append(Part(f"Error {number}: {explanation.title}", f"error-{number}", html=html))
