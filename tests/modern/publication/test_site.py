@@ -13,7 +13,6 @@ from shutil import which
 import pytest
 
 from emulator.errors import explanations
-from emulator.numbers import numbers
 from modern.edition import programs
 from modern.publication.site import build as site_build
 from modern.publication.site.made import make, names
@@ -99,8 +98,8 @@ def test_downloads_are_files_of_the_site_and_open(site: Path) -> None:
 def test_the_plane_misses_its_own_points_exactly_if_eight_digits_are_too_few() -> None:
     for number in (95, 590, 635, 995):
         points = ((number, *story.FIRST), *story.CORNERS)
-        exact, values = story.plane_values(numbers("exact"), points)
-        machine, on_machine = story.plane_values(numbers("truncating"), points)
+        exact, values = story.plane_values("exact", points)
+        machine, on_machine = story.plane_values("truncating", points)
         assert values == ["0", "0", "0"]
         assert (machine == exact) == (on_machine == values) == (number < 600)
 

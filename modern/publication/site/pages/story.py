@@ -8,8 +8,6 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product
 
-from emulator.numbers import numbers
-from emulator.numbers.base import Number, Numbers
 from modern.drawing.draw import draw_svg
 from modern.drawing.punched import cards_svg
 from modern.drawing.stages import frames, strip
@@ -18,6 +16,9 @@ from modern.edition.chapter6 import input_deck
 from modern.formats.deck import data_deck
 from modern.formats.points import parse_input
 from modern.port import convex_hull
+from modern.port.arithmetic import at, plane
+from modern.port.outcome import texts
+from modern.port.points import take
 from modern.publication.site.made import Made, Part, one_of
 from modern.publication.site.markup import element, figure, inline, link, preformatted, table, text
 from modern.thesis.job import run_hull
@@ -50,35 +51,16 @@ def _growth() -> str:
     return element("figure", element("ol", items, cls="stepper") + element("figcaption", caption))
 
 
-def plane_values(arithmetic: Numbers, points: Sequence[Sequence[int]]) -> tuple[str, list[str]]:
+def plane_values(arithmetic: str, points: Sequence[Sequence[int]]) -> tuple[str, list[str]]:
     """Return D of the plane through three points, and the plane's values at them, which should be 0.
 
-    The calculation is that of program 3 (cards 130+3 to 130+10 and 116+4) in the given arithmetic.
+    The calculation is that of program 3 (cards 130+3 to 130+10 and 116+4) in the named arithmetic.
     """
-    x, y, z = (tuple(arithmetic.from_integer(point[axis]) for point in points) for axis in range(3))
-
-    def total(plus: Sequence[Sequence[Number]], minus: Sequence[Sequence[Number]]) -> Number:
-        result = None
-        for sign, terms in ((1, plus), (-1, minus)):
-            for first, *rest in terms:
-                term = first
-                for factor in rest:
-                    term = arithmetic.multiply(term, factor)
-                if result is None:
-                    result = term
-                else:
-                    result = arithmetic.add(result, term) if sign > 0 else arithmetic.subtract(result, term)
-        return result
-
-    a = total([(y[0], z[1]), (y[1], z[2]), (z[0], y[2])], [(y[2], z[1]), (y[0], z[2]), (y[1], z[0])])
-    b = total([(x[2], z[1]), (x[0], z[2]), (x[1], z[0])], [(x[0], z[1]), (x[1], z[2]), (x[2], z[0])])
-    c = total([(x[0], y[1]), (x[1], y[2]), (y[0], x[2])], [(y[1], x[2]), (x[0], y[2]), (x[1], y[0])])
-    d = total(
-        [(x[2], y[1], z[0]), (y[2], z[1], x[0]), (x[1], y[0], z[2])],
-        [(x[0], y[1], z[2]), (x[1], y[2], z[0]), (y[0], z[1], x[2])],
-    )
-    values = [total([(a, x[k]), (b, y[k]), (c, z[k]), (d,)], []) for k in range(3)]
-    return arithmetic.text(d), [arithmetic.text(value) for value in values]
+    numbers, (x, y, z) = take(points, arithmetic)
+    corners = tuple((x[k], y[k], z[k]) for k in range(3))
+    equation = plane(*corners)
+    d, *values = texts(numbers, (equation[3], *(at(equation, corner) for corner in corners)), (3, 3, 3, 3))
+    return d, values
 
 
 def _truncation() -> str:
@@ -87,8 +69,8 @@ def _truncation() -> str:
     rows = []
     for x in XS:
         points = ((x, *FIRST), *CORNERS)
-        exact, _ = plane_values(numbers("exact"), points)
-        machine, values = plane_values(numbers("truncating"), points)
+        exact, _ = plane_values("exact", points)
+        machine, values = plane_values("truncating", points)
         rows.append((x, exact, machine, *values))
     head = ("x of the first point", "D, exactly", "D in eight digits", "first point", "second", "third")
     shown = [[text("span", str(cell)) for cell in row] for row in rows if row[0] in (95, 320, 590, 635, 815, 905)]
