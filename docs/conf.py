@@ -3,6 +3,7 @@
 from functools import cache
 from pathlib import Path
 
+from pygments.lexers.special import TextLexer
 from sphinx.application import Sphinx
 
 from modern.publication.figures import figures, filled, named
@@ -24,8 +25,6 @@ templates_path = ["_templates"]
 myst_enable_extensions = ["colon_fence", "deflist", "attrs_inline", "attrs_block"]
 myst_heading_anchors = 4
 nitpicky = True
-# The lexer of FORTRAN does not know the record marks of old decks.
-suppress_warnings = ["misc.highlighting_failure"]
 smartquotes_action = "q"  # only quotation marks: two hyphens begin an option and are no dash
 # Docstrings name classes and functions that have no page. Such a name is printed as code, without a link.
 nitpick_ignore_regex = [("py:.*", ".*")]
@@ -59,5 +58,6 @@ def fill(app: Sphinx, name: str, source: list[str]) -> None:
 
 
 def setup(app: Sphinx) -> None:
-    """Register :func:`fill`; Sphinx calls this function."""
+    """Register :func:`fill` and the language of decks with record marks, which FORTRAN's lexer does not know."""
+    app.add_lexer("deck", TextLexer)
     app.connect("source-read", fill)

@@ -8,6 +8,7 @@ The language of a block decides how it is run:
 ``toml``     saved under the name in the first line, ``# scene.toml``
 ``py``       saved in the same way
 ``fortranfixed``  a source deck, saved under the name on its first card: ``C     SUM.F`` becomes ``sum.f``
+``deck``  the same, with the record marks of a paper tape
 ``text``     not run, like the directives of Sphinx (``{toctree}``, ``{argparse}``, ``{eval-rst}``)
 
 ``<!-- skip: next "reason" -->`` before a block skips it.  The blocks of a document run in one folder, which contains
@@ -38,7 +39,7 @@ PROSE = ("", "tutorial", "how-to", "reference", "explanation", "papers")
 """The folders of ``docs`` with pages written by hand; the other folders hold results."""
 PAGES = tuple(path for folder in PROSE for path in sorted((ROOT / "docs" / folder).glob("*.md")))
 DOCUMENTS = (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES)
-RUN = ("sh", "console", "python", "py", "toml", "fortranfixed")
+RUN = ("sh", "console", "python", "py", "toml", "fortranfixed", "deck")
 LANGUAGES = (*RUN, "text", "{toctree}", "{argparse}", "{eval-rst}")
 
 _POINTS = ((0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (4, 4, 0), (1, 1, 1), (2, 2, 0))
@@ -152,7 +153,14 @@ def parsed(path: Path, execute: Execute) -> Document:
             output = execute(command)[1]
             assert output == expected, f"{example.path}: {command}\n{output}"
 
-    runners = {"sh": check_exit_codes, "console": check_output, "py": _save, "toml": _save, "fortranfixed": _save_deck}
+    runners = {
+        "sh": check_exit_codes,
+        "console": check_output,
+        "py": _save,
+        "toml": _save,
+        "fortranfixed": _save_deck,
+        "deck": _save_deck,
+    }
     blocks = (CodeBlockParser(language, run_block) for language, run_block in runners.items())
     return Document.parse(str(path), PythonCodeBlockParser(), *blocks, SkipParser())
 

@@ -2,6 +2,7 @@
 
 import re
 from contextlib import suppress
+from html import escape
 
 import pytest
 
@@ -15,8 +16,10 @@ from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.publication.commentary import commentary
 from modern.publication.facing import facing
+from modern.publication.site.made import make
 from modern.publication.uses import uses
 from modern.thesis.job import run_hull
+from tests.support.commands import call
 from tests.support.paths import ROOT
 
 WORDS = {"DATA", "NOT", "ACCEPTABLE", "ERROR", "IN", "PROGRAM", "BOUNDARY", "POINTS", "INSIDE", "CONVEX", "HULL", "HAS"}
@@ -86,6 +89,30 @@ def test_integers_stay_within_their_limits_in_every_run_that_ends() -> None:
                 ]
     assert outside == []
     assert stored == {(text, name) for text in limits for name in limits[text]}
+
+
+def test_the_listing_on_the_site_explains_every_block_and_every_variable() -> None:
+    html = "".join(part.html for part in make("facing", "program2").parts)
+    remarks = commentary("program2")
+    for text in (*(block.title for block in remarks.blocks), *(gloss.text for gloss in remarks.variables)):
+        assert escape(text) in html
+    place = {card.number: card.place for card in facing("program2").cards}
+    assert all(f'id="about-{place[block.cards.start]}"' in html for block in remarks.blocks)
+
+
+@pytest.mark.parametrize("arguments", [(), ("--layers", "corrected")])
+def test_the_command_prints_the_commentary_of_a_listed_program_only(
+    arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, out, err = call(capsys, "listing", "program2", "--commentary", *arguments)
+    if arguments:
+        assert (code, out, err.count("\n")) == (2, "", 1)
+        assert "--commentary: expected a program of the thesis without further layers" in err
+    else:
+        assert code == 0
+        shown = ("102 READ 4", "The first triangle", "   NETC=1", "  262        END", "    NETC  The number")
+        positions = [out.index(text) for text in shown]
+        assert positions == sorted(positions)
 
 
 SHORT = Options(limit=20_000)

@@ -63,6 +63,21 @@ def test_pages_load_without_an_error_and_fit_a_small_window(chromium: Browser, s
     assert errors + too_wide == []
 
 
+def test_the_stepper_and_the_slider_of_the_home_page_move(chromium: Browser, site: Path) -> None:
+    with opened(chromium, site, "index.html") as (tab, errors):
+        stages = tab.locator("ol.stepper > li")
+        assert [stage.is_visible() for stage in stages.all()] == [True, False, False, False]
+        tab.get_by_role("button", name="Next point").click()
+        assert [stage.is_visible() for stage in stages.all()] == [False, True, False, False]
+        slider, verdict = tab.get_by_role("slider"), tab.locator(".slider strong")
+        assert verdict.inner_text() == "All three are zero. The program continues."
+        slider.press("End")
+        assert verdict.inner_text() == "DATA NOT ACCEPTABLE"
+        assert errors == []
+    with opened(chromium, site, "index.html", script=False) as (tab, _):
+        assert all(stage.is_visible() for stage in tab.locator("ol.stepper > li").all())
+
+
 def violations(tab: Tab, name: str, rules: list[str]) -> list[str]:
     """Run axe on a page and return its findings."""
     tab.evaluate(AXE.read_text(encoding="utf-8"))
