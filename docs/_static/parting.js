@@ -90,12 +90,9 @@
     };
     if (answer.refused) return lines("Not run", [answer.refused]);
     lines("The programs of 1963", answer.says);
-    const kinds = ["a point", "a line", "a polygon", "a solid"];
-    lines("The true hull", [`${kinds[answer.true.dimension]} of ${answer.true.vertices.length} vertices`]);
-    lines(
-      "The first statement on which eight-digit and exact arithmetic disagree",
-      answer.part.length ? answer.part : ["None: every decision agrees."],
-    );
+    lines("Why there is no hull", answer.reason);
+    lines("The true hull", [answer.true.text]);
+    lines("Eight digits and exact arithmetic", [answer.part]);
   }
 
   function employ() {

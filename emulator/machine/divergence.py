@@ -31,7 +31,7 @@ from emulator.machine.endings import Ending
 from emulator.machine.machine import run_with_operator
 from emulator.machine.operator import Operator
 from emulator.machine.postdominators import meeting, post_dominators
-from emulator.machine.result import Event, Options, statements_begun
+from emulator.machine.result import Event, Options, Uncut, statements_begun
 from emulator.machine.session import Session
 from emulator.machine.state import Entry, Journal
 from emulator.numbers import Numbers
@@ -111,6 +111,8 @@ def diverge(
     values: bool = True,
     rounding: bool = True,
     operator: Callable[[], Operator] = Operator,
+    reference_deck: Deck | None = None,
+    uncut: tuple[Sequence[Sequence[Uncut]], Sequence[Sequence[Uncut]]] = ((), ()),
 ) -> Divergence:
     """Run a program in two arithmetics and compare the runs.
 
@@ -125,6 +127,10 @@ def diverge(
         Do not count differences that the reference's own rounding may explain.
     operator
         A function that returns an operator for each run.
+    reference_deck
+        The deck of the second run, if it reads other values than the first.
+    uncut
+        For each run, the numbers that it reads instead of columns of its cards (:class:`Session`).
 
     Raises
     ------
@@ -143,7 +149,8 @@ def diverge(
     # An exact reference has no rounding errors.  Any other reference computes bounds of its errors during the run.
     if rounding and math.isfinite(reference.digits):
         reference = ShadowedNumbers(reference)
-    runs = [_Run(program, deck, replace(options, numbers=n), values, operator()) for n in (studied, reference)]
+    sides = zip((studied, reference), (deck, reference_deck or deck), uncut, strict=True)
+    runs = [_Run(program, cards, replace(options, numbers=n), values, operator(), more) for n, cards, more in sides]
     comparison = Comparison(program, studied, reference)
     apart = ""
     first, second = iter(runs[0].entries()), iter(runs[1].entries())
@@ -194,10 +201,18 @@ def diverge(
 class _Run:
     """One of the two runs, which advances _STRIDE statements at a time."""
 
-    def __init__(self, program: Program, deck: Deck, options: Options, values: bool, operator: Operator) -> None:
+    def __init__(
+        self,
+        program: Program,
+        deck: Deck,
+        options: Options,
+        values: bool,
+        operator: Operator,
+        uncut: Sequence[Sequence[Uncut]],
+    ) -> None:
         self.name = options.numbers.name
         self._journal = Journal(values)
-        self._session = Session(program, deck, options, journal=self._journal, keep=False)
+        self._session = Session(program, deck, options, journal=self._journal, uncut=uncut, keep=False)
         self._operator = operator
         self._program, self._limit = program, options.limit
         self.typed = ""

@@ -62,7 +62,9 @@ def _hull(parser: ArgumentParser) -> None:
         "holds",
     )
     epsilon_argument(parser, "punch", "on the first card, after N, and apply the layer epsilon, which reads it")
-    parser.add_argument("--explain", action="store_true", help="if a run gives no hull, explain the reason at length")
+    parser.add_argument(
+        "--explain", action="store_true", help="say where exact arithmetic disagrees, and why there is no hull"
+    )
     result_arguments(parser)
 
 

@@ -16,10 +16,11 @@ from modern.cli.shared.console import DIFFERS, OK, UsageError, print_notes
 from modern.cli.shared.inputs import deck_of
 from modern.cli.shared.operators import attended
 from modern.cli.shared.programs import card_rules, layers_of, machine_options
-from modern.cli.shared.refusals import Request, refusal_lines
+from modern.cli.shared.refusals import Request, refusal_lines, wrapped
 from modern.cli.shared.run_output import is_terminal, print_run, tracing, write_outputs
 from modern.edition import programs
 from modern.formats.deck import check, with_epsilon
+from modern.thesis.explanation import first_disagreement
 from modern.thesis.job import HullRun, run_hull
 from modern.thesis.refusals import Cause, explain_run
 
@@ -63,6 +64,8 @@ def main(args: argparse.Namespace) -> int:
         if cause is not None:
             print_notes([f"data set {number}:"] if len(runs) > 1 else ())
             print_notes(refusal_lines(cause, request))
+        if args.explain and options.numbers.name != "exact":
+            print_notes(wrapped(first_disagreement(run, options)))
     return OK if all(run.complete for run, _ in runs) else DIFFERS
 
 

@@ -61,6 +61,8 @@ def begins_with_point(text: str) -> bool:
 def points(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
     """Return the points of a list and the line of each point.  Raise FileError for a row that is not x, y, z."""
     numbered = [(_point(row, source, line), line) for line, row in rows(text, source)]
+    if not numbered and (heading := next((line.strip() for line in text.splitlines() if line.strip()), "")):
+        raise FileError(f"{source}: expected points x,y,z, found only the heading {quoted(heading)}")
     return tuple(point for point, _ in numbered), tuple(line for _, line in numbered)
 
 

@@ -47,16 +47,18 @@ def parting_page() -> str:
 
 def point_sets() -> dict[str, str]:
     """Return the point sets that the page offers, one point per line."""
-    seven = "\n".join(f"{x} {y} 0" for x, y in ((0, 0), (90, 10), (100, 60), (40, 90), (-30, 60), (30, 40), (50, 35)))
+    plane = ((0, 0), (90, 10), (100, 60), (40, 90), (-30, 60), (30, 40), (50, 35))
+    solid = ((123, 456, 789), (987, 654, 321), (111, 999, 555), (345, 678, 901), (222, 333, 444), (871, 12, 345))
     decks = {
-        "four points of five digits: three vertices lost": read("transcripts/counterexamples/silent.deck"),
-        "example 6 of the thesis": input_deck(6).text(),
-        "example 5 of the thesis": input_deck(5).text(),
-        "a pyramid over four points": read("fortran_src/grounds/pyramid5.deck"),
+        "four points of five digits: a wrong hull": read("transcripts/counterexamples/silent.deck"),
+        "example 5 of the thesis: the true hull": input_deck(5).text(),
+        "a cube: rejected because of a fault": read("transcripts/counterexamples/cube.deck"),
     }
     sets = {name: "\n".join(" ".join(p) for p in parse_bytes(t.encode(), name).points) for name, t in decks.items()}
-    thirds = "0 0 0\n1 0 0\n0 1 0\n.33333333 .33333333 0\n.5 .5 0"
-    return sets | {"seven points in a plane that can be dragged": seven, "a triangle and its centre, in thirds": thirds}
+    return sets | {
+        "six points of three digits: rejected": "\n".join(" ".join(map(str, point)) for point in solid),
+        "seven points in a plane, which can be dragged": "\n".join(f"{x} {y} 0" for x, y in plane),
+    }
 
 
 def recorded() -> str:

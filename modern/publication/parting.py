@@ -13,18 +13,16 @@ from math import lcm
 from typing import Any
 
 from emulator.errors import EmulatorError
-from emulator.language.cards import Deck
-from emulator.machine.divergence import diverge
 from emulator.machine.result import Options
-from emulator.numbers import numbers
 from modern.edition import programs
 from modern.formats.deck import data_deck
 from modern.formats.points import parse_bytes
 from modern.geometry.numbers import coordinates
 from modern.geometry.vectors import cross, dot, minus
 from modern.thesis.cards import read_hull
+from modern.thesis.explanation import explanation, first_disagreement
 from modern.thesis.job import HullRun, run_hull
-from modern.thesis.refusals import Cause, explain_run
+from modern.thesis.refusals import explain_run
 
 # The largest number of points; the arrays of the programs have 51 elements.
 MOST = 51
@@ -36,10 +34,10 @@ Whole = tuple[int, int, int]
 def parted(text: str) -> dict[str, Any]:
     """Compare the hull that the 1963 programs find with the true hull, for points as text, one point per line.
 
-    The answer has ``points`` (as typed), and ``true`` and ``found`` for the two hulls.  Each hull has ``dimension``,
-    ``vertices`` (indices from 0) and ``faces`` (loops of indices; a polygon or a line is one face).  ``says`` are
-    messages about the run, and ``part`` describes the first statement on which eight-digit and exact arithmetic
-    disagree, if there is one.  For invalid input the answer has only ``refused``, a message.
+    The answer has ``points`` (as typed), and ``true`` and ``found`` for the two hulls.  Each hull has ``vertices``
+    (indices from 0) and ``faces`` (loops of indices; a polygon or a line is one face).  ``says`` are messages about
+    the run, ``reason`` explains a run without a hull, and ``part`` names the first branch that exact arithmetic takes
+    differently; these are the sentences of ``hull --explain``.  For invalid input the answer has only ``refused``.
     """
     try:
         parsed = parse_bytes(text.encode(), "points")
@@ -49,19 +47,32 @@ def parted(text: str) -> dict[str, Any]:
     if len(parsed.points) > MOST:
         return {"refused": f"{len(parsed.points)} points; the programs accept at most {MOST}"}
     points = scaled([coordinates(point) for point in parsed.points])
-    run, cause = explain_run(partial(run_hull, deck, programs.program, Options(limit=LIMIT)))
+    options = Options(limit=LIMIT)
+    run, cause = explain_run(partial(run_hull, deck, programs.program, options))
     dimension, faces = true_hull(points)
-    messages, program_hull = _program_hull(run, cause, parsed.points)
+    messages, program_hull = _program_hull(run, parsed.points)
     true_vertices = {n for face in faces for n in face}
     if program_hull["faces"] or program_hull["vertices"]:
         messages += _differences(true_vertices, set(program_hull["vertices"]), points)
     return {
         "points": [list(point) for point in parsed.points],
-        "true": {"dimension": dimension, "vertices": sorted(true_vertices), "faces": [list(face) for face in faces]},
+        "true": {
+            "text": _described(dimension, faces),
+            "vertices": sorted(true_vertices),
+            "faces": list(map(list, faces)),
+        },
         "found": program_hull,
         "says": messages,
-        "part": list(_part(run, deck)),
+        "reason": list(explanation(cause)) if cause is not None else [],
+        "part": first_disagreement(run, options),
     }
+
+
+def _described(dimension: int, faces: Sequence[Sequence[int]]) -> str:
+    """Return the kind of a hull with the numbers of its vertices and faces."""
+    count = len({n for face in faces for n in face})
+    kinds = ("a point", "a line segment with two ends", f"a polygon with {count} vertices")
+    return kinds[dimension] if dimension < 3 else f"a polyhedron with {count} vertices and {len(faces)} faces"
 
 
 def scaled(points: Sequence[tuple[Fraction, Fraction, Fraction]]) -> list[Whole]:
@@ -140,18 +151,9 @@ def _loop(points: Sequence[Whole], within: Sequence[int], normal: Whole) -> tupl
     return tuple(half(order) + half(order[::-1]))
 
 
-def _program_hull(
-    run: HullRun, cause: Cause | None, typed: Sequence[Sequence[str]]
-) -> tuple[list[str], dict[str, Any]]:
-    no_hull: dict[str, Any] = {"dimension": -1, "vertices": [], "faces": []}
+def _program_hull(run: HullRun, typed: Sequence[Sequence[str]]) -> tuple[list[str], dict[str, Any]]:
     if not run.complete:
-        ending = run.final.result.ending
-        lines = [run.refusal or ending.message]
-        if cause is not None and cause.decision is not None:
-            lines.append(f"decided by program {cause.program}, card {cause.decision.place.card}: {cause.decision.text}")
-        if cause is not None and cause.fault:
-            lines.append(f"the cause is known fault {cause.fault} of the programs")
-        return lines, no_hull
+        return [run.refusal or run.final.result.ending.message], {"vertices": [], "faces": []}
     hull = read_hull(run.final.result.punched)
     index_of: dict[tuple[Fraction, ...], int] = {}
     for n, point in enumerate(typed):
@@ -165,11 +167,13 @@ def _program_hull(
     elif dimension == 2:
         loops = [[n for n in loop if n >= 0] for loop in loops]
     unknown = indices.count(-1)
-    count = len(hull.vertices)
-    lines = [f"{count} {'vertex' if count == 1 else 'vertices'}, {len(hull.equations)} equations"]
+    count = len(set(hull.vertices))
+    repeated = ", one of them repeated" if count < len(hull.vertices) else ""
+    lines = [f"{count} {'vertex' if count == 1 else 'vertices'}{repeated}, {len(hull.equations)} equations"]
     if unknown:
         lines.append(f"{unknown} punched vertices are not points of the set: their coordinates were truncated")
-    return lines, {"dimension": dimension, "vertices": [n for n in indices if n >= 0], "faces": [x for x in loops if x]}
+    vertices = list(dict.fromkeys(n for n in indices if n >= 0))
+    return lines, {"vertices": vertices, "faces": [x for x in loops if x]}
 
 
 def _in_order(points: Sequence[Whole], loop: Sequence[int]) -> tuple[int, ...]:
@@ -195,22 +199,3 @@ def _differences(true_vertices: set[int], punched: set[int], points: Sequence[Wh
     if extra:
         messages.append(f"punched, but not vertices of the true hull: {', '.join(extra)}")
     return messages
-
-
-def _part(run: HullRun, deck: Deck) -> Iterator[str]:
-    """Yield the first branch that eight-digit and exact arithmetic decide differently, with both values and targets."""
-    for step in run.steps:
-        try:
-            divergence = diverge(
-                step.program, step.deck, numbers("truncating"), numbers("exact"), Options(limit=LIMIT), values=False
-            )
-        except EmulatorError as error:
-            yield str(error)
-            return
-        decision = divergence.first_decision
-        if decision is not None:
-            number = f"{decision.line.label} " if decision.line.label else ""
-            yield f"program {step.number}, card {decision.line.place.card}: {number}{decision.line.text}"
-            for name, value, target in zip(("eight digits", "exact"), decision.values, decision.targets, strict=True):
-                yield f"{name}: {value}, goes to {target.name if target else 'the end'}"
-            return

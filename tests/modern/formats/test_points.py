@@ -121,7 +121,7 @@ def test_points_are_read_from_standard_input(monkeypatch: pytest.MonkeyPatch) ->
 BAD = [
     ("empty", "", "a.csv", "a.csv: there are no points"),
     ("blank", "\n \n", "a.csv", "a.csv: there are no points"),
-    ("heading-only", "x,y,z\n", "a.csv", "a.csv: there are no points"),
+    ("heading-only", "x,y,z\n", "a.csv", "a.csv: expected points x,y,z, found only the heading 'x,y,z'"),
     ("no-vertices", "OFF\n0 0 0\n", "a.off", "a.off: there are no points"),
     ("unknown", "\nhello\n", "a.xyz", "a.xyz: line 2, column 1: 'hello' is neither the first card of a deck"),
     ("text", "\nhello you three\n1 2\n", "a.xyz", "a.xyz: line 3, column 1: expected a point x,y,z, found 2 fields"),

@@ -274,7 +274,7 @@ def test_the_comparison_in_the_page_equals_that_in_python(chromium: Browser, ser
             arg=expected["says"][0],
             timeout=LONG,
         )
-        for line in (*expected["says"], *expected["part"]):
+        for line in (*expected["says"], *expected["reason"], expected["part"]):
             assert line in page.inner_text("#parting-answer")
         shown = page.locator(".parting-true").count()
         assert shown == len(expected["true"]["faces"])
@@ -287,7 +287,7 @@ def test_the_comparison_in_the_page_equals_that_in_python(chromium: Browser, ser
 def test_a_point_can_be_dragged(chromium: Browser, served: str) -> None:
     page = chromium.new_page()
     page.goto(f"{served}/parting.html")
-    page.select_option("#parting-sets", "seven points in a plane that can be dragged")
+    page.select_option("#parting-sets", "seven points in a plane, which can be dragged")
     before = page.input_value("#parting-points")
     box = page.locator("[data-n='0']").bounding_box()
     assert box is not None

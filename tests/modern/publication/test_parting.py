@@ -3,6 +3,7 @@
 import random
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -12,7 +13,9 @@ from modern.edition.chapter6 import input_deck
 from modern.edition.sources import read
 from modern.exact_hull import exact_hull
 from modern.formats.points import parse_bytes
+from modern.publication.console import point_sets
 from modern.publication.parting import MOST, parted, true_hull
+from tests.support.commands import call
 from tests.support.paths import ROOT
 
 SMALL = st.tuples(*[st.integers(-3, 3)] * 3)
@@ -52,7 +55,7 @@ def test_the_corners_of_a_face_are_in_order() -> None:
 def test_no_decision_differs_in_the_examples(example: int) -> None:
     points = parse_bytes(input_deck(example).text().encode(), "x").points
     answer = parted("\n".join(" ".join(point) for point in points))
-    assert answer["part"] == []
+    assert answer["part"] == "every decision is the same in exact arithmetic"
     assert "the vertices are those of the true hull" in answer["says"]
     assert sorted(answer["found"]["vertices"]) == answer["true"]["vertices"]
 
@@ -64,20 +67,64 @@ def test_the_silent_set_loses_three_vertices_at_a_named_statement() -> None:
         "1 vertex, 4 equations",
         "vertices of the true hull that the programs missed: point 1, point 2, point 3",
     ]
-    assert answer["part"] == [
-        "program 3, card 185: IF (EZ) 170, 167, 170",
-        "eight digits: 0, goes to statement 167 (card 186)",
-        "exact: 27180, goes to statement 170 (card 193)",
+    assert answer["part"] == (
+        "the first branch that exact arithmetic takes differently: program 3, card 185, IF (EZ) 170, 167, 170; with "
+        "eight digits the value is -100000 and the program goes to statement 170 (card 193), exactly the value is 0 "
+        "and the program goes to statement 167 (card 186)"
+    )
+
+
+def drawn(number: int) -> str:
+    """Return a set of points; about every third set has more digits than the programs can hold."""
+    draw = random.Random(f"parting {number}")
+    size = draw.choice((9, 30, 30, 99, 99, 99, 400, 99_999))
+    solid = draw.random() < 0.8
+    points = [[draw.randint(-size, size) for _ in range(3)] for _ in range(draw.randint(3, 12))]
+    return "\n".join(f"{x} {y} {z if solid else 7}" for x, y, z in points)
+
+
+@pytest.mark.parametrize("number", range(6))
+def test_the_page_and_the_command_explain_a_set_in_the_same_words(
+    number: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert agreement(drawn(number), tmp_path, capsys) in ("hull", "refused")
+
+
+def agreement(text: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> str:
+    """Compare the sentences of the page for a set with those of ``hull --explain``; return "hull" or "refused"."""
+    answer, deck = parted(text), folder / "points.deck"
+    (folder / "points.csv").write_text(text)
+    assert call(capsys, "cards", str(folder / "points.csv"), "-o", str(deck))[0] == 0
+    code, _, err = call(capsys, "hull", str(deck), "--explain")
+    words = " ".join(err.split())
+    assert " ".join(answer["part"].split()) in words
+    assert all(" ".join(sentence.split()) in words for sentence in answer["reason"])
+    assert bool(answer["reason"]) == ("no hull:" in words) == (code == 1) == (not answer["found"]["vertices"])
+    assert not answer["reason"] or answer["says"][0] in words
+    return "refused" if answer["reason"] else "hull"
+
+
+def test_a_rejection_of_points_of_three_digits_names_the_branch_that_exact_arithmetic_takes_differently() -> None:
+    answer = parted(point_sets()["six points of three digits: rejected"])
+    assert answer["says"] == ["DATA NOT ACCEPTABLE"]
+    assert answer["reason"][0].startswith("program 3, decided by card 51, IF(E(J))119,117,119 for the point")
+    assert "program 3, card 51, IF(E(J))119,117,119; with eight digits the value is 10" in answer["part"]
+    assert (answer["found"]["faces"], answer["true"]["text"]) == ([], "a polyhedron with 6 vertices and 8 faces")
+
+
+def test_the_sets_of_the_page_give_a_rejection_a_wrong_hull_and_the_true_hull() -> None:
+    answers = [parted(text) for text in point_sets().values()]
+    outcomes = [
+        "rejected" if answer["reason"] else sorted(answer["found"]["vertices"]) == answer["true"]["vertices"]
+        for answer in answers
     ]
+    assert outcomes == [False, True, "rejected", "rejected", True]
 
 
-def test_a_rejection_names_its_statement_and_fault() -> None:
-    draw = random.Random(1)
-    text = "\n".join(" ".join(str(draw.randint(-999, 999) / 10) for _ in range(3)) for _ in range(20))
-    answer = parted(text)
-    assert answer["says"][0] == "DATA NOT ACCEPTABLE"
-    assert answer["says"][1].startswith("decided by program 3, card 55: IF(E(J))119,120,119")
-    assert (answer["found"]["faces"], answer["true"]["dimension"]) == ([], 3)
+def test_equal_points_are_one_vertex() -> None:
+    answer = parted("1 2 3\n1 2 3")
+    assert answer["says"][0] == "1 vertex, one of them repeated, 2 equations"
+    assert (answer["true"]["text"], answer["found"]["vertices"]) == ("a point", [0])
 
 
 @pytest.mark.parametrize(
@@ -86,6 +133,7 @@ def test_a_rejection_names_its_statement_and_fault() -> None:
         ("", "points"),
         ("1 2\n", "points"),
         ("1 2 x\n3 4 5\n", "points"),
+        ("a b c", "points: expected points x,y,z, found only the heading 'a b c'"),
         ("1 2 3.123456789\n", "point 1, field 3: 10 significant digits; a card holds 8"),
         ("\n".join(f"{n} 0 0" for n in range(52)), "52"),
     ],
@@ -102,7 +150,7 @@ def test_the_module_does_not_import_numpy() -> None:
 import sys
 sys.path[:0] = {sys.path!r}
 from modern.publication.parting import parted
-assert parted("0 0 0, 1 0 0".replace(", ", chr(10)))["true"]["dimension"] == 1
+assert parted("0 0 0, 1 0 0".replace(", ", chr(10)))["true"]["text"].startswith("a line")
 print("numpy" in sys.modules)
 """
     process = subprocess.run([sys.executable, "-S", "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)

@@ -42,8 +42,8 @@ def _wrong() -> Made:
     caption = "The true hull, a tetrahedron. Red: missed by the programs. Blue: added by the programs."
     drawn = figure(draw_against(hull, claim, width=520, show=Show("input")), "wrong", caption, "drawing coloured")
     cards = preformatted("\n".join(punched), "the cards punched")
-    differences = "".join(text("li", line) for line in (*answer["says"], *answer["part"]))
-    statement = _statement_link(answer["part"][0])
+    differences = "".join(text("li", line) for line in (*answer["says"], answer["part"]))
+    statement = _statement_link(answer["part"])
     command = element("p", "To reproduce this result: " + text("code", f"hull1620 hull {FILE}"))
     parts = (
         Part("The picture", "picture", html=drawn),
@@ -55,8 +55,8 @@ def _wrong() -> Made:
 
 
 def _statement_link(divergence: str) -> str:
-    """Return a link to the card that a divergence names: ``program 3, card 185: ...``."""
-    match = re.match(r"program (\d), card (\d+):", divergence)
+    """Return a link to the card that a sentence names: ``... program 3, card 185, ...``."""
+    match = re.search(r"program (\d), card (\d+),", divergence)
     assert match is not None, "a divergence names its program and card"
     name = f"program{match[1]}"
     card = next(card for card in facing(name).cards if card.number == int(match[2]))
