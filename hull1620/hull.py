@@ -17,12 +17,11 @@ from modern.drawing.draw import Labels, Show, draw_svg
 from modern.exact_hull.result import Certificate
 from modern.formats.export import to_trimesh, write_hull
 from modern.geometry.coplanar import coplanar, distance_text
-from modern.geometry.hull import Face, Stage, as_tuple
+from modern.geometry.hull import Face, PointTexts, Stage, as_tuple
 from modern.geometry.hull import Hull as Record
 from modern.geometry.mesh import ExportError, Mesh, mesh
 from modern.geometry.numbers import AREA_DIGITS, coordinates, real, sum_of_roots, value_of
 from modern.geometry.vectors import Vector, six_volumes
-from modern.port.outcome import PointTexts
 
 _KINDS = ("point", "segment", "polygon", "polyhedron")
 

@@ -18,7 +18,7 @@ from modern import port
 from modern.comparison.outcome import as_hull
 from modern.drawing.draw import Labels
 from modern.edition import programs
-from modern.exact_hull.coordinates import read_points as exact_points
+from modern.exact_hull.coordinates import read_exact
 from modern.formats import deck as decks
 from modern.formats.points import read_input
 from modern.geometry.hull import NOT_CLOSED, HullRefused
@@ -200,7 +200,7 @@ def data_deck(points: Points, truncate: bool = False, epsilon: Epsilon = None) -
      1
     +.10000000E+01+.25000000E+01-.30000000E+01
     """
-    texts = [[exact_text(number) for number in point] for point in exact_points(points)]
+    texts = [[exact_text(number) for number in point] for point in read_exact(points)]
     deck = decks.data_deck(texts, "points", truncate)
     return deck if epsilon is None else decks.with_epsilon(deck, epsilon)
 

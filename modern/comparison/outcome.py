@@ -5,7 +5,7 @@ polyhedron, or the supporting lines of a polygon projected as in the thesis (p. 
 coordinate whose coefficient in the polygon's plane is not zero, so its coefficient in the line is 0.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm
@@ -14,8 +14,10 @@ import numpy as np
 
 from emulator.machine.endings import Ending
 from modern.exact_hull import ExactHull
-from modern.geometry.hull import DETERMINED, Coefficients, Face, Hull
-from modern.geometry.numbers import exact_text
+from modern.exact_hull.coordinates import Coordinates, Objects
+from modern.exact_hull.planes import facet_planes
+from modern.geometry.hull import DETERMINED, Coefficients, Face, Hull, LazyFaces, PointTexts
+from modern.geometry.numbers import Exact, exact_text
 from modern.thesis.cards import CardHull, read_hull
 from modern.thesis.job import HullRun
 
@@ -117,42 +119,63 @@ def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
 
 
 def as_hull(judged: ExactHull) -> Hull:
-    """Convert an exact hull to the type of the port's results. Points keep their order; numbers are exact text."""
-    points = [tuple(Fraction(number, judged.scale) for number in point) for point in judged.scaled]
-    if judged.dimension == 3:
-        polygons = [facet.polygon for facet in judged.facets]
-    else:
-        polygons = [*zip(judged.polygon, judged.polygon[1:] + judged.polygon[:1], strict=True)]
-    equations = from_judge(judged, points).equations
-    reduced = [integers_of(equation) for equation in equations]
-    faces = tuple(
-        Face(_texts(equation), integers, polygon[:3], polygon, on)
-        for equation, integers, polygon, on in zip(equations, reduced, polygons, _on(judged, reduced), strict=True)
-    )
+    """Convert an exact hull to the type of the port's results.  Points keep their order.
+
+    Numbers are exact text.  The points of a polyhedron, and its faces except for their polygons, are made on access.
+    """
+    scaled, scale = judged.scaled, judged.scale
+    coordinates = scaled if isinstance(scaled, Coordinates) else Coordinates(scaled, scale)
+
+    def text(index: int) -> tuple[str, str, str]:
+        x, y, z = (exact_text(Fraction(number, scale)) for number in coordinates[index])
+        return x, y, z
+
     return Hull(
         arithmetic="exact",
         status=DETERMINED,
         dimension=judged.dimension,
-        points=tuple((exact_text(x), exact_text(y), exact_text(z)) for x, y, z in points),
+        points=PointTexts(len(coordinates), text, coordinates.floats),
         vertices=judged.vertices,
         boundary=judged.boundary,
         inside=judged.inside,
         duplicates=judged.duplicates,
-        faces=faces,
-        plane=None if judged.plane is None else _texts([Fraction(c) for c in judged.plane_of(judged.plane)]),
+        faces=_faces(judged, coordinates),
+        plane=None if judged.plane is None else _texts(judged.plane_of(judged.plane)),
     )
 
 
-def _on(judged: ExactHull, planes: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
-    """Return for each plane or line, which is for unscaled coordinates, the boundary points on it."""
-    if not judged.boundary:
-        return [()] * len(planes)
-    points = np.array([(*judged.scaled[index], judged.scale) for index in judged.boundary], dtype=object)
-    on_planes = []
-    for plane in planes:
-        zeros = np.flatnonzero(points @ np.array(plane, dtype=object) == 0)
-        on_planes.append(tuple(judged.boundary[row] for row in zeros.tolist()))
-    return on_planes
+def _faces(judged: ExactHull, coordinates: Coordinates) -> Sequence[Face]:
+    if judged.dimension == 3:
+        polygons = [facet.polygon for facet in judged.facets]
+        return LazyFaces(polygons, lambda: _polyhedral(judged, coordinates))
+    polygons = [*zip(judged.polygon, judged.polygon[1:] + judged.polygon[:1], strict=True)]
+    if judged.dimension < 2:
+        return ()
+    points = [tuple(Fraction(number, judged.scale) for number in point) for point in judged.scaled]
+    equations = _lines(judged, points)
+    reduced = [integers_of(equation) for equation in equations]
+    boundary = np.array([(*judged.scaled[index], judged.scale) for index in judged.boundary], object).reshape(-1, 4)
+    return tuple(
+        Face(_texts(equation), integers, polygon, polygon, _on(judged, boundary @ np.array(integers, object)))
+        for equation, integers, polygon in zip(equations, reduced, polygons, strict=True)
+    )
+
+
+def _polyhedral(judged: ExactHull, coordinates: Coordinates) -> Iterator[Face]:
+    """Yield the faces of a polyhedron, with the boundary points on each."""
+    on: dict[int, list[int]] = {}
+    if judged.boundary:
+        planes = facet_planes(coordinates, judged.facets)
+        for rows, facets, signs in planes.near(np.array(judged.boundary)):
+            for row, facet in zip(rows[signs == 0].tolist(), facets[signs == 0].tolist(), strict=True):
+                on.setdefault(facet, []).append(judged.boundary[row])
+    for number, facet in enumerate(judged.facets):
+        plane, polygon = judged.plane_of(facet), facet.polygon
+        yield Face(_texts(plane), plane, polygon[:3], polygon, tuple(on.get(number, ())))
+
+
+def _on(judged: ExactHull, values: Objects) -> tuple[int, ...]:
+    return tuple(judged.boundary[row] for row in np.flatnonzero(values == 0).tolist())
 
 
 def integers_of(equation: Equation) -> tuple[int, int, int, int]:
@@ -163,7 +186,7 @@ def integers_of(equation: Equation) -> tuple[int, int, int, int]:
     return a // divisor, b // divisor, c // divisor, d // divisor
 
 
-def _texts(equation: Sequence[Fraction]) -> Coefficients:
+def _texts(equation: Sequence[Exact]) -> Coefficients:
     a, b, c, d = map(exact_text, equation)
     return a, b, c, d
 

@@ -2,14 +2,14 @@
 
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from operator import attrgetter
 
 import numpy as np
 
 from emulator.jit.functions import require_numba
 from modern.exact_hull.certificate import certify
-from modern.exact_hull.coordinates import ExactPoint, IntPoint, read_points, scaled_points
+from modern.exact_hull.coordinates import Coordinates, IntPoint, Ints, read_points
 from modern.exact_hull.facets import (
     faces,
     independent,
@@ -19,17 +19,18 @@ from modern.exact_hull.facets import (
     planes_of,
     polygon,
     segment,
-    value,
 )
+from modern.exact_hull.planes import facet_planes
 from modern.exact_hull.proposal import propose
 from modern.exact_hull.result import CertificateError, ExactHull, Facet, Plane
-from modern.exact_hull.surface import BOUND, convex_surface, frame, plane_image
+from modern.exact_hull.surface import convex_surface, frame
 from modern.geometry.points import Points
 
 SEED = 1963
 # The number of points from which the hull is first proposed in rounded numbers, which is faster, and then proved.
 MANY = 500
-_BLOCK = 1 << 16
+# The number of first points among which four are sought that do not lie in a plane.
+_FEW = 64
 
 
 def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
@@ -40,30 +41,14 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
     return order
 
 
-def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequence[int] | None = None) -> list[int]:
+def _on_facets(points: Coordinates, facets: Sequence[Facet], others: Ints | None = None) -> Ints:
     """Return those of ``others`` (by default, all points that are not vertices) that lie in the plane of any facet."""
     if others is None:
-        vertices = {index for facet in facets for index in facet.polygon}
-        others = [index for index in range(len(points)) if index not in vertices]
-    if not others:
-        return []
-    # The frame moves the points.  A facet's plane there has the same normal, and one vertex determines its constant
-    # term.
-    bases = [facet.polygon[0] for facet in facets]
-    space = frame([points[index] for index in (*bases, *others)])
-    planes = [plane_at(facet.plane[:3], base) for facet, base in zip(facets, space.integers, strict=False)]
-    images = np.array([plane_image(plane, space.shifts) for plane in planes]).T
-    height = max(1, _BLOCK // len(planes))
-    boundary = []
-    for start in range(len(bases), len(space.integers), height):
-        # No point is outside a plane, so values are zero or negative.  One below -bound cannot be zero; the others are
-        # evaluated exactly.
-        near = space.images[start : start + height] @ images >= -BOUND
-        for row in np.flatnonzero(near.any(axis=1)).tolist():
-            point = space.integers[start + row]
-            if any(value(planes[column], point) == 0 for column in np.flatnonzero(near[row]).tolist()):
-                boundary.append(others[start + row - len(bases)])
-    return boundary
+        others = np.setdiff1d(np.arange(len(points)), [index for facet in facets for index in facet.polygon])
+    if not len(others):
+        return others
+    _, signs = facet_planes(points, facets).largest(others)
+    return np.asarray(others[signs == 0])
 
 
 def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Sequence[int] = ()) -> list[Facet]:
@@ -85,7 +70,7 @@ def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Seque
     ]
 
 
-def _proposed(points: Sequence[IntPoint], fast: bool | None) -> tuple[list[Facet], list[int]] | None:
+def _proposed(points: Coordinates, fast: bool | None) -> tuple[list[Facet], Ints] | None:
     proposal = propose(points, fast)
     if proposal is None:
         return None
@@ -96,34 +81,10 @@ def _proposed(points: Sequence[IntPoint], fast: bool | None) -> tuple[list[Facet
     try:
         facets = merged(list(map(tuple, corners.tolist())), planes_of(corners, points), points)
         vertices = [index for facet in facets for index in facet.polygon]
-        near = np.setdiff1d(np.concatenate([proposal.near, proposal.triangles.ravel()]), vertices)
-        return facets, _on_facets(points, facets, near.tolist())
+        near = np.setdiff1d(np.concatenate([proposal.near, corners.ravel()]), vertices)
+        return facets, _on_facets(points, facets, near)
     except (RuntimeError, ValueError, KeyError):  # with the exact points the triangles are not a closed surface
         return None
-
-
-@dataclass(frozen=True, slots=True)
-class _Distinct:
-    """The points as integers with a common scale, and the distinct points with their indices."""
-
-    scale: int
-    scaled: list[IntPoint]
-    distinct: list[IntPoint]
-    indices: Sequence[int]
-    duplicates: list[tuple[int, int]]
-
-
-def _distinct(exact: Sequence[ExactPoint]) -> _Distinct:
-    scale, scaled = scaled_points(exact)
-    if len(set(scaled)) == len(scaled):
-        return _Distinct(scale, scaled, scaled, range(len(scaled)), [])
-    first: dict[IntPoint, int] = {}
-    duplicates = []
-    for index, point in enumerate(scaled):
-        earlier = first.setdefault(point, index)
-        if earlier != index:
-            duplicates.append((index, earlier))
-    return _Distinct(scale, scaled, list(first.keys()), list(first.values()), duplicates)
 
 
 def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
@@ -143,53 +104,56 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     """
     if fast:
         require_numba()
-    exact = read_points(points)
-    prepared = _distinct(exact)
-    distinct = prepared.distinct
-    basis = independent(distinct)
+    scaled = read_points(points)
+    distinct, indices = scaled, np.arange(len(scaled))
+    if scaled.duplicates:
+        indices = np.delete(indices, [index for index, _ in scaled.duplicates])
+        distinct = Coordinates(scaled.numbers[indices], scaled.scale)
+    basis = independent(distinct[:_FEW])
+    if len(basis) < 4:
+        basis = independent(distinct.all())
     plane: Plane | None = None
     cycle: tuple[int, ...] = ()
     facets: list[Facet] = []
+
+    def classified(dimension: int, facets: Sequence[Facet], boundary: Ints) -> ExactHull:
+        """Return the result without plane and polygon.  ``facets`` and ``boundary`` use indices of distinct points."""
+        vertices = sorted({index for facet in facets for index in facet.polygon} or {0})
+        inside = np.ones(len(distinct), np.bool_)
+        inside[vertices] = False
+        inside[boundary] = False
+        if scaled.duplicates:
+            renamed = indices.tolist()
+            facets = [Facet(facet.plane, tuple([renamed[index] for index in facet.polygon])) for facet in facets]
+        return ExactHull(
+            dimension=dimension,
+            scale=scaled.scale,
+            scaled=scaled,
+            vertices=tuple(indices[vertices].tolist()),
+            boundary=tuple(indices[boundary].tolist()),
+            inside=tuple(indices[inside].tolist()),
+            duplicates=scaled.duplicates,
+            plane=None,
+            facets=tuple(sorted(facets, key=attrgetter("plane"))),
+        )
+
     if len(basis) == 2:
-        facets = segment(distinct)
+        facets = segment(distinct.all())
     elif len(basis) == 3:
-        plane, cycle, facets = polygon(distinct, basis)
+        plane, cycle, facets = polygon(distinct.all(), basis)
     elif len(basis) == 4:
         likely: set[int] = set()
         proposed = _proposed(distinct, fast) if len(distinct) >= MANY else None
         if proposed:
-            hull = _classified(prepared, 3, *proposed)
+            hull = classified(3, *proposed)
             try:
-                return replace(hull, certificate=certify(exact, hull))
+                return replace(hull, certificate=certify(scaled, hull))
             except CertificateError:
                 # The proof refused the proposed hull, but its vertices are probably vertices of the true hull, so
                 # insert them first.
                 likely = {index for facet in proposed[0] for index in facet.polygon}
-        facets = _polyhedron(distinct, basis, sorted(likely))
-    boundary = _on_facets(distinct, facets) if len(basis) > 2 else []
-    hull = replace(_classified(prepared, len(basis) - 1, facets, boundary), plane=plane)
-    hull = replace(hull, polygon=tuple(prepared.indices[index] for index in cycle))
-    return replace(hull, certificate=certify(exact, hull))
-
-
-def _classified(prepared: _Distinct, dimension: int, facets: Sequence[Facet], boundary: Sequence[int]) -> ExactHull:
-    """Return the result without its plane and polygon.  ``facets`` and ``boundary`` use indices of distinct points."""
-    count, indices = len(prepared.distinct), np.array(prepared.indices)
-    vertices = sorted({index for facet in facets for index in facet.polygon} or {0})
-    inside = np.ones(count, np.bool_)
-    inside[vertices] = False
-    inside[boundary] = False
-    if prepared.duplicates:
-        renamed = indices.tolist()
-        facets = [Facet(facet.plane, tuple([renamed[index] for index in facet.polygon])) for facet in facets]
-    return ExactHull(
-        dimension=dimension,
-        scale=prepared.scale,
-        scaled=tuple(prepared.scaled),
-        vertices=tuple(indices[vertices].tolist()),
-        boundary=tuple(indices[sorted(boundary)].tolist()),
-        inside=tuple(indices[inside].tolist()),
-        duplicates=tuple(prepared.duplicates),
-        plane=None,
-        facets=tuple(sorted(facets, key=attrgetter("plane"))),
-    )
+        facets = _polyhedron(distinct.all(), basis, sorted(likely))
+    boundary = _on_facets(distinct, facets) if len(basis) > 2 else np.empty(0, np.int64)
+    hull = replace(classified(len(basis) - 1, facets, boundary), plane=plane)
+    hull = replace(hull, polygon=tuple(indices[list(cycle)].tolist()))
+    return replace(hull, certificate=certify(scaled, hull))

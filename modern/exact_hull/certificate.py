@@ -24,10 +24,10 @@ The proof shares nothing with the construction: it has its own vectors, float64 
 import math
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from itertools import chain
+from dataclasses import replace
 
 from modern.exact_hull.convexity import Undecided, prove
-from modern.exact_hull.coordinates import IntPoint, read_points
+from modern.exact_hull.coordinates import Coordinates, IntPoint, read_points
 from modern.exact_hull.incidences import Incidences, incidences
 from modern.exact_hull.polygons import check_convex, difference, dot, product
 from modern.exact_hull.result import Certificate, CertificateError, ExactHull, require
@@ -42,6 +42,7 @@ from modern.geometry.points import Points
 # needed; it is an additional check of the counts.
 # The number of points times facets from which a polyhedron is proved by its convexity.
 MANY = 1 << 18
+_FEW = 64
 
 
 def _is_plane(plane: Sequence[int]) -> bool:
@@ -70,56 +71,45 @@ def rank(vectors: Iterable[Sequence[int]]) -> int:
     return len(rows)
 
 
-def _are_integers(rows: Iterable[Iterable[object]]) -> bool:
-    return set(map(type, chain.from_iterable(rows))) == {int}
-
-
-def _check_integers(points: Points, hull: ExactHull) -> None:
-    exact = read_points(points)
-    scale, scaled = hull.scale, hull.scaled
-    # A fast path for the usual case: the points are integers, so that no scale is needed.
-    if scale == 1 and set(map(len, scaled)) == {3} and _are_integers(scaled) and exact == list(map(tuple, scaled)):
-        return  # the input is integers too, so 1 is the least scale
-    least = math.lcm(*{number.denominator for point in exact for number in point})
-    require(scale == least, "the scale is not the least that makes every coordinate an integer")
-    require(len(scaled) == len(exact), f"expected {len(exact)} scaled points, found {len(scaled)}")
-    for index, (point, integers) in enumerate(zip(exact, scaled, strict=True)):
+def _check_integers(points: Coordinates, hull: ExactHull) -> None:
+    least = hull.scale == points.scale and points.is_least_scale()
+    require(least, "the scale is not the least that makes every coordinate an integer")
+    require(len(hull.scaled) == len(points), f"expected {len(points)} scaled points, found {len(hull.scaled)}")
+    if isinstance(hull.scaled, Coordinates) and hull.scaled == points:
+        return
+    for index, (point, integers) in enumerate(zip(points, hull.scaled, strict=True)):
         require(
-            len(integers) == 3
-            and all(
-                type(number) is int and number * value.denominator == value.numerator * scale
-                for number, value in zip(integers, point, strict=True)
-            ),
+            tuple(integers) == point and set(map(type, integers)) == {int},
             f"point {index}: its scaled coordinates are not the coordinates of the input times the scale",
         )
 
 
-def _check_classes(hull: ExactHull) -> None:
+def _check_classes(points: Coordinates, hull: ExactHull) -> None:
     require(all(len(pair) == 2 for pair in hull.duplicates), "a duplicate is not a pair of indices")
     for name in ("vertices", "boundary", "inside", "duplicates"):
         members = getattr(hull, name)
         require(list(members) == sorted(members), f"{name} is not sorted")
     members = [*hull.vertices, *hull.boundary, *hull.inside, *(index for index, _ in hull.duplicates)]
     require(
-        sorted(members) == list(range(len(hull.scaled))),
+        sorted(members) == list(range(len(points))),
         "a point is in no class or in two classes, or an index is invalid",
     )
-    if not hull.duplicates and len(set(hull.scaled)) == len(hull.scaled):
-        return
     # A point must be listed as a duplicate of the first point with its coordinates, unless it is that first point.
-    first: dict[IntPoint, int] = {}
-    stated = dict(hull.duplicates)
-    for index, point in enumerate(hull.scaled):
-        earlier = first.setdefault(point, index)
+    stated, true = dict(hull.duplicates), dict(points.duplicates)
+    for index in sorted(stated.keys() | true.keys()):
+        earlier, first = stated.get(index, index), true.get(index, index)
         require(
-            stated.get(index, index) == earlier,
-            f"point {index} is stated to equal point {stated.get(index, index)}, but first occurs as point {earlier}",
+            earlier == first,
+            f"point {index} is stated to equal point {earlier}, but first occurs as point {first}",
         )
 
 
 def _check_dimension(hull: ExactHull) -> None:
+    # The first points usually suffice; the others are made integers only if these lie in a plane.
     origin = hull.scaled[0]
-    dimension = rank(difference(point, origin) for point in hull.scaled)
+    dimension = rank(difference(point, origin) for point in hull.scaled[:_FEW])
+    if dimension < 3:
+        dimension = rank(difference(point, origin) for point in hull.scaled)
     require(
         hull.dimension == dimension,
         f"the dimension is stated as {hull.dimension}, but the points have rank {dimension}",
@@ -237,6 +227,7 @@ def _proved(hull: ExactHull) -> tuple[int, Incidences]:
     if hull.dimension == 3 and len(hull.scaled) * len(hull.facets) >= MANY:
         with suppress(Undecided):  # in that case every plane is evaluated at every point, below
             return prove(hull)
+    hull = replace(hull, scaled=tuple(hull.scaled))
     _check_planes(hull)
     pairs = _check_points(hull)
     close: Callable[[ExactHull], int] = (_check_segment, _check_polygon, _check_polyhedron)[hull.dimension - 1]
@@ -244,9 +235,11 @@ def _proved(hull: ExactHull) -> tuple[int, Incidences]:
 
 
 def certify(points: Points, hull: ExactHull) -> Certificate:
-    """Prove that ``hull`` is the convex hull of ``points``, or raise CertificateError.  ``points`` are read twice."""
-    _check_integers(points, hull)
-    _check_classes(hull)
+    """Prove that ``hull`` is the convex hull of ``points``, or raise CertificateError."""
+    own = read_points(points)
+    _check_integers(own, hull)
+    _check_classes(own, hull)
+    hull = replace(hull, scaled=own)
     _check_dimension(hull)
     if hull.dimension == 0:
         require(not hull.facets and len(hull.vertices) == 1, "a point has one vertex and no facets")

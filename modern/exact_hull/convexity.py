@@ -20,20 +20,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.exact_hull.coordinates import IntPoint
-from modern.exact_hull.incidences import BOUND, Incidences
-from modern.exact_hull.polygons import (
-    Floats,
-    Images,
-    Ints,
-    Objects,
-    Polygons,
-    check_planes,
-    images_of,
-    normal_images,
-    polygons,
-    values,
-)
+from modern.exact_hull.coordinates import Floats, Images, IntPoint, Ints
+from modern.exact_hull.incidences import Incidences
+from modern.exact_hull.planes import BOUND, Planes
+from modern.exact_hull.polygons import Polygons, check_planes, polygons
 from modern.exact_hull.result import CertificateError, ExactHull
 
 # Why this is a proof.  (Mehlhorn, Naeher, Seel, Seidel, Schilz, Schirra and Uhrig, Checking geometric programs or
@@ -64,21 +54,11 @@ from modern.exact_hull.result import CertificateError, ExactHull
 # point is beyond, in float64, and in integers if the sign is in doubt.  Points on an edge of the hull are always in
 # doubt: they lie in the plane through o and the edge, and so in the cones of both sides.
 _BLOCK = 1 << 12
-# Signs are computed in float64 first.  Let c be the corner of the bounding box of the points, and s for each axis a
-# power of two not less than the side of the box.  The image of x is (x - c) / s, from 0 to 1.  A normal's image is (A
-# sx, B sy, C sz) / w, where w is the power of two that makes the largest of them at most 1.  With e = 2**-54 all images
-# have an error of at most e (the nearest float64 of the exact quotient; dividing by a power of two is exact).  o is
-# given by its image, exactly.  A difference d of images is below 1 in absolute value and has an error of at most 3e: e
-# for each image and e for rounding.
-#
-# The value of a plane, N . (x - p) with a corner p, has products with errors of 3e + e + e = 5e, together 15e.  The
-# additions, of sums below 2 and below 4, round by 2e and 4e.  The total is 21e.  The wall of a cone, the plane through
-# o and the edge a b, has the normal m = (a - o) x (b - o).  Its products have errors of 3e + 3e + e = 7e, two of them
-# 14e, and the subtraction rounds by 2e, so m has an error of 16e and is at most 2 in absolute value.  In m . (x - o) a
-# product has an error of 16e + 2 * 3e + 2e = 24e, three of them 72e.  The additions, of sums below 4 and below 8, round
-# by 4e and 8e.  The total is 84e.  Products of two errors and underflow add less than e.  All of this is below BOUND =
-# 2**-47 = 128e, also with fused products, which round less often.  A value beyond the bound has the true sign.  All
-# others, and NaN, are computed in integers.
+# Signs of planes at points are exact (see ``planes``), and o is given by its image, exactly.  The wall of a cone, the
+# plane through o and the edge a b, has the normal m = (a - o) x (b - o).  With e = 2**-54 its products have errors of
+# 3e + 3e + e = 7e, two of them 14e, and the subtraction rounds by 2e, so m has an error of 16e and is at most 2 in
+# absolute value.  In m . (x - o) a product has an error of 16e + 2 * 3e + 2e = 24e, three of them 72e.  The additions,
+# of sums below 4 and below 8, round by 4e and 8e.  The total is 84e, below BOUND = 128e, also with fused products.
 # Most points of a large set are closer to o than any plane, which one distance shows for all planes.  Let r be the
 # least of -N . (o - p) / |N| over all planes.  A point whose image is within r of o has N . (x - p) = N . (o - p) + N .
 # (x - o) < -|N| r + |N| r = 0 for every plane.  The computed r and distance have errors below 128e each, |N| being at
@@ -148,52 +128,36 @@ class _Proof:
 
     hull: ExactHull
     sides: Polygons
-    planes: Objects
+    planes: Planes
     images: Images
-    normals: Floats
     o: Floats
     cones: Cones
-    evaluations: int = 0
-    in_integers: int = 0
 
     @cached_property
     def middle(self) -> tuple[IntPoint, int]:
         """The inner point o as integers and their common divisor."""
         return self.images.exactly(self.o)
 
-    def signs(self, facets: Ints, points: Ints) -> Ints:
-        """Return the sign of each facet's plane at one point; ``points`` has for each facet the point to evaluate."""
-        base = self.images.places[self.sides.corner[self.sides.first[facets]]]
-        approximate = np.einsum("ij,ij->i", self.normals[facets], self.images.places[points] - base)
-        signs: Ints = np.sign(approximate).astype(np.int64)
-        # The comparison is negated so that a NaN counts as doubtful too.
-        doubtful = np.flatnonzero(~(abs(approximate) > BOUND))
-        if doubtful.size:
-            exact = values(self.planes, self.hull.scaled, facets[doubtful], points[doubtful])
-            signs[doubtful] = (exact > 0).astype(np.int64) - (exact < 0)
-        self.evaluations += len(facets)
-        self.in_integers += len(doubtful)
-        return signs
-
     def check_middle(self) -> float:
         """Check condition c: the inner point is inside every plane. Return the radius of a ball that is inside too."""
         bases = self.images.places[self.sides.corner[self.sides.first]]
-        approximate = np.einsum("ij,ij->i", self.normals, self.o - bases)
+        normals = self.planes.normals
+        approximate = np.einsum("ij,ij->i", normals, self.o - bases)
         for facet in np.flatnonzero(~(approximate < -BOUND)).tolist():
             a, b, c, d = self.hull.facets[facet].plane
             (x, y, z), weight = self.middle
-            self.in_integers += 1
+            self.planes.in_integers += 1
             if a * x + b * y + c * z + d * weight >= 0:
                 raise Undecided(f"facet {facet} does not have the middle of the vertices inside")
-        self.evaluations += len(approximate)
-        return float((-approximate / np.sqrt((self.normals**2).sum(axis=1))).min())
+        self.planes.evaluations += len(approximate)
+        return float((-approximate / np.sqrt((normals**2).sum(axis=1))).min())
 
     def check_edges(self) -> None:
         """Check condition d: at every edge, the neighbouring polygon lies strictly inside the plane of this polygon."""
         sides = self.sides
         # The corner that follows the edge in the neighbouring polygon.
         beyond = sides.corner[sides.next[sides.next[sides.twin]]]
-        for side in np.flatnonzero(self.signs(sides.facet, beyond) >= 0):
+        for side in np.flatnonzero(self.planes.signs(sides.facet, beyond) >= 0):
             raise CertificateError(f"point {beyond[side]} is outside of facet {sides.facet[side]}, or in its plane")
 
     def wall_sign(self, triangle: int, edge: int, place: Floats | int) -> int:
@@ -209,7 +173,7 @@ class _Proof:
         b1, b2, b3 = from_o(self.hull.scaled[corners[edge - 2]])
         x, y, z = from_o(self.hull.scaled[place]) if isinstance(place, int) else from_o(*self.images.exactly(place))
         value = (a2 * b3 - a3 * b2) * x + (a3 * b1 - a1 * b3) * y + (a1 * b2 - a2 * b1) * z
-        self.in_integers += 1
+        self.planes.in_integers += 1
         return (value > 0) - (value < 0)
 
     def check_cones(self) -> None:
@@ -253,13 +217,10 @@ class _Proof:
                 triangles[k] = self._walked(int(triangles[k]), int(points[block[k]]))
             known = triangles >= 0
             facets[block[known]] = self.cones.facet[triangles[known]]
-            signs[block[known]] = self.signs(facets[block[known]], points[block[known]])
+            signs[block[known]] = self.planes.signs(facets[block[known]], points[block[known]])
             # Points for which no cone was found are evaluated in every plane.
-            doubtful = block[~known]
-            height = max(1, _BLOCK // len(self.planes))
-            for begin in range(0, len(doubtful), height):
-                chunk = doubtful[begin : begin + height]
-                facets[chunk], signs[chunk] = self._in_every_plane(points[chunk])
+            if not known.all():
+                facets[block[~known]], signs[block[~known]] = self.planes.largest(points[block[~known]])
         for row in np.flatnonzero(signs > 0):
             raise CertificateError(f"point {points[row]} is outside of facet {facets[row]}")
         for row in np.flatnonzero(signs != expected):
@@ -299,14 +260,6 @@ class _Proof:
             triangle = int(self.cones.beyond[triangle, beyond[0]])
         return -1
 
-    def _in_every_plane(self, points: Ints) -> tuple[Ints, Ints]:
-        """Return for each point the largest sign of any facet's plane at it, and the facet that has this sign."""
-        count = len(self.planes)
-        every = np.tile(np.arange(count), len(points))
-        signs = self.signs(every, np.repeat(points, count)).reshape(len(points), count)
-        facets = signs.argmax(axis=1)
-        return facets, signs[np.arange(len(points)), facets]
-
 
 def prove(hull: ExactHull) -> tuple[int, Incidences]:
     """Prove that a three-dimensional hull is convex (conditions a to f), and count edges and incidences.
@@ -315,16 +268,14 @@ def prove(hull: ExactHull) -> tuple[int, Incidences]:
     """
     sides = polygons(hull)
     planes = check_planes(hull, sides)
-    images = images_of(hull.scaled)
+    images = planes.points.images
     vertices = np.array(hull.vertices)
     # o is a mean with unequal weights, so that few points of a symmetrical set lie in a plane through o and an edge.
     o = np.average(images.places[vertices], axis=0, weights=1 + np.arange(len(vertices)) * 0.618 % 1)
-    normals = normal_images(planes, images.shifts)
-    evaluated = len(sides.corner)  # check_planes evaluated the corners in their own planes, in integers
-    proof = _Proof(hull, sides, planes, images, normals, o, cones(sides, images, o), evaluated, evaluated)
+    proof = _Proof(hull, sides, planes, images, o, cones(sides, images, o))
     r = proof.check_middle()
     proof.check_edges()
     proof.check_cones()
     proof.check_points(r)
-    counts = Incidences([], None, "float64 and integers", proof.evaluations, proof.in_integers)
+    counts = Incidences([], None, "float64 and integers", planes.evaluations, planes.in_integers)
     return len(sides.corner) // 2, counts

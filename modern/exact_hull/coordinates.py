@@ -1,49 +1,246 @@
-"""Convert points to exact numbers, and exact numbers to integers with one common scale."""
+"""Read points exactly: arrays of integers and floats stay arrays, and integers with a common scale are made on access.
+
+:class:`Coordinates` also gives the float64 images of the points, with which the filters of the proof compute.
+"""
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from itertools import chain
 from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
 
+from modern.geometry.hull import LazyMembers
 from modern.geometry.numbers import Exact, PointsError, real
 from modern.geometry.points import Points, check_array, point_rows
 
 ExactPoint = tuple[Exact, Exact, Exact]
 IntPoint = tuple[int, int, int]
+Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
+Objects = NDArray[np.object_]
+
+# Three odd numbers.  Equal rows have equal sums of products with them modulo 2**64.
+_HASH = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
+# Floats of at least 2**_HUGE are halved this number of times before their difference is computed.
+_HUGE, _HALVINGS = 1000, 64
 
 
-def _plain(points: Sequence[Any]) -> TypeGuard[list[IntPoint]]:
-    """Return True if the points are a list of tuples or lists of three Python integers, which need no conversion."""
+@dataclass(frozen=True, slots=True)
+class Images:
+    """The float64 images u of points x = c + s u: ``places`` is u, ``low`` is c, ``shifts`` are exponents of s.
+
+    c is the least coordinate of each axis, and s a power of two greater than the difference from the largest one.  u is
+    from 0 to 1 and has an error of at most 2**-54, because only the difference x - c is rounded.
+    """
+
+    low: tuple[int, ...]
+    shifts: tuple[int, ...]
+    places: Floats
+
+    def exactly(self, place: Floats) -> tuple[IntPoint, int]:
+        """Return the point with this image exactly, as integers and their common divisor."""
+        pairs = [number.as_integer_ratio() for number in place.tolist()]
+        weight = max(under for _, under in pairs)  # powers of two
+        x, y, z = (
+            low * weight + (over * (weight // under) << shift)
+            for (over, under), low, shift in zip(pairs, self.low, self.shifts, strict=True)
+        )
+        return (x, y, z), weight
+
+
+class Coordinates(LazyMembers[IntPoint]):
+    """Points as integer multiples of 1 / ``scale``.  It equals the tuple of these integers, which are made on access.
+
+    ``numbers`` (n, 3) holds the integers as int64 or, if they do not fit, as Python integers.  Floats that do not fit
+    in int64 with their scale, a power of two, are held as they are, in float64.
+    """
+
+    def __init__(self, points: Sequence[IntPoint] | NDArray[Any], scale: int = 1) -> None:
+        self.scale = scale
+        if isinstance(points, np.ndarray):
+            super().__init__(len(points), lambda index: tuple(_integers(points[index], scale).tolist()))
+            self.numbers: NDArray[Any] = points
+        else:
+            super().__init__(len(points), points.__getitem__)
+            self._made, self._make = tuple(points), None
+
+    def all(self) -> tuple[IntPoint, ...]:
+        if self._make is not None:
+            self._made, self._make = tuple(map(tuple, self.integers().tolist())), None
+        return self._made
+
+    @cached_property
+    def numbers(self) -> NDArray[Any]:
+        points = self.all()
+        try:
+            table = np.fromiter(chain.from_iterable(points), np.int64, 3 * len(points)).reshape(-1, 3)
+            if max(int(table.max()), -int(table.min())) < 2**62:
+                return table
+        except OverflowError:
+            pass
+        return np.array(points, object)
+
+    @property
+    def kind(self) -> str:
+        """``i`` for int64, ``O`` for Python integers, and ``f`` for floats that are not yet multiplied by the scale."""
+        return self.numbers.dtype.kind
+
+    def integers(self, indices: Any = slice(None)) -> Objects:
+        """Return the points with these indices as Python integers (k, 3)."""
+        return _integers(self.numbers[indices], self.scale)
+
+    def floats(self) -> Floats:
+        """Return the points as the nearest doubles, or infinities beyond the largest one (n, 3)."""
+        if self.kind == "f":
+            return np.array(self.numbers)
+        if self.kind == "i" and self.scale & (self.scale - 1) == 0 and self.scale < 2**_HUGE:
+            return np.ldexp(self.numbers.astype(np.float64), 1 - self.scale.bit_length())
+        return np.array([[nearest(n, self.scale) for n in row] for row in self.numbers.tolist()])
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Coordinates):
+            if self is other:
+                return True
+            if self.kind == other.kind and (self.kind != "f" or self.scale == other.scale):
+                return bool(np.array_equal(self.numbers, other.numbers))
+        return super().__eq__(other)
+
+    __hash__ = LazyMembers.__hash__
+
+    @cached_property
+    def duplicates(self) -> tuple[tuple[int, int], ...]:
+        """Pairs of a point and the first point equal to it, sorted."""
+        if self.kind == "O":
+            suspects, rows = list(range(len(self))), list(self.all())
+        else:
+            # Points can be equal only if their hashes are.  Most sets have no equal hashes.
+            hashes = (self.numbers.view(np.uint64) * _HASH).sum(axis=1, dtype=np.uint64)
+            ordered = np.sort(hashes)
+            repeated = ordered[1:][ordered[1:] == ordered[:-1]]
+            if not repeated.size:
+                return ()
+            chosen = np.flatnonzero(np.isin(hashes, repeated))
+            suspects, rows = chosen.tolist(), list(map(tuple, self.numbers[chosen].tolist()))
+        first: dict[Any, int] = {}
+        pairs = [(index, first.setdefault(row, index)) for index, row in zip(suspects, rows, strict=True)]
+        return tuple(pair for pair in pairs if pair[0] != pair[1])
+
+    def is_least_scale(self) -> bool:
+        """Return True if no smaller scale makes every coordinate an integer."""
+        if self.scale == 1:
+            return True
+        if self.kind == "f":
+            half = _shifted(self.numbers, self.scale.bit_length() - 2)
+            return bool((half != np.rint(half)).any())
+        return math.gcd(int(np.gcd.reduce(self.numbers, axis=None)), self.scale) == 1
+
+    @cached_property
+    def images(self) -> Images:
+        """The images of the points."""
+        places = np.empty((len(self), 3))
+        lows, shifts = [], []
+        numbers, power = self.numbers, 1 - self.scale.bit_length()
+        if self.kind == "f" and abs(numbers).max() >= 2.0**_HUGE:
+            # Differences of different numbers of this size are so large that the lost bits are below the error bound.
+            numbers, power = np.ldexp(numbers, -_HALVINGS), power - _HALVINGS
+        for axis, column in enumerate(numbers.T):
+            at_low, at_high = int(column.argmin()), int(column.argmax())
+            (low,), (high,) = self.integers(([at_low], axis)).tolist(), self.integers(([at_high], axis)).tolist()
+            shift = (high - low).bit_length()
+            # Division by a power of two is exact, so only the difference is rounded.
+            if self.kind == "i":
+                difference = column.view(np.uint64) - column[at_low : at_low + 1].view(np.uint64)
+                places[:, axis] = np.ldexp(difference.astype(np.float64), -shift)
+            elif self.kind == "f":
+                places[:, axis] = np.ldexp(column - column[at_low], -shift - power)
+            else:
+                places[:, axis] = (column - low) / (1 << shift)
+            lows.append(low)
+            shifts.append(shift)
+        return Images(tuple(lows), tuple(shifts), places)
+
+
+def _integers(rows: NDArray[Any], scale: int) -> Objects:
+    if rows.dtype.kind != "f":
+        return np.asarray(rows.astype(object))
+    scaled = _shifted(rows, scale.bit_length() - 1)
+    if np.isfinite(scaled).all():
+        made = list(map(int, scaled.ravel().tolist()))
+    else:
+        made = [over * (scale // under) for over, under in map(float.as_integer_ratio, rows.ravel().tolist())]
+    return np.array(made, object).reshape(rows.shape)
+
+
+def _shifted(floats: Floats, exponent: int) -> Floats:
+    """Return the floats times 2**exponent, or infinities."""
+    with np.errstate(over="ignore"):
+        return np.ldexp(floats, exponent)
+
+
+def nearest(over: int, under: int) -> float:
+    """Return the nearest double to a quotient, or an infinity beyond the largest one."""
+    try:
+        return over / under
+    except OverflowError:
+        return -math.inf if over < 0 else math.inf
+
+
+def _plain(points: Any, kind: type) -> TypeGuard[Sequence[Any]]:
+    """Return True if the points are a list of tuples or lists of three numbers of this type."""
     return (
-        isinstance(points, list)
+        isinstance(points, list | tuple)
         and set(map(type, points)) <= {tuple, list}
         and set(map(len, points)) == {3}
-        and set(map(type, chain.from_iterable(points))) == {int}
+        and set(map(type, chain.from_iterable(points))) == {kind}
     )
 
 
-def _whole(points: NDArray[Any]) -> bool:
-    """Return True if an array of floats holds only integers below 2**60."""
-    if points.dtype.kind != "f" or points.dtype.itemsize not in (4, 8):
-        return False
-    with np.errstate(invalid="ignore"):
-        return bool((abs(points) < 2.0**60).all() and (points == np.rint(points)).all())
-
-
-def read_points(points: Points) -> list[ExactPoint]:
+def read_points(points: Points) -> Coordinates:
     """Return the exact coordinates of every point, in input order.  Raise PointsError for an invalid point."""
+    if isinstance(points, Coordinates):
+        return points
     if isinstance(points, np.ndarray):
         check_array(points)
-        # Arrays of integers, or of floats that are integers, are converted as a whole.
-        if points.shape[1] == 3 and (points.dtype.kind in "iu" or _whole(points)):
-            whole = points if points.dtype.kind in "iu" else points.astype(np.int64)
-            return list(zip(*whole.T.tolist(), strict=True))
+        kind = points.dtype.kind
+        if points.shape[1] == 3 and kind in "iu":
+            fits = points.dtype != np.uint64 or int(points.max()) < 2**63
+            return Coordinates(np.array(points, np.int64) if fits else points.astype(object))
+        if points.shape[1] == 3 and kind == "f" and points.dtype.itemsize <= 8:
+            return _from_floats(np.asarray(points, np.float64))
         points = points.tolist()
-    if isinstance(points, list) and points and _plain(points):
-        return list(map(tuple, points))  # type: ignore[arg-type]
+    if _plain(points, int):
+        return Coordinates(tuple(map(tuple, points)))
+    if _plain(points, float):
+        return _from_floats(np.array(points))
+    exact = read_exact(points)
+    scale = common_scale(exact)
+    return Coordinates(tuple(to_integers(exact, scale)), scale)
+
+
+def _from_floats(floats: Floats) -> Coordinates:
+    if not np.isfinite(floats).all():
+        index, axis = np.argwhere(~np.isfinite(floats))[0].tolist()
+        raise PointsError(f"point {index}, coordinate {'xyz'[axis]}: {floats[index, axis]} is not finite")
+    exponent = 0
+    fractions = floats[floats != np.rint(floats)]
+    while fractions.size:
+        # Scale the smallest number to an integer.  A larger number has bits below it only within its mantissa, so there
+        # are few rounds.
+        _, under = fractions[abs(fractions).argmin()].as_integer_ratio()
+        exponent = under.bit_length() - 1
+        scaled = _shifted(fractions, exponent)
+        fractions = fractions[scaled != np.rint(scaled)]
+    if abs(floats).max() < np.ldexp(1.0, 62 - exponent):
+        return Coordinates(np.ldexp(floats, exponent).astype(np.int64), 1 << exponent)
+    return Coordinates(floats + 0.0, 1 << exponent)  # the sum is a copy, in which -0.0 becomes 0.0
+
+
+def read_exact(points: Points) -> list[ExactPoint]:
+    """Return the exact coordinates of every point as integers and fractions.  Raise PointsError for invalid points."""
     exact: list[ExactPoint] = []
     for index, row in enumerate(point_rows(points)):
         numbers: list[Exact] = []
@@ -73,21 +270,3 @@ def to_integers(points: Sequence[ExactPoint], scale: int) -> list[IntPoint]:
         )
         for x, y, z in points
     ]
-
-
-def scaled_points(points: Sequence[ExactPoint]) -> tuple[int, list[IntPoint]]:
-    if _plain(points):
-        return 1, points
-    scale = common_scale(points)
-    return scale, to_integers(points, scale)
-
-
-def columns_of(points: Sequence[IntPoint]) -> list[NDArray[Any]]:
-    """Return the coordinates axis by axis, as int64 if all are below 2**62, otherwise as Python integers."""
-    try:
-        table = np.fromiter(chain.from_iterable(points), np.int64, 3 * len(points))
-        if max(int(table.max()), -int(table.min())) < 2**62:
-            return list(table.reshape(-1, 3).T)
-    except OverflowError:
-        pass
-    return list(np.array(points, object).T)

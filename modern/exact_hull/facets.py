@@ -6,12 +6,10 @@ their facets, the ends of a segment or the edges of a polygon, are found by sort
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from modern.exact_hull.coordinates import IntPoint
+from modern.exact_hull.coordinates import Coordinates, IntPoint, Ints
 from modern.exact_hull.result import Facet, Plane
 
 Triangle = tuple[int, int, int]
@@ -120,14 +118,13 @@ def merged(triangles: Sequence[tuple[int, ...]], planes: Sequence[Plane], points
     ]
 
 
-def planes_of(triangles: NDArray[np.int64], points: Sequence[IntPoint]) -> list[Plane]:
+def planes_of(triangles: Ints, points: Coordinates) -> list[Plane]:
     """Return the planes through triangles (m, 3), in lowest terms.  Raise ValueError if a triangle has no area."""
     distinct, positions = np.unique(triangles, return_inverse=True)
-    coordinates: NDArray[Any] = np.array([points[index] for index in distinct.tolist()], object)
+    coordinates = points.integers(distinct)
+    moved = coordinates
     if max(np.ptp(coordinates, axis=0).tolist()) < 2**30:  # the numbers of a normal are below 2**62 and fit int64
         moved = (coordinates - coordinates[0]).astype(np.int64)
-    else:
-        moved = coordinates
     p, q, r = (moved[positions.reshape(-1, 3)[:, k]].T for k in range(3))
     (u1, u2, u3), (v1, v2, v3) = q - p, r - p
     normals = [u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1]

@@ -1,21 +1,15 @@
-"""The polygons of a surface as arrays, their planes as integers, and float64 images (see ``convexity``)."""
+"""The polygons of a surface as arrays, and checks of the polygons and their planes (see ``convexity``)."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from modern.exact_hull.coordinates import IntPoint, columns_of
+from modern.exact_hull.coordinates import IntPoint, Ints, Objects, read_points
+from modern.exact_hull.planes import Planes
 from modern.exact_hull.result import CertificateError, ExactHull, require
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Objects = NDArray[np.object_]
-
-# Integers below 2**900, also multiplied by 2**100, are rounded to float64 without overflow.
-_WIDE, _APART = 1 << 900, 100
 
 
 def difference(p: Sequence[int], q: Sequence[int]) -> IntPoint:
@@ -30,7 +24,9 @@ def dot(u: Sequence[int], v: Sequence[int]) -> int:
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
-def check_convex(polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntPoint], name: str) -> None:
+def check_convex(
+    polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntPoint] | dict[int, IntPoint], name: str
+) -> None:
     """Check that a polygon, seen from the side of ``normal``, turns left everywhere and goes around once."""
     require(len(polygon) >= 3, f"{name}: fewer than three vertices")
     sides = [
@@ -101,82 +97,28 @@ def polygons(hull: ExactHull) -> Polygons:
     return Polygons(corner, facet, after, order[positions], first, count)
 
 
-def check_planes(hull: ExactHull, sides: Polygons) -> Objects:
-    """Check each plane and the corners of its polygon, and return the planes (m, 4) as integers."""
+def check_planes(hull: ExactHull, sides: Polygons) -> Planes:
+    """Check each plane and the corners of its polygon, and return the planes."""
     planes = [facet.plane for facet in hull.facets]
     require(
         set(map(len, planes)) == {4} and set(map(type, chain.from_iterable(planes))) == {int},
         "a facet's plane is not four integers",
     )
-    require(planes == sorted(set(planes)), "the facets are not sorted by plane, or a plane occurs twice")
+    require(
+        all(plane < following for plane, following in pairwise(planes)),
+        "the facets are not sorted by plane, or a plane occurs twice",
+    )
     table: Objects = np.array(planes, object)
     for number in np.flatnonzero((table[:, :3] == 0).all(axis=1)):
         raise CertificateError(f"facet {number}: the normal is 0")
-    for number in np.flatnonzero(np.gcd.reduce(table, axis=1) != 1):
-        raise CertificateError(f"facet {number}: the plane is not in lowest terms")
-    for side in np.flatnonzero(values(table, hull.scaled, sides.facet, sides.corner) != 0):
+    for order, plane in enumerate(planes):
+        require(math.gcd(*plane) == 1, f"facet {order}: the plane is not in lowest terms")
+    exact = Planes(read_points(hull.scaled), table, sides.corner[sides.first], len(sides.corner), len(sides.corner))
+    for side in np.flatnonzero(exact.values(sides.facet, sides.corner) != 0):
         raise CertificateError(f"facet {sides.facet[side]}: vertex {sides.corner[side]} is not in its plane")
-    for many in np.flatnonzero(sides.count > 3).tolist():
-        facet = hull.facets[many]
-        check_convex(facet.polygon, facet.plane[:3], hull.scaled, f"facet {many}")
-    return table
-
-
-def values(planes: Objects, scaled: Sequence[IntPoint], facets: Ints, points: Ints) -> Objects:
-    """Return the value of each facet's plane at one point; ``points`` has for each facet the point to evaluate."""
-    distinct, positions = np.unique(points, return_inverse=True)
-    coordinates: Objects = np.array([scaled[index] for index in distinct.tolist()], object).reshape(-1, 3)
-    plane, at = planes[facets], coordinates[positions]
-    return np.asarray(plane[:, 0] * at[:, 0] + plane[:, 1] * at[:, 1] + plane[:, 2] * at[:, 2] + plane[:, 3])
-
-
-@dataclass(frozen=True, slots=True)
-class Images:
-    """The float64 images u of points x = c + s u: ``places`` is u, ``low`` is c, ``shifts`` are exponents of s."""
-
-    low: tuple[int, ...]
-    shifts: tuple[int, ...]
-    places: Floats
-
-    def exactly(self, place: Floats) -> tuple[IntPoint, int]:
-        """Return the point with this image exactly, as integers and their common divisor."""
-        pairs = [number.as_integer_ratio() for number in place.tolist()]
-        weight = max(under for _, under in pairs)  # powers of two
-        x, y, z = (
-            low * weight + (over * (weight // under) << shift)
-            for (over, under), low, shift in zip(pairs, self.low, self.shifts, strict=True)
-        )
-        return (x, y, z), weight
-
-
-def images_of(scaled: Sequence[IntPoint]) -> Images:
-    """Return the images of points that do not all have the same coordinate on any axis."""
-    places = np.empty((len(scaled), 3))
-    lows, shifts = [], []
-    for axis, column in enumerate(columns_of(scaled)):
-        low, high = int(column.min()), int(column.max())
-        shift = (high - low).bit_length()
-        # Division by a power of two is exact, so only the difference is rounded.
-        if column.dtype == np.int64:
-            places[:, axis] = np.ldexp((column - low).astype(np.float64), -shift)
-        else:
-            places[:, axis] = (column - low) / (1 << shift)
-        lows.append(low)
-        shifts.append(shift)
-    return Images(tuple(lows), tuple(shifts), places)
-
-
-def normal_images(planes: Objects, shifts: Sequence[int]) -> Floats:
-    """Return the images of the planes' normals (m, 3)."""
-    normals = planes[:, :3]
-    # A fast path for numbers of moderate size.  It has the same results as the loop below.
-    if abs(normals).max() < _WIDE and max(shifts) - min(shifts) < _APART:
-        floats = np.ldexp(normals.astype(np.float64), np.array(shifts) - min(shifts))
-        exponents = np.frexp(abs(floats).max(axis=1))[1]
-        return np.asarray(np.ldexp(floats, -exponents[:, None]))
-    # The exact quotients, for integers too large for float64.
-    rows = []
-    for normal in normals.tolist():
-        power = max(number.bit_length() + shift for number, shift in zip(normal, shifts, strict=True) if number)
-        rows.append([n / (1 << power - shift) if n else 0.0 for n, shift in zip(normal, shifts, strict=True)])
-    return np.array(rows)
+    many = np.flatnonzero(sides.count > 3)
+    members = np.unique(sides.corner[np.isin(sides.facet, many)])
+    places = dict(zip(members.tolist(), map(tuple, exact.points.integers(members).tolist()), strict=True))
+    for order in many.tolist():
+        check_convex(hull.facets[order].polygon, planes[order][:3], places, f"facet {order}")
+    return exact

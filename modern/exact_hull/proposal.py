@@ -13,20 +13,16 @@ With numba (extra ``fast``) the same hull grows one point at a time (:mod:`moder
 Errors in this module cannot cause a wrong result, because every proposal is proved afterwards.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from emulator.jit.functions import Compiled, Function, NotInstalled
 from modern.exact_hull import kernels
-from modern.exact_hull.coordinates import IntPoint, columns_of
-from modern.exact_hull.kernels import DOUBT, LOW, NEAR
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from modern.exact_hull.coordinates import Coordinates, Floats, Ints
+from modern.exact_hull.kernels import DOUBT, NEAR
+from modern.exact_hull.planes import long_signs
 
 # Signs on the grid are exact: in float64 if a value is clearly not 0, otherwise in two int64.  A normal is a vector
 # product of differences below 2**30, so below 2**61.  With N = 2**31 H + L its value at a difference d is 2**31 (H.d) +
@@ -47,19 +43,17 @@ class Proposal:
     near: Ints
 
 
-def on_grid(points: Sequence[IntPoint]) -> tuple[Ints, bool]:
+def on_grid(points: Coordinates) -> tuple[Ints, bool]:
     """Return the points rounded to integers from 0 to 2**30 - 1 (n, 3), and True if rounding changed no point."""
-    grid, exact = np.empty((len(points), 3), np.int64), True
-    for axis, column in enumerate(columns_of(points)):
-        low, high = int(column.min()), int(column.max())
-        # Dividing by a power of two rounds down, and changes nothing if the shift is 0.
-        shift = max(0, (high - low).bit_length() - GRID_BITS)
-        grid[:, axis] = (column - low) >> shift
-        exact = exact and shift == 0
-    return grid, exact
+    images = points.images
+    shifts = np.array(images.shifts)
+    if points.kind == "i" and max(images.shifts) <= GRID_BITS:
+        return points.numbers - np.array(images.low), True
+    # The images are multiples of the least steps of the grid if the sides of the bounding box have at most 30 bits.
+    return np.ldexp(images.places, np.minimum(shifts, GRID_BITS)).astype(np.int64), max(shifts) <= GRID_BITS
 
 
-def propose(points: Sequence[IntPoint], fast: bool | None = None) -> Proposal | None:
+def propose(points: Coordinates, fast: bool | None = None) -> Proposal | None:
     """Return a hull that still has to be proved, or None. ``fast`` selects compiled code; None chooses."""
     grid, exact = on_grid(points)
     start = _simplex(grid)
@@ -111,23 +105,10 @@ def _simplex(grid: Ints) -> list[int] | None:
     if not normal.any():
         return None
     d = int(abs(floats @ normal.astype(np.float64)).argmax())
-    side = int(exact_signs(normal[None], places[d][None])[0])
+    side = int(long_signs(normal[None], places[d][None])[0])
     if not side:
         return None
     return [a, b, c, d] if side < 0 else [a, c, b, d]
-
-
-def exact_signs(normals: Ints, differences: Ints) -> Ints:
-    """Return the exact signs of the scalar products of the rows of ``normals`` with the same rows of ``differences``.
-
-    Normals are below 2**61 and differences below 2**30 in absolute value.
-    """
-    # Split each number of the normal into 2**31 high + low, and carry the high part of the sum of low products.
-    high = ((normals >> 31) * differences).sum(axis=1)
-    low = ((normals & LOW) * differences).sum(axis=1)
-    high += low >> 31
-    low &= LOW
-    return np.asarray(np.where(high == 0, low > 0, np.sign(high)), np.int64)
 
 
 class _Growing:
@@ -181,7 +162,7 @@ class _Growing:
         if doubtful.size:
             point, triangle = points[doubtful], triangles[doubtful]
             differences = self.grid[point] - self.grid[self.corners[triangle, 0]]
-            values[doubtful] = exact_signs(self.normals[triangle], differences) * 1e-300
+            values[doubtful] = long_signs(self.normals[triangle], differences) * 1e-300
         return values
 
     def _set_aside(self, points: Ints, largest: Floats) -> None:

@@ -1,6 +1,7 @@
 """The result of the exact hull."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from modern.exact_hull.coordinates import IntPoint
@@ -59,7 +60,7 @@ class ExactHull:
 
     dimension: 0 for a point, 1 for a segment, 2 for a polygon, 3 for a polyhedron.
     scale: the least positive integer by which every coordinate becomes an integer.
-    scaled: the coordinates times ``scale``.
+    scaled: the coordinates times ``scale``, as integers that are made on access (``Coordinates``), or as a tuple.
     vertices, boundary, inside: each point belongs to exactly one of these, unless it is a duplicate, which its first
         occurrence represents.  ``boundary`` has the points on the relative boundary that are not vertices, ``inside``
         those in the relative interior (for a polygon within its plane).  All are sorted.
@@ -73,7 +74,7 @@ class ExactHull:
 
     dimension: int
     scale: int
-    scaled: tuple[IntPoint, ...]
+    scaled: Sequence[IntPoint]
     vertices: tuple[int, ...]
     boundary: tuple[int, ...]
     inside: tuple[int, ...]

@@ -62,6 +62,43 @@ class LazyTuple(Sequence[T]):
         return tuple, (self.all(),)
 
 
+class LazyMembers(LazyTuple[T]):
+    """A sequence of known length whose members are computed one at a time, unless all are accessed."""
+
+    def __init__(self, count: int, member: Callable[[int], T]) -> None:
+        super().__init__(count, lambda: map(member, range(count)))
+        self._member = member
+
+    @overload
+    def __getitem__(self, index: SupportsIndex) -> T: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[T, ...]: ...
+
+    def __getitem__(self, index: SupportsIndex | slice) -> T | tuple[T, ...]:
+        if self._make is None:
+            return self._made[index]
+        if isinstance(index, slice):
+            return tuple(map(self._member, range(self._count)[index]))
+        return self._member(range(self._count)[index])
+
+
+class PointTexts(LazyMembers[tuple[str, str, str]]):
+    """Points as exact text, which is made on access.  ``floats`` returns a new array of the nearest doubles (n, 3)."""
+
+    def __init__(self, count: int, member: Callable[[int], tuple[str, str, str]], floats: Callable[[], Any]) -> None:
+        super().__init__(count, member)
+        self.floats = floats
+
+
+class LazyFaces(LazyTuple["Face"]):
+    """Faces that are computed on first access, except for their polygons."""
+
+    def __init__(self, polygons: Sequence[tuple[int, ...]], make: Callable[[], "Iterable[Face]"]) -> None:
+        super().__init__(len(polygons), make)
+        self.polygons = polygons
+
+
 def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
     """Return the members as a tuple.  A tuple is returned without a copy."""
     return members.all() if isinstance(members, LazyTuple) else tuple(members)
@@ -91,6 +128,11 @@ class Face:
     defining: tuple[int, ...]
     polygon: tuple[int, ...]
     on: tuple[int, ...] = ()
+
+
+def polygons_of(faces: Sequence[Face]) -> Sequence[tuple[int, ...]]:
+    """Return the polygon of each face."""
+    return faces.polygons if isinstance(faces, LazyFaces) else [face.polygon for face in faces]
 
 
 @dataclass(frozen=True, slots=True)

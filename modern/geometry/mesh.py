@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from emulator.errors import EmulatorError
-from modern.geometry.hull import Hull
-from modern.geometry.numbers import Point, coordinates, decimal_text, value_of
+from modern.geometry.hull import Hull, LazyMembers, polygons_of
+from modern.geometry.numbers import Point, coordinates, decimal_text
 from modern.geometry.vectors import Vector, area_vector, dot
 
 Triangle = tuple[int, int, int]
@@ -20,13 +20,13 @@ class ExportError(EmulatorError):
 class Mesh:
     """The surface of a hull.
 
-    points: the vertices in the order of ``Hull.vertices``, as exact text.
+    points: the vertices in the order of ``Hull.vertices``, as exact text, which may be made on access.
     faces: indices into ``points``, counterclockwise seen from outside.  A polygon is one face, counterclockwise seen
         from the side to which (A, B, C) of its plane points.  A segment or a point has no faces.
     """
 
     dimension: int
-    points: tuple[Point, ...]
+    points: Sequence[Point]
     faces: tuple[tuple[int, ...], ...]
 
     def numbers(self) -> tuple[Vector, ...]:
@@ -52,11 +52,11 @@ class Mesh:
         return tuple(sorted({(min(a, b), max(a, b)) for face in self.faces for a, b in sides(face)}))
 
     def planes(self, hull: Hull) -> Iterator[tuple[Fraction, Fraction, Fraction, Fraction]]:
-        """Yield A, B, C, D of each face's plane, with outward normal: for a polyhedron, the equations of the hull."""
+        """Yield A, B, C, D of each face's plane, with outward normal.  Those of a polyhedron are in lowest terms."""
         points = self.numbers()
         for order, polygon in enumerate(self.faces):
             if self.dimension == 3:
-                a, b, c, d = map(value_of, hull.faces[order].coefficients)
+                a, b, c, d = map(Fraction, hull.faces[order].lowest)
             else:
                 a, b, c = area_vector(points, polygon)
                 d = -dot((a, b, c), points[polygon[0]])
@@ -88,18 +88,18 @@ def mesh(hull: Hull) -> Mesh:
     if expected is not None and len(hull.vertices) != expected:
         raise ExportError(f"a hull of dimension {hull.dimension} has {expected} vertices, not {len(hull.vertices)}")
     new_indices = {index: new for new, index in enumerate(hull.vertices)}
-    points = tuple(hull.points[index] for index in hull.vertices)
+    points = LazyMembers(len(hull.vertices), lambda place: hull.points[hull.vertices[place]])
     polygons = []
-    for order, face in enumerate(hull.faces if hull.dimension > 1 else (), 1):
-        unknown = [index for index in face.polygon if index not in new_indices]
-        if unknown:
-            raise ExportError(f"face {order} names point {unknown[0] + 1}, which is not a vertex")
-        polygons.append(tuple(new_indices[index] for index in face.polygon))
+    for order, polygon in enumerate(polygons_of(hull.faces) if hull.dimension > 1 else (), 1):
+        try:
+            polygons.append(tuple([new_indices[index] for index in polygon]))
+        except KeyError as error:
+            raise ExportError(f"face {order} names point {error.args[0] + 1}, which is not a vertex") from None
     if hull.dimension == 2:
         # Program 1 finds the hull of exactly three points without program 2, and punches no supporting lines for it.
         polygons = [_cycle(polygons, len(points)) if polygons or len(points) != 3 else (0, 1, 2)]
         if hull.plane is not None:
-            polygons = [_turned(polygons[0], tuple(coordinates(p) for p in points), hull.plane)]
+            polygons = [_turned(polygons[0], [coordinates(p) for p in points], hull.plane)]
     elif hull.dimension == 3 and not polygons:
         raise ExportError("the polyhedron has no faces")
     elif any(len(polygon) < 3 for polygon in polygons):
@@ -131,7 +131,7 @@ def _cycle(lines: list[tuple[int, ...]], count: int) -> tuple[int, ...]:
     return tuple(cycle)
 
 
-def _turned(face: tuple[int, ...], points: tuple[Vector, ...], plane: tuple[str, ...]) -> tuple[int, ...]:
+def _turned(face: tuple[int, ...], points: Sequence[Vector], plane: tuple[str, ...]) -> tuple[int, ...]:
     """Return the face counterclockwise as seen from the side to which (A, B, C) points; reverse it if necessary."""
     normal = coordinates(plane[:3])
     return face if dot(area_vector(points, face), normal) >= 0 else (face[0], *face[:0:-1])

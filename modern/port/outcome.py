@@ -4,12 +4,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
-from typing import SupportsIndex, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.geometry.hull import Coefficients, Face, LazyTuple, Stage
+from modern.geometry.hull import Coefficients, Face, LazyTuple, PointTexts, Stage
 from modern.geometry.numbers import Exact
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.table import Equations, PointTable
@@ -129,46 +128,15 @@ def _stage(
     return Stage(number, added, checked, outside, tuple(eliminated), tuple(map(tuple, names.T.tolist())))
 
 
-class PointTexts(Sequence[tuple[str, str, str]]):
-    """The points as the arithmetic stores them, converted to text on access. Compares equal to a tuple of the texts."""
-
-    def __init__(self, arithmetic: Arithmetic, coordinates: Vector) -> None:
-        self._arithmetic = arithmetic
-        self._coordinates = coordinates
-
-    def __len__(self) -> int:
-        return int(self._coordinates.shape[1])
-
-    def floats(self) -> NDArray[np.float64]:
-        """Return a copy of the coordinates as an array of shape (n, 3)."""
-        return np.array(self._coordinates.T, np.float64, order="C")
-
-    @overload
-    def __getitem__(self, index: SupportsIndex) -> tuple[str, str, str]: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> tuple[tuple[str, str, str], ...]: ...
-
-    def __getitem__(self, index: SupportsIndex | slice) -> tuple[str, str, str] | tuple[tuple[str, str, str], ...]:
-        if isinstance(index, slice):
-            return tuple(self[k] for k in range(len(self))[index])
-        x, y, z = texts(self._arithmetic, list(self._coordinates[:, index]), (1, 1, 1))
-        return x, y, z
-
-    def __eq__(self, sequence: object) -> bool:
-        return tuple(self) == (tuple(sequence) if isinstance(sequence, PointTexts) else sequence)
-
-    def __hash__(self) -> int:
-        return hash(tuple(self))
-
-    def __repr__(self) -> str:
-        return repr(tuple(self))
-
-
 def point_texts(arithmetic: Arithmetic, coordinates: Vector) -> Sequence[tuple[str, str, str]]:
     """Return the points as the arithmetic stores them. Floating-point numbers are converted to text on access."""
-    lazy = PointTexts(arithmetic, coordinates)
-    return lazy if coordinates.dtype.kind == "f" else tuple(lazy)
+
+    def member(index: int) -> tuple[str, str, str]:
+        x, y, z = texts(arithmetic, list(coordinates[:, index]), (1, 1, 1))
+        return x, y, z
+
+    lazy = PointTexts(coordinates.shape[1], member, lambda: np.array(coordinates.T, np.float64, order="C"))
+    return lazy if coordinates.dtype.kind == "f" else lazy.all()
 
 
 IntPoint = tuple[int, int, int]

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from modern.exact_hull import CertificateError, ExactHull, Facet, certify, exact_hull
+from modern.exact_hull.coordinates import Coordinates
 
 GRID = [(x, y, z) for x in range(3) for y in range(3) for z in range(3)] + [(1, 1, 1), (0, 0, 0)]
 OCTAHEDRON = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
@@ -25,7 +26,8 @@ def mutations(value: object) -> Iterator[object]:
             yield Facet(plane, value.polygon)
         for polygon in mutations(value.polygon):
             yield Facet(value.plane, polygon)
-    elif isinstance(value, tuple):
+    elif isinstance(value, tuple | Coordinates):
+        value = tuple(value)
         for k, member in enumerate(value):
             yield value[:k] + value[k + 1 :]
             yield (*value[: k + 1], *value[k:])

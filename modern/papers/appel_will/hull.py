@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from emulator.errors import quoted
-from modern.exact_hull.coordinates import common_scale, read_points, to_integers
+from modern.exact_hull.coordinates import read_points
 from modern.geometry.points import Points
 from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers.appel_will.corners import Preprocessing, Rule, preprocess
@@ -111,8 +111,7 @@ def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method 
     PointsError for invalid points and MapError for invalid surfaces.
     """
     coordinates = read_points(points)
-    scale = common_scale(coordinates)
-    scaled = tuple(to_integers(coordinates, scale))
+    scale, scaled = coordinates.scale, coordinates.all()
     check_surfaces(len(scaled), surfaces)
     first: dict[IntPoint, int] = {}
     for index, point in enumerate(scaled):

@@ -223,7 +223,7 @@ def test_two_closed_surfaces_violate_eulers_relation() -> None:
     assert checks._check_polyhedron(hull) == 12
     shift = len(hull.scaled)
     other = [Facet(facet.plane, tuple(index + shift for index in facet.polygon)) for facet in hull.facets]
-    both = SimpleNamespace(vertices=range(2 * shift), scaled=hull.scaled * 2, facets=(*hull.facets, *other))
+    both = SimpleNamespace(vertices=range(2 * shift), scaled=tuple(hull.scaled) * 2, facets=(*hull.facets, *other))
     with pytest.raises(CertificateError, match="Euler's relation does not hold: 12 vertices, 24 edges, 16 facets"):
         checks._check_polyhedron(both)
 
@@ -354,6 +354,6 @@ def test_a_horizon_that_is_not_a_simple_cycle_raises_an_error(monkeypatch: pytes
 
 
 def test_a_construction_that_calls_boundary_points_inside_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(build_module, "_on_facets", lambda points, facets: [])
+    monkeypatch.setattr(build_module, "_on_facets", lambda points, facets: np.empty(0, int))
     with pytest.raises(CertificateError, match="which contradicts its class"):
         exact_hull(GRID)

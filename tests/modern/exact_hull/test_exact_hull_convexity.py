@@ -11,9 +11,10 @@ import pytest
 
 from modern.exact_hull import CertificateError, ExactHull, Facet, certify, convexity, exact_hull
 from modern.exact_hull import certificate as checks
+from modern.exact_hull.coordinates import read_points
 from modern.exact_hull.facets import lowest_terms, plane_through
-from modern.exact_hull.incidences import BOUND
-from modern.exact_hull.polygons import images_of, normal_images, polygons
+from modern.exact_hull.planes import BOUND, Planes, normal_images
+from modern.exact_hull.polygons import check_planes, polygons
 from tests.support.corrupted import BIG, GRID, OCTAHEDRON, PRISM, ball, exchanged, mutations, refused
 
 NEEDLE = [(x, y * 10**6, z) for x in range(3) for y in (0, 1, 5) for z in range(2)] + [(1, 5 * 10**6 + 1, 1)]
@@ -203,7 +204,7 @@ def test_cones_and_all_planes_classify_every_point_equally(name: str, monkeypatc
 def test_a_point_on_an_edge_is_evaluated_in_one_plane(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     points = SETS[name]
     hull = exact_hull(points)
-    monkeypatch.setattr(convexity._Proof, "_in_every_plane", None)
+    monkeypatch.setattr(Planes, "largest", None)
     assert certify(points, hull).facets == len(hull.facets)
 
 
@@ -212,10 +213,10 @@ def test_only_doubtful_points_are_located_in_a_wrong_cone() -> None:
     points = ball(60, 21)
     hull = exact_hull(points)
     sides = polygons(hull)
-    images = images_of(hull.scaled)
+    images = read_points(hull.scaled).images
     o = images.places[list(hull.vertices)].mean(axis=0)
     cones = convexity.cones(sides, images, o)
-    proof = convexity._Proof(hull, sides, None, images, None, o, cones)
+    proof = convexity._Proof(hull, sides, check_planes(hull, sides), images, o, cones)
     rng = np.random.default_rng(3)
     away = rng.normal(size=(500, 3)) * 0.2
     found, sure = proof._located(away)
@@ -237,7 +238,7 @@ def test_the_errors_of_images_are_within_the_stated_bounds(digits: int, long: in
     rng = random.Random(digits)
     points = [tuple(rng.randrange(10**digits) // 10 ** rng.randrange(2) for _ in range(3)) for _ in range(12)]
     points = [(x << long, y, z) for x, y, z in points]
-    images = images_of(points)
+    images = read_points(points).images
     table = np.array([lowest_terms(plane_through(*rng.sample(points, 3))) for _ in range(20)], object)
     normals = normal_images(table, images.shifts)
     largest = abs(normals).max(axis=1)
@@ -260,7 +261,7 @@ def test_the_errors_of_images_are_within_the_stated_bounds(digits: int, long: in
 
 
 def test_the_point_of_an_image_is_exact() -> None:
-    images = images_of([(3, -7, 10**40), (20, 9, 10**40 + 12345), (4, 4, 10**40 + 5)])
+    images = read_points([(3, -7, 10**40), (20, 9, 10**40 + 12345), (4, 4, 10**40 + 5)]).images
     (x, y, z), weight = images.exactly(np.array([0.3, 0.125, 2.0**-70]))
     assert Fraction(x, weight) == 3 + 32 * Fraction(0.3)
     assert Fraction(y, weight) == -7 + 32 * Fraction(1, 8)

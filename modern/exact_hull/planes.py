@@ -1,0 +1,181 @@
+"""Signs of planes at points, exact, from a floating-point filter and integers.
+
+The construction and the proof use these functions.  The proof computes its planes again, from its own data.
+
+The filter.  Let c be the corner of the bounding box of the points, and s for each axis a power of two greater than the
+side of the box.  The image of x is (x - c) / s, from 0 to 1.  A normal's image is (A sx, B sy, C sz) / w, where w is
+the power of two that makes the largest of them at most 1.  With e = 2**-54 all images have an error of at most e (the
+nearest float64 of the exact quotient; dividing by a power of two is exact).
+
+A difference d of images is below 1 in absolute value and has an error of at most 3e: e for each image and e for
+rounding.  The value of a plane, N . (x - p) with a corner p, has products with errors of 3e + e + e = 5e, together 15e.
+The additions, of sums below 2 and below 4, round by 2e and 4e.  The total is 21e.
+
+If many points are compared with many planes, the value is N . x + D with D = -N . p.  Products have errors of 3e, and
+three of them 9e.  D, below 3, has 9e, and its additions round by 2e and 2e.  The additions to N . x, in any order and
+with or without fused products, have partial sums below 8 and round by at most 8e each, together 24e.  The total is 46e.
+
+Products of two errors and underflow add less than e.  All of this is below BOUND = 2**-47 = 128e.  A value beyond the
+bound has the true sign.  All others, and NaN, are computed in integers.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from modern.exact_hull.coordinates import Coordinates, Floats, Ints, Objects
+from modern.exact_hull.result import Facet
+
+BOUND = 2.0**-47
+# Integers below 2**900, also multiplied by 2**100, are rounded to float64 without overflow.
+_WIDE, _APART = 1 << 900, 100
+_LOW = (1 << 31) - 1
+# The number of values computed at a time. So few values stay in the cache. Their matrix product is also too small for
+# numpy's library to split it among threads, which would cost more than it gains while other programs are running.
+_BLOCK = 1 << 16
+
+
+def normal_images(planes: Objects, shifts: Sequence[int]) -> Floats:
+    """Return the images of the planes' normals (m, 3)."""
+    normals = planes[:, :3]
+    # A fast path for numbers of moderate size.  It has the same results as the loop below.
+    if abs(normals).max() < _WIDE and max(shifts) - min(shifts) < _APART:
+        floats = np.ldexp(normals.astype(np.float64), np.array(shifts) - min(shifts))
+        exponents = np.frexp(abs(floats).max(axis=1))[1]
+        return np.asarray(np.ldexp(floats, -exponents[:, None]))
+    # The exact quotients, for integers too large for float64.
+    rows = []
+    for normal in normals.tolist():
+        power = max(number.bit_length() + shift for number, shift in zip(normal, shifts, strict=True) if number)
+        rows.append([n / (1 << power - shift) if n else 0.0 for n, shift in zip(normal, shifts, strict=True)])
+    return np.array(rows)
+
+
+def long_signs(normals: Ints, differences: Ints) -> Ints:
+    """Return the exact signs of the scalar products of the rows of ``normals`` with the same rows of ``differences``.
+
+    Normals are below 2**61 and differences below 2**30 in absolute value.
+    """
+    # Split each number of the normal into 2**31 high + low, and carry the high part of the sum of low products.
+    high = ((normals >> 31) * differences).sum(axis=1)
+    low = ((normals & _LOW) * differences).sum(axis=1)
+    high += low >> 31
+    low &= _LOW
+    return np.asarray(np.where(high == 0, low > 0, np.sign(high)), np.int64)
+
+
+@dataclass
+class Planes:
+    """Planes (m, 4) as integers, each with the index of a point in it (``bases``), for points that span space.
+
+    ``evaluations`` and ``in_integers`` count the signs computed, and those that the filter did not determine.
+    """
+
+    points: Coordinates
+    table: Objects
+    bases: Ints
+    evaluations: int = 0
+    in_integers: int = 0
+
+    @cached_property
+    def normals(self) -> Floats:
+        return normal_images(self.table, self.points.images.shifts)
+
+    @cached_property
+    def _axes(self) -> Ints:
+        """The axis to which each plane is perpendicular, or -1."""
+        zeros = self.table[:, :3] == 0
+        return np.where(zeros.sum(axis=1) == 2, zeros.argmin(axis=1), -1)
+
+    @cached_property
+    def _small(self) -> tuple[Ints, bool] | None:
+        """The normals as int64 if signs are exact in int64: with single products (True) or with ``long_signs``."""
+        if self.points.kind != "i":
+            return None
+        sides = [1 << shift for shift in self.points.images.shifts]
+        largest = [max(1, *map(abs, column)) for column in self.table[:, :3].T.tolist()]
+        if sum(side * most for side, most in zip(sides, largest, strict=True)) < 2**62:
+            return self.table[:, :3].astype(np.int64), True
+        if max(largest) < 2**61 and max(sides) <= 2**30:
+            return self.table[:, :3].astype(np.int64), False
+        return None
+
+    def exact(self, facets: Ints, indices: Ints) -> Ints:
+        """Return the sign of each facet's plane at one point, computed in integers."""
+        self.in_integers += len(facets)
+        numbers, bases = self.points.numbers, self.bases[facets]
+        if self._small:
+            normals, single = self._small
+            steps = numbers[indices] - numbers[bases]
+            if single:
+                return np.asarray(np.sign((normals[facets] * steps).sum(axis=1)))
+            return long_signs(normals[facets], steps)
+        axes = self._axes[facets]
+        signs = np.empty(len(facets), np.int64)
+        # At a plane perpendicular to an axis, two coordinates are compared.
+        rows = np.flatnonzero(axes >= 0)
+        if rows.size:
+            axis, sense = axes[rows], np.sign(self.table[facets[rows], axes[rows]]).astype(np.int64)
+            x, base = numbers[indices[rows], axis], numbers[bases[rows], axis]
+            signs[rows] = sense * ((x > base).astype(np.int64) - (x < base))
+        rows = np.flatnonzero(axes < 0)
+        if rows.size:
+            value = self.values(facets[rows], indices[rows])
+            signs[rows] = (value > 0).astype(np.int64) - (value < 0)
+        return signs
+
+    def values(self, facets: Ints, indices: Ints) -> Objects:
+        """Return the value of each facet's plane at one point."""
+        distinct, positions = np.unique(indices, return_inverse=True)
+        plane, at = self.table[facets].T, self.points.integers(distinct)[positions].T
+        return np.asarray(plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] + plane[3])
+
+    def signs(self, facets: Ints, indices: Ints) -> Ints:
+        """Return the sign of each facet's plane at one point; ``indices`` has for each facet the point to evaluate."""
+        places = self.points.images.places
+        steps = places[indices] - places[self.bases[facets]]
+        approximate = np.einsum("ij,ij->i", self.normals[facets], steps)
+        signs: Ints = np.sign(approximate).astype(np.int64)
+        # The comparison is negated so that a NaN counts as doubtful too.
+        doubtful = np.flatnonzero(~(abs(approximate) > BOUND))
+        if doubtful.size:
+            signs[doubtful] = self.exact(facets[doubtful], indices[doubtful])
+        self.evaluations += len(facets)
+        return signs
+
+    def near(self, indices: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
+        """Compare each point with all planes, and yield the pairs (row of ``indices``, plane) that are not negative.
+
+        Each block of them has the rows, the planes, and their signs, 0 or 1, or -1 if only integers showed that.
+        """
+        places, count = self.points.images.places, len(self.table)
+        offsets = (self.normals * places[self.bases]).sum(axis=1)
+        height = max(1, _BLOCK // count)
+        for start in range(0, len(indices), height):
+            block = indices[start : start + height]
+            approximate = places[block] @ self.normals.T - offsets
+            rows, facets = np.nonzero(~(approximate < -BOUND))
+            if rows.size:
+                values = approximate[rows, facets]
+                signs = np.sign(values).astype(np.int64)
+                doubtful = np.flatnonzero(~(abs(values) > BOUND))
+                signs[doubtful] = self.exact(facets[doubtful], block[rows[doubtful]])
+                yield rows + start, facets, signs
+        self.evaluations += len(indices) * count
+
+    def largest(self, indices: Ints) -> tuple[Ints, Ints]:
+        """Return for each point a facet whose plane has the largest sign at it, and this sign."""
+        facets, largest = np.zeros(len(indices), np.int64), np.full(len(indices), -1)
+        for rows, columns, signs in self.near(indices):
+            np.maximum.at(largest, rows, signs)
+            at = signs == largest[rows]
+            facets[rows[at][::-1]] = columns[at][::-1]  # the first of several facets remains
+        return facets, largest
+
+
+def facet_planes(points: Coordinates, facets: Sequence[Facet]) -> Planes:
+    """Return the planes of facets, which contain the points of their polygons."""
+    table: Objects = np.array([facet.plane for facet in facets], object)
+    return Planes(points, table, np.array([facet.polygon[0] for facet in facets]))
