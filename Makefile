@@ -13,7 +13,7 @@ reproduce: $(VENV)/.run
 	$(BIN)/hull1620 reproduce
 
 test: $(VENV)/.dev lint
-	$(BIN)/python -m pytest -q -n $(JOBS)
+	$(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .
@@ -26,7 +26,7 @@ format: $(VENV)/.dev
 	$(BIN)/ruff format .
 
 coverage: $(VENV)/.dev
-	$(BIN)/python -m pytest -q -n $(JOBS) --cov --cov-report term:skip-covered
+	$(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal --cov --cov-report term:skip-covered
 
 wheel: $(VENV)/.dev
 	rm -rf build/lib

@@ -1,5 +1,9 @@
-"""Profiles of hypothesis: ``ci`` always draws the same examples, ``dev`` new ones each time; chosen by ``CI``."""
+"""Profiles of hypothesis and the settings of the garbage collector for all tests.
 
+The profile ``ci`` always draws the same examples, ``dev`` new ones each time; the variable ``CI`` selects it.
+"""
+
+import gc
 import os
 
 from hypothesis import HealthCheck, settings
@@ -9,3 +13,13 @@ _CALM = (HealthCheck.too_slow, HealthCheck.function_scoped_fixture)
 settings.register_profile("ci", derandomize=True, max_examples=60, deadline=None, suppress_health_check=_CALM)
 settings.register_profile("dev", max_examples=60, deadline=None, suppress_health_check=_CALM)
 settings.load_profile("ci" if os.environ.get("CI") else "dev")
+
+# With the default thresholds, a quarter of the processor time would be spent on the garbage collector, because the
+# collected tests and the modules are millions of objects that it visits again and again.
+gc.set_threshold(50_000, 20, 50)
+
+
+def pytest_collection_finish() -> None:
+    """Exclude all objects that exist after the collection from the garbage collector."""
+    gc.collect()
+    gc.freeze()
