@@ -13,32 +13,6 @@ import pytest
 import hull1620
 from tests.support.paths import ROOT
 
-SCRIPT = """
-from fractions import Fraction
-
-import numpy as np
-import numpy.typing as npt
-
-import hull1620
-from hull1620 import Hull, HullRefused, Machine, compile_deck, convex_hull, exact_hull, read_deck
-
-
-def largest(points: npt.NDArray[np.float64]) -> Fraction:
-    hull: Hull = exact_hull(points)
-    try:
-        convex_hull(points.tolist(), "float64", epsilon=1e-9)
-    except HullRefused as refused:
-        print(refused.result)
-    corners: npt.NDArray[np.float64] = hull.points[hull.vertices]
-    print(corners.sum(), hull.simplices.shape, hull.area + 1, hull.draw(eye=(1, 2.5, 3)).upper())
-    return hull.volume
-
-
-def cards(name: str) -> tuple[str, ...]:
-    program = compile_deck(read_deck(name))
-    return Machine(program, hull1620.data_deck([(0, 0, 0)])).run().punched
-"""
-
 
 def python(*words: str, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
@@ -104,18 +78,6 @@ def test_help_lists_the_public_functions() -> None:
     for name in ("convex_hull", "exact_hull", "run_hull", "diverge", "run_study", "class Machine", "class Hull"):
         assert name in text
     assert "counterclockwise seen from outside" in pydoc.plain(pydoc.render_doc(hull1620.Hull))
-
-
-def test_the_public_names_have_types(tmp_path: Path) -> None:
-    pytest.importorskip("mypy")
-    wrong_line = len(SCRIPT.splitlines()) + 2
-    (tmp_path / "mine.py").write_text(SCRIPT + "\nhull1620.exact_hull(3).volume.upper()\n", encoding="utf-8")
-    cache = ROOT / ".mypy_cache" / "public_names"  # kept between runs, and separate from that of the project's options
-    options = ("--strict", "--follow-imports=silent", f"--cache-dir={cache}")
-    done = python("-m", "mypy", *options, "mine.py", cwd=tmp_path)
-    errors = [line for line in done.stdout.splitlines() if ": error: " in line]
-    # The script has no error; the line after it has two.
-    assert [line.startswith(f"mine.py:{wrong_line}: ") for line in errors] == [True, True], done.stdout + done.stderr
 
 
 def test_the_package_runs_the_command() -> None:

@@ -25,7 +25,7 @@ from tests.support.paths import MACHINE_RUNS
 from tests.support.ported import convex_hull
 from tests.support.punched import differences, from_cards, from_run
 
-SETS = int(os.environ.get("HULL1620_SETS", "250"))
+SETS = int(os.environ.get("HULL1620_SETS", "150"))
 RUNS = MACHINE_RUNS
 CORE = 60_000
 """The layer ``corrected`` has larger tables than a memory of 40,000 positions holds."""

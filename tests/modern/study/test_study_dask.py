@@ -13,8 +13,7 @@ import pytest
 
 from modern.study import Plan, PlanError, run_study
 from modern.study import workers as study_workers
-from tests.modern.study.test_study_runs import contents
-from tests.support.studied import PLAN
+from tests.support.studied import PLAN, contents
 
 distributed = pytest.importorskip("distributed")
 pytestmark = [pytest.mark.filterwarnings("ignore")]
@@ -77,27 +76,6 @@ def test_worker_without_hull1620_is_rejected(cluster: Any, tmp_path: Path, monke
     assert "\n" not in str(rejection.value)
 
 
-def test_lost_cluster_gives_a_one_line_error(tmp_path: Path) -> None:
-    """The rows are kept, so that the study can be continued elsewhere."""
-    folder = tmp_path / "gone"
-    with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
-    ) as short:
-
-        def close() -> None:
-            while not list(folder.glob("rows/0*.jsonl")):
-                time.sleep(0.01)
-            short.close()
-
-        thread = threading.Thread(target=close)
-        thread.start()
-        plan = replace(PLAN, cells=tuple(replace(cell, samples=4_000) for cell in PLAN.cells))
-        with pytest.raises(PlanError, match=r"--dask: .*--resume continues the study") as lost:
-            run_study(plan, folder, dask=short.scheduler_address, quiet=True)
-        thread.join()
-    assert "\n" not in str(lost.value)
-
-
 @pytest.mark.parametrize("address", ["nonsense", "tcp://127.0.0.1:1"])
 def test_address_without_a_cluster_is_rejected(address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(study_workers, "TIMEOUT", 1)
@@ -106,3 +84,21 @@ def test_address_without_a_cluster_is_rejected(address: str, tmp_path: Path, mon
     assert str(rejection.value).startswith(f"--dask {address}: ")
     assert "\n" not in str(rejection.value)
     assert not (tmp_path / "no").exists()
+
+
+def test_lost_cluster_gives_a_one_line_error(cluster: Any, tmp_path: Path) -> None:
+    """The rows are kept, so that the study can be continued elsewhere.  This test closes the cluster of the module."""
+    folder = tmp_path / "gone"
+
+    def close() -> None:
+        while not list(folder.glob("rows/0*.jsonl")):
+            time.sleep(0.01)
+        cluster.close()
+
+    thread = threading.Thread(target=close)
+    thread.start()
+    plan = replace(PLAN, cells=tuple(replace(cell, samples=4_000) for cell in PLAN.cells))
+    with pytest.raises(PlanError, match=r"--dask: .*--resume continues the study") as lost:
+        run_study(plan, folder, dask=cluster.scheduler_address, quiet=True)
+    thread.join()
+    assert "\n" not in str(lost.value)
