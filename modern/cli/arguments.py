@@ -198,10 +198,12 @@ def _flowchart(parser: ArgumentParser) -> None:
 
 
 def _tei(parser: ArgumentParser) -> None:
-    parser.add_argument("text", metavar="TEXT", nargs="?", help="a text such as program1 or chapter6")
+    parser.add_argument(
+        "text", metavar="TEXT", nargs="?", help="a document such as program1, chapter6 or statements-thesis"
+    )
     output_argument(parser)
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--all", metavar="FOLDER", help="write every text to FOLDER/TEXT.xml")
+    which.add_argument("--all", metavar="FOLDER", help="write every document, the schema and its ODD to FOLDER")
     which.add_argument("--schema", action="store_true", help="write the RELAX NG schema of the documents")
     which.add_argument(
         "--check",

@@ -10,10 +10,10 @@ from xml.etree.ElementTree import Element
 
 from emulator.errors import quoted
 from emulator.files import read_bytes, read_text, write_text
-from modern.claims.apparatus_checks import texts
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.publication import tei_reading as reading
-from modern.publication.tei import schema, tei
+from modern.publication.tei import archive, documents, tei
+from modern.publication.tei_schema import odd, schema
 
 
 def main(args: argparse.Namespace) -> int:
@@ -25,8 +25,8 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError(f"{' and '.join(chosen)} cannot be combined; choose one")
     if args.text is not None and (args.all or args.schema or args.read):
         raise UsageError(f"{args.text}: --all, --schema and --read do not accept a text")
-    if args.text is not None and args.text not in texts():
-        raise UsageError(f"unknown text {quoted(args.text)}; expected one of {', '.join(texts())}")
+    if args.text is not None and args.text not in documents():
+        raise UsageError(f"unknown text {quoted(args.text)}; expected one of {', '.join(documents())}")
     if args.schema:
         write_text(args.output, schema())
     elif args.read:
@@ -36,7 +36,7 @@ def main(args: argparse.Namespace) -> int:
     elif args.all:
         _write_all(Path(args.all))
     elif args.text is None:
-        raise UsageError(f"expected a text, or --all with a folder; the texts are {', '.join(texts())}")
+        raise UsageError(f"expected a text, or --all with a folder; the texts are {', '.join(documents())}")
     else:
         write_text(args.output, tei(args.text, _version()))
     return OK
@@ -54,8 +54,8 @@ def _write_all(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(f"{folder}: {(error.strerror or str(error)).lower()}") from None
-    for name in texts():
-        write_text(str(folder / f"{name}.xml"), tei(name, _version()))
+    for name, text in archive(_version()).items():
+        write_text(str(folder / name), text)
 
 
 def _read(args: argparse.Namespace) -> str:
@@ -89,8 +89,11 @@ def _check(args: argparse.Namespace) -> int:
     except (etree.XMLSyntaxError, etree.RelaxNGParseError) as error:
         raise UsageError(f"{source}: not a RELAX NG schema: {error}") from None
     all_valid = True
-    for name in (args.text,) if args.text else texts():
-        is_valid = relax.validate(etree.fromstring(tei(name, _version()).encode()))
+    files = {name: tei(name, _version()) for name in ((args.text,) if args.text else documents())}
+    if args.check and not args.text:
+        files["hull1620.odd"] = odd()  # a document of the full TEI, not of the project's own schema
+    for name, text in files.items():
+        is_valid = relax.validate(etree.fromstring(text.encode()))
         all_valid = all_valid and is_valid
         print(f"{name}: {'valid' if is_valid else _first_fault(relax.error_log)}")
     return OK if all_valid else DIFFERS

@@ -4,21 +4,30 @@
 A place is a piece of a line with its old reading, its new reading and the row.  Places nest, because a row of a later
 layer may change the result of an earlier one.  :func:`reading` extracts the text with any choice of layers from this
 tree.
+
+Places are as small as the change: a row that only sets columns has places that contain nothing but blanks, and a word
+that a row moves has one place where it disappears and one where it appears.
 """
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
 from modern.edition.apparatus import Change, Row, RowMisfit, Text, on_form
+from modern.edition.edits import Edit, blank_edits, common_prefix, moving_edits, solid, word_edits
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A piece of a line with two readings: ``old`` before the row is applied, ``new`` after it."""
+    """A piece of a line with two readings: ``old`` before the row is applied, ``new`` after it.
+
+    ``moved`` is 0, or the number of a displaced piece within its row.  The place that the piece leaves and the place
+    that it enters have the same number.
+    """
 
     row: Row
     old: "tuple[Piece, ...]"
     new: "tuple[Piece, ...]"
+    moved: int = 0
 
 
 Piece = str | Place
@@ -64,6 +73,10 @@ class _SegmentedText:
         self.lines = [Segments(line.id, line.page, (line.text,)) for line in text.witness]
 
     def apply(self, row: Row) -> None:
+        if row.kind == "displaced":
+            for change, edits in zip(row.changes, moving_edits(row.changes), strict=True):
+                self._rewrite(row, change, edits)
+            return
         inserted = 0
         for change in row.changes:
             at = self._find(row, change.line)
@@ -87,30 +100,54 @@ class _SegmentedText:
         return reading(self.lines[number].pieces, self._layers)
 
     def _whole(self, row: Row, number: int, new: str) -> None:
-        line = self.lines[number]
-        if self._text(number) != new:
+        line, old = self.lines[number], self._text(number)
+        if solid(old) != solid(new):
             self.lines[number] = replace(line, pieces=(Place(row, line.pieces, _pieces(new)),))
+        elif solid(new):
+            self._edit(row, number, 0, blank_edits(old, new))
 
-    def _replace(self, row: Row, change: Change, at: int, inserted: int) -> int:
+    def _edit(self, row: Row, number: int, offset: int, edits: Iterable[Edit]) -> None:
+        line = self.lines[number]
+        ordered = sorted(edits, key=lambda edit: (edit.first, edit.last))
+        # From right to left, because an edit changes the indices of the characters after it.
+        for edit in ordered[::-1]:
+            place = Place(row, (), _pieces(edit.new), edit.moved)
+            pieces = _changed(line.pieces, offset + edit.first, offset + edit.last, place, self._layers)
+            line = replace(line, pieces=pieces)
+        self.lines[number] = line
+
+    def _first(self, row: Row, change: Change, at: int) -> int:
         text = self._text(at)
         if text.count(change.witness) != 1:
             raise RowMisfit(row.id, f"{change.witness!r} does not occur exactly once in line {change.line}: {text!r}")
-        first = text.index(change.witness)
+        return text.index(change.witness)
+
+    def _rewrite(self, row: Row, change: Change, edits: Iterable[Edit]) -> None:
+        """Change the words of a fragment, and then the blanks between them."""
+        at = self._find(row, change.line)
+        first, text = self._first(row, change, at), self._text(at)
+        self._edit(row, at, first, edits)
+        self._whole(row, at, text[:first] + change.lemma + text[first + len(change.witness) :])
+
+    def _replace(self, row: Row, change: Change, at: int, inserted: int) -> int:
+        first, text = self._first(row, change, at), self._text(at)
         last = first + len(change.witness)
         lemma, *rest = change.lemma.split("\n")
-        if row.layer not in self._default:
-            # Optional layers can be combined, and two of them may change the same statement.  A place of such a layer
-            # therefore holds only the characters that differ.
-            first, lemma = _trimmed(change.witness, first, lemma)
-            if not rest:
-                tail = _common_prefix(text[first:last][::-1], lemma[::-1])
-                last, lemma = last - tail, lemma[: len(lemma) - tail]
         if rest:
             # The rest of the line after the fragment moves to the end of the last new line.
             rest[-1] += text[last:]
             last = len(text)
-        line = self.lines[at]
-        self.lines[at] = replace(line, pieces=_changed(line.pieces, first, last, row, lemma, self._layers))
+        elif row.layer in self._default:
+            self._rewrite(row, change, word_edits(change.witness, lemma))
+            return inserted
+        # Optional layers can be combined, and two of them may change the same statement.  A place of such a layer
+        # therefore holds only the characters that differ.
+        head = common_prefix(text[first:last], lemma)
+        first, lemma = first + head, lemma[head:]
+        if not rest:
+            tail = common_prefix(text[first:last][::-1], lemma[::-1])
+            last, lemma = last - tail, lemma[: len(lemma) - tail]
+        self._edit(row, at, 0, [Edit(first, last, lemma)])
         return self._insert(row, at, rest, inserted)
 
     def _insert(self, row: Row, at: int, texts: list[str], inserted: int) -> int:
@@ -123,21 +160,12 @@ class _SegmentedText:
         return inserted + len(texts)
 
 
-def _trimmed(witness: str, first: int, lemma: str) -> tuple[int, str]:
-    length = _common_prefix(witness, lemma)
-    return first + length, lemma[length:]
-
-
-def _common_prefix(a: str, b: str) -> int:
-    return next((n for n, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), min(len(a), len(b)))
-
-
 def _pieces(text: str) -> tuple[Piece, ...]:
     return (text,) if text else ()
 
 
 def _changed(
-    pieces: tuple[Piece, ...], first: int, last: int, row: Row, lemma: str, layers: Collection[str]
+    pieces: tuple[Piece, ...], first: int, last: int, place: Place, layers: Collection[str]
 ) -> tuple[Piece, ...]:
     """Return the pieces with the characters ``first`` to ``last`` (of the text with all layers) turned into a place.
 
@@ -155,7 +183,7 @@ def _changed(
         at = end
         # The fragment lies inside this place: descend into its new reading.
         if isinstance(piece, Place) and start <= first and last <= end and (first < last or start < first < end):
-            inner = _changed(piece.new, first - start, last - start, row, lemma, layers)
+            inner = _changed(piece.new, first - start, last - start, place, layers)
             return (*pieces[:number], replace(piece, new=inner), *pieces[number + 1 :])
         if end <= first:
             before.append(piece)
@@ -172,4 +200,5 @@ def _changed(
             text_before += text[: max(first - start, 0)]
             text_after += text[last - start :] if last < end else ""
             within.append(piece)
-    return (*before, Place(row, tuple(within), _pieces(text_before + lemma + text_after)), *behind)
+    new = _pieces(text_before + reading(place.new, layers) + text_after)
+    return (*before, replace(place, old=tuple(within), new=new), *behind)

@@ -21,11 +21,10 @@ from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 
-from modern.claims.apparatus_checks import texts
 from modern.edition.sources import sources
-from modern.publication import tei
 from modern.publication.building import DIST, ROOT, BuildError, check_replaceable, newest_wheel, read_citation, run
 from modern.publication.metadata import Work, codemeta, crate, data_package, work
+from modern.publication.tei import archive
 
 _CACHES = {"node_modules", "__pycache__", ".mypy_cache", ".ruff_cache", ".pytest_cache"}
 _NOT_SOURCE = {".git", ".venv", "dist", "build"} | _CACHES
@@ -77,8 +76,7 @@ def gather(wheel: Path, site: Path, book: Path, rows: Path | None = None, root: 
     files[f"book/{book.name}"] = book.read_bytes()
     files |= {f"site/{name}": data for name, data in _tree(site)}
     about = described(root)
-    files |= {f"tei/{name}.xml": tei.tei(name, about.version).encode() for name in texts()}
-    files["tei/hull1620.rng"] = tei.schema().encode()
+    files |= {f"tei/{name}": text.encode() for name, text in archive(about.version).items()}
     if rows is not None:
         if not rows.is_dir():
             raise BuildError(f"{rows}: not a folder")

@@ -142,14 +142,18 @@ def _shown(
 def _source(family: Sequence[Segments]) -> Source:
     """Return a line of the witness with the spans that rows change.  Inserted line breaks do not count as changes."""
     line, *inserted = family
-    text, spans = "", []
+    text = ""
+    spans: list[tuple[int, int]] = []
     for piece in line.pieces:
         if isinstance(piece, Place):
             # Compare the witness with our reading, which may continue on lines that the row inserts.
             old = reading((piece,), ())
             continuation = [part.pieces for part in inserted if part.id.startswith(f"{piece.row.id}.")]
             new = " ".join(reading(pieces, _LAYERS) for pieces in ((piece,), *continuation))
-            spans += [(len(text) + first, len(text) + last) for first, last in differing(new, old) if old]
+            for first, last in differing(new, old) if old else ():
+                # A change may consist of neighbouring places, for instance of a word and of blanks.
+                start = spans.pop()[0] if spans and spans[-1][1] == len(text) + first else len(text) + first
+                spans.append((start, len(text) + last))
             text += old
         else:
             text += piece

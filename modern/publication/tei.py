@@ -1,166 +1,146 @@
-"""Write a text of the edition as TEI P5 with parallel segmentation: its witness with every emendation.
+"""Write a text of the edition as TEI P5: its witness with every emendation, and the commentary on a program.
 
-An *app* element holds the readings of a passage.  ``lem`` is the reading of this edition (the layers of the deck, or
-the corrected text).  ``rdg`` with ``wit="#ocr"`` is the reading of the witness.  ``rdg`` with ``resp`` but without
-``wit`` is that of a further layer.  An empty reading is an omission.  Apps are nested if a later row changes the
-reading of an earlier one.  A card or line is an ``ab`` element: its ``n`` is the line of the witness, and the ``lb`` in
-it the line of the whole document.  :mod:`modern.publication.tei_reading` restores witness, corrected text and cards.
+Every line of the witness is an ``ab`` element, and parallel segmentation holds the readings of a passage in ``app``.
+What is no reading of a source stays outside ``app``: ``choice`` holds a modern patch, ``space`` and ``surplus`` hold
+blanks that the edition adds and removes, and ``seg`` holds a displaced piece.  A ``transpose`` of the header puts the
+piece before an ``anchor``.  Each row of the apparatus has one ``app`` with its reasons; a row that has no reading of
+its own is documented by an ``app`` of ``standOff``.  ``tei_schema`` describes every element, ``tei_header`` writes the
+header, ``tei_register`` writes the verdicts on the statements, and ``tei_reading`` restores witness, corrected text
+and cards.
 
-Source: TEI P5 Guidelines, chapter 2 (header), 12.1 (apparatus entries), 12.2.3 (parallel segmentation).
+Source: TEI P5 Guidelines, chapter 2 (header), 11.3.4.5 (transposition), 12.1 (apparatus entries), 12.2.3 (parallel
+segmentation), 16.10 (stand-off markup), 18 (feature structures).
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from importlib.resources import files
+from dataclasses import dataclass, field
+from functools import cache
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from modern.claims.apparatus_checks import texts
-from modern.edition.apparatus import PAGE_MARK, Row, Text
+from modern.edition.apparatus import PAGE_MARK, Row, Text, build
 from modern.edition.chapter6_cards import Chapter, cards, device_files, device_layout, load_chapter
 from modern.edition.programs import BUILT_INS
-from modern.edition.segments import Piece, Segments, segments
-from modern.edition.sources import Document, read, sources
+from modern.edition.segments import Piece, Place, Segments, segments
+from modern.edition.sources import read, sources
+from modern.publication.commentary import commentary
+from modern.publication.tei_header import CERTAINTY, ID, LANG, PATCHES, TEI, XML, Heading, add, header
+from modern.publication.tei_register import REGISTERS, register
+from modern.publication.tei_schema import FILE_NAME, odd, schema
 
-TEI = "http://www.tei-c.org/ns/1.0"
-XML = "http://www.w3.org/XML/1998/namespace"
-_ID, _SPACE, _LANG = f"{{{XML}}}id", f"{{{XML}}}space", f"{{{XML}}}lang"
-CERTAINTY = {"certain": "high", "probable": "medium", "conjecture": "low"}
-LAYERS = {
-    "ocr": "a misreading of the OCR; the page certainly has this reading",
-    "typist": "a typing error on the page",
-    "author": "an error of the author, or indistinguishable from one",
-    "print": "a correction that the printed output of the examples proves",
-    "lacuna": "a conjecture: text that the listing or the OCR lacks, without which the program does not work",
-    "examples": "the earlier state of program 1 that ran the examples, reconstructed from the printed order of points",
-    "epsilon": "a proposal of chapter 7: values from -e to +e count as zero",
-    "translation": "a proposal of chapter 7: the origin is moved to the inside point C",
-    "corrected": "corrections by the project of faults of the original programs",
-}
+_SPACE = f"{{{XML}}}space"
+_MODEL = f'<?xml-model href="{FILE_NAME}" type="application/xml" schematypens="http://relaxng.org/ns/structure/1.0"?>\n'
 
 
 @dataclass(frozen=True, slots=True)
 class _Edition:
-    """A text while it is written.  ``app_counts`` counts the app elements written so far for each row."""
+    """A text while it is written.
+
+    ``pieces`` are the contents of the displaced pieces by row and number.  ``app_counts`` counts the app elements
+    written so far for each row.  ``notes`` are the comments that stand before a line.
+    """
 
     text: Text
-    document: Document
     printed: frozenset[str]
-    app_counts: dict[str, int]
+    pieces: dict[tuple[str, int], tuple[Piece, ...]]
+    notes: Mapping[str, Element]
+    app_counts: dict[str, int] = field(default_factory=dict)
+
+
+@cache
+def documents() -> tuple[str, ...]:
+    """Return the names of all documents: the texts of the edition, and the registers of statements."""
+    return (*texts(), *REGISTERS)
 
 
 def tei(name: str, version: str) -> str:
-    """Return the TEI document of a text of the edition (``program1``, ``chapter6``, ``appel_will_1976``, ...).
+    """Return a TEI document (``program1``, ``chapter6``, ``appel_will_1976``, ``statements-thesis``, ...).
 
     ``version`` is the version of the project.  Raise KeyError for an unknown name.
     """
+    root = Element("TEI", {"xmlns": TEI, ID: name, LANG: "en"})
+    if name in REGISTERS:
+        register(root, name, version)
+    else:
+        _text(root, name, version)
+    _indent(root)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + _MODEL + tostring(root, encoding="unicode") + "\n"
+
+
+def archive(version: str) -> dict[str, str]:
+    """Return all documents, the schema to which they refer and the ODD of the schema, as texts by file name."""
+    return {f"{name}.xml": tei(name, version) for name in documents()} | {FILE_NAME: schema(), "hull1620.odd": odd()}
+
+
+def _text(root: Element, name: str, version: str) -> None:
     text = texts()[name]
+    listed = [entry.layers for entry in BUILT_INS if entry.name == name]
+    lines = segments(text)
+    pieces = {key: piece for line in lines for key, piece in _pieces_of(line.pieces)}
+    notes = _commentary(text) if listed else {}
+    edition = _Edition(text, frozenset(listed[0] if listed else text.default), pieces, notes)
+    moves = Element("listTranspose")
+    for moved, number in pieces:
+        move = SubElement(moves, "transpose", corresp=f"#{moved}")
+        SubElement(move, "ptr", target=f"#{moved}-{number}")
+        SubElement(move, "ptr", target=f"#{moved}-{number}-to")
     excerpt = sources().excerpt(name)
-    document = sources().document(excerpt.document)
-    listed = [b.layers for b in BUILT_INS if b.name == name]
-    edition = _Edition(text, document, frozenset(listed[0] if listed else text.default), {})
-    root = Element("TEI", {"xmlns": TEI, _ID: name, _LANG: "en"})
-    _header(root, edition, version)
-    body = SubElement(SubElement(root, "text"), "body")
-    _witness(SubElement(body, "div", {"type": "listing" if listed else "print"}), edition, read(excerpt.file))
+    heading = Heading(text.title, sources().document(excerpt.document), version, excerpt.sha256, text)
+    header(root, heading, moves if pieces else None)
+    content = SubElement(root, "text")
+    body = SubElement(content, "body")
+    language = {LANG: "zxx"} if listed else {}
+    _witness(SubElement(body, "div", {"type": "listing" if listed else "print"} | language), edition, lines)
     if name == "chapter6":
         _devices(SubElement(body, "div", {"type": "devices"}), load_chapter())
-    _indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, encoding="unicode") + "\n"
+    if listed:
+        _variables(SubElement(SubElement(content, "back"), "div", {"type": "variables"}), name)
+    if rows := [row for row in text.rows if row.id not in edition.app_counts]:
+        entries = SubElement(SubElement(root, "standOff"), "listApp", {"type": "rows"})
+        for row in rows:
+            sure = {} if row.layer in PATCHES else {"resp": "#ed", "cert": CERTAINTY[row.certainty]}
+            classes = f"#layer-{row.layer} #kind-{row.kind} #cause-{row.cause}"
+            _notes(SubElement(entries, "app", {ID: row.id, "type": row.layer, "ana": classes} | sure), row)
 
 
-def _header(root: Element, edition: _Edition, version: str) -> None:
-    document, text = edition.document, edition.text
-    header = SubElement(root, "teiHeader")
-    file = SubElement(header, "fileDesc")
-    title = SubElement(file, "titleStmt")
-    _add(title, "title", text.title)
-    _add(title, "author", document.author)
-    role = SubElement(title, "respStmt", {_ID: "ed"})
-    _add(role, "resp", "witness, apparatus and cards")
-    _add(role, "name", ", ".join(dict.fromkeys(row.editor for row in text.rows if row.editor)) or "the editors")
-    _add(SubElement(file, "editionStmt"), "edition", f"hull1620 {version}", n=version)
-    published = SubElement(file, "publicationStmt")
-    _add(published, "publisher", "The hull1620 developers")
-    rights = SubElement(published, "availability", status="restricted")
-    _add(rights, "p", f"The text: {document.rights}")
-    _add(rights, "licence", "The apparatus is CC0 1.0.", target="https://creativecommons.org/publicdomain/zero/1.0/")
-    _source(SubElement(file, "sourceDesc"), edition)
-    _encoding(SubElement(header, "encodingDesc"), edition)
-    dates = sorted({row.date for row in text.rows if row.date}, reverse=True)
-    if dates:
-        revision = SubElement(header, "revisionDesc")
-        for date in dates:
-            rows = sum(row.date == date for row in text.rows)
-            _add(revision, "change", f"{rows} rows", when=date, who="#ed")
+def _pieces_of(pieces: Iterable[Piece]) -> Iterable[tuple[tuple[str, int], tuple[Piece, ...]]]:
+    for piece in pieces:
+        if isinstance(piece, Place):
+            if piece.moved and piece.new:
+                yield (piece.row.id, piece.moved), piece.new
+            yield from _pieces_of((*piece.old, *piece.new))
 
 
-def _source(source: Element, edition: _Edition) -> None:
-    document = edition.document
-    witness = SubElement(SubElement(source, "listWit"), "witness", {_ID: "ocr"})
-    bibl = SubElement(witness, "bibl")
-    _add(bibl, "author", document.author)
-    _add(bibl, "title", document.title)
-    _add(bibl, "publisher", document.institution)
-    _add(bibl, "date", document.year)
-    if document.volume:
-        _add(bibl, "biblScope", document.volume, unit="volume")
-    _add(bibl, "biblScope", document.extent, unit="page")
-    if document.doi.startswith("10."):
-        _add(bibl, "idno", document.doi, type="DOI")
-    _add(bibl, "note", document.held)
-    _add(bibl, "idno", document.sha256, type="SHA-256")
-    _add(bibl, "idno", sources().excerpt(edition.text.id).sha256, type="SHA-256-of-the-excerpt")
-
-
-def _encoding(encoding: Element, edition: _Edition) -> None:
-    witness = "The OCR text of the pages is the only witness. Every departure from it is an app with the id of its row."
-    _add(SubElement(encoding, "projectDesc"), "p", witness)
-    editorial = SubElement(encoding, "editorialDecl")
-    conventions = (
-        "lem is the reading of the edition, rdg with wit that of the witness, rdg with resp alone that of a further "
-        "layer, and rdg of type rejected a reading that was considered and not accepted. An empty lem or rdg is an "
-        "omission. A line whose readings are all empty does not exist in that state. cert is high for certain, medium "
-        "for probable, low for conjecture. n of an ab is the line of the witness, and n of its lb the line of the "
-        "whole document."
-    )
-    _add(editorial, "p", conventions)
-    SubElement(encoding, "variantEncoding", method="parallel-segmentation", location="internal")
-    classes = SubElement(encoding, "classDecl")
-    for kind, names in (("layer", edition.text.layers), ("kind", sorted({row.kind for row in edition.text.rows}))):
-        taxonomy = SubElement(classes, "taxonomy", {_ID: kind})
-        for name in names:
-            category = SubElement(taxonomy, "category", {_ID: f"{kind}-{name}"})
-            _add(category, "catDesc", LAYERS[name] if kind == "layer" else name)
-
-
-def _witness(div: Element, edition: _Edition, source: str) -> None:
+def _witness(div: Element, edition: _Edition, lines: Iterable[Segments]) -> None:
     """Write every line of the witness in order, each followed by the lines that rows insert after it."""
     groups: dict[str, list[Segments]] = {}  # each line of the witness with the lines inserted after it
     last = ""
-    for line in segments(edition.text):
+    for line in lines:
         last = last if line.inserted else line.id
         groups.setdefault(last, []).append(line)
     number = 0
-    for raw in source.removesuffix("\n").split("\n"):
+    for raw in read(sources().excerpt(edition.text.id).file).removesuffix("\n").split("\n"):
         if raw.startswith(PAGE_MARK):
-            SubElement(div, "pb", n=raw[len(PAGE_MARK) :].strip(), ed="print")
+            SubElement(div, "pb", n=raw[len(PAGE_MARK) :].strip(), edRef="#print")
             continue
         number += 1
         if str(number) not in groups:
             # A line outside the text: a page number, a heading, or a blank line.
             _ab(div, edition, f"l{number}", "furniture" if raw.strip() else "blank", (raw,) if raw else ())
         for line in groups.get(str(number), ()):
+            if line.id in edition.notes:
+                div.append(edition.notes[line.id])
             _ab(div, edition, _place(line.id), "line", line.pieces)
 
 
 def _ab(div: Element, edition: _Edition, place: str, kind: str, pieces: tuple[Piece, ...]) -> None:
     """Write a line as ``ab``.  The id of witness line 17 ends with ``l17``, that of an inserted line with its row."""
-    attributes = {_ID: f"{edition.text.id}-{place}", "type": kind, _SPACE: "preserve"}
+    attributes = {ID: f"{edition.text.id}-{place}", "type": kind, _SPACE: "preserve"}
     number = place.removeprefix("l") if place.startswith("l") else ""
     ab = SubElement(div, "ab", attributes | ({"n": number} if number else {}))
     source_line = sources().excerpt(edition.text.id).line(int(number)) if number else None
     if source_line is not None:
-        SubElement(ab, "lb", n=str(source_line), ed="ocr")
+        SubElement(ab, "lb", n=str(source_line), edRef="#ocr")
     _write(ab, edition, pieces)
 
 
@@ -172,40 +152,105 @@ def _write(parent: Element, edition: _Edition, pieces: Iterable[Piece]) -> None:
             else:
                 parent.text = (parent.text or "") + piece
             continue
-        row = piece.row
-        edition.app_counts[row.id] = edition.app_counts.get(row.id, 0) + 1
-        first = edition.app_counts[row.id] == 1
-        attributes = {"type": row.layer, "ana": f"#layer-{row.layer} #kind-{row.kind}"}
-        # The first app of a row has its id; further ones refer to it.
-        attributes |= {_ID: row.id} if first else {"corresp": f"#{row.id}"}
-        app = SubElement(parent, "app", attributes)
-        ours = {"resp": "#ed", "cert": CERTAINTY[row.certainty], "cause": row.cause}
-        if row.layer in edition.printed:
-            _write(SubElement(app, "lem", ours), edition, piece.new)
-            _write(SubElement(app, "rdg", wit="#ocr"), edition, piece.old)
+        row, old, new = piece.row, piece.old, piece.new
+        ours = {"resp": "#ed", "corresp": f"#{row.id}"}
+        if piece.moved and old:
+            seg = SubElement(parent, "seg", {ID: f"{row.id}-{piece.moved}", "corresp": f"#{row.id}"})
+            _write(seg, edition, edition.pieces[row.id, piece.moved])
+        elif piece.moved:
+            SubElement(parent, "anchor", {ID: f"{row.id}-{piece.moved}-to"})
+        elif not old and len(new) == 1 and isinstance(new[0], str) and not new[0].strip(" "):
+            SubElement(parent, "space", ours | {"dim": "horizontal", "unit": "chars", "quantity": str(len(new[0]))})
+        elif not new and len(old) == 1 and isinstance(old[0], str) and not old[0].strip():
+            add(parent, "surplus", old[0], **ours, reason="columns")
+        elif row.layer in PATCHES:
+            choice = SubElement(parent, "choice")
+            _write(SubElement(choice, "sic"), edition, old)
+            _write(SubElement(choice, "corr", {"type": row.layer} | ours), edition, new)
         else:
-            _write(SubElement(app, "lem", wit="#ocr"), edition, piece.old)
-            _write(SubElement(app, "rdg", ours), edition, piece.new)
-        if first:
-            _notes(app, row)
+            _app(parent, edition, piece)
+
+
+def _app(parent: Element, edition: _Edition, place: Place) -> None:
+    """Write the readings of a row.  Only its first app has the id of the row and the notes; the others refer to it."""
+    row = place.row
+    edition.app_counts[row.id] = edition.app_counts.get(row.id, 0) + 1
+    first = edition.app_counts[row.id] == 1
+    attributes = {"type": row.layer, "ana": f"#layer-{row.layer} #kind-{row.kind}"}
+    app = SubElement(parent, "app", attributes | ({ID: row.id} if first else {"corresp": f"#{row.id}"}))
+    ours = {"resp": "#ed", "cert": CERTAINTY[row.certainty]}
+    if row.layer == "examples":
+        _write(SubElement(app, "lem", wit="#ocr"), edition, place.old)
+        _write(SubElement(app, "rdg", ours | {"wit": "#examples"}), edition, place.new)
+    else:
+        # An error of the OCR is not on the page, an error of the author or the typist is.
+        _write(SubElement(app, "lem", ours | ({"wit": "#print"} if row.cause == "ocr" else {})), edition, place.new)
+        wit = "#print #ocr" if row.cause in ("author", "typist") else "#ocr"
+        _write(SubElement(app, "rdg", wit=wit, cause=row.cause), edition, place.old)
+    if first:
+        _notes(app, row)
 
 
 def _notes(app: Element, row: Row) -> None:
     for rejected in row.rejected:
-        _add(app, "rdg", rejected.reading, type="rejected", resp="#ed")
-        _add(app, "note", rejected.reason, type="rejected")
-    _add(app, "note", row.reason, type="reason")
-    _add(app, "note", row.evidence, type="evidence")
+        add(app, "rdg", rejected.reading, type="rejected", resp="#ed")
+        add(app, "note", rejected.reason, type="rejected")
+    add(app, "note", row.reason, type="reason")
+    add(app, "note", row.evidence, type="evidence")
     if row.ground:
-        _add(app, "note", "; ".join(f"{key}: {_plain(value)}" for key, value in row.ground.items()), type="ground")
+        _features(SubElement(app, "note", {"type": "ground"}), row.ground)
 
 
-def _plain(value: object) -> str:
-    if isinstance(value, list | tuple):
-        return ", ".join(map(_plain, value))
+def _features(parent: Element, values: Mapping[str, object]) -> None:
+    """Write a mapping as a feature structure; ``kind`` is its type."""
+    structure = SubElement(parent, "fs", {"type": str(values["kind"])} if "kind" in values else {})
+    for key, value in values.items():
+        if key != "kind":
+            _value(SubElement(structure, "f", name=key), value)
+
+
+def _value(parent: Element, value: object) -> None:
     if isinstance(value, Mapping):
-        return ", ".join(f"{key} {_plain(inner)}" for key, inner in value.items())
-    return str(value).lower() if isinstance(value, bool) else str(value)
+        _features(parent, value)
+    elif isinstance(value, list | tuple):
+        collection = SubElement(parent, "vColl", org="list")
+        for inner in value:
+            _value(collection, inner)
+    elif isinstance(value, bool):
+        SubElement(parent, "binary", value=str(value).lower())
+    elif isinstance(value, int):
+        SubElement(parent, "numeric", value=str(value))
+    else:
+        add(parent, "string", str(value))
+
+
+def _commentary(text: Text) -> dict[str, Element]:
+    """Return the comment on each block of a program as a note, by the id of the first line of the block."""
+    lines = [line.id for line in build(text)]
+    notes = {}
+    for number, block in enumerate(commentary(text.id).blocks, 1):
+        first, last = (lines[card - 1] for card in (block.cards[0], block.cards[-1]))
+        note = Element("note", {ID: f"{text.id}-block-{number}", "type": "commentary", "resp": "#ed", LANG: "en"})
+        note.set("target", f"#{text.id}-{_place(first)}")
+        note.set("targetEnd", f"#{text.id}-{_place(last)}")
+        add(note, "label", block.title)
+        add(note, "p", " ".join(block.text.split()))
+        if block.steps:
+            add(note, "p", f"Steps of chapter 3: {'; '.join(block.steps)}.")
+        notes[first] = note
+    return notes
+
+
+def _variables(div: Element, name: str) -> None:
+    entries = SubElement(div, "list", {"type": "gloss"})
+    for gloss in commentary(name).variables:
+        add(entries, "label", gloss.name, **{ID: f"{name}-variable-{gloss.name}"})
+        item = SubElement(entries, "item")
+        item.text = " ".join(gloss.text.split())
+        if gloss.limits:
+            least, most = map(str, gloss.limits)
+            item.text += " "
+            add(item, "num", f"From {least} to {most}.", atLeast=least, atMost=most)
 
 
 def _devices(div: Element, chapter: Chapter) -> None:
@@ -216,23 +261,19 @@ def _devices(div: Element, chapter: Chapter) -> None:
             ab = SubElement(part, "ab", {"type": "card", "n": str(card.number), _SPACE: "preserve"})
             if layout.layer == "stated":
                 if card.image:
-                    _add(ab, "supplied", card.image, reason="stated", resp="#ed")
+                    add(ab, "supplied", card.image, reason="stated", resp="#ed")
                 continue
             column = 1
             for token in card.tokens:
                 if token.first > column:
                     blanks = str(token.first - column)
                     SubElement(ab, "space", dim="horizontal", unit="chars", quantity=blanks, resp="#ed")
-                _add(ab, "seg", token.text, corresp=f"#chapter6-{_place(token.line)}")
+                add(ab, "seg", token.text, corresp=f"#chapter6-{_place(token.line)}")
                 column = token.last + 1
 
 
 def _place(line: str) -> str:
     return f"l{line}" if line.isdigit() else line
-
-
-def _add(parent: Element, name: str, content: str, **attributes: str) -> None:
-    SubElement(parent, name, attributes).text = content
 
 
 def _indent(root: Element) -> None:
@@ -243,8 +284,3 @@ def _indent(root: Element) -> None:
         element.text = content
         if element.tag != "ab":  # the characters after an ab are not part of it
             element.tail = tail
-
-
-def schema() -> str:
-    """Return the project's RELAX NG schema, which allows only the elements and attributes of these documents."""
-    return files("modern").joinpath("publication", "tei.rng").read_text(encoding="utf-8")

@@ -4,7 +4,8 @@ The module is the inverse of :mod:`modern.publication.tei`.  It shares no code w
 so that a successful round trip proves that the document is complete.
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
 from xml.etree.ElementTree import Element, ParseError, fromstring
 
 from emulator.errors import EmulatorError, quoted
@@ -33,33 +34,32 @@ def parsed(name: str, source: str) -> Element:
 
 def layers(root: Element) -> tuple[str, ...]:
     """Return the layers that a document declares, in order."""
-    taxonomies = root.iterfind(f".//{_TEI}taxonomy")
-    named = [c.get(_ID, "") for t in taxonomies if t.get(_ID) == "layer" for c in t.iterfind(_TEI + "category")]
-    return tuple(name.removeprefix("layer-") for name in named)
+    categories = [category.get(_ID, "") for category in root.iter(_TEI + "category")]
+    return tuple(name.removeprefix("layer-") for name in categories if name.startswith("layer-"))
 
 
 def printed_layers(root: Element) -> frozenset[str]:
-    """Return the layers of the edited text, whose readings are the lemmas."""
-    return frozenset(
-        app.get("type", "") for app in root.iter(_TEI + "app") for lem in app.iterfind(_TEI + "lem") if lem.get("resp")
-    )
+    """Return the layers of the edited text."""
+    edited = [category for category in root.iter(_TEI + "category") if category.get(_ID) == "layers-edited"]
+    return frozenset(name.get(_ID, "").removeprefix("layer-") for group in edited for name in group[1:])
 
 
 def witness(root: Element) -> str:
     """Return the witness as it is in its file, with page marks."""
+    state = _State.of(root, frozenset())
     lines: list[str] = []
     for element in _listing(root):
         if element.tag == _TEI + "pb":
             lines.append(f"## page {element.get('n', '')}")
         elif element.tag == _TEI + "ab" and element.get("n"):
-            lines.append(_reading(element, frozenset()))
+            lines.append(state.reading(element))
     return "".join(line + "\n" for line in lines)
 
 
 def corrected(root: Element, selected: Collection[str] | None = None) -> str:
     """Return the text with the selected layers, by default those of the edited text (for a listing, the deck)."""
-    chosen = printed_layers(root) if selected is None else selected
-    lines = (_reading(ab, chosen) for ab in _listing(root) if ab.tag == _TEI + "ab" and ab.get("type") == "line")
+    state = _State.of(root, printed_layers(root) if selected is None else selected)
+    lines = (state.reading(ab) for ab in _listing(root) if ab.tag == _TEI + "ab" and ab.get("type") == "line")
     return "".join(line + "\n" for line in lines if line.strip())
 
 
@@ -94,23 +94,50 @@ def _devices(root: Element) -> Iterator[Element]:
         yield from div.iterfind(_TEI + "div")
 
 
-def _reading(element: Element, chosen: Collection[str]) -> str:
-    """Return the characters of a line or of a reading, with one reading of each app."""
-    text = element.text or ""
-    for child in element:
-        if child.tag == _TEI + "app":
-            text += _chosen(child, chosen)
-        text += child.tail or ""
-    return text
+@dataclass(frozen=True)
+class _State:
+    """A state of the text: ``rows`` are the rows that apply, and ``pieces`` the displaced pieces by their places."""
+
+    rows: frozenset[str]
+    pieces: Mapping[str, Element]
+
+    @classmethod
+    def of(cls, root: Element, chosen: Collection[str]) -> "_State":
+        rows = {f"#{app.get(_ID)}" for app in root.iter(_TEI + "app") if app.get(_ID) and app.get("type") in chosen}
+        segs = {f"#{seg.get(_ID)}": seg for seg in root.iter(_TEI + "seg")}
+        pieces = {}
+        for move in root.iter(_TEI + "transpose"):
+            piece, place = (pointer.get("target", "") for pointer in (move[0], move[-1]))
+            if move.get("corresp") in rows and piece in segs:
+                pieces[place] = segs[piece]
+        return cls(frozenset(rows), pieces)
+
+    def reading(self, element: Element) -> str:
+        """Return the characters of a line, of a reading or of a piece in this state."""
+        return (element.text or "") + "".join(self._part(child) + (child.tail or "") for child in element)
+
+    def _part(self, child: Element) -> str:
+        applies = child.get("corresp", f"#{child.get(_ID)}") in self.rows
+        match child.tag.removeprefix(_TEI):
+            case "app":
+                return next((self.reading(part) for part in child if _is_ours(part) == applies), "")
+            case "choice":
+                # The patch is the last element; its row decides.
+                return self.reading(child[-1] if child[-1].get("corresp") in self.rows else child[0])
+            case "space" if applies:
+                return _blanks(child)
+            case "surplus" | "seg" if not applies:
+                return self.reading(child)
+            case "anchor" if f"#{child.get(_ID)}" in self.pieces:
+                return self.reading(self.pieces[f"#{child.get(_ID)}"])
+        return ""
 
 
-def _chosen(app: Element, chosen: Collection[str]) -> str:
-    ours = app.get("type") in chosen
-    for reading in app:
-        is_reading = reading.tag in (_TEI + "lem", _TEI + "rdg") and reading.get("type") != "rejected"
-        if is_reading and bool(reading.get("wit")) != ours:
-            return _reading(reading, chosen)
-    return ""
+def _is_ours(reading: Element) -> bool | None:
+    """Return True for the reading of the edition or of a lost state, False for that of the OCR text."""
+    if reading.tag not in (_TEI + "lem", _TEI + "rdg") or reading.get("type") == "rejected":
+        return None
+    return "#ocr" not in reading.get("wit", "").split()
 
 
 def _card(ab: Element) -> str:

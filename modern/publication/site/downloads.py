@@ -9,11 +9,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from modern.claims.apparatus_checks import texts
 from modern.edition import programs
 from modern.publication.building import DIST, ROOT, citation, newest_wheel
 from modern.publication.deposit import source_files
-from modern.publication.tei import schema, tei
+from modern.publication.tei import archive
 
 FOLDER = "get"
 _DEVICES = (".deck", ".punch", ".typewriter")
@@ -54,10 +53,8 @@ def _downloads() -> Iterator[Download]:
         yield Download(f"{name}.f", title, "the thesis's; quoted", {f"{name}.f": text})
     decks = [name for name in sources if name.startswith(("fortran_src/", "transcripts/")) and name.endswith(_DEVICES)]
     yield Download("decks.zip", "All data decks, punched cards and typed lines", "the thesis's; quoted", _read(decks))
-    documents = {f"{name}.xml": tei(name, version).encode() for name in texts()}
-    yield Download(
-        "tei.zip", "The edition in TEI P5, with its schema", "CC0", {**documents, "tei.rng": schema().encode()}
-    )
+    documents = {name: text.encode() for name, text in archive(version).items()}
+    yield Download("tei.zip", "The edition in TEI P5, with its schema and ODD", "CC0", documents)
     tables = [name for name in sources if name.startswith(("docs/studies", "docs/weight")) and name.endswith(_TABLES)]
     yield Download("tables.zip", "All tables of the studies", "CC0", _read(tables))
     registers = [n for n in sources if n.endswith(".toml") and n.startswith(("fortran_src/apparatus", "transcripts/"))]

@@ -26,7 +26,7 @@ from modern.publication.site.markup import (
     table,
     text,
 )
-from modern.publication.tei import LAYERS
+from modern.publication.tei_header import LAYERS
 from modern.publication.uses import Name, uses
 
 _CHARTS = dict(zip(programs.NAMES, ("chart1", "chart2", "chart3", "chart1_examples"), strict=True))

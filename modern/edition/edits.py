@@ -1,0 +1,112 @@
+"""The smallest edits that turn a reading of the witness into the lemma: words, blanks between words, and moved words.
+
+:mod:`modern.edition.segments` makes a place of each edit.  All indices count characters of the old text.
+"""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+
+from modern.edition.apparatus import Change
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """The characters ``first`` to ``last`` (exclusive) become ``new``.
+
+    ``moved`` is the number of a displaced piece: the edit that removes it and the edit that inserts it share it.
+    """
+
+    first: int
+    last: int
+    new: str
+    moved: int = 0
+
+
+def solid(text: str) -> str:
+    """Return a text without its blanks."""
+    return "".join(text.split())
+
+
+def common_prefix(a: str, b: str) -> int:
+    """Return the number of characters with which both texts begin."""
+    return next((n for n, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), min(len(a), len(b)))
+
+
+def blank_edits(old: str, new: str) -> Iterator[Edit]:
+    """Yield the edits between two texts that differ only in blanks.  Raise ValueError if they do not."""
+    at = 0
+    for before, after in zip(re.split(r"\S", old), re.split(r"\S", new), strict=True):
+        if before != after:
+            common = common_prefix(before, after)
+            yield Edit(at + common, at + len(before), after[common:])
+        at += len(before) + 1
+
+
+def word_edits(old: str, new: str) -> Iterator[Edit]:
+    """Yield the edits of the words of a text.  The blanks between the words may still differ from ``new``."""
+    for edit, _ in _word_edits(old, new):
+        yield edit
+
+
+def _word_edits(old: str, new: str) -> Iterator[tuple[Edit, tuple[range, Sequence[str]]]]:
+    """Yield each edit with the numbers of the words that it removes and the words that it inserts."""
+    before, after = ([*re.finditer(r"\S+", text)] for text in (old, new))
+    matcher = SequenceMatcher(None, [word[0] for word in before], [word[0] for word in after], autojunk=False)
+    for kind, a, b, c, d in matcher.get_opcodes():
+        if kind != "equal":
+            first = before[a].start() if a < b else before[a - 1].end() if a else 0
+            text = new[after[c].start() : after[d - 1].end()] if c < d else ""
+            yield Edit(first, before[b - 1].end() if a < b else first, text), (range(a, b), text.split())
+
+
+def moving_edits(changes: Sequence[Change]) -> list[list[Edit]]:
+    """Return the edits of each change of a row that moves words from one place to another.
+
+    A run of words that stays together is one piece.  Words that were not removed elsewhere are inserted, and removed
+    words that are inserted nowhere disappear.
+    """
+    tokens = [[*re.finditer(r"\S+", change.witness)] for change in changes]
+    edits: list[list[Edit]] = [[] for _ in changes]
+    removed: list[tuple[int, int]] = []  # the numbers of a change and of a word in its witness
+    inserted: list[tuple[int, int, list[str]]] = []  # the number of a change, the place in its witness, words
+    for number, change in enumerate(changes):
+        for edit, (taken, added) in _word_edits(change.witness, change.lemma):
+            removed += [(number, word) for word in taken]
+            # The words appear after the word that stays before them.
+            place = tokens[number][taken.start - 1].end() if taken and taken.start else 0 if taken else edit.first
+            inserted.append((number, place, list(added)))
+    moved = 0
+    for target, place, added in inserted:
+        while added:
+            origin, length = _longest_run(removed, tokens, added)
+            if not length:
+                edits[target].append(Edit(place, place, added.pop(0)))
+                continue
+            moved += 1
+            number, word = removed[origin]
+            first, last = tokens[number][word].start(), tokens[number][word + length - 1].end()
+            edits[number].append(Edit(first, last, "", moved))
+            edits[target].append(Edit(place, place, changes[number].witness[first:last], moved))
+            del removed[origin : origin + length], added[:length]
+    for number, word in removed:
+        edits[number].append(Edit(*tokens[number][word].span(), ""))
+    return edits
+
+
+def _longest_run(
+    removed: Sequence[tuple[int, int]], tokens: Sequence[Sequence[re.Match[str]]], added: Sequence[str]
+) -> tuple[int, int]:
+    """Return the index and the length of the longest run of neighbouring removed words with which ``added`` begins."""
+    best = (0, 0)
+    for origin, (number, word) in enumerate(removed):
+        length = 0
+        while (
+            length < len(added)
+            and removed[origin + length : origin + length + 1] == [(number, word + length)]
+            and tokens[number][word + length][0] == added[length]
+        ):
+            length += 1
+        best = max(best, (origin, length), key=lambda run: run[1])
+    return best
