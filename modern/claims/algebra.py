@@ -97,6 +97,10 @@ def turn(u: Point, v: Point) -> Polynomial:
     return u[0] * v[1] - u[1] * v[0]
 
 
+def cross(u: Point, v: Point) -> Point:
+    return tuple(u[i] * v[j] - u[j] * v[i] for i, j in ((1, 2), (2, 0), (0, 1)))
+
+
 def bracket(a: Point, b: Point, c: Point) -> Polynomial:
     """Return twice the signed area of the triangle a b c; it is positive if c is to the left of the line a b."""
     return turn(minus(b, a), minus(c, a))

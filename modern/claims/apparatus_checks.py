@@ -116,17 +116,12 @@ def _produced(name: str) -> Lines:
     return published.produced_by(next(paper for paper in published.PAPERS if paper.name == name))
 
 
-@cache
-def _results(paper: published.Paper) -> tuple[published.PublishedResult, ...]:
-    return published.results_of(paper)
-
-
 def paper_faults(paper: published.Paper, text: Text, row: Row) -> tuple[str, ...]:
     """Return the fault of a row of a paper, if any: its results must be reproduced with the row, and not without it."""
     if row.ground.get("kind") != "result":
         return (f"row {row.id}: unknown ground {row.ground.get('kind')!r}",)
     has_computed_result = False
-    for result in _results(paper):
+    for result in published.results_of(paper):
         span = _span(text, row, *result.span)
         if result.cannot or not any(change.line in span for change in row.changes):
             continue

@@ -9,15 +9,12 @@ import csv
 import hashlib
 import io
 import sys
-from argparse import ArgumentParser
 from collections.abc import Iterator, Mapping
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import astuple, dataclass, fields
 from functools import cache
 from importlib import import_module
 from importlib.resources import files
 from inspect import getsource
-from multiprocessing import get_context
 from pathlib import Path
 
 from emulator.files import write_text
@@ -120,6 +117,11 @@ def outstanding(results: Mapping[str, FullSearch]) -> Iterator[str]:
 
 
 def main(arguments: list[str] | None = None) -> int:
+    # These are imported here because the modules that show recorded results need none of them.
+    from argparse import ArgumentParser
+    from concurrent.futures import ProcessPoolExecutor, as_completed
+    from multiprocessing import get_context
+
     parser = ArgumentParser(prog="python -m modern.claims.full", description="Run the full searches of all claims.")
     parser.add_argument("--jobs", type=int, default=2, help="number of processes (default: 2)")
     jobs = parser.parse_args(arguments).jobs

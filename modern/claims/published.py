@@ -101,13 +101,18 @@ def text_of(paper: Paper, folder: Traversable | None = None) -> Text:
     return load(folder or files("transcripts").joinpath(paper.folder), "apparatus")
 
 
-def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[PublishedResult, ...]:
-    """Return the published results of a paper in the order of ``results.toml``.
+@cache
+def results_of(paper: Paper) -> tuple[PublishedResult, ...]:
+    """Return the published results of a paper in the order of ``results.toml``."""
+    return read_results(paper, files("transcripts").joinpath(paper.folder))
+
+
+def read_results(paper: Paper, folder: Traversable) -> tuple[PublishedResult, ...]:
+    """Read the published results of a paper from a folder.
 
     Raise ApparatusError if a result names a line that does not exist, or if a line of the witness belongs to two
     results or to none.
     """
-    folder = folder or files("transcripts").joinpath(paper.folder)
     text = text_of(paper, folder)
     witness = {line.id: line for line in text.witness}
     corrected = build(text)
@@ -169,10 +174,10 @@ def produced_by(paper: Paper) -> Lines:
     return produced
 
 
-def findings(paper: Paper, folder: Traversable | None = None) -> Iterator[Finding]:
+def findings(paper: Paper) -> Iterator[Finding]:
     """Yield the verdict on every published result of a paper."""
     produced = produced_by(paper)
-    for result in results_of(paper, folder):
+    for result in results_of(paper):
         yield judge(paper, result, produced.get(result.id, ()))
 
 

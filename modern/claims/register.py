@@ -50,9 +50,9 @@ THESIS: Final = "thesis"
 # The five documents by their names on the command line.
 DOCUMENTS = (THESIS, "appel-will", "kovalevsky-schulz", "nakamae-nishita", "yau-srihari")
 MOST_WORDS = 8
-_REQUIRED = {"page", "kind", "words", "says"}
+_REQUIRED = {"page", "words", "says"}
 _OF_VERDICT = {"verdict", "why", "result", "code", "file", "run"}
-_FIELDS = _REQUIRED | _OF_VERDICT | {"part", "same"}
+_FIELDS = _REQUIRED | _OF_VERDICT | {"kind", "part", "same"}
 
 
 class StatementError(ValueError):
@@ -73,9 +73,9 @@ class Statement:
     document: str
     id: str
     page: str
-    kind: str
     words: str
     says: str
+    kind: str = "claim"
     verdict: Verdict = HOLDS
     why: str = ""
     results: tuple[str, ...] = ()
@@ -139,7 +139,7 @@ def _row(document: str, number: str, raw: Mapping[str, Any]) -> Statement:
     if not number.isdecimal() or not isinstance(raw, Mapping):
         raise StatementError(f"{document}: expected the number of a statement as name of each table; found {number!r}")
     unknown = raw.keys() - _FIELDS
-    missing = (_REQUIRED if "same" in raw else _REQUIRED | {"verdict"}) - raw.keys()
+    missing = _REQUIRED - raw.keys()
     if unknown or missing:
         raise StatementError(
             f"{place}: {'unknown' if unknown else 'missing'} field: {', '.join(sorted(unknown or missing))}"
@@ -158,7 +158,7 @@ def _row(document: str, number: str, raw: Mapping[str, Any]) -> Statement:
 
 
 def _check_verdict(place: str, raw: Mapping[str, Any]) -> None:
-    verdict = raw["verdict"]
+    verdict = raw.get("verdict", HOLDS)
     if verdict not in VERDICTS:
         raise StatementError(f"{place}: expected one of the verdicts {'; '.join(VERDICTS)}; found {verdict!r}")
     if verdict not in (HOLDS, USED) and not raw.get("why"):
@@ -177,15 +177,16 @@ def _as_tuple(value: str | Iterable[str]) -> tuple[str, ...]:
 def decisions() -> Mapping[str, tuple[Decision, ...]]:
     """Return the checks of all documents by the ids of the statements that they decide.
 
-    Every module below ``modern/claims/DOCUMENT/`` is searched for functions with the decorator ``claim``.
+    The invariants and every module below ``modern/claims/DOCUMENT/`` are searched for functions with the decorator
+    ``claim``.
     """
+    packages = [import_module(f"modern.claims.{document.replace('-', '_')}") for document in DOCUMENTS]
+    modules = [module.name for p in packages for module in iter_modules(p.__path__, f"{p.__name__}.")]
     by_statement: dict[str, list[Decision]] = {}
-    for document in DOCUMENTS:
-        package = import_module(f"modern.claims.{document.replace('-', '_')}")
-        for module in iter_modules(package.__path__, f"{package.__name__}."):
-            for decision in decisions_in(import_module(module.name)):
-                by_statement.setdefault(decision.statement, []).append(decision)
-    return {name: tuple(found) for name, found in by_statement.items()}
+    for name in (*modules, "modern.claims.invariants"):
+        for decision in decisions_in(import_module(name)):
+            by_statement.setdefault(decision.statement, []).append(decision)
+    return {name: tuple(of_statement) for name, of_statement in by_statement.items()}
 
 
 @cache

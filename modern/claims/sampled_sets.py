@@ -1,7 +1,7 @@
 """Data that the checks of several documents share: sampled point sets, random triples and counterexamples."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
 from importlib.resources import files
@@ -94,6 +94,15 @@ def plane_value(plane: Plane, point: Point) -> int:
     return dot(plane[:3], point) + plane[3]
 
 
+def is_closed_curve(edges: Collection[tuple[int, int]]) -> bool:
+    """Return True if edges form one closed curve: they are connected, and each end belongs to two of them."""
+    ends = [end for edge in edges for end in edge]
+    reached = {*ends[:1]}
+    for _ in edges:
+        reached |= {end for edge in edges if reached & {*edge} for end in edge}
+    return bool(ends) and reached == {*ends} and all(ends.count(end) == 2 for end in ends)
+
+
 def plane_through(p: Point, q: Point, r: Point) -> Plane:
     """Return the plane through three points by a cross product, independently of equation (3.4) of the thesis."""
     normal = cross(minus(q, p), minus(r, p))
@@ -130,16 +139,20 @@ def _normal(points: tuple[Point, ...], start: tuple[int, ...]) -> Point:
 
 
 @cache
+def _drawn(dimension: int) -> tuple[list[SampledSet], Random]:
+    """Return the sets drawn so far and the state of the generator; :func:`sampled_sets` extends the list."""
+    return [], Random(SETS[dimension].seed)
+
+
 def sampled_sets(dimension: int, count: int) -> tuple[SampledSet, ...]:
     """Return ``count`` sets in space (dimension 3) or in an oblique plane (2); some have three collinear points."""
-    generator, random = SETS[dimension], Random(SETS[dimension].seed)
-    sets: list[SampledSet] = []
+    sets, random = _drawn(dimension)
     while len(sets) < count:
-        points = generator.draw(random)
+        points = SETS[dimension].draw(random)
         judge = exact_hull(points)
         if judge.dimension == dimension:
             sets.append(SampledSet(points, convex_hull(points, history=True), judge))
-    return tuple(sets)
+    return tuple(sets[:count])
 
 
 def flat_and_spatial_sets(count: int) -> tuple[SampledSet, ...]:

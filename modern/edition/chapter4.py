@@ -83,6 +83,7 @@ def load_text() -> Text:
     return load(chapter4_folder(), "chapter4")
 
 
+@cache
 def load_theorems() -> tuple[Theorem, ...]:
     """Return the data of ``theorems.toml`` in the order of the chapter."""
     data = tomllib.loads(chapter4_folder().joinpath("theorems.toml").read_text(encoding="utf-8"))

@@ -5,11 +5,9 @@ from itertools import combinations
 
 from modern.claims.appel_will.convexity import CUBE
 from modern.claims.evidence import Check, claim, searched
-from modern.claims.sampled_sets import CASES, SETS, Point, plane_through, plane_value, sampled_sets
+from modern.claims.sampled_sets import CASES, SETS, Point, is_closed_curve, sampled_sets
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import dot
-from modern.papers.appel_will import appel_will
-from modern.papers.appel_will.loops import TIMES
 from modern.papers.appel_will.results import found_solid
 
 Graph = Mapping[int, frozenset[int]]
@@ -79,37 +77,6 @@ def coplanar_loops(cases: int = CASES) -> Check:
     return searched(SETS[3], cases, checks, f"true for {len(checks)} pairs of edges and hulls")
 
 
-@claim("appel-will.150", full=200)
-def list_of_points(cases: int = CASES) -> Check:
-    """Check that the plane tests of step 10 repeat tests of step 7, whose results could be stored.
-
-    The points in the plane are those of the loop, so a list of them would be enough for the remaining steps.
-    """
-    checks: list[bool] = []
-    asked = 0
-    for points in _sets(cases):
-        hull = appel_will(points)
-        before = (0,) * len(hull.edges)
-        for loop, ring in zip(hull.table.loops, hull.surfaces, strict=True):
-            a, b, c = (hull.points[k] for k in ring[:3])
-            values = {k: plane_value(plane_through(a, b, c), hull.points[k]) for k in hull.vertices}
-            checks.append({k for k, plane_value in values.items() if not plane_value} == {*ring})
-            # Follow steps 9 and 10 along the printed order of lines up to the one chosen.
-            taken, match = [abs(entry) - 1 for entry in loop.entries[:2]], loop.match
-            for entry in loop.entries[2:]:
-                chosen = abs(entry) - 1
-                for line, ends in enumerate(hull.edges[: chosen + 1]):
-                    if match in ends and before[line] < TIMES and line not in taken:
-                        beyond = sum(ends) - match
-                        asked += beyond != loop.start
-                        checks.append((beyond in ring) == (not values[beyond]))
-                taken.append(chosen)
-                match = sum(hull.edges[chosen]) - match
-            before = loop.uses
-    message = f"step 7 has already computed all {asked} values that step 10 needs in {len(checks)} cases"
-    return searched(SETS[3], cases, [*checks, asked], message)
-
-
 @claim("appel-will.32", full=400)
 def outline(cases: int = CASES) -> Check:
     """Check that the edges between front and back faces form one closed curve, unless a face is seen edge-on."""
@@ -121,8 +88,4 @@ def outline(cases: int = CASES) -> Check:
 def _closed(judge: ExactHull, eye: Point) -> bool:
     signs = {frozenset(f.polygon): dot(f.plane[:3], eye) > 0 for f in judge.facets if dot(f.plane[:3], eye)}
     rim = [e for e in judge.edges() if [s for f, s in signs.items() if {*e} <= f] in ([True, False], [False, True])]
-    reached = {*rim[0]} if rim else set()
-    for _ in rim:
-        reached |= {end for edge in rim if reached & {*edge} for end in edge}
-    ends = [end for edge in rim for end in edge]
-    return bool(rim) and all(ends.count(end) == 2 for end in ends) and reached == {*ends}
+    return is_closed_curve(rim)

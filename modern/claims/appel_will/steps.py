@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from itertools import combinations, pairwise, permutations, product
 
-from modern.claims.appel_will.convexity import CUBE, Flat
-from modern.claims.evidence import Check, claim, exhausted, exhibited, searched, slip
-from modern.claims.sampled_sets import CASES, SETS, Point, counterexample_points, sampled_sets
+from modern.claims.appel_will.convexity import Flat
+from modern.claims.evidence import Check, claim, exhausted, exhibited, slip
+from modern.claims.sampled_sets import Point, counterexample_points
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import Method, appel_will, printed
 from modern.papers.appel_will.corners import triple_product
 from modern.papers.appel_will.results import found_solid
-from modern.papers.appel_will.star import as_corrected, as_printed, project, star_polygon, vorticity
+from modern.papers.appel_will.star import as_corrected, as_printed, star_polygon, vorticity
 
 # The vectors I, K and L of [512], [723] and [643].
 FIG_18: tuple[tuple[Point, Point, Point], ...] = (
@@ -29,21 +29,6 @@ def new_lines() -> Check:
     new = [pair for pair in zip(polygon, (*polygon[1:], polygon[0]), strict=True) if frozenset(pair) not in sides]
     message = ", ".join(f"{ring[a]} to {ring[b]}" for a, b in new)
     return exhibited(len(polygon) < len(ring) and len(new) == 1, f"the new line is {message}")
-
-
-@claim("appel-will.133", full=200)
-def collinear_points(cases: int = CASES) -> Check:
-    """Check that, of three collinear points projected to one point, the middle one is not a vertex of the hull."""
-    checks = []
-    for sampled in sampled_sets(3, cases):
-        doubled = [(2 * x, 2 * y, 2 * z) for x, y, z in sampled.points]
-        for p, q in combinations(doubled[:6], 2):
-            middle: Point = ((p[0] + q[0]) // 2, (p[1] + q[1]) // 2, (p[2] + q[2]) // 2)
-            if middle not in doubled:
-                points = [*doubled, middle]
-                line = project(points, (points.index(p), points.index(q)), range(len(points))).line
-                checks.append(len(doubled) in line and len(doubled) not in exact_hull(points).vertices)
-    return searched(SETS[3], cases, checks, f"{len(checks)} points between two others are not vertices")
 
 
 @claim("appel-will.131")
@@ -74,25 +59,6 @@ def star_test(test: str = "") -> Check:
             (checks if general else in_line).append(as_printed(images) != held)
     check = exhausted("grid points about five points", [*checks, border], f"right for {len(checks)} points")
     return check.unless(in_line and not all(in_line), "grid points in line with two of the five points")
-
-
-@claim("appel-will.135", full=200)
-def closed_loops(cases: int = CASES) -> Check:
-    """Check that consecutive lines of each loop share an end, and the last line shares one with the first."""
-    hulls = [appel_will(points) for points in (CUBE, *(sampled.points for sampled in sampled_sets(3, cases)))]
-    checks = [_joined(loop.entries, hull.edges) for hull in hulls for loop in hull.table.loops]
-    return searched(SETS[3], cases, checks, f"{len(checks)} loops are closed")
-
-
-@claim("yau-srihari.112", full=200)
-def lines_in_two_loops(cases: int = CASES) -> Check:
-    """Check that each line of a hull is in two loops."""
-    checks = []
-    for points in (CUBE, *(sampled.points for sampled in sampled_sets(3, cases))):
-        hull = appel_will(points)
-        entries = sorted(abs(entry) for loop in hull.table.loops for entry in loop.entries)
-        checks.append(entries == sorted([*range(1, len(hull.edges) + 1)] * 2))
-    return searched(SETS[3], cases, checks, f"every line of {len(checks)} hulls is in two loops")
 
 
 @claim("appel-will.119")

@@ -10,13 +10,19 @@ from modern.claims.algebra import (
     combination_satisfies,
     dot,
     largest_value,
+    minus,
     not_negative,
     point,
     positive,
     term,
+    variables,
     zero,
 )
 from modern.claims.evidence import Check, claim
+from modern.claims.sampled_sets import Point, plane_through, plane_value
+from modern.exact_hull import exact_hull
+
+TETRAHEDRON: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
 
 
 def lemma_lz() -> Proof:
@@ -40,6 +46,55 @@ def lemma_ch() -> Proof:
         "contain V and have its vertices in K. By Minkowski's theorem a convex polyhedron consists of the combinations "
         "of its vertices. The vertices of K are in V, hence in K', and so K is in K'. In the same way K' is in K.",
         (largest_value(), *combination_satisfies()),
+    )
+
+
+def vertex_is_no_combination() -> Proof:
+    """Prove that a vertex of a convex polyhedron is a combination of no other points of the polyhedron."""
+    return Proof(
+        "a point of a convex polyhedron is a vertex if and only if it is a combination of no other points of it",
+        "A vertex is the only point with the largest value of some linear function, so that a combination of other "
+        "points has a smaller value. By Minkowski's theorem every point is a combination of vertices. So a polyhedron "
+        "whose other vertices are moved to points of the old one does not contain the vertex.",
+        (largest_value(), combination_satisfies()[0]),
+    )
+
+
+def choice_of_q() -> Proof:
+    """Prove that the product of a face's normal with P - Q is the same for all points Q of the face."""
+    n, p, q, r = (point(name, 3) for name in "npqr")
+    products = [dot(n, minus(p, corner)) for corner in (q, r)]
+    return Proof(
+        "a point sees a face from all points of the face or from none",
+        "The normal is perpendicular to the way from one point of the face to another. So the sign of its product with "
+        "the way to P, which tells acute from obtuse angles, is the same for all of them.",
+        (
+            Step(
+                "the product of the normal with P - Q does not depend on Q",
+                {"face": zero(dot(n, minus(q, r)))},
+                zero(products[0] - products[1]),
+                (term("face", -1),),
+            ),
+        ),
+    )
+
+
+def halves() -> Proof:
+    """Prove that the hulls of two sets do not meet if all x of one are smaller than all x of the other."""
+    x, p, q, w_p, w_q = variables("x p q w_p w_q")
+    below = {"p": positive(x - p), "q": positive(x - q), "w_p": positive(w_p), "w_q": not_negative(w_q)}
+    return Proof(
+        "the hulls of two sets do not meet if a plane x = c is between the sets",
+        "All combinations of points with a smaller x have a smaller x. The other set is treated in the same way with "
+        "the opposite sign.",
+        (
+            Step(
+                "x of a combination is smaller",
+                below,
+                positive((w_p + w_q) * x - w_p * p - w_q * q),
+                (term("w_p p"), term("w_q q")),
+            ),
+        ),
     )
 
 
@@ -89,9 +144,50 @@ def lemma_be() -> Proof:
     )
 
 
-@claim("kovalevsky-schulz.65", "kovalevsky-schulz.68", "kovalevsky-schulz.124", proof=lemma_lz)
-@claim("kovalevsky-schulz.69", "kovalevsky-schulz.121", proof=lemma_ch)
+@claim("kovalevsky-schulz.66", "kovalevsky-schulz.68", "kovalevsky-schulz.124", proof=lemma_lz)
+@claim("kovalevsky-schulz.69", proof=lemma_ch)
+@claim("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17", proof=vertex_is_no_combination)
+@claim("kovalevsky-schulz.121", "kovalevsky-schulz.167", proof=vertex_is_no_combination)
+@claim("appel-will.16", "appel-will.19", "appel-will.133", proof=vertex_is_no_combination)
+@claim("kovalevsky-schulz.49", "kovalevsky-schulz.173", proof=choice_of_q)
 @claim("kovalevsky-schulz.95", proof=symmetry)
-@claim("kovalevsky-schulz.71", "kovalevsky-schulz.72", proof=lemma_be)
+@claim("kovalevsky-schulz.168", proof=lemma_be)
 def proof_of_lemma(proof: Callable[[], Proof]) -> Check:
     return proof().check()
+
+
+@claim("kovalevsky-schulz.65")
+def nonempty_part() -> Check:
+    """Check lemma LZ, and that the part beyond the largest x of a tetrahedron is empty and contains no vertex."""
+    beyond = [p for p in TETRAHEDRON if p[0] >= 1 + max(q[0] for q in TETRAHEDRON)]
+    return lemma_lz().check().unless(not beyond, "an empty part, beyond the largest x")
+
+
+@claim("kovalevsky-schulz.71")
+def plane_of_horizon() -> Check:
+    """Check lemma BE, and that a point on the line of the edge determines no plane with it."""
+    on_line = plane_through((0, 0, 0), (2, 0, 0), (4, 0, 0))
+    case = "a point on the line of the edge, which determines no plane with it"
+    return lemma_be().check().unless(not any(on_line), case)
+
+
+@claim("kovalevsky-schulz.72")
+def formula_4() -> Check:
+    """Check that a of formula (4) is positive, but 0 for a point in the plane of the other face."""
+    hidden, new = (0, 0, 1), (4, -1, 0)
+    return lemma_be().check().unless(plane_value((*hidden, 0), new) == 0, f"{new}, in the plane of a square: a is 0")
+
+
+@claim("kovalevsky-schulz.146", "yau-srihari.17")
+def halves_of_sorted_set() -> Check:
+    """Check that the hulls of two halves of points sorted by x do not meet if no x is in both; otherwise they may."""
+    first, second = [(0, 0, 0), (0, 2, 0)], [(0, 1, 0), (1, 1, 0)]
+    meet = max(p[0] for p in first) <= min(p[0] for p in second) and 2 not in exact_hull([*first, second[0]]).vertices
+    return halves().check().unless(meet, "the halves (0, 0), (0, 2) and (0, 1), (1, 1), whose hulls meet in (0, 1)")
+
+
+@claim("kovalevsky-schulz.15")
+def combinations_of_others() -> Check:
+    """Check that a vertex is a combination of no other points; with the weight 1 it is a combination of itself."""
+    itself = TETRAHEDRON[0] in TETRAHEDRON and 0 in exact_hull(TETRAHEDRON).vertices
+    return vertex_is_no_combination().check().unless(itself, "a vertex, which is itself with the weight 1")

@@ -2,23 +2,14 @@
 
 from fractions import Fraction
 from functools import cache
-from itertools import permutations, product
 
-import numpy as np
-
-from modern.claims.evidence import Check, claim, exhausted, exhibited, searched, slip
+from modern.claims.evidence import Check, claim, exhibited, searched, slip
 from modern.claims.kovalevsky_schulz.polyhedra import hulls, polyhedron
 from modern.claims.published import PAPERS, printed_lines, produced_by
-from modern.claims.sampled_sets import CASES, SETS, Point
-from modern.digital.solids import Volume, half_ball, listed
-from modern.papers.kovalevsky_schulz import (
-    INVISIBLE,
-    VERTICES,
-    local_corners,
-    voxel_hull,
-)
-from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size, economical_size, triangulation_size
-from modern.papers.kovalevsky_schulz.hull import merged, straightened
+from modern.claims.sampled_sets import CASES, SETS
+from modern.papers.kovalevsky_schulz.cells import cell_list_size, economical_size, triangulation_size
+from modern.papers.kovalevsky_schulz.hull import merged
+from modern.papers.kovalevsky_schulz.results import half_ball_cells
 
 # The diameters of the half-balls of Table 5.
 DIAMETERS = (8, 10, 12, 14, 16, 18, 20, 22)
@@ -75,7 +66,7 @@ def memory_requirements() -> Check:
 @claim("kovalevsky-schulz.80", "kovalevsky-schulz.81")
 def vertices_of_a_face() -> Check:
     """Check that faces of the half-balls of Table 5 have about five vertices on average; single bodies differ."""
-    bodies = [voxel_hull(half_ball(d), neighbours=6, coplanar=INVISIBLE).polyhedron.faces for d in DIAMETERS]
+    bodies = [half_ball_cells(d) for d in DIAMETERS]
     corners, faces = [sum(len(f.vertices) for f in cells.faces) for cells in bodies], [len(c.faces) for c in bodies]
     mean = Fraction(sum(corners), sum(faces))
     exact = sum(economical_size(cells) for cells in bodies)
@@ -87,46 +78,6 @@ def vertices_of_a_face() -> Check:
         max(single) == 8 and min(single) < 4,
         f"single bodies, with {float(min(single)):.1f} to {float(max(single)):.1f} vertices for each face",
     )
-
-
-@claim("kovalevsky-schulz.171")
-def integers_of_triangles() -> Check:
-    """Check that the numbers of integers in Table 5 follow from the printed triangles by (5), 4.5 for each."""
-    checks = [triangulation_size(triangles) == integers for triangles, integers, _, _ in _table_5()]
-    return exhausted("rows of Table 5", checks, f"{sum(checks)} of {len(checks)} rows follow from formula (5)")
-
-
-def _straight(volume: Volume) -> CellList:
-    return straightened(merged(polyhedron(local_corners(volume, VERTICES))))
-
-
-@claim("kovalevsky-schulz.95")
-def symmetry() -> Check:
-    """Check that the symmetries of three bodies of voxels are symmetries of the faces of their hulls."""
-    short: list[Point] = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
-    numbers, checks = [], []
-    for volume in (half_ball(10), listed(short), listed([*short, (0, 2, 0)])):
-        voxels = [(int(x), int(y), int(z)) for x, y, z in np.argwhere(volume.array)]
-        cells = _straight(volume)
-        points = [vertex.point for vertex in cells.vertices]
-        numbers.append(0)
-        for order, signs in product(permutations(range(3)), product((1, -1), repeat=3)):
-            if {*_moved(voxels, order, signs)} == {*_moved(voxels)}:
-                numbers[-1] += 1
-                turned, stays = (
-                    {frozenset(places[v - 1] for v in face.vertices) for face in cells.faces}
-                    for places in (_moved(points, order, signs), _moved(points))
-                )
-                checks.append(turned == stays)
-    message = f"{', '.join(map(str, numbers))} symmetries of three bodies are symmetries of their hulls"
-    return exhausted("symmetries of three bodies", [*checks, numbers == [8, 4, 2]], message)
-
-
-def _moved(points: list[Point], order: tuple[int, ...] = (0, 1, 2), signs: tuple[int, ...] = (1, 1, 1)) -> list[Point]:
-    """Return points with axes exchanged and reflected about the middle of their box, in half units."""
-    middle = [min(axis) + max(axis) for axis in zip(*points, strict=True)]
-    turned = ([2 * p[k] - middle[k] for k in range(3)] for p in points)
-    return [(signs[0] * p[order[0]], signs[1] * p[order[1]], signs[2] * p[order[2]]) for p in turned]
 
 
 @claim("kovalevsky-schulz.157")

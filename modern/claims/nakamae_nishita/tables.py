@@ -161,10 +161,10 @@ def formula_1() -> Check:
 @claim("nakamae-nishita.22")
 def formula_2() -> Check:
     """Check that the program's tables PL and LP of two squares are those of formula (2)."""
-    pl, lp = tables_of(SQUARE, ACROSS)
-    program_tables = contour_tables(SQUARE, ACROSS)
-    agrees = program_tables.pl == tuple(map(tuple, pl)) and program_tables.lp == tuple(map(tuple, lp))
-    return exhibited(agrees, "the tables PL and LP of two squares follow formula (2)")
+    return exhibited(
+        contour_tables(SQUARE, ACROSS) == tables_by_2(SQUARE, ACROSS),
+        "the tables of two squares follow (2)",
+    )
 
 
 @claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", full=25)
@@ -178,8 +178,7 @@ def formula_3(cases: int = CASES) -> Check:
 @claim("nakamae-nishita.29", "nakamae-nishita.33", full=25)
 def formula_3_in_line(cases: int = CASES) -> Check:
     """Check that d of (3) tells how segments meet unless they are collinear: then d is 0 though they may overlap."""
-    pl, lp = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2)))
-    d = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp))).crossing_number(1, 1)
+    d = tables_by_2(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2))).crossing_number(1, 1)
     check = formula_3(cases)
     return check.unless(d == 0, "the sides (0, 4) (4, 4) and (2, 4) (6, 4), which overlap, and d is 0")
 
@@ -198,10 +197,10 @@ def formula_5() -> Check:
     return check.unless(signs[0] == (0, 0), "a vertex in the face, for which the value is 0")
 
 
-def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[tuple[int, int]]:
-    """Yield, for each pair of segments of v and w, d of formula (3) and the value that their position requires."""
-    pl, lp = tables_of(v, w)
-    tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
+@cache
+def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tuple[int, int]]:
+    """Return, for each pair of segments of v and w, d of formula (3) and the value that their position requires."""
+    tables, meetings = tables_by_2(v, w), []
     for i, j in product(range(len(v)), range(len(w))):
         a, b, c, d = v[i], v[(i + 1) % len(v)], w[j], w[(j + 1) % len(w)]
         # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.
@@ -209,7 +208,13 @@ def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[
         in_line = side(a, b, c) == side(a, b, d) == 0
         same = {a, b} & {c, d}
         expected = 0 if in_line else -1 if same else -2 if touching else -4 if crosses(v, i, w, j) else 0
-        yield tables.crossing_number(i, j), expected
+        meetings.append((tables.crossing_number(i, j), expected))
+    return meetings
+
+
+def tables_by_2(v: tuple[Place, ...], w: tuple[Place, ...]) -> Tables:
+    pl, lp = tables_of(v, w)
+    return Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
 
 
 def _between(p: Place, q: Place, r: Place) -> bool:
@@ -236,7 +241,7 @@ def table_properties(number: str, cases: int = CASES) -> Check:
     checks, touching = [], False
     for v, w in pairs(cases):
         pl, lp = tables_of(v, w)
-        tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
+        tables = tables_by_2(v, w)
         if number != "LP":
             met = [[tables.crossing_number(i, j) for j in range(len(w))] for i in range(len(v))]
             property_checks, touches = _property(number, v, w, [*zip(*pl, strict=True)], met)

@@ -6,9 +6,9 @@ from itertools import combinations, permutations, product
 
 from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
 from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, crosses, inside, lines_of, pairs, side, tables_of
-from modern.claims.sampled_sets import CASES, SETS, counterexample, counterexample_points, sampled_sets
+from modern.claims.sampled_sets import CASES, counterexample, counterexample_points
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import dot, minus
 from modern.papers.nakamae_nishita.contours import values
 from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, clipped
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
@@ -270,15 +270,3 @@ def counts_of_table_1d() -> Check:
     check = exhibited(plates == COUNTS["d"], "25 prisms and five plates have the printed counts")
     solids = all(most[name] == COUNTS[name][1] for name in "ac") and most["d"] < COUNTS["d"][1]
     return check.unless(solids, f"solids only, which have at most {most['d']} vertices with 158 faces")
-
-
-@claim("nakamae-nishita.63", full=400)
-def convex_faces(cases: int = CASES) -> Check:
-    """Check that any three consecutive corners of a hull's face turn the same way about the outward normal."""
-    checks = []
-    for sampled in sampled_sets(3, cases):
-        for facet in sampled.judge.facets:
-            ring = [sampled.points[k] for k in facet.polygon]
-            turns = [cross(minus(ring[k - 1], ring[k - 2]), minus(ring[k], ring[k - 1])) for k in range(len(ring))]
-            checks.append(all(dot(turn, facet.plane[:3]) > 0 for turn in turns))
-    return searched(SETS[3], cases, checks, f"{len(checks)} faces are convex")

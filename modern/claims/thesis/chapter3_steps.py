@@ -12,7 +12,6 @@ from modern.claims.sampled_sets import (
     BOTH,
     CASES,
     SETS,
-    TRIPLES,
     Approximation,
     Point,
     SampledSet,
@@ -20,7 +19,6 @@ from modern.claims.sampled_sets import (
     flat_and_spatial_sets,
     plane_through,
     plane_value,
-    random_triples,
     reduced_plane,
     sampled_sets,
 )
@@ -28,7 +26,6 @@ from modern.claims.thesis.chapter3_equations import plane_as_printed
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
-from modern.port.arithmetic import moments
 
 
 def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], message: str) -> Check:
@@ -70,23 +67,6 @@ def _farthest(sets: tuple[SampledSet, ...]) -> Iterator[bool]:
 
 def _square(u: Point) -> int:
     return dot(u, u)
-
-
-@claim("thesis.50")
-def value_v() -> Check:
-    """Check that V is the square of a vector product by the formula of the proof, but not as page 14 displays it."""
-    right = all(
-        sum(o * o for o in moments(x, p, q)) == _square(cross(minus(q, p), minus(x, p))) for p, q, x in random_triples()
-    )
-    p, q, x = counterexample_points("v_as_our_text.csv")
-    on_line = not any(cross(minus(q, p), minus(x, p)))
-    (x1, y1, z1), (x2, y2, z2), (xi, yi, zi) = p, q, x
-    # Page 14 of our text prints the index 1 instead of i in the first and third factors.
-    as_text = ((y2 - y1) * (z2 - z1) - (z2 - zi) * (y2 - y1)) ** 2
-    as_text += ((z2 - z1) * (x2 - x1) - (x2 - xi) * (z2 - z1)) ** 2
-    as_text += ((x2 - x1) * (y2 - y1) - (y2 - yi) * (x2 - x1)) ** 2
-    message = "with y_i and z_i, V is the square of the distance from the line times D squared"
-    return searched(TRIPLES, 6, [right], message).misprinted(on_line and as_text, "y_i, z_i and x_i in all factors")
 
 
 @claim("thesis.52", full=300)

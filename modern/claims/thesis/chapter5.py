@@ -1,7 +1,6 @@
 """Checks of chapters 5 and 6 and of the bibliography: messages, table sizes, printed hulls, and cited pages."""
 
 import re
-from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 
@@ -12,12 +11,20 @@ from emulator.machine.result import Options
 from modern.claims.evidence import Check, claim, exhausted, exhibited
 from modern.claims.sampled_sets import CASES
 from modern.claims.thesis.chapter3_equations import procedure_against_judge
-from modern.claims.thesis.chapter7 import PLACES, deck_of, run_of, silent_loss, two_kinds_of_error, typed, vertices_of
+from modern.claims.thesis.chapter7 import (
+    PLACES,
+    deck_of,
+    entries_of_plane_table,
+    run_of,
+    silent_loss,
+    two_kinds_of_error,
+    typed,
+    vertices_of,
+)
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_card_hull, from_judge
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, Print, input_deck, prints
-from modern.edition.chapter6_cards import card_images, load_chapter
 from modern.exact_hull import exact_hull
 from modern.formats.deck import data_deck, exact_points
 from modern.port import convex_hull
@@ -49,16 +56,10 @@ def message_after_wrong_hull() -> Check:
     punched_vertices, hull_vertices = vertices_of("silent.deck")
     announced = any("CONVEX HULL HAS BEEN DETERMINED" in card for card in punched)
     message = f"success is punched after {len(punched_vertices)} of {len(hull_vertices)} vertices"
-    endings = ["CONVEX HULL HAS BEEN DETERMINED" in prints_of[-1] for prints_of in _last_cards()]
+    punched_by_examples = [[p.lines for p in prints(k) if p.device == "punch"][-1] for k in (4, 5, 6)]
+    endings = ["CONVEX HULL HAS BEEN DETERMINED" in [*filter(str.strip, lines)][-1] for lines in punched_by_examples]
     check = exhausted("examples 4 to 6 of chapter 6", endings, "the examples end with the message")
     return check.unless(announced and punched_vertices != hull_vertices, f"four points of five digits: {message}")
-
-
-def _last_cards() -> Iterator[list[str]]:
-    """Yield, for each of examples 4 to 6, the cards of its final output that are not blank."""
-    chapter = load_chapter()
-    for example, program in ((4, 2), (5, 3), (6, 3)):
-        yield [card for card in card_images(chapter, example, program, "punch") if card.strip()]
 
 
 @cache
@@ -103,11 +104,7 @@ def plane_table_size() -> Check:
     size = next(entry.size for entry in programs.program("program3").storage.arrays() if entry.name == "KK")
     hull = exact_hull([(k, k**2, k**3) for k in range(MOST_POINTS)])
     planes = len(hull.facets)
-    overrun = convex_hull([*exact_points(deck_of("table.deck"))[0].values()], history=True)
-    most = max(
-        len(before.equations) + 2 * after.outside + 1
-        for before, after in zip(overrun.history, overrun.history[1:], strict=False)
-    )
+    most = entries_of_plane_table()
     fits = len(hull.vertices) == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES
     check = exhibited(fits, f"a hull of {len(hull.vertices)} vertices with {planes} planes fits the table")
     return check.unless(most > size, f"the intermediate hulls of table.deck, which need {most} entries")

@@ -2,9 +2,7 @@
 
 from fractions import Fraction
 from functools import cache
-from itertools import combinations
-
-import numpy as np
+from itertools import combinations, pairwise
 
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
@@ -83,21 +81,21 @@ def fifty_one_points() -> Check:
     """Check that the arrays hold 51 points, and that a deck of fewer points overflows the plane table."""
     points, _ = exact_points(deck_of("table.deck"))
     sizes = {entry.size for entry in programs.program("program3").storage.arrays()}
-    most = _most_planes(np.array([[int(Fraction(x)) for x in point] for point in points.values()], dtype=np.int64))
+    most = entries_of_plane_table()
     check = exhibited(sizes == {51, PLACES}, "the arrays of program 3 hold 51 points")
     message = f"{len(points)} points that need {most} entries of the plane table at once; program 3 has {PLACES}"
     return check.unless(len(points) <= 51 and most > PLACES, message)
 
 
-def _most_planes(points: np.ndarray) -> int:
-    """Return the largest number of entries of the plane table in use at once.
+@cache
+def entries_of_plane_table() -> int:
+    """Return the largest number of entries of the plane table in use at once for the deck ``table.deck``.
 
     Each step keeps the planes of the previous hull, adds three for each replaced plane and then removes the replaced
     one.
     """
-    hull = convex_hull(points, history=True)
-    pairs = zip(hull.history, hull.history[1:], strict=False)
-    return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairs)
+    hull = convex_hull([*exact_points(deck_of("table.deck"))[0].values()], history=True)
+    return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairwise(hull.history))
 
 
 @claim("thesis.93")

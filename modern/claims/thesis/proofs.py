@@ -44,6 +44,9 @@ def theorem_4_3() -> Proof:
     to_line = tuple(a - t * b for a, b in zip(w, u, strict=True))
     foot = along - t * square
     d_k, d_j, v_k, v_j, dd = variables("d_k^2 d_j^2 V_k V_j D^2")
+    # Page 42: the direction cosines times e D are the differences of the coordinates.
+    cosines, (e, d) = point("lambda", 3), variables("e D")
+    scaled = [e * d * cosine - a for cosine, a in zip(cosines, u, strict=True)]
     return Proof(
         "V_k >= V_j implies that the point k is at least as far from the line as the point j",
         "D^2 is positive because the points differ in a coordinate. The square of the distance of x from any point of "
@@ -53,6 +56,12 @@ def theorem_4_3() -> Proof:
             *(
                 Step("D^2 > 0", {"differ": positive(a * a)}, positive(square), _sum("differ", (b, c)))
                 for a, b, c in ((ux, uy, uz), (uy, uz, ux), (uz, ux, uy))
+            ),
+            Step(
+                "the squares of the direction cosines have the sum 1",
+                {axis: zero(value) for axis, value in zip("xyz", scaled, strict=True)},
+                zero(e * e * d * d * dot(cosines, cosines) - square),
+                tuple(term(axis, value + 2 * a) for axis, value, a in zip("xyz", scaled, u, strict=True)),
             ),
             Step(
                 "the square of no distance is less than V / D^2",
@@ -312,8 +321,8 @@ def theorem_4_5() -> Proof:
     )
 
 
-@claim("thesis.119", "thesis.122", "thesis.124", "thesis.235", proof=theorem_4_3)
-@claim("thesis.54", "thesis.125", "thesis.130", "thesis.197", proof=theorem_4_4)
+@claim("thesis.119", "thesis.121", "thesis.122", "thesis.124", "thesis.235", proof=theorem_4_3)
+@claim("thesis.54", "thesis.125", "thesis.197", "thesis.236", proof=theorem_4_4)
 @claim("thesis.74", "thesis.131", "thesis.132", "thesis.133", "thesis.238", "thesis.240", proof=theorem_4_5)
 @claim("thesis.71", "thesis.135", "thesis.136", proof=theorem_4_6)
 @claim("thesis.90", "thesis.137", "thesis.142", "thesis.143", "thesis.259", "thesis.278", proof=theorem_4_7)

@@ -37,6 +37,44 @@ def combination_above() -> Step:
     )
 
 
+def number_of_edges() -> Proof:
+    """Prove that a convex polyhedron on n points has at most 3 n - 6 edges."""
+    n, v, e, f = variables("n v e f")
+    signs = {"V": not_negative(n - v), "Euler": zero(v - e + f - 2), "faces": not_negative(2 * e - 3 * f)}
+    return Proof(
+        "a hull of n points has at most 3 n - 6 edges, so that adding n points examines O(n^2) edges",
+        "By Euler's formula v - e + f = 2. Each face has at least three edges, and each edge is on two faces.",
+        (
+            Step(
+                "e <= 3 n - 6",
+                signs,
+                not_negative(3 * n - 6 - e),
+                (term("V"), term("V"), term("V"), term("Euler", 3), term("faces")),
+            ),
+        ),
+    )
+
+
+def hull_is_convex() -> Proof:
+    """Prove that a set that equals its hull is convex: the hull contains the segment between any two of its points."""
+    m, k, w = variables("m k w")
+    weights = {"w": not_negative(w), "k": not_negative(k), "m": not_negative(m), "rest": not_negative(1 - m)}
+    return Proof(
+        "a combination of two combinations of points is a combination of these points",
+        "With the weights w and k of a point in the two combinations its new weight is (1 - m) w + m k. This is not "
+        "negative, and the new weights have the sum (1 - m) + m = 1.",
+        (
+            Step(
+                "the new weight is not negative",
+                weights,
+                not_negative((1 - m) * w + m * k),
+                (term("rest w"), term("m k")),
+            ),
+            Step("the sum of the weights is 1", {}, zero((1 - m) + m - 1)),
+        ),
+    )
+
+
 def convex_epigraph() -> Proof:
     """Prove that a function is convex if and only if its epigraph, the set on and above its graph, is convex."""
     return Proof(
@@ -112,6 +150,8 @@ def angle_of_theorem_2() -> Check:
     return theorem_2().check().misprinted(not as_printed.holds, "psi as the interior dihedral angle of p and q")
 
 
+@claim("yau-srihari.16", proof=number_of_edges)
+@claim("yau-srihari.41", proof=hull_is_convex)
 @claim("yau-srihari.47", "yau-srihari.96", proof=convex_epigraph)
 @claim("yau-srihari.48", proof=theorem_1)
 @claim("yau-srihari.101", proof=theorem_2)

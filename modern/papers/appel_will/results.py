@@ -9,6 +9,7 @@ import tomllib
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from importlib.resources import files
 from itertools import combinations
 
@@ -36,6 +37,7 @@ class Solid:
     surfaces: tuple[Surface, ...] = ()
 
 
+@cache
 def found_solid(name: str) -> Solid:
     """Return the object of a figure, such as ``fig14``, with this project's coordinates. Raise KeyError if unknown."""
     text = files("transcripts").joinpath(FOLDER, "coordinates.toml").read_text(encoding="utf-8")

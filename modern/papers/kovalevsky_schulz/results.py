@@ -9,8 +9,9 @@ The tables and the 1404 triangles need 6 neighbours and coplanar faces treated a
 from collections.abc import Iterator, Sequence
 from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
+from functools import cache
 
-from modern.digital.solids import ball, half_ball
+from modern.digital.solids import VERTEX, ball, half_ball
 from modern.papers import Lines
 from modern.papers.kovalevsky_schulz.cells import (
     CellList,
@@ -21,8 +22,8 @@ from modern.papers.kovalevsky_schulz.cells import (
     triangulation_size,
     vertex_rows,
 )
-from modern.papers.kovalevsky_schulz.hull import voxel_hull
-from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, convex_polyhedron
+from modern.papers.kovalevsky_schulz.hull import VoxelHull, voxel_hull
+from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, Coplanar, convex_polyhedron
 
 # Four points in the arrangement of Fig. 4: points 1, 2, 3 run counterclockwise, and point 4 is behind them.
 TETRAHEDRON = ((0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))
@@ -38,8 +39,19 @@ def produced(printed: Lines) -> Lines:
     return lines
 
 
+@cache
+def hull_of_ball(diameter: int, neighbours: int = 6, coplanar: Coplanar = INVISIBLE) -> VoxelHull:
+    return voxel_hull(ball(diameter), neighbours=neighbours, coplanar=coplanar)
+
+
+@cache
+def half_ball_cells(diameter: int, centre: str = VERTEX) -> CellList:
+    """Return the merged cell list of a half-ball; as in Table 5 it counts vertices within straight edges too."""
+    return voxel_hull(half_ball(diameter, centre), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
+
+
 def _ball(diameter: int) -> Iterator[tuple[str, Sequence[str]]]:
-    hull = voxel_hull(ball(diameter), neighbours=6, coplanar=INVISIBLE)
+    hull = hull_of_ball(diameter)
     yield "ball-voxels", [f"diameter {diameter} contains {hull.voxels} voxels"]
     yield "ball-corners-6", [f"{hull.corners[6]} when testing 6 neighbors"]
     yield "ball-corners-26", [f"{hull.corners[26]} when testing 26 neighbors"]
@@ -71,7 +83,7 @@ def _table_5_row(printed: str) -> str:
     # The paper does not state how the bodies were digitised for Marching Cubes, so its triangles cannot be counted.
     diameter, triangles = map(int, printed.split()[:2])
     size = triangulation_size(triangles)
-    cells = voxel_hull(half_ball(diameter), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
+    cells = half_ball_cells(diameter)
     integers = cell_list_size(len(cells.vertices), len(cells.faces))
     per_face = _decimal(Fraction(integers, len(cells.faces)), 2)
     triangulation = f"{diameter} {triangles} {_decimal(size, 0)} {_decimal(size / triangles, 1)}"

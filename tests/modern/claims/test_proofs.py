@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Iterator
 
 import pytest
 
 from modern.claims import algebra
 from modern.claims.algebra import Proof, Step, not_negative, positive, term, variables, zero
+from modern.claims.appel_will import proofs as appel_will
 from modern.claims.kovalevsky_schulz import proofs as kovalevsky_schulz
-from modern.claims.thesis import existence
+from modern.claims.thesis import existence, identities
 from modern.claims.thesis import proofs as thesis
 from modern.claims.yau_srihari import proofs as yau_srihari
 
+# All functions of these modules that return a proof.
 PROOFS: dict[str, Proof] = {
-    **{f"4.{n}": getattr(thesis, f"theorem_4_{n}")() for n in (3, 4, 5, 6, 7)},
-    **{name: getattr(kovalevsky_schulz, f"lemma_{name}")() for name in ("lz", "ch", "be")},
-    "symmetry": kovalevsky_schulz.symmetry(),
-    "epigraph": yau_srihari.convex_epigraph(),
-    **{f"theorem {n}": getattr(yau_srihari, f"theorem_{n}")() for n in (1, 2)},
+    f"{module.__name__.split('.')[-2]} {name}": function()
+    for module in (thesis, identities, kovalevsky_schulz, yau_srihari, appel_will)
+    for name, function in vars(module).items()
+    if inspect.isfunction(function)
+    and function.__module__ == module.__name__
+    and function.__annotations__.get("return") in (Proof, "Proof")
 }
 
 

@@ -1,25 +1,18 @@
-"""The claims of Nakamae and Nishita change their verdict when what they rely on is spoiled."""
+"""Spoilers of the checks of Nakamae and Nishita."""
 
 from dataclasses import replace
 from fractions import Fraction
 
-import pytest
-
-import modern.claims.nakamae_nishita.tables as tables
-from modern.papers.nakamae_nishita.contours import Tables
 from modern.papers.nakamae_nishita.crossings import CLEAR
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.shapes import cuboid
 from tests.modern.claims.spoilers import (
     Original,
-    Spoiler,
     Table,
     always,
-    assert_verdict_changes,
     changed_result,
     negated,
-    unspoiled,
     value,
 )
 
@@ -118,24 +111,3 @@ TABLE: Table = [
     (D + "17", "BY_FACE", value("")),
     (D + "18", "side", negated),
 ]
-
-
-@pytest.mark.parametrize(("name", "attribute", "spoiler"), TABLE)
-def test_verdict_changes_with_spoiled_attribute(name: str, attribute: str, spoiler: Spoiler) -> None:
-    assert_verdict_changes(name, attribute, spoiler)
-
-
-def test_every_check_is_spoiled() -> None:
-    assert unspoiled("nakamae_nishita", [TABLE]) == []
-
-
-@pytest.mark.parametrize(("number", "wrong"), [(-2, -1), (-1, 0), (0, -1), (-4, -2)])
-def test_wrong_crossing_number_fails(number: int, wrong: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    original = Tables.crossing_number
-
-    def spoiled(contours: Tables, i: int, j: int) -> int:
-        crossing_number = original(contours, i, j)
-        return wrong if crossing_number == number else crossing_number
-
-    monkeypatch.setattr(Tables, "crossing_number", spoiled)
-    assert not tables.formula_3().holds

@@ -1,0 +1,76 @@
+"""Proofs of equations and tests of Appel and Will; :mod:`modern.claims.algebra` checks the steps."""
+
+from collections.abc import Callable
+
+from modern.claims.algebra import Proof, Step, bracket, dot, minus, point, term, total, variables, zero
+from modern.claims.evidence import Check, claim
+
+
+def inside_triangle() -> Proof:
+    """Prove that a point is inside a triangle if and only if it has the sense of the corners about all three sides."""
+    a, b, c, p = (point(name, 2) for name in "abcp")
+    area, weights = bracket(a, b, c), (bracket(b, c, p), bracket(c, a, p), bracket(a, b, p))
+    combined = [dot(weights, [corner[k] for corner in (a, b, c)]) for k in (0, 1)]
+    return Proof(
+        "the senses of its sides tell whether a point is in a triangle",
+        "The senses about the sides, divided by that of the corners, are the weights of the point as a combination of "
+        "the corners. They are unique because the corners are not collinear.",
+        (
+            *(Step("the point is the combination", {}, zero(area * p[k] - combined[k])) for k in (0, 1)),
+            Step("the weights have the sum 1", {}, zero(area - total(weights))),
+        ),
+    )
+
+
+def triangle_area() -> Proof:
+    """Prove that the determinant with the rows x, y, 1 is twice the signed area of a triangle."""
+    p, u = point("p", 2), point("u", 2)
+    along, left = variables("along left")
+    q = tuple(a + b for a, b in zip(p, u, strict=True))
+    # A point r at a multiple of the side u, to the left of it.
+    r = (p[0] + along * u[0] - left * u[1], p[1] + along * u[1] + left * u[0])
+    determinant = p[0] * (q[1] - r[1]) - p[1] * (q[0] - r[0]) + (q[0] * r[1] - q[1] * r[0])
+    return Proof(
+        "the determinant is positive counterclockwise, negative clockwise, and 0 for collinear points",
+        "The third corner is at a multiple of the first side, to the left of it. The determinant is this multiple "
+        "times the square of the side, which is the base times the signed height.",
+        (Step("the determinant is base times height", {}, zero(determinant - left * dot(u, u))),),
+    )
+
+
+def lines_and_planes() -> Proof:
+    """Prove that the equations of lines and planes with unit vectors measure distances."""
+    p, q, n = (point(name, 3) for name in "pqn")
+    d, t, length = variables("d t l")
+    unit = {"unit": zero(dot(n, n) - 1)}
+    along = tuple(a + t * b for a, b in zip(p, n, strict=True))
+    way = minus(along, p)
+    ends = [(axis, a + length * c - b, length * c - (b - a)) for axis, a, b, c in zip("xyz", p, q, n, strict=True)]
+    return Proof(
+        "t is the distance on a line with a unit direction, and the value that from a plane with a unit normal",
+        "A unit direction times the length of a line leads from its start to its end, and times t to the point at the "
+        "distance t. The equation of a plane is 0 at its points, and t at the distance t along its normal.",
+        (
+            *(Step("t = l is the end", {axis: zero(printed)}, zero(end), (term(axis),)) for axis, end, printed in ends),
+            Step("t is the distance", unit, zero(dot(way, way) - t * t), (term("unit", t * t),)),
+            Step(
+                "a plane contains its points",
+                {"line": zero(dot(n, minus(q, p)))},
+                zero(dot(n, q) - dot(n, p)),
+                (term("line"),),
+            ),
+            Step(
+                "the value is the distance",
+                {**unit, "plane": zero(dot(n, p) + d)},
+                zero(dot(n, along) + d - t),
+                (term("plane"), term("unit", t)),
+            ),
+        ),
+    )
+
+
+@claim("appel-will.49", "appel-will.50", "appel-will.51", proof=triangle_area)
+@claim("appel-will.52", proof=inside_triangle)
+@claim("appel-will.81", "appel-will.82", "appel-will.139", proof=lines_and_planes)
+def proof_of_equation(proof: Callable[[], Proof]) -> Check:
+    return proof().check()

@@ -1,0 +1,164 @@
+"""Identities of chapters 3 and 4 for all real coordinates; :mod:`modern.claims.algebra` checks them."""
+
+from collections.abc import Callable, Iterable
+
+from modern.claims.algebra import (
+    Point,
+    Polynomial,
+    Proof,
+    Step,
+    bracket,
+    cross,
+    dot,
+    minus,
+    point,
+    polynomial,
+    total,
+    variables,
+    zero,
+)
+from modern.claims.evidence import Check, claim
+from modern.claims.sampled_sets import counterexample_points
+from modern.claims.thesis.proofs import theorem_4_3
+
+P, Q, X = point("p", 3), point("q", 3), point("x", 3)
+
+
+def _plane(p: Point, q: Point, r: Point) -> tuple[Polynomial, ...]:
+    """Return A, B, C and D of the plane through three points."""
+    normal = cross(minus(q, p), minus(r, p))
+    return (*normal, -dot(normal, p))
+
+
+def _with_0(p: Point, axis: int) -> Point:
+    return tuple(polynomial(0) if k == axis else number for k, number in enumerate(p))
+
+
+def _all_zero(says: str, values: Iterable[Polynomial]) -> tuple[Step, ...]:
+    return tuple(Step(says, {}, zero(value)) for value in values)
+
+
+def three_points() -> Proof:
+    """Prove that any three points are in one plane."""
+    *normal, d = _plane(P, Q, X)
+    return Proof(
+        "three points lie in a plane",
+        "The equation of the vector product is 0 at the three points. If it is 0 everywhere, they are collinear.",
+        _all_zero("the equation is 0 at the point", [dot(normal, p) + d for p in (P, Q, X)]),
+    )
+
+
+def coordinate_planes() -> Proof:
+    """Prove that the equation of a coordinate plane has only one nonzero coefficient."""
+    planes = [_plane(_with_0(P, axis), _with_0(Q, axis), _with_0(X, axis)) for axis in range(3)]
+    others = [c for axis, plane in enumerate(planes) for k, c in enumerate(plane) if k != axis]
+    return Proof(
+        "the equation of a coordinate plane has one nonzero coefficient, and its constant term is 0",
+        "If one coordinate of three points is 0, the two other coefficients of their plane are 0, and so is D.",
+        _all_zero("the coefficient is 0", others),
+    )
+
+
+def perpendicular_projection() -> Proof:
+    """Prove that the image of a triangle in a coordinate plane has the area of one coefficient of its plane."""
+    *normal, _ = _plane(P, Q, X)
+    pairs = (1, 2), (2, 0), (0, 1)
+    images = [bracket(*((p[i], p[j]) for p in (P, Q, X))) for i, j in pairs]
+    return Proof(
+        "a plane is projected to a line if and only if its coefficient for the omitted coordinate is 0",
+        "The coefficient is twice the area of the image of the triangle. Planes are perpendicular if the product of "
+        "their normals is 0, and that of a coordinate plane has one component. The rule omits a coordinate whose "
+        "coefficient is not 0.",
+        _all_zero("the area is the coefficient", [area - a for area, a in zip(images, normal, strict=True)]),
+    )
+
+
+def projection_along_axis() -> Proof:
+    """Prove that setting a coordinate to 0 gives the foot of the perpendicular on a coordinate plane."""
+    ways = [(minus(P, _with_0(P, axis)), _with_0(Q, axis)) for axis in range(3)]
+    return Proof(
+        "setting a coordinate to 0 projects a point to a coordinate plane",
+        "The way from the foot to the point is perpendicular to every vector of the coordinate plane.",
+        _all_zero("the product is 0", [dot(way, across) for way, across in ways]),
+    )
+
+
+def _c_0(a: Point, b: Point, k: Point) -> Polynomial:
+    """Return C_0 of three points of a coordinate plane as page 46 prints it."""
+    return a[0] * b[1] + b[0] * k[1] + a[1] * k[0] - b[1] * k[0] - a[0] * k[1] - b[0] * a[1]
+
+
+def coefficient_c_0() -> Proof:
+    """Prove that C_0 is the coefficient C of (3.4)."""
+    *_, c, _ = _plane(P, Q, X)
+    return Proof("C_0 is the C of (3.4)", "Both are the same polynomial.", _all_zero("C_0 = C", [_c_0(P, Q, X) - c]))
+
+
+def other_letters() -> Proof:
+    """Prove that C_0 with z for y is -B, and with z for x it is -A."""
+    a, b, *_ = _plane(P, Q, X)
+    with_z = [_c_0(*((p[i], p[j]) for p in (P, Q, X))) for i, j in ((0, 2), (2, 1))]
+    return Proof(
+        "the formulas for the other coordinate planes give -B and -A",
+        "The signs do not matter because the coefficients must be 0.",
+        _all_zero("the sum is 0", [with_z[0] + b, with_z[1] + a]),
+    )
+
+
+@claim("thesis.108", proof=three_points)
+@claim("thesis.126", "thesis.277", proof=coordinate_planes)
+@claim("thesis.55", "thesis.56", "thesis.237", proof=perpendicular_projection)
+@claim("thesis.127", "thesis.198", proof=projection_along_axis)
+@claim("thesis.128", proof=coefficient_c_0)
+@claim("thesis.130", proof=other_letters)
+def proof_of_identity(proof: Callable[[], Proof]) -> Check:
+    return proof().check()
+
+
+@claim("thesis.129")
+def sum_of_page_46() -> Check:
+    """Check that the printed sum for a point k between a and b is 0, but has other terms than the substitution."""
+    xa, ya, xb, yb, share = variables("x_a y_a x_b y_b lambda")
+    rest = 1 - share
+    k = (share * xa + rest * xb, share * ya + rest * yb)
+    common = [xa * yb, -xa * yb * share, -xa * yb * rest, xa * ya * share, -xa * ya * share]
+    common += [xb * yb * rest, -xb * yb * rest]
+    printed = [*common, xa * yb * rest, xa * yb * share, -xa * yb]
+    substituted = [*common, xb * ya * rest, xb * ya * share, -xb * ya]
+    sums = [total(printed), total(substituted), _c_0((xa, ya), (xb, yb), k) - total(substituted)]
+    proof = Proof("the printed sum is 0", "All terms cancel.", _all_zero("the sum is 0", sums))
+    differ = sorted(str(t.terms) for t in printed) != sorted(str(t.terms) for t in substituted)
+    return proof.check().misprinted(differ, "x_b y_a in the terms that lack it in print")
+
+
+def _v(x: Point, i: Point) -> Polynomial:
+    """Return V of pages 14 and 41; ``x`` has the index 1 or i of the first factors, ``i`` that of the others."""
+    u, w, first = minus(Q, P), minus(Q, i), minus(Q, x)
+    rows = (first[1] * u[2] - w[2] * u[1], first[2] * u[0] - w[0] * u[2], first[0] * u[1] - w[1] * u[0])
+    return dot(rows, rows)
+
+
+@claim("thesis.50")
+def display_of_page_14() -> Check:
+    """Check V: with the index 1 in the first factors, as in our text, it is not 0 at a point of the line."""
+    names = ("p", "q", "x")
+    at = dict(zip(names, counterexample_points("v_as_our_text.csv"), strict=True))
+    values = {f"{name}_{axis}": c for name in names for axis, c in zip("xyz", at[name], strict=True)}
+    is_wrong = _v(X, X).at(values) == 0 != _v(P, X).at(values)
+    return theorem_4_3().check().misprinted(is_wrong, "y_i, z_i and x_i in all factors")
+
+
+@claim("thesis.287")
+def display_of_page_41() -> Check:
+    """Check V: with the index 1 for every i, as in our text, it is 0 at every point."""
+    is_wrong = not _v(P, P).terms
+    return theorem_4_3().check().misprinted(is_wrong, "i for 1 in the differences from the point i")
+
+
+@claim("thesis.120", "thesis.234")
+def displays_of_page_42() -> Check:
+    """Check the square of the distance: with the lost signs and the repeated rows of our text it is not V / D^2."""
+    (_, ux, uy, uz), (_, wy, _) = (0, *minus(Q, P)), minus(Q, X)
+    as_text = (wy * uz - uz * uy) * (wy * uz - uz * uy) + 2 * (ux * uy - uy * uz) * (ux * uy - uy * uz)
+    is_wrong = (as_text - _v(X, X)).terms
+    return theorem_4_3().check().misprinted(is_wrong, "three determinants or brackets, with the indices of V")
