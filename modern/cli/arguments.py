@@ -12,8 +12,10 @@ from collections.abc import Callable
 
 from modern.cli.shared import point_arguments, volume_arguments
 from modern.cli.shared.arguments import (
+    add,
     compared_machine,
     core_argument,
+    deck_argument,
     epsilon_argument,
     json_argument,
     layers_argument,
@@ -22,142 +24,113 @@ from modern.cli.shared.arguments import (
     result_arguments,
     upcase_argument,
 )
+from modern.cli.shared.console import Folder, InputFile, OutputFile
 
 
 def _reproduce(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "examples",
-        metavar="NAME",
-        nargs="*",
-        help="an example 1 to 6, a theorem such as 4.1, a document (thesis, yau-srihari, ...) or the id of a statement "
-        "(default: everything)",
+    names = (
+        "an example 1 to 6, a theorem such as 4.1, a document (thesis, yau-srihari, ...) or the id of a statement "
+        "(default: everything)"
     )
-    parser.add_argument("--show", action="store_true", help="show each printed result next to the computed one")
+    add(parser, {"examples NAME": names}, nargs="*")
+    add(parser, {"--show": "show each printed result next to the computed one"})
     json_argument(parser, "verdicts")
 
 
 def _run(parser: ArgumentParser) -> None:
     program_argument(parser, "run")
-    parser.add_argument("deck", metavar="DECK", nargs="?", help="a file of data cards, one card per line")
+    deck_argument(parser, "a file of data cards, one card per line")
     result_arguments(parser)
     upcase_argument(parser)
 
 
 def _hull(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "deck",
-        metavar="DECK",
-        help="a data deck, one of example1 to example6, or a sample of a study, such as seventy/17",
+    deck_argument(parser, "a data deck, one of example1 to example6, or a sample of a study, such as seventy/17", None)
+    programs = "use program 1 as listed, or as the examples of chapter 6 were run (default: listing)"
+    add(parser, {"--programs": programs}, choices=("listing", "examples"), default="listing")
+    uncut = (
+        "pass numbers from program 1 to the next program with all their digits instead of the eight that a card holds"
     )
-    parser.add_argument(
-        "--programs",
-        choices=("listing", "examples"),
-        default="listing",
-        help="use program 1 as listed, or as the examples of chapter 6 were run (default: listing)",
-    )
-    parser.add_argument(
-        "--uncut",
-        action="store_true",
-        help="pass numbers from program 1 to the next program with all their digits instead of the eight that a card "
-        "holds",
-    )
+    add(parser, {"--uncut": uncut})
     epsilon_argument(parser, "punch", "on the first card, after N, and apply the layer epsilon, which reads it")
-    parser.add_argument(
-        "--explain", action="store_true", help="say where exact arithmetic disagrees, and why there is no hull"
-    )
+    add(parser, {"--explain": "say where exact arithmetic disagrees, and why there is no hull"})
     result_arguments(parser)
 
 
 def _diverge(parser: ArgumentParser) -> None:
     program_argument(parser, "run")
-    parser.add_argument(
-        "deck",
-        metavar="DECK",
-        nargs="?",
-        help="a file of data cards; for program2 and program3, of the cards that program 1 punched (may be omitted if "
-        "the program reads no cards)",
+    deck_argument(
+        parser,
+        "a file of data cards; for program2 and program3, of the cards that program 1 punched (may be omitted if the "
+        "program reads no cards)",
     )
-    parser.add_argument(
-        "--against",
-        metavar="NAME",
-        default="exact",
-        help="compare --arithmetic with this arithmetic, and ignore differences that its rounding may explain "
-        "(default: %(default)s)",
+    against = (
+        "compare --arithmetic with this arithmetic, and ignore differences that its rounding may explain "
+        "(default: %(default)s)"
     )
-    parser.add_argument("--first", action="store_true", help="stop at the first branch that differs; compare no values")
+    add(parser, {"--against NAME": against}, default="exact")
+    add(parser, {"--first": "stop at the first branch that differs; compare no values"})
     json_argument(parser, "comparison")
     compared_machine(parser)
 
 
 def _listing(parser: ArgumentParser) -> None:
     program_argument(parser, "list")
-    parser.add_argument("deck", metavar="DECK", nargs="?", help="run the program with these data cards")
-    parser.add_argument(
-        "--against",
-        metavar="NAME",
-        default="exact",
-        help="count the digits that --arithmetic loses compared with this arithmetic; none skips the comparison "
-        "(default: %(default)s)",
+    deck_argument(parser, "run the program with these data cards")
+    against = (
+        "count the digits that --arithmetic loses compared with this arithmetic; none skips the comparison "
+        "(default: %(default)s)"
     )
-    parser.add_argument("--operator", metavar="=FILE", help="answer ACCEPT and PAUSE from FILE, or from a log of --log")
-    parser.add_argument(
-        "--commentary",
-        action="store_true",
-        help="explain the blocks of statements and the variables of a program of the thesis",
-    )
+    add(parser, {"--against NAME": against}, default="exact")
+    add(parser, {"--operator =FILE": "answer ACCEPT and PAUSE from FILE, or from a log of --log"}, type=InputFile)
+    add(parser, {"--commentary": "explain the blocks of statements and the variables of a program of the thesis"})
     output_argument(parser)
     compared_machine(parser)
 
 
 def _study(parser: ArgumentParser) -> None:
-    parser.add_argument("name", metavar="NAME", nargs="?", help="a built-in study, or a plan file NAME.toml")
-    parser.add_argument("--list", action="store_true", help="list the built-in studies")
-    parser.add_argument("--families", action="store_true", help="list the families of point sets for plan files")
-    parser.add_argument("--measures", action="store_true", help="list the measures that a plan file can name")
-    parser.add_argument(
-        "--samples", metavar="N", type=int, help="draw N samples (default: depends on the study; see --list)"
-    )
-    parser.add_argument("--seed", metavar="S", type=int, help="draw all samples from this seed (default: 1963)")
-    parser.add_argument("--workers", metavar="W", type=int, help="use W processes (default: one per processor)")
-    parser.add_argument(
-        "--dask", metavar="ADDRESS", help="use the workers of the dask.distributed scheduler at ADDRESS"
-    )
-    parser.add_argument("--out", metavar="DIR", help="write the study to this folder (default: the name of the study)")
-    parser.add_argument("--resume", action="store_true", help="continue the unfinished study in the folder")
-    parser.add_argument(
-        "--redraw", metavar="DIR", help="draw the plots of the finished study in DIR again, from its charts.json"
-    )
-    parser.add_argument("--verify", metavar="DIR", help="compare the rows of the study in DIR with their checksums")
-    parser.add_argument("--quiet", action="store_true", help="show no progress")
+    add(parser, {"name NAME": "a built-in study, or a plan file NAME.toml"}, type=InputFile, nargs="?")
+    lists = {
+        "--list": "list the built-in studies",
+        "--families": "list the families of point sets for plan files",
+        "--measures": "list the measures that a plan file can name",
+    }
+    add(parser, lists)
+    counts = {
+        "--samples N": "draw N samples (default: depends on the study; see --list)",
+        "--seed S": "draw all samples from this seed (default: 1963)",
+        "--workers W": "use W processes (default: one per processor)",
+    }
+    add(parser, counts, type=int)
+    add(parser, {"--dask ADDRESS": "use the workers of the dask.distributed scheduler at ADDRESS"})
+    add(parser, {"--out DIR": "write the study to this folder (default: the name of the study)"}, type=Folder)
+    studies = {
+        "--resume": "continue the unfinished study in the folder",
+        "--redraw DIR": "draw the plots of the finished study in DIR again, from its charts.json",
+        "--verify DIR": "compare the rows of the study in DIR with their checksums",
+        "--quiet": "show no progress",
+    }
+    add(parser, studies)
 
 
 def _apparatus(parser: ArgumentParser) -> None:
-    parser.add_argument("--program", metavar="N", help="show only the rows of program 1, 2 or 3 (default: all)")
-    parser.add_argument("--layer", metavar="L", help="show only the rows of this layer (default: all)")
-    parser.add_argument(
-        "--check",
-        action="store_true",
-        help="check that the OCR text and the emendations yield the decks, and that each emendation is allowed and "
-        "necessary",
+    rows = {
+        "--program N": "show only the rows of program 1, 2 or 3 (default: all)",
+        "--layer L": "show only the rows of this layer (default: all)",
+        "--check": "check that the OCR text and the emendations yield the decks, and that each emendation is allowed "
+        "and necessary",
+    }
+    add(parser, rows)
+    text = "with --check: compare the project's excerpts with FILE, a whole OCR text"
+    add(parser, {"--text FILE": text}, type=InputFile)
+    weigh = (
+        "alter the tokens of the listings one at a time, and record in FOLDER the first check that detects each "
+        "alteration; results already in FOLDER are kept"
     )
-    parser.add_argument(
-        "--text", metavar="FILE", help="with --check: compare the project's excerpts with FILE, a whole OCR text"
-    )
-    parser.add_argument(
-        "--weigh",
-        metavar="FOLDER",
-        help="alter the tokens of the listings one at a time, and record in FOLDER the first check that detects each "
-        "alteration; results already in FOLDER are kept",
-    )
-    parser.add_argument(
-        "--runs", metavar="FOLDER", help="with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards"
-    )
-    parser.add_argument(
-        "--workers", metavar="N", type=int, default=1, help="with --weigh: use N processes (default: 1)"
-    )
-    parser.add_argument(
-        "--most", metavar="N", type=int, default=0, help="with --weigh: try only the first N alterations (default: all)"
-    )
+    add(parser, {"--weigh FOLDER": weigh}, type=Folder)
+    add(parser, {"--runs FOLDER": "with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards"})
+    add(parser, {"--workers N": "with --weigh: use N processes (default: 1)"}, type=int, default=1)
+    add(parser, {"--most N": "with --weigh: try only the first N alterations (default: all)"}, type=int, default=0)
 
 
 def _program(parser: ArgumentParser) -> None:
@@ -168,21 +141,16 @@ def _program(parser: ArgumentParser) -> None:
 
 def _compile(parser: ArgumentParser) -> None:
     _program(parser)
-    parser.add_argument(
-        "--object", action="store_true", help="punch the program as an object deck for IBM's library of 1962"
-    )
-    parser.add_argument(
-        "--library", metavar="DECK", help="with --object: put the program into DECK, an object deck with IBM's library"
-    )
+    add(parser, {"--object": "punch the program as an object deck for IBM's library of 1962"})
+    library = "with --object: put the program into DECK, an object deck with IBM's library"
+    add(parser, {"--library DECK": library}, type=InputFile)
     core_argument(parser)
     output_argument(parser)
 
 
 def _check(parser: ArgumentParser) -> None:
     program_argument(parser, "check", "?")
-    parser.add_argument(
-        "--explain", metavar="N", help="explain an error number, such as 5 or E3, or all error numbers (all)"
-    )
+    add(parser, {"--explain N": "explain an error number, such as 5 or E3, or all error numbers (all)"})
     core_argument(parser)
     layers_argument(parser)
     upcase_argument(parser)
@@ -192,48 +160,40 @@ def _flowchart(parser: ArgumentParser) -> None:
     _program(parser)
     output_argument(parser, "FILE.svg")
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--page", metavar="N", type=int, help="draw page N only (default: all pages in one picture)")
-    which.add_argument("--table", action="store_true", help="write a text table of the paths from box to box")
+    add(which, {"--page N": "draw page N only (default: all pages in one picture)"}, type=int)
+    add(which, {"--table": "write a text table of the paths from box to box"})
     parser.set_defaults(endings=(".svg",))
 
 
 def _tei(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "text", metavar="TEXT", nargs="?", help="a document such as program1, chapter6 or statements-thesis"
-    )
+    add(parser, {"text TEXT": "a document such as program1, chapter6 or statements-thesis"}, nargs="?")
     output_argument(parser)
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--all", metavar="FOLDER", help="write every document, the schema and its ODD to FOLDER")
-    which.add_argument("--schema", action="store_true", help="write the RELAX NG schema of the documents")
-    which.add_argument(
-        "--check",
-        metavar="SCHEMA",
-        nargs="?",
-        const="",
-        help="validate TEXT, or every text, against a RELAX NG schema in XML (default: the project's own)",
-    )
-    which.add_argument("--read", metavar="FILE.xml", help="write the corrected text or deck that a document contains")
-    parser.add_argument("--layers", metavar="L,...", help="with --read: apply these layers of emendations")
-    parser.add_argument("--witness", action="store_true", help="with --read: write the uncorrected OCR text")
-    parser.add_argument("--part", metavar="NAME", help="with --read: write only a deck such as example1/program1.deck")
+    add(which, {"--all FOLDER": "write every document, the schema and its ODD to FOLDER"}, type=Folder)
+    add(which, {"--schema": "write the RELAX NG schema of the documents"})
+    check = "validate TEXT, or every text, against a RELAX NG schema in XML (default: the project's own)"
+    add(which, {"--check SCHEMA": check}, type=InputFile, nargs="?", const="")
+    read = "write the corrected text or deck that a document contains"
+    add(which, {"--read FILE.xml": read}, type=InputFile)
+    readings = {
+        "--layers L,...": "with --read: apply these layers of emendations",
+        "--witness": "with --read: write the uncorrected OCR text",
+        "--part NAME": "with --read: write only a deck such as example1/program1.deck",
+    }
+    add(parser, readings)
     parser.set_defaults(endings=(".xml", ".f", ".txt", ".deck", ".punch", ".typewriter", ".rng"))
 
 
 def _punched(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "deck",
-        metavar="DECK",
-        help="a deck with one card per line, a built-in program, or an example such as example1 or seventy/17",
+    deck_argument(
+        parser, "a deck with one card per line, a built-in program, or an example such as example1 or seventy/17", None
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE.svg",
-        default="-",
-        help="draw all cards in one picture, or one picture per card if the name contains a place for the card number, "
-        "such as 'card-%%03d.svg' (default: '-', standard output)",
+    output = (
+        "draw all cards in one picture, or one picture per card if the name contains a place for the card number, "
+        "such as 'card-%%03d.svg' (default: '-', standard output)"
     )
-    parser.add_argument("--across", metavar="N", type=int, default=1, help="draw N cards per row (default: 1)")
+    add(parser, {"-o --output FILE.svg": output}, type=OutputFile, default="-")
+    add(parser, {"--across N": "draw N cards per row (default: 1)"}, type=int, default=1)
     parser.set_defaults(endings=(".svg",))
 
 
@@ -245,9 +205,7 @@ def _map(parser: ArgumentParser) -> None:
 
 
 def _bench(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--decks", metavar="N", type=int, default=1000, help="run N decks of 51 points (default: %(default)s)"
-    )
+    add(parser, {"--decks N": "run N decks of 51 points (default: %(default)s)"}, type=int, default=1000)
     json_argument(parser, "figures")
 
 

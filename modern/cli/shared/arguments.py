@@ -9,68 +9,72 @@ Like ``modern/cli/arguments.py``, this module imports nothing that is needed onl
 from __future__ import annotations
 
 import sys
-from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace
-from collections.abc import Iterable
+from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace, _ActionsContainer
+from collections.abc import Iterable, Mapping
+from typing import Any
 
+from modern.cli.shared.console import InputFile, OutputFile
 from modern.formats import POINTS
+
+
+def add(parser: _ActionsContainer, texts: Mapping[str, str], **settings: Any) -> None:
+    """Add arguments by their names, each followed by its metavar, and their lines in ``--help``.
+
+    An option with neither metavar nor ``choices`` is a switch.  ``settings`` are those of ``add_argument``, for each
+    of the arguments.
+    """
+    for words, text in texts.items():
+        *names, last = words.split()
+        if not last.startswith("-"):
+            parser.add_argument(*names, metavar=last, help=text, **settings)
+        elif "choices" in settings:
+            parser.add_argument(*names, last, help=text, **settings)
+        else:
+            parser.add_argument(*names, last, help=text, action="store_true", **settings)
 
 
 def result_arguments(parser: ArgumentParser) -> None:
     """Add the destinations of a run's results, the operator, and the arguments of ``machine_arguments``."""
-    parser.add_argument(
-        "--punch", metavar="FILE", default="-", help="write the punched cards to FILE (default: standard output)"
+    add(
+        parser,
+        {"--punch FILE": "write the punched cards to FILE (default: standard output)"},
+        type=OutputFile,
+        default="-",
     )
-    parser.add_argument("--typewriter", metavar="FILE", help="write the typed lines to FILE (default: standard error)")
-    parser.add_argument(
-        "--profile", action="store_true", help="count statements and operations, and estimate the time on the 1620"
-    )
-    parser.add_argument("--trace", metavar="FILE", help="write every statement with its card and values to FILE")
-    parser.add_argument(
-        "--operator",
-        metavar="=FILE",
-        help="choose who answers ACCEPT and PAUSE: --operator alone: you, at the terminal; --operator=FILE: a file or "
+    add(parser, {"--typewriter FILE": "write the typed lines to FILE (default: standard error)"}, type=OutputFile)
+    add(parser, {"--profile": "count statements and operations, and estimate the time on the 1620"})
+    add(parser, {"--trace FILE": "write every statement with its card and values to FILE"}, type=OutputFile)
+    operator = (
+        "choose who answers ACCEPT and PAUSE: --operator alone: you, at the terminal; --operator=FILE: a file or "
         "a log; --operator=none: nobody (default: you, if all standard streams are the terminal and the program has "
-        "ACCEPT or PAUSE)",
+        "ACCEPT or PAUSE)"
     )
-    parser.add_argument("--log", metavar="FILE", help="record the actions of the operator in FILE, for --operator=FILE")
-    parser.add_argument("--slow", action="store_true", help="type ten characters per second at the terminal")
+    add(parser, {"--operator =FILE": operator}, type=InputFile)
+    add(parser, {"--log FILE": "record the actions of the operator in FILE, for --operator=FILE"}, type=OutputFile)
+    add(parser, {"--slow": "type ten characters per second at the terminal"})
     machine_arguments(parser)
 
 
 def machine_arguments(parser: ArgumentParser) -> None:
     """Add the properties of the machine on which a program runs, and ``--layers``."""
-    parser.add_argument(
-        "--switch",
-        metavar="N",
-        type=int,
-        action="append",
-        choices=(1, 2, 3, 4),
-        default=[],
-        help="turn sense switch N (1 to 4) on (default: all are off)",
+    switch = {"--switch N": "turn sense switch N (1 to 4) on (default: all are off)"}
+    add(parser, switch, type=int, action="append", choices=(1, 2, 3, 4), default=[])
+    arithmetic = (
+        "calculate with truncating, ibm1962, truncating:P, guarded:P, rounding:P, float64, float32, mp:BITS or "
+        "exact (default: %(default)s, the eight digits of the thesis)"
     )
-    parser.add_argument(
-        "--arithmetic",
-        metavar="NAME",
-        default="truncating",
-        help="calculate with truncating, ibm1962, truncating:P, guarded:P, rounding:P, float64, float32, mp:BITS or "
-        "exact (default: %(default)s, the eight digits of the thesis)",
-    )
+    add(parser, {"--arithmetic NAME": arithmetic}, default="truncating")
     core_argument(parser)
-    parser.add_argument(
-        "--bounds",
-        choices=("strict", "core"),
-        default="strict",
-        help="if a subscript is out of bounds, stop (strict) or use the neighbouring field as the machine did (core) "
-        "(default: %(default)s)",
+    bounds = (
+        "if a subscript is out of bounds, stop (strict) or use the neighbouring field as the machine did (core) "
+        "(default: %(default)s)"
     )
-    parser.add_argument(
-        "--limit",
-        metavar="N",
-        type=int,
-        default=5_000_000,
-        help="stop after N executed statements, or earlier if slow operations take as long as N statements "
-        "(default: %(default)s)",
+    add(parser, {"--bounds": bounds}, choices=("strict", "core"), default="strict")
+    limit = (
+        "stop after N executed statements, or earlier if slow operations take as long as N statements "
+        "(default: %(default)s)"
     )
+    add(parser, {"--limit N": limit}, type=int, default=5_000_000)
     layers_argument(parser)
 
 
@@ -82,96 +86,79 @@ def compared_machine(parser: ArgumentParser) -> None:
 
 
 def program_argument(parser: ArgumentParser, action: str, nargs: str | None = None) -> None:
-    parser.add_argument("program", metavar="PROGRAM.f", nargs=nargs, help=f"the program to {action}")
+    add(parser, {"program PROGRAM.f": f"the program to {action}"}, type=InputFile, nargs=nargs)
+
+
+def deck_argument(parser: ArgumentParser, text: str, nargs: str | None = "?") -> None:
+    add(parser, {"deck DECK": text}, type=InputFile, nargs=nargs)
 
 
 def output_argument(parser: ArgumentParser, metavar: str = "FILE", formats: str = "") -> None:
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar=metavar,
-        default="-",
-        help=f"write to {metavar}{formats} (default: '-', standard output)",
-    )
+    text = f"write to {metavar}{formats} (default: '-', standard output)"
+    add(parser, {f"-o --output {metavar}": text}, type=OutputFile, default="-")
 
 
 def result_file_argument(parser: ArgumentParser, contents: str) -> None:
     """Add an output that is written only on request."""
-    parser.add_argument("-o", "--output", metavar="FILE", help=f"write {contents}")
+    add(parser, {"-o --output FILE": f"write {contents}"}, type=OutputFile)
 
 
 def json_argument(parser: ArgumentParser, contents: str) -> None:
-    parser.add_argument(
-        "--json",
-        metavar="FILE",
-        help=f"write the {contents} to FILE as JSON ('-': standard output; the report then goes to standard error)",
-    )
+    text = f"write the {contents} to FILE as JSON ('-': standard output; the report then goes to standard error)"
+    add(parser, {"--json FILE": text}, type=OutputFile)
 
 
 def printed_arguments(parser: ArgumentParser, rules: str, names: str) -> None:
     """Add the options that choose which rules a method applies as its paper prints them, instead of corrected."""
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument("--literal", action="store_true", help=f"apply every {rules} as the paper prints it")
-    which.add_argument("--printed", metavar="NAME,...", help=f"apply only these {rules}s as printed: {names}")
+    texts = {
+        "--literal": f"apply every {rules} as the paper prints it",
+        "--printed NAME,...": f"apply only these {rules}s as printed: {names}",
+    }
+    add(parser.add_mutually_exclusive_group(), texts)
 
 
 def epsilon_argument(parser: ArgumentParser, verb: str, use: str) -> None:
-    help_text = f"{verb} the tolerance e of chapter 7 of the thesis {use}"
-    parser.add_argument("--epsilon", metavar="E", type=epsilon_text, help=help_text)
+    add(parser, {"--epsilon E": f"{verb} the tolerance e of chapter 7 of the thesis {use}"}, type=epsilon_text)
 
 
 def title_argument(parser: ArgumentParser, default: str) -> None:
-    parser.add_argument("--title", metavar="TEXT", help=f"write TEXT below the picture (default: {default})")
+    add(parser, {"--title TEXT": f"write TEXT below the picture (default: {default})"})
 
 
 def core_argument(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--core",
-        type=int,
-        choices=(20000, 40000, 60000),
-        default=40000,
-        help="use a machine with this many positions of core storage (default: %(default)s)",
-    )
+    text = "use a machine with this many positions of core storage (default: %(default)s)"
+    add(parser, {"--core": text}, type=int, choices=(20000, 40000, 60000), default=40000)
 
 
 def eye_argument(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--eye",
-        metavar="X,Y,Z",
-        help="look from this direction; write --eye=-1,2,3 if X is negative (default: chosen for the points)",
-    )
+    text = "look from this direction; write --eye=-1,2,3 if X is negative (default: chosen for the points)"
+    add(parser, {"--eye X,Y,Z": text})
 
 
 def coplanar_argument(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--coplanar-within",
-        metavar="E",
-        help="merge neighbouring faces whose vertices lie within the distance E of one plane (default: merge only "
-        "exactly coplanar faces)",
+    text = (
+        "merge neighbouring faces whose vertices lie within the distance E of one plane (default: merge only "
+        "exactly coplanar faces)"
     )
+    add(parser, {"--coplanar-within E": text})
 
 
 def layers_argument(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--layers",
-        metavar="LAYER,...",
-        default="",
-        help="apply these optional layers of emendations to a built-in program: corrected, epsilon, translation, or "
-        "examples for program 1 (default: none; for diff: corrected)",
+    text = (
+        "apply these optional layers of emendations to a built-in program: corrected, epsilon, translation, or "
+        "examples for program 1 (default: none; for diff: corrected)"
     )
+    add(parser, {"--layers LAYER,...": text}, default="")
 
 
 def upcase_argument(parser: ArgumentParser) -> None:
-    parser.add_argument("--upcase", action="store_true", help="read small letters of the program as capitals")
+    add(parser, {"--upcase": "read small letters of the program as capitals"})
 
 
 def points_argument(parser: ArgumentParser, metavar: str = "POINTS", note: str = "") -> None:
     """Add a file of points in any supported format."""
-    parser.add_argument(
-        "points",
-        metavar=metavar,
-        help=f"{listed(POINTS.values())}{note}, or an example: example5, seventy/17, appel-will/fig18",
-    )
+    text = f"{listed(POINTS.values())}{note}, or an example: example5, seventy/17, appel-will/fig18"
+    add(parser, {f"points {metavar}": text}, type=InputFile)
 
 
 def listed(names: Iterable[str]) -> str:

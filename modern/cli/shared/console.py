@@ -24,11 +24,20 @@ class UsageError(EmulatorError):
     """Options or arguments that cannot be carried out; the message names the option."""
 
 
+class InputFile(str):
+    """An argument that names a file to read."""
+
+
+class OutputFile(str):
+    """An argument that names a file to write."""
+
+
+class Folder(str):
+    """An argument that names a folder to write to."""
+
+
 _NUMBERED = re.compile(r"(?:[^%]|%%)*%(?:0?[1-9])?d(?:[^%]|%%)*")
 """A file name with one place for a number in the notation of printf: ``card-%03d.svg``."""
-_INPUTS = ("program", "deck", "points", "volume", "scene", "name", "read")
-_OUTPUTS = ("output", "punch", "typewriter", "trace", "json", "log", "csv")
-_FOLDERS = ("out", "all", "weigh")
 # Matches a long text that a message quotes from the input: text in quotation marks, or text without a blank.
 _LONG = re.compile(r"(?<!\w)'(?:[^'\\]|\\.){120,}'|\S{200,}")
 
@@ -97,11 +106,12 @@ def check_outputs(args: argparse.Namespace) -> None:
     from emulator.files import check_folder, check_writable  # imported here because --help does not need it
 
     values = vars(args)
-    inputs = [values[name] for name in _INPUTS if isinstance(values.get(name), str)]
-    outputs = [values[name] for name in _OUTPUTS if isinstance(values.get(name), str)]
-    input_paths = {os.path.realpath(name) for name in inputs if name != "-" and os.path.isfile(name)}
+    inputs = {
+        os.path.realpath(name) for name in values.values() if isinstance(name, InputFile) and os.path.isfile(name)
+    }
+    outputs = [name for name in values.values() if isinstance(name, OutputFile)]
     for name in outputs:
-        if name != "-" and os.path.realpath(name) in input_paths:
+        if name != "-" and os.path.realpath(name) in inputs:
             raise UsageError(f"{name}: this output is also an input, which would be overwritten; choose another name")
     # The text table of flowchart --table may have any name.
     endings: tuple[str, ...] = () if values.get("table") else values.get("endings", ())
@@ -109,7 +119,6 @@ def check_outputs(args: argparse.Namespace) -> None:
     if endings and output != "-" and not os.path.isdir(output) and not output.lower().endswith(endings):
         raise UsageError(f"{output}: {args.command} expects a name that ends with {' or '.join(endings)}")
     check_writable(*outputs)
-    for name in _FOLDERS:
-        # --all is a folder for tei and a switch for appel-will.
-        if isinstance(values.get(name), str):
-            check_folder(values[name])
+    for folder in values.values():
+        if isinstance(folder, Folder):
+            check_folder(folder)

@@ -7,57 +7,46 @@ from __future__ import annotations
 
 from argparse import ArgumentParser
 
-from modern.cli.shared.arguments import printed_arguments, result_file_argument
+from modern.cli.shared.arguments import add, printed_arguments, result_file_argument
+from modern.cli.shared.console import InputFile, OutputFile
 from modern.formats import MESHES
 
 
 def voxel_hull(parser: ArgumentParser) -> None:
     _volume_arguments(parser)
-    parser.add_argument(
-        "--space",
-        choices=("file", "lps", "ras", "index"),
-        default="file",
-        help="give coordinates as in the file, turned to LPS or RAS, or as voxel indices (default: file; indices if "
+    space = (
+        "give coordinates as in the file, turned to LPS or RAS, or as voxel indices (default: file; indices if "
         "the file states no spacing). A position is that of a voxel's centre; its corners lie half a voxel from it. "
-        "With indices, voxel (x, y, z) has the corners (x, y, z) to (x+1, y+1, z+1), as in the paper",
+        "With indices, voxel (x, y, z) has the corners (x, y, z) to (x+1, y+1, z+1), as in the paper"
     )
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument("--centres", action="store_true", help="find the hull of the centres of the voxels")
-    which.add_argument("--vertices", action="store_true", help="find the hull of the corners of the voxels (default)")
-    parser.add_argument(
-        "--corners",
-        type=int,
-        choices=(6, 26),
-        help="test this many neighbours to find the local corners (default: 26)",
+    add(parser, {"--space": space}, choices=("file", "lps", "ras", "index"), default="file")
+    which = {
+        "--centres": "find the hull of the centres of the voxels",
+        "--vertices": "find the hull of the corners of the voxels (default)",
+    }
+    add(parser.add_mutually_exclusive_group(), which)
+    corners = "test this many neighbours to find the local corners (default: 26)"
+    add(parser, {"--corners": corners}, type=int, choices=(6, 26))
+    order = (
+        "insert the local corners one by one, in the paper's order or in a faster one, and count triangles "
+        "(default: none; build the cell list of the final hull only; with --coplanar: raster)"
     )
-    parser.add_argument(
-        "--order",
-        choices=("raster", "shuffled"),
-        help="insert the local corners one by one, in the paper's order or in a faster one, and count triangles "
-        "(default: none; build the cell list of the final hull only; with --coplanar: raster)",
+    add(parser, {"--order": order}, choices=("raster", "shuffled"))
+    coplanar = "treat a face coplanar with the inserted point as visible or invisible (default: visible)"
+    add(parser, {"--coplanar": coplanar}, choices=("visible", "invisible"))
+    results = {
+        "--straight": "for --cells and -o: also merge edges that lie on one line",
+        "--cells": "print the cell list: vertices, edges and faces",
+        "--fill": "fill the hull of the centres; -o writes its voxels",
+        "--each-label": "print a table with the volume, hull, area, solidity and convex deficiency of each label, or "
+        "of the labels given by --label; with --fill, count voxels",
+    }
+    add(parser, results)
+    csv = (
+        "with --each-label: write the table with all digits and exact fractions to FILE ('-': standard output; the "
+        "report then goes to standard error)"
     )
-    parser.add_argument(
-        "--coplanar",
-        choices=("visible", "invisible"),
-        help="treat a face coplanar with the inserted point as visible or invisible (default: visible)",
-    )
-    parser.add_argument(
-        "--straight", action="store_true", help="for --cells and -o: also merge edges that lie on one line"
-    )
-    parser.add_argument("--cells", action="store_true", help="print the cell list: vertices, edges and faces")
-    parser.add_argument("--fill", action="store_true", help="fill the hull of the centres; -o writes its voxels")
-    parser.add_argument(
-        "--each-label",
-        action="store_true",
-        help="print a table with the volume, hull, area, solidity and convex deficiency of each label, or of the "
-        "labels given by --label; with --fill, count voxels",
-    )
-    parser.add_argument(
-        "--csv",
-        metavar="FILE",
-        help="with --each-label: write the table with all digits and exact fractions to FILE ('-': standard output; "
-        "the report then goes to standard error)",
-    )
+    add(parser, {"--csv FILE": csv}, type=OutputFile)
     result_file_argument(
         parser,
         f"a mesh ({', '.join(_MESH_ENDINGS)}); with --fill, an array: .nrrd, which keeps spacing and origin, or .npy; "
@@ -68,16 +57,11 @@ def voxel_hull(parser: ArgumentParser) -> None:
 def octree_hull(parser: ArgumentParser) -> None:
     _volume_arguments(parser)
     printed_arguments(parser, "statement", "angle, start, triangles, truncation, bound, corners, marks")
-    parser.add_argument(
-        "--tables",
-        action="store_true",
-        help="print floor and ceiling, the reduced sets, and every face (default: a summary)",
-    )
-    parser.add_argument(
-        "--trace",
-        action="store_true",
-        help="print the tables, and the result of processing every edge taken from the queue",
-    )
+    tables = {
+        "--tables": "print floor and ceiling, the reduced sets, and every face (default: a summary)",
+        "--trace": "print the tables, and the result of processing every edge taken from the queue",
+    }
+    add(parser, tables)
     result_file_argument(
         parser,
         "the filled hull as an array, .nrrd, which keeps spacing and origin, or .npy, or as a mesh over the centres of "
@@ -91,29 +75,21 @@ _MESH_ENDINGS = tuple(f".{name}" for name in MESHES)
 
 def _volume_arguments(parser: ArgumentParser) -> None:
     """Add the volume, the properties that its file does not state, and the selection of voxels."""
-    parser.add_argument(
-        "volume",
-        metavar="VOLUME",
-        help="NRRD, NPY, NPZ or a raw array; NIfTI (.nii, .nii.gz), MetaImage (.mha, .mhd), TIFF, DICOM (.dcm, or a "
+    volume = (
+        "NRRD, NPY, NPZ or a raw array; NIfTI (.nii, .nii.gz), MetaImage (.mha, .mhd), TIFF, DICOM (.dcm, or a "
         "folder with a series), read by SimpleITK (extra volumes); CSV voxels x,y,z; or ball:32, ball:32:vertex, "
-        "half-ball:18",
+        "half-ball:18"
     )
-    parser.add_argument(
-        "--label",
-        metavar="N",
-        type=int,
-        action="append",
-        default=[],
-        help="select the voxels with the value N; may be repeated (default: all values except 0)",
-    )
-    parser.add_argument("--threshold", metavar="T", help="select the voxels whose value is at least T (>=)")
-    parser.add_argument(
-        "--spacing", metavar="DX,DY,DZ", help="the distances between voxel centres, if the file does not state them"
-    )
-    parser.add_argument(
-        "--origin", metavar="X,Y,Z", help="with --spacing: the centre of voxel (0, 0, 0) (default: 0,0,0)"
-    )
-    parser.add_argument("--shape", metavar="NX,NY,NZ", help="the shape of a raw array, x fastest; required for one")
-    parser.add_argument("--dtype", metavar="TYPE", help="the type of the numbers in a raw array (default: uint8)")
-    parser.add_argument("--array", metavar="NAME", help="choose an array of an NPZ file with several arrays")
-    parser.add_argument("--series", metavar="UID", help="choose a series of a folder with several DICOM series")
+    add(parser, {"volume VOLUME": volume}, type=InputFile)
+    label = "select the voxels with the value N; may be repeated (default: all values except 0)"
+    add(parser, {"--label N": label}, type=int, action="append", default=[])
+    values = {
+        "--threshold T": "select the voxels whose value is at least T (>=)",
+        "--spacing DX,DY,DZ": "the distances between voxel centres, if the file does not state them",
+        "--origin X,Y,Z": "with --spacing: the centre of voxel (0, 0, 0) (default: 0,0,0)",
+        "--shape NX,NY,NZ": "the shape of a raw array, x fastest; required for one",
+        "--dtype TYPE": "the type of the numbers in a raw array (default: uint8)",
+        "--array NAME": "choose an array of an NPZ file with several arrays",
+        "--series UID": "choose a series of a folder with several DICOM series",
+    }
+    add(parser, values)
