@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import json
 
-from emulator.files import write_text
 from modern.bench.measure import document, lines, measure
-from modern.cli.shared.console import OK, UsageError, print_notes, print_report
+from modern.cli.shared.console import OK, UsageError, print_notes, print_report, write_json
 
 
 def main(args: argparse.Namespace) -> int:
@@ -15,6 +13,5 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError(f"--decks: expected at least 1 deck, found {args.decks}")
     figures = measure(args.decks, lambda step: print_notes([f"{step} ..."]))
     print_report(args, lines(figures))
-    if args.json is not None:
-        write_text(args.json, json.dumps(document(figures), indent=1) + "\n")
+    write_json(args, document(figures))
     return OK

@@ -6,9 +6,9 @@ import argparse
 
 from emulator.errors import FileError
 from emulator.files import write_text
-from modern.cli.shared.console import OK, UsageError, print_notes
-from modern.cli.shared.inputs import points_of
-from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
+from modern.cli.shared.console import OK, print_notes
+from modern.cli.shared.inputs import points_of, punch_epsilon
+from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck
 
 
 def main(args: argparse.Namespace) -> int:
@@ -23,10 +23,7 @@ def main(args: argparse.Namespace) -> int:
     except ValueError as error:
         raise FileError(f"{source}: {error}") from None
     if args.epsilon is not None:
-        try:
-            deck = with_epsilon(deck, args.epsilon)
-        except ValueError as error:
-            raise UsageError(f"--{error}") from None
+        deck = punch_epsilon(deck, args.epsilon)
     write_text(args.output, deck.text())
     print_notes(f"note: {note}" for note in points.notes)
     if count > MAX_POINTS:

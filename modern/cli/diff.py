@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from pathlib import PurePath
 
-from emulator.files import write_text
 from emulator.language.cards import Deck
 from emulator.machine.result import Options
-from modern.cli.shared.console import DIFFERS, OK, UsageError, print_notes, print_report
-from modern.cli.shared.inputs import points_of
+from modern.cli.shared.console import DIFFERS, OK, print_notes, print_report, write_json
+from modern.cli.shared.inputs import points_of, punch_epsilon
 from modern.cli.shared.programs import layers_of
 from modern.cli.shared.refusals import Request, refusal_lines
 from modern.comparison.difference import Disagreement, disagreement
@@ -22,7 +20,7 @@ from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, fr
 from modern.edition import programs
 from modern.exact_hull import exact_hull
 from modern.formats.columns import aligned
-from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
+from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck
 from modern.formats.points import Input
 from modern.port import convex_hull
 from modern.thesis.job import run_hull
@@ -72,8 +70,7 @@ def main(args: argparse.Namespace) -> int:
             explained_kinds.add(route.cause.kind)
             print_notes([f"{route.outcome.name}: {route.outcome.status}"])
             print_notes(refusal_lines(route.cause, _request(args, source, route.layers)))
-    if args.json:
-        write_text(args.json, json.dumps(_document(routes, exact, source), indent=1) + "\n")
+    write_json(args, _document(routes, exact, source))
     return OK if all(route.agrees for route in routes) else DIFFERS
 
 
@@ -94,10 +91,7 @@ def _routes(args: argparse.Namespace, source: Input, points: list[Vector]) -> It
         if "epsilon" in applied and (args.epsilon or "").startswith("rel:"):
             yield Route(Outcome(name, _NOT_RUN, -1), obstacle="a card holds an absolute e, not rel:E")
             continue
-        try:
-            data = with_epsilon(deck, args.epsilon or "0") if "epsilon" in applied else deck
-        except ValueError as error:
-            raise UsageError(f"--{error}") from None
+        data = punch_epsilon(deck, args.epsilon or "0") if "epsilon" in applied else deck
         options = Options(limit=_LIMIT, core=60000 if applied else 40000)
         run, cause = explain_run(partial(run_hull, data, programs.loader(applied), options))
         yield Route(from_cards(name, run, points), cause=cause, layers=applied)

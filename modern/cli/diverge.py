@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import json
 import shutil
 import textwrap
 from collections.abc import Iterator
 from dataclasses import replace
 
-from emulator.files import write_text
 from emulator.language.objectcode import Line
 from emulator.machine.comparison import Loss
 from emulator.machine.devices import no_deck
 from emulator.machine.divergence import Divergence, diverge
-from modern.cli.shared.console import DIFFERS, OK, check_one_standard_input, counted, print_report
+from modern.cli.shared.console import DIFFERS, OK, check_one_standard_input, counted, print_report, write_json
 from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.programs import load_program, machine_options, number_system
 from modern.edition import programs
@@ -35,8 +33,7 @@ def main(args: argparse.Namespace) -> int:
     divergence = diverge(program, deck, studied, reference, options, values=not args.first)
     width = max(_NARROWEST, min(shutil.get_terminal_size((100, 24)).columns, _WIDEST))
     print_report(args, _report(divergence, width, values=not args.first))
-    if args.json:
-        write_text(args.json, json.dumps(_document(divergence), indent=1) + "\n")
+    write_json(args, _document(divergence))
     return DIFFERS if divergence.decisions or divergence.apart or _limit_message(divergence) else OK
 
 

@@ -8,18 +8,17 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-from emulator.language.cards import Deck
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Event
-from modern.cli.shared.console import DIFFERS, OK, UsageError, print_notes
-from modern.cli.shared.inputs import deck_of
+from modern.cli.shared.console import DIFFERS, OK, print_notes
+from modern.cli.shared.inputs import deck_of, punch_epsilon
 from modern.cli.shared.operators import attended
 from modern.cli.shared.programs import card_rules, layers_of, machine_options
 from modern.cli.shared.refusals import Request, refusal_lines, wrapped
 from modern.cli.shared.run_output import is_terminal, print_run, tracing, write_outputs
 from modern.edition import programs
-from modern.formats.deck import check, with_epsilon
+from modern.formats.deck import check
 from modern.thesis.explanation import first_disagreement
 from modern.thesis.job import HullRun, run_hull
 from modern.thesis.refusals import Cause, explain_run
@@ -48,7 +47,7 @@ def main(args: argparse.Namespace) -> int:
                     attendance.show(event.text)
 
         for i in range(len(checked.sets)):
-            deck = checked.deck(i) if args.epsilon is None else _with_epsilon(checked.deck(i), args.epsilon)
+            deck = checked.deck(i) if args.epsilon is None else punch_epsilon(checked.deck(i), args.epsilon)
             start = partial(run_hull, deck, load, options, first_program, operator=attendance.operator, output=output)
             runs.append(explain_run(start, watch))
     typed = [line for run, _ in runs for step in run.steps for line in step.result.typed]
@@ -67,10 +66,3 @@ def main(args: argparse.Namespace) -> int:
         if args.explain and options.numbers.name != "exact":
             print_notes(wrapped(first_disagreement(run, options)))
     return OK if all(run.complete for run, _ in runs) else DIFFERS
-
-
-def _with_epsilon(deck: Deck, epsilon: str) -> Deck:
-    try:
-        return with_epsilon(deck, epsilon)
-    except ValueError as error:
-        raise UsageError(f"--{error}") from None

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from emulator.errors import EmulatorError
 from modern.cli.arguments import COMMANDS
 from modern.cli.shared.arguments import complete
-from modern.cli.shared.console import BAD_INPUT, OK, Parser, check_outputs, print_error
+from modern.cli.shared.console import BAD_INPUT, OK, Parser, check_outputs, print_error, version
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -96,7 +96,7 @@ def build_parser(words: Sequence[str]) -> Parser:
         epilog="PROGRAM.f is a file, or one of program1, program2, program3 and program1_examples. "
         "'-' means standard input or standard output.",
     )
-    parser.add_argument("--version", action="version", version=f"hull1620 {_version()}" if "--version" in words else "")
+    parser.add_argument("--version", action="version", version=f"hull1620 {version()}" if "--version" in words else "")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
     # Building every parser takes time; all of them are needed only for --help and for unknown commands.
     for name in words[:1] if words and words[0] in COMMANDS else COMMANDS:
@@ -109,15 +109,6 @@ def build_parser(words: Sequence[str]) -> Parser:
 def parser_of_all() -> Parser:
     """Return the parser of all commands, from which the reference of the commands is generated."""
     return build_parser([])
-
-
-def _version() -> str:
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version("hull1620")
-    except PackageNotFoundError:
-        return "(not installed)"
 
 
 if __name__ == "__main__":

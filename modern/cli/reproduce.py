@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import shutil
 import sys
@@ -16,11 +15,10 @@ from itertools import zip_longest
 from typing import TextIO
 
 from emulator.errors import quoted
-from emulator.files import write_text
 from emulator.machine.endings import Ending
 from modern.claims.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Finding, Paper, findings
 from modern.claims.register import DOCUMENTS, THESIS, Judged, Judgements, Statement, judge, statements_of
-from modern.cli.shared.console import DIFFERS, OK, UsageError, report_stream
+from modern.cli.shared.console import DIFFERS, OK, UsageError, report_stream, write_json
 from modern.cli.shared.side_by_side import side_by_side
 from modern.cli.shared.statements import Indented, Paint, statement_lines, statement_summary, theorem_lines
 from modern.edition.chapter4 import THEOREMS
@@ -79,10 +77,7 @@ def main(args: argparse.Namespace) -> int:
         kind = (EXACT if all_agree else DIFFERENT) if line.startswith(_OVERALL) else ""
         for part in textwrap.wrap(line, max(40, width)):
             print(_paint(part, kind, colour), file=out)
-    if args.json is not None:
-        write_text(
-            args.json, json.dumps(_document(reports, theorems, stated, findings_of_papers, all_agree), indent=1) + "\n"
-        )
+    write_json(args, _document(reports, theorems, stated, findings_of_papers, all_agree))
     return OK if all_agree else DIFFERS
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
 
 from emulator.errors import quoted
 from emulator.files import read_bytes, read_text, write_text
-from modern.cli.shared.console import DIFFERS, OK, UsageError
+from modern.cli.shared.console import DIFFERS, OK, UsageError, version
 from modern.publication import tei_reading as reading
 from modern.publication.tei import archive, documents, tei
 from modern.publication.tei_schema import odd, schema
@@ -38,15 +37,8 @@ def main(args: argparse.Namespace) -> int:
     elif args.text is None:
         raise UsageError(f"expected a text, or --all with a folder; the texts are {', '.join(documents())}")
     else:
-        write_text(args.output, tei(args.text, _version()))
+        write_text(args.output, tei(args.text, version()))
     return OK
-
-
-def _version() -> str:
-    try:
-        return version("hull1620")
-    except PackageNotFoundError:
-        return "(not installed)"
 
 
 def _write_all(folder: Path) -> None:
@@ -54,7 +46,7 @@ def _write_all(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(f"{folder}: {(error.strerror or str(error)).lower()}") from None
-    for name, text in archive(_version()).items():
+    for name, text in archive(version()).items():
         write_text(str(folder / name), text)
 
 
@@ -89,7 +81,7 @@ def _check(args: argparse.Namespace) -> int:
     except (etree.XMLSyntaxError, etree.RelaxNGParseError) as error:
         raise UsageError(f"{source}: not a RELAX NG schema: {error}") from None
     all_valid = True
-    files = {name: tei(name, _version()) for name in ((args.text,) if args.text else documents())}
+    files = {name: tei(name, version()) for name in ((args.text,) if args.text else documents())}
     if args.check and not args.text:
         files["hull1620.odd"] = odd()  # a document of the full TEI, not of the project's own schema
     for name, text in files.items():

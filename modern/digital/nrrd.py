@@ -11,7 +11,6 @@ import gzip
 import io
 import math
 import re
-import zlib
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
@@ -22,7 +21,7 @@ from numpy.typing import NDArray
 
 from emulator.errors import quoted
 from emulator.files import VOLUME_LIMIT, read_bytes, writing_bytes
-from modern.digital.integrity.streams import outside_note
+from modern.digital.integrity.streams import check_length, outside_note, read_gzip
 from modern.digital.scans import Scan
 from modern.digital.solids import MAX_CELLS, Volume, VolumeError
 from modern.digital.world import ANATOMICAL, Position, World, length_text, world_of
@@ -90,13 +89,10 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
         body = _read_data_file(source, *fields["data file"])
     expected = math.prod(sizes) * kind.itemsize
     if encoding.lower() in _PACKED:
-        body = _unpacked(body, expected, source)
-    if len(body) < expected:
-        raise VolumeError(f"{source}: expected {expected} bytes of data, found {len(body)}")
-    if len(body) > expected:
-        raise VolumeError(
-            f"{source}: expected {expected} bytes of data for {'x'.join(map(str, sizes))} numbers, found more"
-        )
+        body, length = read_gzip(source, io.BytesIO(body), expected, expected)
+    else:
+        length = len(body)
+    check_length(source, expected, length)
     array = np.frombuffer(body, kind).reshape(sizes, order="F")
     world, notes = _world(fields, dimension, source)
     outside = outside_note(source, fields["data file"][1]) if "data file" in fields else ""
@@ -189,16 +185,6 @@ def _read_data_file(source: str, line: int, name: str) -> bytes:
     if name.upper().startswith("LIST") or "%" in name:
         raise VolumeError(f"{source}: line {line}: data in several files are not supported")
     return read_bytes(str(Path(source).parent / name), f"{source}: line {line}: {name}", VOLUME_LIMIT)
-
-
-def _unpacked(body: bytes, expected: int, source: str) -> bytes:
-    """Decompress the data and verify their checksum. Of data that are too long, keep one byte more than expected."""
-    try:
-        with gzip.GzipFile(fileobj=io.BytesIO(body)) as packed:
-            data = packed.read(expected)
-            return data + packed.read(1)
-    except (OSError, EOFError, zlib.error) as error:
-        raise VolumeError(f"{source}: the data cannot be decompressed: {str(error).lower()}") from None
 
 
 def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -> tuple[World | None, tuple[str, ...]]:

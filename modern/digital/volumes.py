@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.errors import expect, quoted
+from emulator.errors import FileError, expect, quoted
 from emulator.files import VOLUME_LIMIT, read_bytes, source_name, writing_bytes
 from modern.digital.arrays import NPY, NPZ, parse_npy, parse_npz, parse_raw
 from modern.digital.itk import SERIES, kind_of, read_itk
@@ -24,6 +24,7 @@ from modern.digital.scans import Choice, Scan, chosen
 from modern.digital.solids import DIGITS, VERTEX, VOXEL, Volume, VolumeError, ball, half_ball, listed
 from modern.digital.world import world_of
 from modern.formats.csv import rows
+from modern.formats.meshes import surface_kind
 from modern.geometry.numbers import real
 
 # The file name extensions for a filled hull.
@@ -163,7 +164,19 @@ def _parsed(data: bytes, source: str, stated: Stated) -> Scan:
         )
     if text is None:
         raise VolumeError(f"{source}: not NPY, NRRD or UTF-8 text; raw data need --shape NX,NY,NZ")
+    # Without this test, the heading of a mesh would be read as a heading of columns and its counts as a voxel.
+    if _is_mesh(data, source):
+        raise VolumeError(
+            f"{source}: expected voxels, found a mesh (OFF, OBJ, PLY or STL); hull1620 hull reads its points"
+        )
     return _scan(_listed(text, source))
+
+
+def _is_mesh(data: bytes, source: str) -> bool:
+    try:
+        return bool(surface_kind(data, source))
+    except FileError:
+        return False
 
 
 def _of_array(array: NDArray[Any], source: str) -> Scan:
@@ -191,17 +204,8 @@ def _with_position(scan: Scan, stated: Stated) -> Scan:
         raise VolumeError(f"{scan.source}: {error}") from None
 
 
-# The first word of a mesh in text, after comments.
-_MESH = re.compile(r"(\s|#[^\n]*\n)*((ST|C|N|4|n)*OFF|ply|solid|v|vn|vt|mtllib|o|g)\s")
-
-
 def _listed(text: str, source: str) -> Volume:
     """Return the voxels of a list with a line ``x,y,z`` (or ``x,y``) for each."""
-    # Without this test, the heading of a mesh would be read as a heading of columns and its counts as a voxel.
-    if _MESH.match(text):
-        raise VolumeError(
-            f"{source}: expected voxels, found a mesh (OFF, OBJ, PLY or STL); hull1620 hull reads its points"
-        )
     voxels: list[tuple[int, ...]] = []
     for line, row in rows(text, source):
         if len(row) not in (2, 3) or (voxels and len(row) != len(voxels[0])):

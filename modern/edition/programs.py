@@ -133,13 +133,14 @@ def program(name: str, layers: tuple[str, ...] = ()) -> Program:
 
 def with_layers(name: str, layers: Sequence[str]) -> Program:
     """Compile a built-in program with those of ``layers`` that have rows for it."""
-    present = {row.layer for row in text(built_in(name).text).rows}
+    present = {row.layer for row in text(built_in(name).text).rows} if layers else set()
     return program(name, tuple(layer for layer in layers if layer in present))
 
 
 def loader(layers: tuple[str, ...]) -> Callable[[str], Program]:
     """Return a function that compiles the named program with ``layers`` added.  Raises DeckError for unknown layers."""
-    present = {row.layer for name in TEXTS for row in text(name).rows}
+    # Reading the apparatus takes time, and a program without additional layers does not need it.
+    present = {row.layer for name in TEXTS for row in text(name).rows} if layers else set()
     for layer in layers:
         if layer not in present:
             optional = sorted(present - set(_BASE))

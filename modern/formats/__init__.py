@@ -19,7 +19,7 @@ How to add a format from which points are read:
    the format.
 
 How to add a format from which faces are read (for ``hidden-line`` and its scenes): add it to points as above, write a
-function that returns a ``FileMesh`` (``tokens.py``), and add it to ``SURFACES`` and ``parse_mesh`` in ``meshes.py``.
+function that returns a ``FileMesh`` (``tokens.py``), and extend ``parse_mesh`` in ``meshes.py``.
 
 A format of voxels belongs to ``modern/digital/volumes.py`` (``nrrd.py`` there is an example).
 
@@ -28,7 +28,7 @@ a row for each kind of valid file and for each way in which a file can be invali
 test_fuzz_readers.py`` damages files at random.  Documentation: ``docs/reference/files.md``.
 """
 
-# Formats of a surface. Each name is both a module of this package and the extension of the files.
+# Formats of a surface, written and read. Each name is both a module of this package and the extension of the files.
 MESHES = ("off", "obj", "ply", "stl")
 
 # Formats of a hull: its surface, its complete data (JSON), or a page on which it can be turned (HTML).

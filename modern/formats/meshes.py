@@ -6,18 +6,15 @@ Equal corners of an STL file are one point; every vertex of OFF, OBJ and PLY is 
 
 from emulator.errors import FileError
 from emulator.files import decoded
-from modern.formats import obj, off, ply, stl
+from modern.formats import MESHES, obj, off, ply, stl
 from modern.formats.points import kind_of
 from modern.formats.tokens import FileMesh
 
-# The formats of points (``POINTS``) from which faces are also read.
-SURFACES = ("off", "obj", "ply", "stl")
-
 
 def surface_kind(data: bytes, source: str) -> str:
-    """Return the format of a file that is one of ``SURFACES``, "" for other formats of points, or raise FileError."""
+    """Return the format of a file that is one of ``MESHES``, "" for other formats of points, or raise FileError."""
     kind = kind_of(data, source)
-    return kind if kind in SURFACES else ""
+    return kind if kind in MESHES else ""
 
 
 def parse_mesh(data: bytes, source: str) -> FileMesh:

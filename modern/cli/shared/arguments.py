@@ -179,9 +179,15 @@ def epsilon_text(text: str) -> str:
 
 
 ARITHMETICS = ("truncating", "ibm1962", "float64", "float32", "exact", "mp:200")
-DOCUMENTS = ("thesis", "appel-will", "nakamae-nishita", "kovalevsky-schulz", "yau-srihari")
+DOCUMENTS = ("thesis", "appel-will", "kovalevsky-schulz", "nakamae-nishita", "yau-srihari")
 PROGRAMS = ("program1", "program2", "program3", "program1_examples")
 STUDIES = ("capacity", "digits", "divergence", "epsilon", "machine-time", "rounding", "seventy", "translation")
+THEOREMS = ("4.1", "4.2", "4.8")
+SCENES = ("columns", "cuboids", "house")
+TEXTS = (
+    *("program1", "program2", "program3", "chapter4", "chapter6"),
+    *("appel_will_1976", "kovalevsky_schulz", "nakamae_nishita_1972"),
+)
 EXAMPLES = (
     *(f"example{number}" for number in range(1, 7)),
     *(f"appel-will/fig{number}" for number in (13, 14, 18, 23)),
@@ -192,12 +198,12 @@ NAMES: dict[str, tuple[str, ...]] = {
     "arithmetic": ARITHMETICS,
     "against": ARITHMETICS,
     "deck": EXAMPLES,
-    "examples": (*map(str, range(1, 7)), *DOCUMENTS),
+    "examples": (*map(str, range(1, 7)), *THEOREMS, *DOCUMENTS),
     "name": STUDIES,
     "points": EXAMPLES,
     "program": PROGRAMS,
-    "scene": ("columns", "cuboids", "house", *EXAMPLES),
-    "text": ("program1", "program2", "program3", "chapter4", "chapter6"),
+    "scene": (*SCENES, *EXAMPLES),
+    "text": TEXTS,
     "volume": ("ball:32", "ball:32:vertex", "half-ball:18"),
 }
 

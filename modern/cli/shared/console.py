@@ -80,6 +80,26 @@ def print_report(args: argparse.Namespace, lines: Iterable[str]) -> None:
         print(line, file=report_stream(args))
 
 
+def version() -> str:
+    """Return the version of the installed project."""
+    from importlib import metadata  # imported here because few commands need it
+
+    try:
+        return metadata.version("hull1620")
+    except metadata.PackageNotFoundError:
+        return "(not installed)"
+
+
+def write_json(args: argparse.Namespace, document: object) -> None:
+    """Write a document to the file of ``--json``, if it is named."""
+    import json
+
+    from emulator.files import write_text
+
+    if args.json is not None:
+        write_text(args.json, json.dumps(document, indent=1) + "\n")
+
+
 def counted(count: int, noun: str) -> str:
     """Return ``1 voxel`` or ``2 voxels``."""
     return f"{count} {noun}{'s' * (count != 1)}"

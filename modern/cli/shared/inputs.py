@@ -16,7 +16,7 @@ from emulator.files import POINTS_LIMIT, read_bytes, source_name
 from emulator.language.cards import Deck, deck_from_bytes
 from modern.cli.shared.console import UsageError
 from modern.formats import POINTS
-from modern.formats.deck import data_deck
+from modern.formats.deck import data_deck, with_epsilon
 from modern.formats.points import Input, deck_or_points, parse_bytes
 
 if TYPE_CHECKING:
@@ -53,6 +53,14 @@ def deck_of(name: str, points: bool = False) -> Deck:
         return data_deck(parse_bytes(data, source).points, name)
     command = f"hull1620 cards {name} -o points.deck makes a deck of it"
     raise UsageError(f"{source}: {POINTS[kind]}, not a data deck; {command}")
+
+
+def punch_epsilon(deck: Deck, epsilon: str) -> Deck:
+    """Return the deck with the tolerance of ``--epsilon`` on its first card.  Raise UsageError if it does not fit."""
+    try:
+        return with_epsilon(deck, epsilon)
+    except ValueError as error:
+        raise UsageError(f"--{error}") from None
 
 
 def deck_for(program: str, name: str) -> Deck:

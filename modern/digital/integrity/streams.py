@@ -76,13 +76,13 @@ def check_compressed(source: str, file: BinaryIO, stored: int, expected: int) ->
         raise VolumeError(f"{source}: the compressed data are followed by other bytes")
 
 
-def read_gzip(source: str, path: str, most: int, keep: int) -> tuple[bytes, int]:
-    """Return the first ``keep`` decompressed bytes of a gzip file, and the length of all, which counts to ``most`` + 1.
+def read_gzip(source: str, stored: str | BinaryIO, most: int, keep: int) -> tuple[bytes, int]:
+    """Return the first ``keep`` decompressed bytes of a gzip stream, and the length of all up to ``most`` + 1.
 
-    Raise VolumeError if the file is damaged. The checksum is verified unless there are more than ``most`` bytes.
+    Raise VolumeError if it is damaged. The checksum is verified unless there are more than ``most`` bytes.
     """
     try:
-        with gzip.open(path) as file:
+        with gzip.open(stored) as file:
             head = file.read(keep)
             size = len(head)
             while size <= most and (chunk := file.read(min(CHUNK, most + 1 - size))):

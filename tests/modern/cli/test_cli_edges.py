@@ -16,13 +16,21 @@ import numpy as np
 import pytest
 
 from emulator import files
+from emulator.numbers import numbers
+from modern.claims.apparatus_checks import texts
+from modern.claims.register import DOCUMENTS
 from modern.cli.arguments import COMMANDS
 from modern.cli.main import build_parser
+from modern.cli.shared import arguments
 from modern.cli.shared.arguments import EXAMPLES, NAMES
 from modern.cli.shared.inputs import points_of
 from modern.digital.arrays import parse_npy
+from modern.edition import programs
+from modern.edition.chapter4 import THEOREMS
 from modern.formats import ply
 from modern.geometry.mesh import Mesh
+from modern.papers.nakamae_nishita import scenes
+from modern.study import builtin
 from tests.support.commands import call
 from tests.support.paths import ROOT
 
@@ -280,6 +288,16 @@ def test_every_completed_name_is_that_of_an_argument_and_every_example_can_be_re
     commands = next(a for a in build_parser([])._actions if isinstance(a, argparse._SubParsersAction)).choices
     assert set(NAMES) <= {action.dest for command in commands.values() for action in command._actions}
     assert all(points_of(name).points for name in EXAMPLES)
+
+
+def test_the_shell_completes_every_name_of_the_registers() -> None:
+    assert arguments.STUDIES == builtin.names()
+    assert arguments.PROGRAMS == programs.NAMES
+    assert arguments.DOCUMENTS == DOCUMENTS
+    assert tuple(THEOREMS) == arguments.THEOREMS
+    assert arguments.SCENES == scenes.names()
+    assert tuple(texts()) == arguments.TEXTS
+    assert [numbers(name).name for name in arguments.ARITHMETICS] == list(arguments.ARITHMETICS)
 
 
 def test_long_doubles_are_voxels() -> None:

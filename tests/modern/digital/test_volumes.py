@@ -124,7 +124,7 @@ def test_a_compressed_nrrd_is_decompressed_only_to_its_size() -> None:
     array = np.ones((2, 2, 2), dtype="u1")
     packed = gzip.compress(bytes([1]) * 8 + bytes(3 * 10**7))
     tracemalloc.start()
-    with pytest.raises(VolumeError, match=r"a\.nrrd: expected 8 bytes of data for 2x2x2 numbers, found more"):
+    with pytest.raises(VolumeError, match=r"a\.nrrd: expected 8 bytes of data, found more"):
         parse_volume(nrrd(array, "uchar", encoding="gzip", data=packed), "a.nrrd")
     assert tracemalloc.get_traced_memory()[1] < 10**7
     tracemalloc.stop()
@@ -195,7 +195,7 @@ HEADER = nrrd(STEPS.astype("u1"), "uchar")
         (HEADER.replace(b"key:=", b"data file: LIST\nkey:="), "line 7: data in several files are not supported"),
         (HEADER.replace(b"type: uchar", b"type: int").replace(b"raw", b"ascii"), "encoding: expected raw or gzip"),
         (HEADER[:-3], "expected 24 bytes of data, found 21"),
-        (HEADER + b"12", "expected 24 bytes of data for 2x3x4 numbers, found more"),
+        (HEADER + b"12", "expected 24 bytes of data, found more"),
     ],
 )
 def test_invalid_files_are_reported_in_one_line(data: bytes, message: str) -> None:
