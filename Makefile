@@ -7,7 +7,7 @@ JOBS ?= 2
 EPOCH := $(shell $(PYTHON) -c "import re, datetime as d; day = re.search('date-released: (.+)', open('CITATION.cff').read())[1]; print(int(d.datetime.fromisoformat(day + 'T00:00+00:00').timestamp()))")
 PIP = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: reproduce test lint format coverage wheel benchmark mutants claims tei-check edition book archive serve upgrade hooks clean
+.PHONY: reproduce test lint format coverage wheel pyz benchmark mutants claims tei-check edition book archive serve upgrade hooks clean
 
 reproduce: $(VENV)/.run
 	$(BIN)/hull1620 reproduce
@@ -32,6 +32,10 @@ wheel: $(VENV)/.dev
 	rm -rf build/lib
 	SOURCE_DATE_EPOCH=$(EPOCH) $(BIN)/python -m build --wheel --no-isolation --outdir dist .
 
+# The program as one file that needs only Python: dist/hull1620.pyz.
+pyz: wheel
+	$(BIN)/python -m modern.publication.pyz dist
+
 benchmark: $(VENV)/.dev
 	$(BIN)/python -m modern.bench.suite
 
@@ -54,7 +58,7 @@ book: $(VENV)/.dev
 	$(BIN)/python -m modern.publication.book.build dist/hull1620.pdf
 
 # Everything for an archive, as a BagIt bag: dist/hull1620-VERSION-deposit; ROWS=FOLDER adds rows of studies.
-archive: wheel edition book
+archive: wheel pyz edition book
 	$(BIN)/python -m modern.publication.deposit dist $(if $(ROWS),--rows $(ROWS))
 
 # The site on your own computer alone; its pages open as files too, but for the machine in the page.

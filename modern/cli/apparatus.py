@@ -7,6 +7,7 @@ import os
 import shutil
 import textwrap
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
 
 from emulator.errors import quoted
@@ -47,6 +48,8 @@ def main(args: argparse.Namespace) -> int:
     for proof in check_everything(rows, everything, read_text(args.text) if args.text else "", workers):
         proofs.append(proof)
         print(_line(proof), flush=True)
+    if everything and find_spec("numpy") is None:
+        print("left out, because numpy is not installed: the later papers, and the hulls of the layer corrected")
     failed = sum(not proof.holds for proof in proofs)
     print(f"{len(proofs) - failed} of {len(proofs)} checks hold" + (f"; {failed} FAIL" if failed else ""))
     return DIFFERS if failed else OK

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from emulator.errors import EmulatorError
 from modern.cli.arguments import COMMANDS
 from modern.cli.shared.arguments import complete
-from modern.cli.shared.console import BAD_INPUT, OK, Parser, check_outputs, print_error, version
+from modern.cli.shared.console import BAD_INPUT, OK, Parser, check_outputs, misses_numpy, print_error, version
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -83,8 +83,14 @@ def _call(words: Sequence[str]) -> int:
         print_error("standard output is closed")
         return BAD_INPUT
     check_outputs(args)
-    module = importlib.import_module(f"modern.cli.{args.command.replace('-', '_')}")
-    return int(module.main(args))
+    try:
+        module = importlib.import_module(f"modern.cli.{args.command.replace('-', '_')}")
+        return int(module.main(args))
+    except ModuleNotFoundError as error:
+        if not misses_numpy(error):
+            raise
+        print_error("this needs numpy, which is not installed (pip install numpy)", f"hull1620 {args.command}")
+        return BAD_INPUT
 
 
 def build_parser(words: Sequence[str]) -> Parser:

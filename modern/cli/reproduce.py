@@ -9,16 +9,16 @@ import sys
 import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 from functools import partial
 from itertools import zip_longest
-from typing import TextIO
 
 from emulator.errors import quoted
 from emulator.machine.endings import Ending
 from modern.claims.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Finding, Paper, findings
 from modern.claims.register import DOCUMENTS, THESIS, Judged, Judgements, Statement, judge, statements_of
-from modern.cli.shared.console import DIFFERS, OK, UsageError, report_stream, write_json
+from modern.cli.shared.console import DIFFERS, OK, UsageError, misses_numpy, report_stream, write_json
 from modern.cli.shared.side_by_side import side_by_side
 from modern.cli.shared.statements import Indented, Paint, statement_lines, statement_summary, theorem_lines
 from modern.edition.chapter4 import THEOREMS
@@ -61,24 +61,49 @@ def main(args: argparse.Namespace) -> int:
             print(line, file=out)
     results = Judgements(reports)
     parts = {name for name in THEOREMS if name in names}
-    theorems = [judge(row, results) for row in statements_of(THESIS) if row.part in parts] if parts else []
+    left_out: list[str] = []
+    skipping = partial(_skipping, left_out, bool(requested))
+    theorems: list[Judged] = []
+    with skipping("theorems"):
+        theorems = [judge(row, results) for row in statements_of(THESIS) if row.part in parts] if parts else []
     for line in theorem_lines(theorems, paint, indented):
         print(line, file=out)
-    findings_of_papers = list(_papers(names, colour, width, out, args.show))
+    compare = partial(_side_by_side, colour=colour, width=width) if args.show else None
+    findings_of_papers: list[Finding] = []
+    for paper in (paper for paper in PAPERS if paper.name in names):
+        with skipping(paper.name):
+            paper_findings = list(findings(paper))
+            findings_of_papers += paper_findings
+            for line in _finding_lines(paper, paper_findings, paint, indented, compare):
+                print(line, file=out)
     results.add_findings(findings_of_papers)
     known = {judged.statement.id: judged for judged in theorems}
-    stated = [known.get(row.id) or judge(row, results) for row in _statements(requested)]
-    for line in statement_lines(stated, paint, indented) if requested else statement_summary(stated, paint, indented):
+    stated: list[Judged] = []
+    with skipping("statements"):
+        stated = [known.get(row.id) or judge(row, results) for row in _statements(requested)]
+    lines = statement_lines if requested or not stated else statement_summary
+    for line in lines(stated, paint, indented):
         print(line, file=out)
     all_agree, *_ = summary(reports)
     all_agree = all_agree and all(judged.agrees for judged in (*theorems, *stated))
     all_agree = all_agree and all(finding.holds for finding in findings_of_papers)
-    for line in _summary_lines(reports, theorems, findings_of_papers, all_agree):
+    for line in _summary_lines(reports, theorems, findings_of_papers, all_agree, left_out):
         kind = (EXACT if all_agree else DIFFERENT) if line.startswith(_OVERALL) else ""
         for part in textwrap.wrap(line, max(40, width)):
             print(_paint(part, kind, colour), file=out)
-    write_json(args, _document(reports, theorems, stated, findings_of_papers, all_agree))
+    write_json(args, {**_document(reports, theorems, stated, findings_of_papers, all_agree), "left_out": left_out})
     return OK if all_agree else DIFFERS
+
+
+@contextmanager
+def _skipping(left_out: list[str], is_requested: bool, name: str) -> Iterator[None]:
+    """If numpy is not installed, record in ``left_out`` the results that need it, unless the user requested them."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        if is_requested or not misses_numpy(error):
+            raise
+        left_out.append(name)
 
 
 def _all_results() -> list[str]:
@@ -107,18 +132,6 @@ def _statements(names: Sequence[str]) -> list[Statement]:
     documents = {name.partition(".")[0] for name in names} if names else set(DOCUMENTS)
     rows = [row for name in DOCUMENTS if name in documents for row in statements_of(name)]
     return [row for row in rows if row.document in names or row.id in names] if names else rows
-
-
-def _papers(names: Sequence[str], colour: bool, width: int, out: TextIO, show: bool) -> Iterator[Finding]:
-    """Yield the verdicts on the results of the named papers, and print those of each paper."""
-    for paper in PAPERS:
-        if paper.name in names:
-            paper_findings = list(findings(paper))
-            paint = partial(_paint, colour=colour)
-            compare = partial(_side_by_side, colour=colour, width=width) if show else None
-            for line in _finding_lines(paper, paper_findings, paint, partial(_indented, width=width), compare):
-                print(line, file=out)
-            yield from paper_findings
 
 
 def _example_lines(
@@ -193,7 +206,11 @@ def _differences(report: Report, width: int) -> Iterator[str]:
 
 
 def _summary_lines(
-    reports: list[Report], theorems: list[Judged], paper_findings: list[Finding], all_agree: bool
+    reports: list[Report],
+    theorems: list[Judged],
+    paper_findings: list[Finding],
+    all_agree: bool,
+    left_out: Sequence[str],
 ) -> Iterator[str]:
     punched = [r for r in reports if r.device == "punch" and r.state == "examples"]
     listed = [r for r in reports if r.device == "punch" and r.state == "listing"]
@@ -212,11 +229,13 @@ def _summary_lines(
         yield f"Chapter 4: {sum(judged.agrees for judged in theorems)} of {len(theorems)} verdicts are as recorded."
     if paper_findings:
         yield _finding_summary(paper_findings)
+    if left_out:
+        yield f"Left out, because numpy is not installed: {', '.join(left_out)}."
     has_results = reports or theorems or paper_findings
     verdict = "printed result is reproduced" if has_results else "statement has its recorded verdict"
     has_exceptions = all_agree and any(finding.excused for finding in paper_findings)
     exceptions = ", or the reason why it cannot be is stated" if has_exceptions else ""
-    yield f"{_OVERALL[not all_agree]} {verdict}{exceptions}."
+    yield f"{_OVERALL[not all_agree]} {'other ' if left_out else ''}{verdict}{exceptions}."
 
 
 def _paint(text: str, kind: str, colour: bool) -> str:

@@ -9,8 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from modern.exact_hull.coordinates import common_scale, to_integers
-from modern.geometry.vectors import Vector, cross, dot, lowest, minus
+from modern.geometry.vectors import Vector, cross, dot, lowest, minus, whole
 
 Eye = tuple[int, int, int]
 Flat = tuple[Fraction, Fraction]
@@ -86,7 +85,7 @@ def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
     on the curve (t, -t t - 1, t t t) for t = 2, 3, 4 and so on. A face or a pair of vertices excludes at most three
     directions of the curve, so a suitable one exists.
     """
-    places = to_integers(points, common_scale(points))
+    _, places = whole(points)
     primitive_normals = [lowest(normal) for normal in normals if any(normal)]
     best, most = None, Fraction(0)
     for eye in EYES:

@@ -20,6 +20,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
+from importlib.util import find_spec
 
 from emulator.errors import CompileError, EmulatorError
 from emulator.language.cards import Deck, deck_from_text
@@ -29,14 +30,11 @@ from emulator.language.parser import parse
 from emulator.language.statements import sources
 from emulator.machine.endings import Ending
 from emulator.machine.result import LOOP_WINDOW, Options
-from modern.comparison.difference import disagreement
-from modern.comparison.outcome import from_cards, from_judge
 from modern.edition import chapter6, programs
 from modern.edition import sources as provenance
 from modern.edition.apparatus import Row, built_without
 from modern.edition.readings import Step, steps, without_step
 from modern.edition.reproduce import EXACT, State, reproduce
-from modern.exact_hull import exact_hull
 from modern.formats.deck import exact_points
 from modern.thesis.job import run_hull
 
@@ -75,13 +73,14 @@ def check_layers() -> Iterator[Proof]:
     """Check the programs with each optional layer, whose decks are not committed, card by card by their hashes.
 
     With the layer ``corrected`` the programs must also give the exact hull of each deck that a correction names.
+    The exact hulls need numpy; without it, they are not compared.
     """
     table = provenance.sources().layered
     for layer in dict.fromkeys(layer for _, layer, _ in table):
         of_layer = [(name, sha) for name, found, sha in table if found == layer]
         cards = {name: programs.deck(name, (layer,)).text() for name, _ in of_layer}
         faults = [f"{name} has other cards" for name, sha in of_layer if provenance.digest(cards[name]) != sha]
-        decks = _decks_of(layer) if layer == "corrected" else ()
+        decks = _decks_of(layer) if layer == "corrected" and find_spec("numpy") else ()
         faults += [f"deck {name} does not give the exact hull" for name in decks if not _exact_with(layer, name)]
         message = f"{len(of_layer)} programs have the cards of SOURCES.toml"
         message += f", and {len(decks)} decks give the exact hull" if decks else ""
@@ -96,6 +95,11 @@ def _decks_of(layer: str) -> tuple[str, ...]:
 
 
 def _exact_with(layer: str, name: str) -> bool:
+    # Not imported at the top, because these modules need numpy, and the other checks do not.
+    from modern.comparison.difference import disagreement
+    from modern.comparison.outcome import from_cards, from_judge
+    from modern.exact_hull import exact_hull
+
     deck = ground_deck(name)
     assert deck is not None
     points = [tuple(map(Fraction, point)) for point in exact_points(deck)[0].values()]

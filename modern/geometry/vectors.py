@@ -31,6 +31,13 @@ def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
+def whole(points: Sequence[tuple[N, N, N]]) -> tuple[int, list[tuple[int, int, int]]]:
+    """Return the least positive scale that makes all coordinates integers, and the points times this scale."""
+    scale = math.lcm(*{number.denominator for point in points for number in point})
+    rows = ([number.numerator * (scale // number.denominator) for number in point] for point in points)
+    return scale, [(x, y, z) for x, y, z in rows]
+
+
 def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
     """Return the direction of a vector as integers without a common divisor; the zero vector stays zero."""
     scale = math.lcm(*(number.denominator for number in vector))

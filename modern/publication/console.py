@@ -9,28 +9,23 @@ import gzip
 import html
 import json
 import shutil
-import zipfile
-from collections.abc import Iterator, Mapping
-from importlib.metadata import distribution
-from io import BytesIO
+from collections.abc import Mapping
 from pathlib import Path
 
 from modern.edition.chapter6 import input_deck
 from modern.edition.sources import read
 from modern.formats.points import parse_bytes
+from modern.publication.building import ROOT
 from modern.publication.desk import Desk
 from modern.publication.parting import parted
+from modern.publication.pyz import packages
 
-ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "docs" / "console"
 PERIOD = ROOT / "tests" / "data" / "period"
 # The files of the npm package that a page loads unchanged.
 PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "python_stdlib.zip", "pyodide-lock.json")
 # The file that a page loads compressed; it is two thirds of the total and servers do not compress it.
 PACKED = "pyodide.asm.wasm"
-_PACKAGES = ("lark", "mpmath")
-_NOT_LOADED = ("/tests/", "/__pyinstaller/", "__pycache__")
-_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
 def console_page() -> str:
@@ -95,29 +90,6 @@ def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> 
         size = sum(path.stat().st_size for path in counted)
     (folder / "size.js").write_text(f"window.hull1620Bytes = {size};\n", encoding="ascii")
     return size
-
-
-def packages(wheel: Path) -> bytes:
-    """Pack the wheel, lark and mpmath into one archive.  The same files always give the same bytes."""
-    files: dict[str, bytes] = {}
-    with zipfile.ZipFile(wheel) as archive:
-        files |= {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
-    for package in _PACKAGES:
-        files |= dict(_installed(package))
-    buffer = BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, data in sorted(files.items()):
-            archive.writestr(zipfile.ZipInfo(name, _EPOCH), data, zipfile.ZIP_DEFLATED)
-    return buffer.getvalue()
-
-
-def _installed(package: str) -> Iterator[tuple[str, bytes]]:
-    for file in distribution(package).files or ():
-        name = file.as_posix()
-        if name.startswith("..") or any(part in f"/{name}" for part in _NOT_LOADED):
-            continue
-        if file.suffix in (".py", ".lark") or "license" in name.lower():
-            yield name, Path(str(file.locate())).read_bytes()
 
 
 def _period() -> Mapping[str, str]:

@@ -8,6 +8,7 @@ import os
 import re
 import subprocess
 import sys
+import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -26,6 +27,9 @@ MODULES = ROOT / "docs" / "console" / "node_modules"
 """The folder into which ``npm ci --prefix docs/console`` installs axe and html-validate."""
 
 
+PACKAGES = ("hull1620", "emulator", "modern", "fortran_src", "transcripts")
+
+
 def build(out: Path) -> None:
     """Build the site into a folder as ``make edition`` does, with an unusual time zone, locale and hash seed."""
     environment = {"PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "1963", "TZ": "Pacific/Auckland", "LC_ALL": "C"}
@@ -38,6 +42,17 @@ def build(out: Path) -> None:
         env={**os.environ, **environment},
     )
     assert process.returncode == 0, process.stdout + process.stderr
+
+
+def packed(room: Path) -> Path:
+    """Pack the packages of this checkout into an archive with the layout of a wheel."""
+    archive = room / "packages.whl"
+    with zipfile.ZipFile(archive, "w") as file:
+        for package in PACKAGES:
+            for path in sorted((ROOT / package).rglob("*")):
+                if path.is_file() and "__pycache__" not in path.parts:
+                    file.write(path, path.relative_to(ROOT).as_posix())
+    return archive
 
 
 @contextmanager

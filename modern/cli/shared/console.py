@@ -80,6 +80,11 @@ def print_report(args: argparse.Namespace, lines: Iterable[str]) -> None:
         print(line, file=report_stream(args))
 
 
+def misses_numpy(error: ModuleNotFoundError) -> bool:
+    """Return True if a module could not be imported because numpy is not installed."""
+    return (error.name or "").partition(".")[0] == "numpy"
+
+
 def version() -> str:
     """Return the version of the installed project."""
     from importlib import metadata  # imported here because few commands need it

@@ -12,21 +12,19 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 
-from modern.comparison.outcome import as_hull
-from modern.exact_hull import exact_hull
-from modern.exact_hull.coordinates import IntPoint, common_scale, to_integers
 from modern.formats.meshes import parse_mesh, surface_kind
 from modern.formats.points import parse_bytes
 from modern.formats.tokens import FileMesh
 from modern.geometry.coplanar import FLAT, CoplanarError, Joined, join, join_summary, root_text
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import mesh, sides
-from modern.geometry.numbers import coordinates
-from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
+from modern.geometry.numbers import Point, coordinates
+from modern.geometry.vectors import Vector, area_vector, cross, dot, lowest, minus, whole
 from modern.papers.nakamae_nishita import polyhedron as solids
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, checked, turns_once
 
 Edge = tuple[int, int]
+IntPoint = tuple[int, int, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +69,7 @@ def read_bodies(data: bytes, name: str, reading: Reading) -> Bodies:
     if not (reading.hull or reading.points):
         raise SceneError(f"{name}: expected faces, found only points; {reading.as_hull} uses their hull")
     table = parse_bytes(data, name)
-    hull = as_hull(exact_hull(table.points))
+    hull = _hull(table.points)
     notes = [*table.notes]
     if table.kind == "json" and b'"faces"' in data:
         notes.append(f"{name}: the faces of a JSON file are not read; the hull of its points is drawn")
@@ -141,7 +139,7 @@ def _body(surface: FileMesh, component: _Component, reading: Reading) -> tuple[P
     if fault and not reading.hull:
         raise SceneError(f"{name}: {fault}")
     # The exact hull of the component's vertices either replaces the component or proves that it is convex.
-    hull = as_hull(exact_hull([*points.values()]))
+    hull = _hull([*points.values()])
     if hull.dimension < 3:
         return _of_hull(hull, name, None) if reading.hull else checked(_as_given(_closed(surface, component))), []
     joined = None if reading.within is None else _joined(hull, reading.within, name)
@@ -181,10 +179,18 @@ class _Closed:
     normals: dict[int, IntPoint]
 
 
+def _hull(points: Sequence[Point] | Sequence[Vector]) -> Hull:
+    # Not imported at the top, because these modules need numpy, and the scenes of the paper do not.
+    from modern.comparison.outcome import as_hull
+    from modern.exact_hull import exact_hull
+
+    return as_hull(exact_hull(points))
+
+
 def _closed(surface: FileMesh, component: _Component) -> _Closed:
     vectors = [coordinates(surface.points[place]) for place in component.vertices]
-    scale = common_scale(vectors)
-    points = dict(zip(component.vertices, to_integers(vectors, scale), strict=True))
+    scale, integers = whole(vectors)
+    points = dict(zip(component.vertices, integers, strict=True))
     faces = {order: surface.faces[order] for order in component.faces}
     normals = {order: area_vector([points[place] for place in face], range(len(face))) for order, face in faces.items()}
     # The cones from the origin to the faces have a negative total volume if the faces are clockwise from outside.

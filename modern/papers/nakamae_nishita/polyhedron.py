@@ -10,11 +10,10 @@ from dataclasses import dataclass, replace
 from pathlib import PurePath
 
 from emulator.errors import EmulatorError
-from modern.exact_hull.coordinates import common_scale, to_integers
 from modern.geometry.coplanar import Joined
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import mesh, sides
-from modern.geometry.vectors import N, Vector, area_vector, cross, dot, lowest, minus, six_volumes
+from modern.geometry.vectors import N, Vector, area_vector, cross, dot, lowest, minus, six_volumes, whole
 
 
 class SceneError(EmulatorError):
@@ -99,7 +98,7 @@ def open_faults(
 def _faults(polyhedron: Polyhedron) -> Iterator[str]:
     """Yield the reasons why closed faces are not a convex solid or a plate with faces clockwise from outside."""
     points, faces = polyhedron.vertices, polyhedron.faces
-    integers = to_integers(points, common_scale(points))
+    _, integers = whole(points)
     flat = True
     for order, face in enumerate(faces, 1):
         normal = outward(polyhedron, face)

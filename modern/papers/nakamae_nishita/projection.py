@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from modern.drawing.view import Eye, view
-from modern.exact_hull.coordinates import common_scale, to_integers
-from modern.geometry.vectors import Vector, dot, lowest, minus
+from modern.geometry.vectors import Vector, dot, lowest, minus, whole
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError
 
 Homogeneous = tuple[int, int, int, int]
@@ -58,11 +57,10 @@ def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[
     """
     points = [*polyhedron.vertices, *(corner for figure in polyhedron.figures for corner in figure.corners)]
     centre = observer.point or origin
-    scale = common_scale([*points, centre])
-    *whole, c = to_integers([*points, centre], scale)
+    scale, (*integers, c) = whole([*points, centre])
     right, up, eye = observer.right, observer.up, observer.eye
     # The products are written out because this runs for every vertex of a scene.
-    away = [(x - c[0], y - c[1], z - c[2]) for x, y, z in whole]
+    away = [(x - c[0], y - c[1], z - c[2]) for x, y, z in integers]
     flat = [
         (right[0] * x + right[1] * y + right[2] * z, up[0] * x + up[1] * y + up[2] * z, dot(eye, (x, y, z)))
         for x, y, z in away

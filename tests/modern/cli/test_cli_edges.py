@@ -291,11 +291,11 @@ def test_every_completed_name_is_that_of_an_argument_and_every_example_can_be_re
 
 
 def test_the_shell_completes_every_name_of_the_registers() -> None:
-    assert arguments.STUDIES == builtin.names()
+    assert builtin.names() == arguments.STUDIES
     assert arguments.PROGRAMS == programs.NAMES
     assert arguments.DOCUMENTS == DOCUMENTS
     assert tuple(THEOREMS) == arguments.THEOREMS
-    assert arguments.SCENES == scenes.names()
+    assert scenes.names() == arguments.SCENES
     assert tuple(texts()) == arguments.TEXTS
     assert [numbers(name).name for name in arguments.ARITHMETICS] == list(arguments.ARITHMETICS)
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import random
 import threading
-import zipfile
 from collections.abc import Iterator
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -22,7 +21,7 @@ from modern.formats.deck import data_deck
 from modern.publication.console import SOURCE, install_machine
 from modern.publication.desk import Desk
 from tests.support.desks import PAIRS, Pair, Played, played
-from tests.support.paths import ROOT
+from tests.support.editions import packed
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -33,7 +32,6 @@ pytestmark = pytest.mark.skipif(
 )
 LONG = 60_000
 """The longest time to wait for the page, in milliseconds."""
-_PACKAGES = ("hull1620", "emulator", "modern", "fortran_src", "transcripts")
 
 
 class Quiet(SimpleHTTPRequestHandler):
@@ -41,17 +39,6 @@ class Quiet(SimpleHTTPRequestHandler):
 
     def log_message(self, format: str, *args: Any) -> None:
         """Log nothing."""
-
-
-def packed(room: Path) -> Path:
-    """Pack the packages of this checkout into an archive with the layout of a wheel."""
-    archive = room / "packages.whl"
-    with zipfile.ZipFile(archive, "w") as file:
-        for package in _PACKAGES:
-            for path in sorted((ROOT / package).rglob("*")):
-                if path.is_file() and "__pycache__" not in path.parts:
-                    file.write(path, path.relative_to(ROOT).as_posix())
-    return archive
 
 
 @pytest.fixture(scope="module")

@@ -108,6 +108,24 @@ def test_verify_reports_every_damaged_file_and_resume_stops(
     assert "5 rows are missing; --resume computes them" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("before", "after", "message"),
+    [
+        ('"decks_sha256": "', '"decks_sha256": "0', "decks_sha256 is not the SHA-256 of the decks in the rows"),
+        ('"cells": [', '"cells": 5, "other": [', "the plan in the manifest is damaged"),
+    ],
+)
+def test_verify_reports_a_damaged_manifest(
+    before: str, after: str, message: str, finished: Path, copied: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = copied / "manifest.json"
+    text = path.read_text()
+    assert before in text
+    path.write_text(text.replace(before, after, 1))
+    assert main(["study", "--verify", str(copied)]) == 2
+    assert capsys.readouterr().err == f"hull1620: {path}: {message}\n"
+
+
 def test_rows_without_checksums_are_reported_as_those_of_an_earlier_version(
     copied: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
