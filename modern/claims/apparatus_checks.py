@@ -39,9 +39,9 @@ def count_pair_uses(all_texts: Mapping[str, Text]) -> Counter[tuple[str, str]]:
     return attested(row for text in all_texts.values() for row in text.rows)
 
 
-def check_sources(whole: str = "") -> Iterator[Proof]:
+def check_sources(whole: str | None = None) -> Iterator[Proof]:
     """Check the hashes of the source files, and compare the excerpts with ``whole``, a whole text, if given."""
-    for file, holds, message in (*sources.check_files(), *(sources.check_against(whole) if whole else ())):
+    for file, holds, message in (*sources.check_files(), *(() if whole is None else sources.check_against(whole))):
         yield Proof(file.removeprefix("fortran_src/").removeprefix("transcripts/"), holds, message)
 
 
@@ -152,7 +152,7 @@ def _span(text: Text, row: Row, first: str, last: str) -> list[str]:
     return order[start:end]
 
 
-def check_everything(rows: list[Row], transcripts: bool, whole: str = "", workers: int = 1) -> Iterator[Proof]:
+def check_everything(rows: list[Row], transcripts: bool, whole: str | None = None, workers: int = 1) -> Iterator[Proof]:
     """Run all checks and return the proofs in the order in which they are printed.
 
     If ``transcripts`` is false, check only the ``rows`` of the listings. If ``whole``, the text of a document, is

@@ -32,7 +32,7 @@ def main(args: argparse.Namespace) -> int:
         print(write_weight(Path(args.weigh), answers), end="")
         return OK
     rows = _rows(args)
-    if args.text and not (args.check and args.program is None and args.layer is None):
+    if args.text is not None and not (args.check and args.program is None and args.layer is None):
         raise UsageError("--text needs --check, without --program and --layer")
     if not args.check:
         width = max(48, min(shutil.get_terminal_size((100, 24)).columns, 120))
@@ -45,7 +45,7 @@ def main(args: argparse.Namespace) -> int:
         len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, _MOST_PROCESSES
     )
     proofs = []
-    for proof in check_everything(rows, everything, read_text(args.text) if args.text else "", workers):
+    for proof in check_everything(rows, everything, None if args.text is None else read_text(args.text), workers):
         proofs.append(proof)
         print(_line(proof), flush=True)
     if everything and find_spec("numpy") is None:

@@ -19,7 +19,6 @@ from modern.cli.shared.refusals import Request, refusal_lines, wrapped
 from modern.cli.shared.run_output import is_terminal, print_run, tracing, write_outputs
 from modern.edition import programs
 from modern.formats.deck import check
-from modern.thesis.explanation import first_disagreement
 from modern.thesis.job import HullRun, run_hull
 from modern.thesis.refusals import Cause, explain_run
 
@@ -64,5 +63,7 @@ def main(args: argparse.Namespace) -> int:
             print_notes([f"data set {number}:"] if len(runs) > 1 else ())
             print_notes(refusal_lines(cause, request))
         if args.explain and options.numbers.name != "exact":
+            from modern.thesis.explanation import first_disagreement  # imported here because it imports mpmath
+
             print_notes(wrapped(first_disagreement(run, options)))
     return OK if all(run.complete for run, _ in runs) else DIFFERS

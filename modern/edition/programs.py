@@ -1,4 +1,9 @@
-"""The built-in programs, as committed or built from witness and apparatus with additional layers."""
+"""The built-in programs, as committed or built from witness and apparatus with additional layers.
+
+The apparatus is imported only if it is used, because most runs need only the committed decks.
+"""
+
+from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Sequence
@@ -6,12 +11,15 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from typing import TYPE_CHECKING
 
 from emulator.errors import DeckError, quoted
 from emulator.language.cards import Deck, deck_from_lines, deck_from_text
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
-from modern.edition.apparatus import Row, Text, build, load
+
+if TYPE_CHECKING:
+    from modern.edition.apparatus import Line, Row, Text
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +62,17 @@ def built_in(name: str) -> BuiltIn:
 
 @cache
 def text(name: str) -> Text:
+    from modern.edition.apparatus import load
+
     return load(sources(), name)
+
+
+def _lines(
+    entry: BuiltIn, layers: Sequence[str], without: Collection[str] = (), instead: Row | None = None
+) -> tuple[Line, ...]:
+    from modern.edition.apparatus import build
+
+    return build(text(entry.text), (*entry.layers, *layers), without, instead)
 
 
 @cache
@@ -65,7 +83,7 @@ def _named(name: str, layers: tuple[str, ...]) -> tuple[tuple[str, frozenset[str
     next statement (``before 106``).
     """
     entry = built_in(name)
-    lines = build(text(entry.text), (*entry.layers, *layers))
+    lines = _lines(entry, layers)
     named: list[tuple[str, frozenset[str]]] = []
     comments: list[int] = []
     label, steps = "", 0
@@ -108,8 +126,7 @@ def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), 
 
     Raises ApparatusError if a row does not fit, and CardError if a character remains that no card can have.
     """
-    entry = built_in(name)
-    lines = build(text(entry.text), (*entry.layers, *layers), without, instead)
+    lines = _lines(built_in(name), layers, without, instead)
     return deck_from_lines(f"{name}.f", (line.text for line in lines))
 
 

@@ -187,6 +187,7 @@ SCENES = ("columns", "cuboids", "house")
 TEXTS = (
     *("program1", "program2", "program3", "chapter4", "chapter6"),
     *("appel_will_1976", "kovalevsky_schulz", "nakamae_nishita_1972"),
+    *(f"statements-{name}" for name in DOCUMENTS),
 )
 EXAMPLES = (
     *(f"example{number}" for number in range(1, 7)),

@@ -7,7 +7,6 @@ import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from modern.thesis.explanation import explanation
 from modern.thesis.refusals import CORRECTED, Cause
 
 
@@ -30,6 +29,8 @@ class Request:
 
 def refusal_lines(cause: Cause, request: Request) -> Iterator[str]:
     """Yield the explanation of a run without a hull, wrapped to 100 columns except for the commands."""
+    from modern.thesis.explanation import explanation  # imported here because it imports mpmath
+
     decision, meaning, details = explanation(cause, request.arithmetic)
     yield from wrapped(f"no hull: {decision}")
     yield from wrapped(meaning, "  ")

@@ -17,7 +17,6 @@ import pytest
 
 from emulator import files
 from emulator.numbers import numbers
-from modern.claims.apparatus_checks import texts
 from modern.claims.register import DOCUMENTS
 from modern.cli.arguments import COMMANDS
 from modern.cli.main import build_parser
@@ -30,6 +29,7 @@ from modern.edition.chapter4 import THEOREMS
 from modern.formats import ply
 from modern.geometry.mesh import Mesh
 from modern.papers.nakamae_nishita import scenes
+from modern.publication.tei import documents
 from modern.study import builtin
 from tests.support.commands import call
 from tests.support.paths import ROOT
@@ -296,7 +296,7 @@ def test_the_shell_completes_every_name_of_the_registers() -> None:
     assert arguments.DOCUMENTS == DOCUMENTS
     assert tuple(THEOREMS) == arguments.THEOREMS
     assert scenes.names() == arguments.SCENES
-    assert tuple(texts()) == arguments.TEXTS
+    assert tuple(documents()) == arguments.TEXTS
     assert [numbers(name).name for name in arguments.ARITHMETICS] == list(arguments.ARITHMETICS)
 
 

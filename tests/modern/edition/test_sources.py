@@ -83,6 +83,8 @@ def test_a_row_leads_to_its_page_and_its_line() -> None:
 def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ApparatusError, match=r"^no document of SOURCES\.toml has the SHA-256 ca978112ca1bbdca"):
         list(check_sources("a"))
+    with pytest.raises(ApparatusError, match="no document"):
+        list(check_sources(""))  # an empty file is not the same as no file
     whole = "first\nalpha beta gamma"
     excerpt = sources.Excerpt("t", "w.txt", "d", "", (Stretch(1, 1, 2, True),))
     names = ("id", "author", "title", "year", "kind", "institution", "volume", "extent", "doi", "held")

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from modern.publication import building, pyz
+from modern.publication.tei import tei
 from tests.support.commands import call
 from tests.support.editions import packed
 
@@ -55,6 +56,7 @@ def test_the_one_file_reproduces_every_card_of_chapter_6(program: Path, empty: P
         "diverge program1 example2",
         "apparatus --layer epsilon",
         "tei --schema",
+        "tei --read chapter4.xml",
         "flowchart program1 --table",
         "check --explain 5",
     ],
@@ -62,6 +64,7 @@ def test_the_one_file_reproduces_every_card_of_chapter_6(program: Path, empty: P
 def test_the_one_file_prints_what_the_installed_program_prints(
     words: str, program: Path, empty: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    Path("chapter4.xml").write_text(tei("chapter4", "0.1.0"))
     assert run(program, *words.split()) == call(capsys, *words.split())
 
 
