@@ -77,7 +77,9 @@ def cause(step: Step, machine: Session) -> Cause | None:
         # end.
         beyond = step.number == 3 and _integer(machine, "NE") < 0
         searches = [_SEARCHES[search] for line in ending.loop if line.label and (search := _search(line.label))]
-        return Cause(step.number, "endless", "", ending.decision, searches[0] if beyond and searches else 0)
+        # The last IF of the loop; the last IF executed depends on the limit.
+        decision = next((line for line in reversed(ending.loop) if line.effect.startswith("test")), ending.decision)
+        return Cause(step.number, "endless", "", decision, searches[0] if beyond and searches else 0)
     if ending.kind == "bounds":
         return Cause(step.number, "room", "", ending.decision, {2: 16, 3: 5}.get(step.number, 0))
     return Cause(step.number, "stopped", "", ending.decision)

@@ -41,8 +41,8 @@ def entry(row: Row, places: Iterable[str], page: str) -> str:
         (
             ("witness", _reading(row.witness)),
             ("our reading", _reading(row.lemma)),
-            *(("rejected", f"{_reading(r.reading)} {escape(r.reason)}") for r in row.rejected),
             ("reason", escape(row.reason)),
+            *(("rejected", f"{_reading(r.reading)} {escape(r.reason)}") for r in row.rejected),
             ("evidence", escape(row.evidence)),
             ("ground", _ground(row)),
             ("cause", escape(CAUSES[row.cause])),
@@ -54,9 +54,9 @@ def entry(row: Row, places: Iterable[str], page: str) -> str:
     return element("article", head + fields, cls=f"row of-{row.layer}", id=row.id, aria_label=f"row {row.id}")
 
 
-def column(name: str, inner: str, cls: str = "") -> str:
-    """Return a cell of a comparison; its name is read by screen readers and, in lower case, the default class."""
-    return element("div", text("span", f"{name} ", cls="sr") + inner, cls=cls or name.lower())
+def column(name: str, inner: str) -> str:
+    """Return a cell of a comparison; its name is read by screen readers and, in lower case, its class."""
+    return element("div", text("span", f"{name} ", cls="sr") + inner, cls=name.lower())
 
 
 def sign(character: str, meaning: str) -> str:

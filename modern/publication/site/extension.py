@@ -17,7 +17,7 @@ from sphinx.util.docutils import SphinxDirective
 from sphinx.writers.html5 import HTML5Translator
 
 from modern.publication.site.made import Made, Part, make
-from modern.publication.site.markup import relative
+from modern.publication.site.markup import relative, stacked
 
 # Each role with the pattern of its labels: ``{name}`program3 KELEQ``` refers to ``name program3 keleq``.
 ROLES = {"card": "{}", "row": "{}", "name": "name {}", "error": "error {}"}
@@ -147,12 +147,18 @@ def _copied(file: str) -> bool:
     return file.startswith("docs/") and not file.endswith((".md", "/")) and "." in posixpath.basename(file)
 
 
+def _stack_tables(app: Sphinx, name: str, template: str, context: dict[str, Any], tree: object) -> None:
+    if "body" in context:
+        context["body"] = stacked(context["body"])
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Register the directive, the roles and the HTML writer; Sphinx calls this function."""
     app.add_directive("made", MadeDirective)
     for kind in (*ROLES, "at"):
         app.add_role(kind, _role(kind))
     app.connect("source-read", _project_files)
+    app.connect("html-page-context", _stack_tables)
     app.set_translator("html", AccessibleTranslator)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
 

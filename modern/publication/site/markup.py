@@ -82,6 +82,50 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]], name: str, caption
     return element("section", element("table", inner), cls="wide", tabindex="0", aria_label=name)
 
 
+_TABLE = re.compile(r"<table\b([^>]*)>(.*?)</table>", re.DOTALL)
+_ROW = re.compile(r"<tr\b.*?</tr>", re.DOTALL)
+_CELL = re.compile(r"<(t[dh])\b([^>]*)>(.*?)</\1>", re.DOTALL)
+_TAG = re.compile(r"<[^>]+>")
+# The letters that fit side by side into a window of 360 pixels.
+_NARROW = 40
+
+
+def stacked(html: str) -> str:
+    """Prepare the tables of a page that are too wide for a phone.
+
+    Such a table gets the class ``stacks``, and its cells get the heading of their column as ``data-label``.  The style
+    sheet shows a row of it as a list if the window is narrow.
+    """
+
+    def labelled(match: re.Match[str]) -> str:
+        rows = [[_TAG.sub("", cell[2]).strip() for cell in _CELL.findall(row)] for row in _ROW.findall(match[2])]
+        # A column is at least as wide as its longest word, and cells are two letters apart.
+        longest = (
+            max((len(word) for cell in column for word in cell.split()), default=0) + 2
+            for column in zip(*rows, strict=False)
+        )
+        if sum(longest) <= _NARROW or len(rows) < 2:
+            return match[0]
+        head, labels = _ROW.search(match[2]), rows[0]
+        assert head is not None, "a table has rows"
+        body = _ROW.sub(lambda row: _with_labels(row[0], labels), match[2][head.end() :])
+        attributes = match[1].replace('class="', 'class="stacks ') if "class=" in match[1] else ' class="stacks"'
+        return f"<table{attributes}>{match[2][: head.end()]}{body}</table>"
+
+    return _TABLE.sub(labelled, html)
+
+
+def _with_labels(row: str, labels: list[str]) -> str:
+    names = iter(labels)
+
+    def cell(match: re.Match[str]) -> str:
+        name, attributes, inner = match.groups()
+        label = next(names, "")
+        return f'<{name}{attributes} data-label="{label}">{inner}</{name}>' if label and inner else match[0]
+
+    return _CELL.sub(cell, row)
+
+
 def marked(content: str, spans: Iterable[tuple[int, int]], name: str) -> str:
     """Return plain text with the given spans of characters wrapped in an element."""
     pieces, end = [], 0

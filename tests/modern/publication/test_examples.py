@@ -19,7 +19,7 @@ def parsed(html: str) -> None:
     """Parse HTML as XML, with void elements closed, and fail if its elements are not nested correctly."""
     closed = re.sub(r"<(input|br|img|hr|col)\b([^>]*)>", r"<\1\2/>", html).replace("&nbsp;", " ")
     closed = re.sub(r" (checked|hidden|disabled|open)(?=[ />])", r' \1=""', closed)
-    fromstring(f"<x>{closed}</x>")
+    fromstring(f"<x>{closed.replace('<wbr>', '')}</x>")
 
 
 @pytest.mark.parametrize("number", EXAMPLES)

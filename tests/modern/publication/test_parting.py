@@ -14,7 +14,7 @@ from modern.edition.sources import read
 from modern.exact_hull import exact_hull
 from modern.formats.points import parse_bytes
 from modern.publication.console import point_sets
-from modern.publication.parting import MOST, parted, true_hull
+from modern.publication.parting import LIMIT, MOST, parted, true_hull
 from tests.support.commands import call
 from tests.support.paths import ROOT
 
@@ -95,7 +95,7 @@ def agreement(text: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> st
     answer, deck = parted(text), folder / "points.deck"
     (folder / "points.csv").write_text(text)
     assert call(capsys, "cards", str(folder / "points.csv"), "-o", str(deck))[0] == 0
-    code, _, err = call(capsys, "hull", str(deck), "--explain")
+    code, _, err = call(capsys, "hull", str(deck), "--explain", "--limit", str(LIMIT))
     words = " ".join(err.split())
     assert " ".join(answer["part"].split()) in words
     assert all(" ".join(sentence.split()) in words for sentence in answer["reason"])

@@ -16,7 +16,7 @@ from emulator.errors import explanations
 from modern.edition import programs
 from modern.publication.site import build as site_build
 from modern.publication.site.made import make, names
-from modern.publication.site.markup import code, element, escape, inline, relative
+from modern.publication.site.markup import code, element, escape, inline, relative, stacked
 from modern.publication.site.pages import story
 from tests.support import editions
 from tests.support.editions import page_of_each_kind, pages, words
@@ -145,7 +145,9 @@ def test_generated_content_does_not_depend_on_process_locale_or_time(site: Path)
         for name, argument in re.findall(r"^:::\{made\} (\S+) ?(\S*)$", file.read_text(encoding="utf-8"), re.MULTILINE):
             html = (site / page).read_text(encoding="utf-8")
             parts = make(name, argument).parts
-            assert [part.id for part in parts if relative(part.html, len(page.parts) - 1) not in html] == [], page
+            assert [part.id for part in parts if relative(stacked(part.html), len(page.parts) - 1) not in html] == [], (
+                page
+            )
 
 
 def test_no_file_names_the_machine_or_the_time_of_the_build(site: Path) -> None:

@@ -5,6 +5,7 @@ By default, expensive checks use one page of each kind.  ``HULL1620_PAGES=all`` 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -189,6 +190,13 @@ def test_a_printed_listing_is_stacked_with_open_rows(chromium: Browser, site: Pa
         assert tab.locator("#P3-013").is_visible()
         assert tab.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
         assert not tab.locator(".controls").is_visible()
+
+
+@pytest.mark.parametrize("example", [4, 6])
+def test_an_example_prints_on_at_most_twelve_sheets(chromium: Browser, site: Path, example: int) -> None:
+    with opened(chromium, site, f"example{example}.html") as (tab, _):
+        sheets = len(re.findall(rb"/Type ?/Page\b", tab.pdf(format="A4", prefer_css_page_size=True)))
+    assert 4 <= sheets <= 12
 
 
 def test_a_listing_is_complete_without_javascript(chromium: Browser, site: Path) -> None:

@@ -1,5 +1,6 @@
 """A printed example: verdicts, hull, construction and time, and the printed cards next to OCR text and our run."""
 
+import re
 from collections.abc import Iterator
 
 from emulator.machine.endings import Ending
@@ -14,11 +15,12 @@ from modern.geometry.mesh import ExportError
 from modern.port import convex_hull
 from modern.publication.examples import TITLES, VERDICTS, Part, Shown, Source, example, homes, rest
 from modern.publication.measured import runs
-from modern.publication.site.entries import column, entry, sign, witness_line
+from modern.publication.site.entries import entry
 from modern.publication.site.made import Made, Target, one_of
 from modern.publication.site.made import Part as Section
 from modern.publication.site.markup import definitions, details, element, escape, figure, link, marked, table, text
 
+_EXPONENT = re.compile(r"E[+-]\d\d")
 STATES = {"examples": "program 1 in the state that ran the examples", "listing": "program 1 as listed"}
 
 
@@ -71,7 +73,12 @@ def _pictures(number: int) -> Iterator[Section]:
     hull = convex_hull(points, "exact", history=True, on_refusal="return")
     caption = "The hull in exact arithmetic. The programs punch the same hull."
     drawn = figure(draw_svg(hull, width=520), f"hull{number}", caption)
-    punched = figure(cards_svg(deck, title=f"the input deck of example {number}"), f"deck{number}", "", "punched")
+    punched = figure(
+        cards_svg(deck, title=f"the input deck of example {number}"),
+        f"deck{number}",
+        "Each hole is a digit or a sign of the input deck.",
+        "punched",
+    )
     summary = f"The {len(deck.cards)} cards of the input deck as punched cards"
     yield Section("The hull", "hull", html=drawn + details(summary, punched))
     try:
@@ -80,41 +87,58 @@ def _pictures(number: int) -> Iterator[Section]:
         return
     steps = "".join(text("li", "; ".join(filter(None, stage.caption))) for stage in stages)
     caption = "The hulls H1 to Hf, each with the vertex that was added, all from the same direction."
-    construction = figure(strip(stages), f"stages{number}", caption) + element("ol", steps, cls="steps")
+    construction = figure(strip(stages), f"stages{number}", caption) + element("ol", steps, cls="stages")
     yield Section("The construction", "construction", html=construction)
 
 
 def _part(part: Part) -> str:
-    head = ("witness", "corrected print", *(("run",) if part.reports else ()))
     html = text("p", "The thesis describes these lines but does not print them.") if part.stated else ""
-    top = element("div", "".join(text("span", name) for name in head), cls="print-head", aria_hidden="true")
-    cards = element("ol", "".join(_card(card, part) for card in part.cards), cls="print-cards")
-    html += element("div", top + cards, cls=f"print columns-{len(head)}")
+    html += element("ol", "".join(_card(card, part) for card in part.cards), cls="print-cards")
     if part.rows:
         shown_here = [row for row in part.rows if homes()[row.id] == (part.example, part.id)]
         rows = "".join(entry(row, (), f"example{part.example}") for row in shown_here)
         shown_elsewhere = [link(f"example{homes()[r.id][0]}", r.id, r.id) for r in part.rows if r not in shown_here]
         if shown_elsewhere:
             rows += element("p", f"And {', '.join(shown_elsewhere)}, which also concern other cards.")
-        summary = f"{len(part.rows)} rows of the apparatus correct the OCR text of these cards"
+        count = "1 row corrects" if len(part.rows) == 1 else f"{len(part.rows)} rows correct"
+        summary = f"Apparatus: {count} the OCR text of these cards"
         html += details(summary, rows, cls="rows-of-print")
     return html
 
 
 def _card(card: Shown, part: Part) -> str:
-    note = f"line {', '.join(card.continued)} continued" if card.continued else "" if card.print else "blank"
-    witness = "".join(map(_source, card.sources)) or text("span", note, cls="quiet")
-    cells = column("Witness", witness) + column("Print", text("code", card.print or " "), "corrected")
-    if card.run is not None:
-        comparison = sign("\u2260", "differs") if card.differs else sign("=", "the same")
-        cells += column("Run", comparison + element("code", marked(card.run or " ", card.differs, "ins")))
-    return element("li", cells, id=f"{part.id}-{card.number}")
+    """Return the lines of a card: the witness, the corrected print and the run.  Equal lines are shown once."""
+    is_same_run = card.run is not None and not card.differs
+    label = "print = run" if is_same_run else "print"
+    if len(card.sources) == 1 and card.sources[0].text == card.print and not card.continued:
+        lines = _line("corrected", f"{card.sources[0].line} = {label}", _fields(card.print), _place(card.sources[0]))
+    else:
+        lines = "".join(
+            _line("witness", f"witness {source.line}", _witness(source), _place(source)) for source in card.sources
+        )
+        lines += _line("corrected", label, _fields(card.print) if card.print else text("span", "blank", cls="quiet"))
+        lines += text("p", f"line {', '.join(card.continued)} continued", cls="quiet") if card.continued else ""
+    if card.run is not None and card.differs:
+        lines += _line("run", "run \u2260", element("code", marked(card.run or " ", card.differs, "ins")))
+    return element("li", lines, id=f"{part.id}-{card.number}")
 
 
-def _source(source: Source) -> str:
+def _line(cls: str, label: str, inner: str, place: str = "") -> str:
+    return element("div", text("span", label, cls="line", title=place) + inner, cls=cls)
+
+
+def _place(source: Source) -> str:
+    return f"p. {source.page}, line {source.line} of the witness, {source.at} of the thesis's OCR text"
+
+
+def _fields(card: str) -> str:
+    """Return a card as code that breaks after a number if the window is narrow."""
+    return element("code", _EXPONENT.sub(r"\g<0><wbr>", escape(card)))
+
+
+def _witness(source: Source) -> str:
     spans = source.changed if "\t" not in source.text else ()
-    code = element("code", marked(source.text.replace("\t", "  "), spans, "del"))
-    return witness_line(source.page, source.line, source.at, code)
+    return element("code", marked(source.text.replace("\t", "  "), spans, "del"))
 
 
 def _time(number: int) -> str:

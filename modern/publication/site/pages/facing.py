@@ -65,7 +65,7 @@ def _remark(name: str, block: Block, sheet_of: dict[int, int]) -> str:
     where = f"{link('reference/concordance', '', 'Chapter 3')}: {where}. " if where else ""
     sheets = dict.fromkeys(sheet for card, sheet in sheet_of.items() if card in block.cards)
     where += ", ".join(link(_CHARTS[name], f"sheet-{n}", f"flow chart, sheet {n}") for n in sheets)
-    inner = text("h3", block.title) + text("p", block.text) + element("p", where, cls="quiet")
+    inner = text("h3", block.title) + text("p", block.text) + (element("p", where, cls="quiet") if where else "")
     return element("li", inner, cls="remark", id=f"about-{place}")
 
 
