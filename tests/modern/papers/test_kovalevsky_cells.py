@@ -19,10 +19,8 @@ from modern.papers.kovalevsky_schulz import (
     Flat,
     convex_polyhedron,
     expanded,
-    local_corners,
     merged,
     straightened,
-    voxel_hull,
 )
 from modern.papers.kovalevsky_schulz import cells as cells_module
 from modern.papers.kovalevsky_schulz.cells import all_rows, cube_triangles, economical_size, planes_of
@@ -166,15 +164,3 @@ def test_marching_cubes_gives_2_n_minus_4_triangles_for_n_squares() -> None:
         squares = sum(int(np.count_nonzero(np.diff(padded, axis=axis))) for axis in range(3))
         triangles = measure.marching_cubes(padded.astype(np.float32), 0.5, method="lorensen")[1]
         assert len(triangles) == cube_triangles(squares)
-
-
-def test_26_neighbours_give_716_triangles_for_either_treatment_and_any_order() -> None:
-    """716 is twice the 360 vertices minus 4: the choices of the text do not give its 1404."""
-    points = local_corners(ball(32), "vertices", 26)
-    for order in (points, points[np.random.default_rng(1963).permutation(len(points))]):
-        for coplanar in (VISIBLE, INVISIBLE):
-            cells = convex_polyhedron(order, coplanar)
-            assert isinstance(cells, CellList)
-            assert len(cells.faces) == 2 * 360 - 4
-    hull = voxel_hull(ball(32), neighbours=6, coplanar=VISIBLE).polyhedron
-    assert len(hull.triangles.faces) == 2 * 360 - 4

@@ -9,35 +9,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modern.formats.off import parse_off
 from modern.geometry.vectors import Vector, plus
-from modern.papers.nakamae_nishita.bodies import Reading, bodies
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.picture import DASHED, PLOT_HEIGHT, PLOT_WIDTH, SOLID, as_hpgl, as_svg, ends, plot
-from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, checked, polyhedron_of_hull
+from modern.papers.nakamae_nishita.polyhedron import SceneError, checked, polyhedron_of_hull
 from modern.papers.nakamae_nishita.projection import image, parallel
 from modern.papers.nakamae_nishita.scenes import names, parse, scene
 from modern.papers.nakamae_nishita.shapes import column, cuboid, parallelepiped, plate, rotation, round_base
 from modern.port import convex_hull
 from tests.support.paths import ROOT
-
-CUBE = """OFF
-8 6 12
-0 0 0
-1 0 0
-1 1 0
-0 1 0
-0 0 1
-1 0 1
-1 1 1
-0 1 1
-4 3 2 1 0
-4 4 5 6 7
-4 0 1 5 4
-4 1 2 6 5
-4 2 3 7 6
-4 3 0 4 7
-"""
 
 
 def point(*numbers: int | Fraction) -> Vector:
@@ -108,19 +88,6 @@ def test_invalid_shapes_are_rejected() -> None:
 
 
 # --- polyhedra from files and hulls
-
-
-def off(text: str) -> Polyhedron:
-    (polyhedron,) = bodies(parse_off(text, "f.off"), Reading(), "f.off").polyhedra
-    return polyhedron
-
-
-def test_faces_may_run_in_either_sense() -> None:
-    turned = "\n".join(
-        " ".join([numbers[0], *numbers[:0:-1]]) if len(numbers := line.split()) == 5 else line
-        for line in CUBE.splitlines()
-    )
-    assert off(CUBE) == off(turned)
 
 
 def test_a_hull_of_two_or_three_dimensions_is_a_polyhedron() -> None:

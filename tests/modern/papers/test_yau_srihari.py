@@ -10,11 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from modern.digital.hull import digital_hull
 from modern.digital.intervals import lower_chain
-from modern.digital.solids import Volume, VolumeError, ball
+from modern.digital.solids import VolumeError
 from modern.exact_hull import exact_hull
-from modern.papers.kovalevsky_schulz import CENTRES, Flat, convex_polyhedron, local_corners, reconstructed
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.envelope import Envelope
 from modern.papers.yau_srihari.hull import components
@@ -76,22 +74,6 @@ def test_consequence_the_digital_hull_is_the_digital_points_of_the_euclidean_hul
 def test_the_result_for_any_volume_is_the_digital_points_of_the_hull(array: np.ndarray) -> None:
     if array.any():
         assert np.array_equal(octree_hull(array).filled, judged(array)[1])
-
-
-@pytest.mark.parametrize("seed", range(60))
-def test_both_papers_and_the_fast_digital_hull_agree(seed: int) -> None:
-    array = solid(seed, 9)
-    filled = octree_hull(array).filled
-    assert np.array_equal(digital_hull(array).filled, filled)
-    polyhedron = convex_polyhedron(local_corners(Volume(array, (0, 0, 0)), CENTRES))
-    if not isinstance(polyhedron, Flat):
-        volume = reconstructed(polyhedron.economical(), CENTRES)
-        assert np.array_equal(volume.coordinates(), Volume(filled, (0, 0, 0)).coordinates())
-
-
-def test_a_ball_is_its_own_hull() -> None:
-    volume = ball(20)
-    assert np.array_equal(octree_hull(volume).filled, volume.array)
 
 
 CASES = {

@@ -15,7 +15,6 @@ from modern.papers.yau_srihari.envelope import Envelope, _leaves, reduced_tree
 from modern.papers.yau_srihari.octree import Octree, octree
 from modern.papers.yau_srihari.quadtree import Quadtree, mirrored, written
 from modern.papers.yau_srihari.search import Candidates, Search
-from tests.support.digital_judge import random_solid
 
 FEW = settings(max_examples=40)
 SIDES = st.sampled_from([1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17])
@@ -91,12 +90,6 @@ def test_candidates_find_the_same_faces_as_the_search(array: Any) -> None:
         assert np.array_equal(digital_hull(array).filled, hull.filled)
         assert hull.hull == octree(hull.filled)
         assert hull.columns == len(hull.floor) == len(hull.ceiling) == np.count_nonzero(array.any(axis=2))
-
-
-@FEW
-@given(st.integers(0, 10**9))
-def test_candidates_find_the_same_faces_of_connected_solids(seed: int) -> None:
-    check(octree_hull(random_solid(random.Random(seed), side=9)))
 
 
 @pytest.mark.parametrize("length", [1, 2, 31, 32, 33])
