@@ -41,14 +41,26 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
     return order
 
 
-def _on_facets(points: Coordinates, facets: Sequence[Facet], others: Ints | None = None) -> Ints:
-    """Return those of ``others`` (by default, all points that are not vertices) that lie in the plane of any facet."""
+def _on_facets(
+    points: Coordinates, facets: Sequence[Facet], others: Ints | None = None, likely: Ints | None = None
+) -> Ints:
+    """Return those of ``others`` (by default, all points that are not vertices) that lie in the plane of any facet.
+
+    ``likely`` has for each of them a facet that is tried first, or -1.
+    """
     if others is None:
-        others = np.setdiff1d(np.arange(len(points)), [index for facet in facets for index in facet.polygon])
+        is_other = np.ones(len(points), np.bool_)
+        is_other[[index for facet in facets for index in facet.polygon]] = False
+        others = np.flatnonzero(is_other)
     if not len(others):
         return others
-    _, signs = facet_planes(points, facets).largest(others)
-    return np.asarray(others[signs == 0])
+    planes, on = facet_planes(points, facets), np.zeros(len(others), np.bool_)
+    if likely is not None:
+        rows = np.flatnonzero(likely >= 0)
+        on[rows] = planes.exact(likely[rows], others[rows]) == 0
+    rows = np.flatnonzero(~on)
+    on[rows] = planes.largest(others[rows])[1] == 0
+    return others[on]
 
 
 def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Sequence[int] = ()) -> list[Facet]:
@@ -70,8 +82,8 @@ def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Seque
     ]
 
 
-def _proposed(points: Coordinates, fast: bool | None) -> tuple[list[Facet], Ints] | None:
-    proposal = propose(points, fast)
+def _proposed(points: Coordinates, basis: Sequence[int], fast: bool | None) -> tuple[list[Facet], Ints] | None:
+    proposal = propose(points, basis, fast)
     if proposal is None:
         return None
     # Rotate each triangle so that the corner with the smallest index is first, as :class:`Facet` requires.
@@ -79,10 +91,16 @@ def _proposed(points: Coordinates, fast: bool | None) -> tuple[list[Facet], Ints
     turn = corners.argmin(axis=1)
     corners = corners[np.arange(len(corners))[:, None], (turn[:, None] + np.arange(3)) % 3]
     try:
-        facets = merged(list(map(tuple, corners.tolist())), planes_of(corners, points), points)
-        vertices = [index for facet in facets for index in facet.polygon]
-        near = np.setdiff1d(np.concatenate([proposal.near, corners.ravel()]), vertices)
-        return facets, _on_facets(points, facets, near)
+        planes = planes_of(corners, points)
+        facets = merged(list(map(tuple, corners.tolist())), planes, points)
+        candidate, at = np.ones(len(points), np.bool_), np.full(len(points), -1)
+        candidate[[index for facet in facets for index in facet.polygon]] = False
+        if len(proposal.near):
+            numbers = {facet.plane: number for number, facet in enumerate(facets)}
+            at[proposal.near] = np.array([*(numbers[plane] for plane in planes), -1])[proposal.at]
+        others = np.unique(np.concatenate([proposal.near, corners.ravel()]))
+        others = others[candidate[others]]
+        return facets, _on_facets(points, facets, others, at[others])
     except (RuntimeError, ValueError, KeyError):  # with the exact points the triangles are not a closed surface
         return None
 
@@ -143,7 +161,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
         plane, cycle, facets = polygon(distinct.all(), basis)
     elif len(basis) == 4:
         likely: set[int] = set()
-        proposed = _proposed(distinct, fast) if len(distinct) >= MANY else None
+        proposed = _proposed(distinct, basis, fast) if len(distinct) >= MANY else None
         if proposed:
             hull = classified(3, *proposed)
             try:

@@ -1,9 +1,16 @@
-"""The hull of points on the integer grid, one point at a time, in the subset of Python that numba compiles.
+"""The hull of points in doubles, one point at a time, in the subset of Python that numba compiles.
 
-This is Quickhull (Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483), with the
-same exact signs as :mod:`modern.exact_hull.proposal`, which inserts points in rounds.  Waiting points are in linked
-lists, each at a triangle that it sees, and the farthest point of a list is inserted next.  When a triangle is removed,
-its points are compared with the new triangles.
+This is Quickhull (Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Waiting
+points are in linked lists, each at a triangle that it sees, and the farthest point of a list is inserted next.  When a
+triangle is removed, its points are compared with the new triangles.
+
+Signs are exact.  With h = 2**-53 a difference of doubles has a relative error of at most h.  A number of the vector
+product u x v, such as u2 v3 - u3 v2, has an error of at most 4h q, where q = |u2 v3| + |u3 v2|.  Its product with the
+difference d from a corner, at most 1, has an error of at most 6h q, and the additions round by less than 3h times the
+sum of all q.  The total is below 9h times this sum, and underflow adds less than 2**-1000.  A value beyond BOUND = 16h
+times the sum, plus 2**-1000, has the true sign.  All others are computed as expansions: sums of doubles that do not
+overlap (Shewchuk, Discrete & Computational Geometry 18 (1997), 305-363, theorem 10).  These are exact unless numbers
+underflow, which the caller excludes.
 """
 
 from typing import Any, NamedTuple
@@ -11,66 +18,75 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-LOW = (1 << 31) - 1
-DOUBT = 2.0**-18
-# The value of a triangle's plane at a point that sees the triangle, if only integers could decide that it does.
+BOUND, TINY = 2.0**-49, 2.0**-1000
+# The value of a triangle's plane at a point that sees the triangle, if only an expansion could decide that it does.
 SEEN = 1e-300
-# The smallest value of a plane at a point that may have been on the surface before the points were rounded.
-NEAR = -4.0
+# Multiplication by this number splits a double into two halves (Dekker).
+_SPLITTER = 2.0**27 + 1
+# The six products of a determinant: the axes of its three rows, and the sign.
+_PRODUCTS = ((0, 1, 2, 1), (1, 2, 0, 1), (2, 0, 1, 1), (0, 2, 1, -1), (1, 0, 2, -1), (2, 1, 0, -1))
+# An expansion has at most this number of terms: six products of three sums of two doubles, each of four terms.
+_TERMS = 6 * 8 * 4
 
 
 class Surface(NamedTuple):
     """Triangles in numbered slots, which are reused after removal, and linked lists of the points waiting outside each.
 
-    grid (n, 3): the points. corners, neighbours, normals (slots, 3), images (slots, 4): as in ``proposal``. first,
-    farthest, height: for each triangle the first and the farthest of its waiting points, and the value of its plane at
-    the farthest. mark: twice the number of the step that last tested the triangle, plus 1 if it is not visible.
-    following: the next waiting point in the list of each point, or -1. leaving: for each point, the new triangle whose
-    first corner it is.
+    places (n, 3): the points. corners, neighbours, normals (slots, 3): as in ``proposal``, but normals are vector
+    products of the sides. bound: the bound for the values of each triangle's plane. first, farthest, height: for each
+    triangle the first and the farthest of its waiting points, and the value of its plane at the farthest. mark: twice
+    the number of the step that last tested the triangle, plus 1 if it is not visible. following: the next waiting point
+    in the list of each point, or -1. leaving: for each point, the new triangle whose first corner it is. terms: an
+    expansion. exact: True if all values are exact without expansions.
     """
 
-    grid: NDArray[np.int64]
+    places: NDArray[np.float64]
     corners: NDArray[np.int64]
     neighbours: NDArray[np.int64]
-    normals: NDArray[np.int64]
-    images: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    bound: NDArray[np.float64]
     first: NDArray[np.int64]
     farthest: NDArray[np.int64]
     height: NDArray[np.float64]
     mark: NDArray[np.int64]
     following: NDArray[np.int64]
     leaving: NDArray[np.int64]
+    terms: NDArray[np.float64]
+    exact: bool
 
 
-def surface(grid: NDArray[np.int64]) -> Surface:
+def surface(places: NDArray[np.float64], exact: bool) -> Surface:
     """Allocate the arrays for the hull of these points: a closed surface of v corners has 2 v - 4 triangles."""
-    count = len(grid)
+    count = len(places)
     slots = 2 * count
     return Surface(
-        grid,
+        places,
         corners=np.empty((slots, 3), np.int64),
         neighbours=np.empty((slots, 3), np.int64),
-        normals=np.empty((slots, 3), np.int64),
-        images=np.empty((slots, 4)),
+        normals=np.empty((slots, 3)),
+        bound=np.empty(slots),
         first=np.full(slots, -1),
         farthest=np.empty(slots, np.int64),
         height=np.empty(slots),
         mark=np.zeros(slots, np.int64),
         following=np.empty(count, np.int64),
         leaving=np.empty(count, np.int64),
+        terms=np.empty(_TERMS),
+        exact=exact,
     )
 
 
 class Room(NamedTuple):
     """Work arrays of a step.  The kernel itself allocates none, because numba then compiles much faster.
 
-    ``near`` is True for each point that may lie on the surface.  ``visible`` and ``fresh`` are the visible and the new
-    triangles of a step.  ``heads`` has the first point in the list of each visible triangle.  ``edges`` (n, 2) holds
-    the horizon as (slot, edge), and ``outer`` (n, 3) as (start, end, triangle beyond).  ``todo`` is a stack of slots
-    with waiting points, ``queued`` is True for each slot on the stack, and ``free`` holds empty slots.
+    ``near`` is a triangle in whose plane each point lay when it was compared last, or -1.  ``visible`` and ``fresh``
+    are the visible and the new triangles of a step.  ``heads`` has the first point in the list of each visible
+    triangle. ``edges`` (n, 2) holds the horizon as (slot, edge), and ``outer`` (n, 3) as (start, end, triangle beyond).
+    ``todo`` is a stack of slots with waiting points, ``queued`` is True for each slot on the stack, and ``free`` holds
+    empty slots.
     """
 
-    near: NDArray[np.bool_]
+    near: NDArray[np.int64]
     visible: NDArray[np.int64]
     fresh: NDArray[np.int64]
     heads: NDArray[np.int64]
@@ -84,7 +100,7 @@ class Room(NamedTuple):
 def room(count: int) -> Room:
     visible, fresh, heads, todo = (np.empty(2 * count, np.int64) for _ in range(4))
     return Room(
-        near=np.zeros(count, np.bool_),
+        near=np.full(count, -1),
         visible=visible,
         fresh=fresh,
         heads=heads,
@@ -98,39 +114,99 @@ def room(count: int) -> Room:
 
 def place_triangle(known: Any, slot: int, a: int, b: int, c: int) -> None:
     """Write a triangle with its plane and no waiting points into a slot."""
-    grid, corners, normals, images = known.grid, known.corners, known.normals, known.images
+    places, corners, normals = known.places, known.corners, known.normals
     corners[slot, 0], corners[slot, 1], corners[slot, 2] = a, b, c
-    u1, u2, u3 = grid[b, 0] - grid[a, 0], grid[b, 1] - grid[a, 1], grid[b, 2] - grid[a, 2]
-    v1, v2, v3 = grid[c, 0] - grid[a, 0], grid[c, 1] - grid[a, 1], grid[c, 2] - grid[a, 2]
-    n1, n2, n3 = u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1
-    normals[slot, 0], normals[slot, 1], normals[slot, 2] = n1, n2, n3
-    size = float(max(abs(n1) + abs(n2) + abs(n3), 1))
-    m1, m2, m3 = n1 / size, n2 / size, n3 / size
-    images[slot, 0], images[slot, 1], images[slot, 2] = m1, m2, m3
-    images[slot, 3] = -(m1 * grid[a, 0] + m2 * grid[a, 1] + m3 * grid[a, 2])
+    total, flat = 0.0, -1
+    for axis in range(3):
+        j, k = (axis + 1) % 3, (axis + 2) % 3
+        first = (places[b, j] - places[a, j]) * (places[c, k] - places[a, k])
+        second = (places[b, k] - places[a, k]) * (places[c, j] - places[a, j])
+        normals[slot, axis] = first - second
+        total += abs(first) + abs(second)
+        if places[a, axis] == places[b, axis] and places[a, axis] == places[c, axis]:
+            flat = axis
+    known.bound[slot] = 0.0 if known.exact else BOUND * total + TINY
+    # If the plane is perpendicular to an axis, the value is a difference of coordinates, whose sign is exact.
+    if flat >= 0 and abs(normals[slot, flat]) > known.bound[slot]:
+        normals[slot, flat] = 1.0 if normals[slot, flat] > 0 else -1.0
+        known.bound[slot] = 0.0
     known.first[slot] = -1
     known.height[slot] = 0.0
 
 
+def add(terms: Any, count: int, number: float) -> int:
+    """Add a number to the expansion of ``count`` terms. Return the new count; zeros are left out."""
+    size = 0
+    for k in range(count):
+        term = terms[k]
+        total = number + term
+        rounded = total - number
+        error = (number - (total - rounded)) + (term - rounded)
+        if error != 0.0:
+            terms[size] = error
+            size += 1
+        number = total
+    if number != 0.0:
+        terms[size] = number
+        size += 1
+    return size
+
+
+def product_error(x: float, y: float, product: float) -> float:
+    """Return x y - product exactly, where ``product`` is the rounded product."""
+    scaled = _SPLITTER * x
+    x_high = scaled - (scaled - x)
+    x_low = x - x_high
+    scaled = _SPLITTER * y
+    y_high = scaled - (scaled - y)
+    y_low = y - y_high
+    return x_low * y_low - (((product - x_high * y_high) - x_low * y_high) - x_high * y_low)
+
+
+def difference(x: float, y: float, part: int) -> float:
+    """Return x - y rounded (part 0), or its rounding error (part 1)."""
+    rounded = x - y
+    if part == 0:
+        return rounded
+    z = rounded - x
+    return (x - (rounded - z)) - (y + z)
+
+
+def orientation(terms: Any, places: Any, corners: Any, slot: int, p: int) -> float:
+    """Return a number with the sign of the determinant of b - a, c - a and p - a, computed as an expansion."""
+    a, b, c = corners[slot, 0], corners[slot, 1], corners[slot, 2]
+    count = 0
+    for i, j, k, sign in _PRODUCTS:
+        for parts in range(8):
+            x = sign * difference(places[b, i], places[a, i], parts & 1)
+            y = difference(places[c, j], places[a, j], parts >> 1 & 1)
+            z = difference(places[p, k], places[a, k], parts >> 2)
+            if x == 0.0 or y == 0.0 or z == 0.0:
+                continue
+            # The product x y is a sum of two doubles, and the product of each with z is one too.
+            high = x * y
+            low = product_error(x, y, high)
+            count = add(terms, count, product_error(low, z, low * z))
+            count = add(terms, count, low * z)
+            count = add(terms, count, product_error(high, z, high * z))
+            count = add(terms, count, high * z)
+    return terms[count - 1] if count else 0.0
+
+
 def value(known: Any, slot: int, p: int) -> float:
     """Return the value of a triangle's plane at a point; the sign is exact."""
-    grid, images = known.grid, known.images
-    x, y, z = grid[p, 0], grid[p, 1], grid[p, 2]
-    approximate = images[slot, 0] * x + images[slot, 1] * y + images[slot, 2] * z + images[slot, 3]
-    if abs(approximate) > DOUBT:
+    places, normals, a = known.places, known.normals, known.corners[slot, 0]
+    approximate = (
+        normals[slot, 0] * (places[p, 0] - places[a, 0])
+        + normals[slot, 1] * (places[p, 1] - places[a, 1])
+        + normals[slot, 2] * (places[p, 2] - places[a, 2])
+    )
+    if abs(approximate) > known.bound[slot] or known.bound[slot] == 0.0:
         return approximate  # type: ignore[no-any-return]
-    # Compute the value exactly in two int64: each number of the normal is 2**31 high + low.
-    a = known.corners[slot, 0]
-    high, low = np.int64(0), np.int64(0)
-    for axis in range(3):
-        difference, number = grid[p, axis] - grid[a, axis], known.normals[slot, axis]
-        high += (number >> 31) * difference
-        low += (number & LOW) * difference
-    high += low >> 31
-    low &= LOW
-    if high > 0 or (high == 0 and low > 0):
-        return SEEN
-    return -SEEN if high < 0 else 0.0
+    exact = orientation(known.terms, places, known.corners, slot, p)
+    if exact == 0.0:
+        return 0.0
+    return SEEN if exact > 0.0 else -SEEN
 
 
 def wait(known: Any, slot: int, p: int, height: float) -> None:
@@ -142,16 +218,17 @@ def wait(known: Any, slot: int, p: int, height: float) -> None:
         known.farthest[slot] = p
 
 
-def distribute(known: Any, p: int, slots: Any, count: int, exact: bool) -> bool:
-    """Let a point wait outside the first triangle that it sees. Return True if it may lie on the surface instead."""
-    largest = -np.inf
+def distribute(known: Any, p: int, slots: Any, count: int) -> int:
+    """Let a point wait outside the first triangle that it sees. Otherwise return one whose plane contains it, or -1."""
+    level = -1
     for k in range(count):
         height = value(known, slots[k], p)
         if height > 0:
             wait(known, slots[k], p, height)
-            return False
-        largest = max(largest, height)
-    return largest == 0.0 if exact else largest >= NEAR
+            return -1
+        if height == 0.0:
+            level = slots[k]
+    return level
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
@@ -178,10 +255,10 @@ def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) 
     return count, border
 
 
-def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
+def grow(known: Any, work: Any, start: NDArray[np.int64]) -> int:
     """Grow the hull from four points, and return the number of slots used, or 0 if the surface does not close."""
     corners, neighbours = known.corners, known.neighbours
-    points = len(known.grid)
+    points = len(known.places)
     near, visible, fresh, heads = work.near, work.visible, work.fresh, work.heads
     edges, outer, todo, queued, free = work.edges, work.outer, work.todo, work.queued, work.free
     a, b, c, d = start[0], start[1], start[2], start[3]
@@ -201,7 +278,7 @@ def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
     # Each other point waits at a triangle that it sees, unless it is inside the tetrahedron.
     for p in range(points):
         if p != a and p != b and p != c and p != d:
-            near[p] = distribute(known, p, fresh, 4, exact)
+            near[p] = distribute(known, p, fresh, 4)
     made, waiting, step, spare = 4, 4, 0, 0
     while waiting:
         waiting -= 1
@@ -260,7 +337,7 @@ def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
             while q >= 0:
                 following = known.following[q]
                 if q != p:
-                    near[q] = distribute(known, q, fresh, border, exact)
+                    near[q] = distribute(known, q, fresh, border)
                 q = following
         for k in range(border):
             if known.first[fresh[k]] >= 0 and not queued[fresh[k]]:

@@ -1,34 +1,42 @@
 """Propose a hull quickly: triangles that the certificate then proves or refuses.
 
-The points are rounded to a grid of 2**30 steps for each axis (coordinates that fit are unchanged), and the hull of the
-rounded points grows in rounds.  In each round every triangle nominates the farthest of the points that wait outside it
+The hull grows in rounds.  In each round every triangle nominates the farthest of the points that wait outside it
 (Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Nominated points are
 inserted together if the regions of triangles that they see neither overlap nor share an edge.  Every edge of the new
 surface then has two triangles that would also be adjacent if only one of these points had been inserted, so the surface
 is convex again.  For the same reason a point that waits at a removed triangle is compared only with the triangles of
 the point that removed it.  "Sees" is strict, as in :mod:`modern.exact_hull.surface`.
 
-With numba (extra ``fast``) the same hull grows one point at a time (:mod:`modern.exact_hull.kernels`).
+With numba (extra ``fast``) the same hull grows one point at a time (:mod:`modern.exact_hull.kernels`), if doubles hold
+the points exactly.
 
 Errors in this module cannot cause a wrong result, because every proposal is proved afterwards.
 """
 
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from emulator.jit.functions import Compiled, Function, NotInstalled
 from modern.exact_hull import kernels
 from modern.exact_hull.coordinates import Coordinates, Floats, Ints
-from modern.exact_hull.kernels import DOUBT, NEAR
-from modern.exact_hull.planes import long_signs
+from modern.exact_hull.facets import planes_of
+from modern.exact_hull.planes import Planes
 
-# Signs on the grid are exact: in float64 if a value is clearly not 0, otherwise in two int64.  A normal is a vector
-# product of differences below 2**30, so below 2**61.  With N = 2**31 H + L its value at a difference d is 2**31 (H.d) +
-# L.d, and both scalar products are below 2**63.  A computed value, divided by |A| + |B| + |C|, has an error of at most
-# 16 * 2**30 * 2**-53 = 2**-19.
-GRID_BITS = 30
+# Signs of planes at points are exact.  They are computed from the images u of the points (``Coordinates.images``), with
+# errors of at most e = 2**-54.  Let w <= 1 be the largest side of a triangle on any axis.  Its sides have errors of at
+# most 3e, a product of two sides 7e w, and a number of the vector product 20e w, also rounded.  The vector product is
+# divided by the power of two s that makes its largest number at most 1.  So the value of the plane at a point has an
+# error of 60e w / s from the normal and 46e from its evaluation (see ``planes``), less than 2**-47 (1 + w / s).
+_BOUND = 2.0**-47
+# If the sides of the bounding box have together at most this number of bits, all values are exact.
+_EXACT_BITS = 48
+# Doubles hold the points and all products of three coordinates if these have at most this number of bits.
+_DOUBLE_BITS, _PRODUCT_BITS = 53, 1000
 # The number of points from which the compiled kernel saves more time than it takes to load.
 _VERY_MANY = 500_000
 # The largest number of new triangles for which one matrix product compares all points with all of them.
@@ -37,49 +45,68 @@ _DENSE = 24
 
 @dataclass(frozen=True, slots=True)
 class Proposal:
-    """Triangles (m, 3), counterclockwise seen from outside, and the other points that may lie on them."""
+    """Triangles (m, 3), counterclockwise seen from outside, and other points that may lie on them.
+
+    ``at`` has for each of the points ``near`` a triangle whose plane probably contains it, or -1.
+    """
 
     triangles: Ints
     near: Ints
+    at: Ints
 
 
-def on_grid(points: Coordinates) -> tuple[Ints, bool]:
-    """Return the points rounded to integers from 0 to 2**30 - 1 (n, 3), and True if rounding changed no point."""
-    images = points.images
-    shifts = np.array(images.shifts)
-    if points.kind == "i" and max(images.shifts) <= GRID_BITS:
-        return points.numbers - np.array(images.low), True
-    # The images are multiples of the least steps of the grid if the sides of the bounding box have at most 30 bits.
-    return np.ldexp(images.places, np.minimum(shifts, GRID_BITS)).astype(np.int64), max(shifts) <= GRID_BITS
+def _proposal(corners: Ints, alive: NDArray[np.bool_], near: Ints, at: Ints) -> Proposal:
+    """Return the proposal of all living triangles, which are numbered again."""
+    numbers = np.where(alive, np.cumsum(alive) - 1, -1)
+    return Proposal(corners[alive], near, numbers[at])
 
 
-def propose(points: Coordinates, fast: bool | None = None) -> Proposal | None:
-    """Return a hull that still has to be proved, or None. ``fast`` selects compiled code; None chooses."""
-    grid, exact = on_grid(points)
-    start = _simplex(grid)
-    if start is None:
-        return None
+def in_doubles(points: Coordinates) -> Floats | None:
+    """Return the points, each axis divided by a power of two, in doubles, or None if doubles do not hold them exactly.
+
+    Differences are at most 1.
+    """
+    shifts, power, numbers = np.array(points.images.shifts), points.scale.bit_length() - 1, points.numbers
+    if points.kind == "i" and shifts.max() <= _DOUBLE_BITS:
+        return points.images.places
+    if points.kind == "i":
+        power, numbers = 0, numbers.astype(np.float64)
+        with np.errstate(invalid="ignore"):
+            exact = bool((numbers.astype(np.int64) == points.numbers).all())
+    else:
+        exact = points.kind == "f" and shifts.sum() <= _PRODUCT_BITS
+    return np.ldexp(numbers, power - shifts) if exact else None
+
+
+def propose(points: Coordinates, basis: Sequence[int], fast: bool | None = None) -> Proposal | None:
+    """Return a hull that still has to be proved, or None.
+
+    basis: four points that do not lie in a plane. fast: use compiled code; None chooses.
+    """
+    start = _simplex(points, basis)
+    exact = sum(points.images.shifts) <= _EXACT_BITS
     kernel = _chosen(fast, len(points))
-    if kernel:
-        known, work = kernels.surface(grid), kernels.room(len(grid))
-        corners = known.corners[: kernel(known, work, np.array(start), exact)]
-        return Proposal(corners[corners[:, 0] >= 0], np.flatnonzero(work.near)) if len(corners) else None
+    if kernel and (places := in_doubles(points)) is not None:
+        known, work = kernels.surface(places, exact), kernels.room(len(places))
+        corners = known.corners[: kernel(known, work, np.array(start))]
+        near = np.flatnonzero(work.near >= 0)
+        return _proposal(corners, corners[:, 0] >= 0, near, work.near[near]) if len(corners) else None
     # Without numba: in rounds of numpy operations.
-    growing = _Growing(grid, exact, start)
+    growing = _Growing(points, exact, start)
     while growing.waiting.size:
         if not growing.round():
             return None
-    near = np.concatenate(growing.near) if growing.near else np.empty(0, np.int64)
-    triangles = growing.corners[: growing.made][growing.alive[: growing.made]]
-    return Proposal(triangles, near)
+    made, (near, at) = growing.made, np.concatenate(growing.near, axis=1)
+    return _proposal(growing.corners[:made], growing.alive[:made], near, at)
 
 
 @cache
 def load() -> Function:
     """Return the kernel, which is compiled once (in seconds) and then loaded.  Raise NotInstalled."""
-    tetrahedron = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], np.int64)
+    tetrahedron = np.array([(0.0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
     # The kernel allocates no array, so numba need not count references.
-    return Compiled(kernels.grow, _nrt=False).ready(kernels.surface(tetrahedron), kernels.room(4), np.arange(4), True)
+    known = kernels.surface(tetrahedron, True)
+    return Compiled(kernels.grow, _nrt=False).ready(known, kernels.room(4), np.array([0, 2, 1, 3]))
 
 
 def _chosen(fast: bool | None, count: int) -> Function | None:
@@ -92,82 +119,94 @@ def _chosen(fast: bool | None, count: int) -> Function | None:
     return None
 
 
-def _simplex(grid: Ints) -> list[int] | None:
-    """Return four points far from each other, the fourth on the inner side, or None for coplanar points."""
-    # a and b are the extreme points on the longest axis, c is farthest from their line, d from the plane of a, b and c.
-    axis = int(np.ptp(grid, axis=0).argmax())
-    a, b = int(grid[:, axis].argmin()), int(grid[:, axis].argmax())
-    places = grid - grid[a]
-    floats = places.astype(np.float64)
-    along = floats[b]
-    c = int((np.cross(floats, along) ** 2).sum(axis=1).argmax())
-    normal = np.cross(places[b], places[c])
-    if not normal.any():
-        return None
-    d = int(abs(floats @ normal.astype(np.float64)).argmax())
-    side = int(long_signs(normal[None], places[d][None])[0])
-    if not side:
-        return None
-    return [a, b, c, d] if side < 0 else [a, c, b, d]
+def _simplex(points: Coordinates, basis: Sequence[int]) -> list[int]:
+    """Return four points far from each other, or else those of ``basis``; the fourth is on the inner side."""
+    # a and b are the extreme points on an axis, c is farthest from their line, d from the plane of a, b and c.
+    places = points.images.places
+    a, b = int(places[:, 0].argmin()), int(places[:, 0].argmax())
+    steps = places - places[a]
+    c = int((np.cross(steps, steps[b]) ** 2).sum(axis=1).argmax())
+    d = int(abs(steps @ np.cross(steps[b], steps[c])).argmax())
+    side, corners = 0, np.array([(a, b, c, d), basis])
+    # The four points may lie in a plane because images are rounded.
+    for four in corners:
+        with suppress(ValueError):
+            side = int(_exact_planes(points, four[None, :3]).exact(np.array([0]), four[3:])[0])
+            if side:
+                break
+    p, q, r, s = four.tolist()
+    return [p, q, r, s] if side < 0 else [p, r, q, s]
+
+
+def _exact_planes(points: Coordinates, corners: Ints) -> Planes:
+    return Planes(points, np.array(planes_of(corners, points), object), corners[:, 0])
 
 
 class _Growing:
     """The surface while it grows: triangles in arrays, in which removed ones keep their index, and the waiting points.
 
     ``corners`` (T, 3) are counterclockwise seen from outside. ``neighbours`` (T, 3) are the triangles beyond the edges.
-    ``images`` (T, 4) are the planes, divided by |A| + |B| + |C|. ``home`` is a triangle that each of the ``waiting``
-    points sees, and ``height`` the value of its plane there. Points ``near`` may lie on the surface.
+    ``images`` (T, 4) are the planes with A, B and C at most 1, and ``bounds`` the bounds for errors of their values.
+    ``home`` is a triangle that each of the ``waiting`` points sees, and ``height`` the value of its plane there.
+    ``near`` are arrays of points that lay on the surface when they were compared last, and of triangles there.
     """
 
-    def __init__(self, grid: Ints, exact: bool, start: list[int]) -> None:
-        self.grid = grid
+    def __init__(self, points: Coordinates, exact: bool, start: list[int]) -> None:
+        self.points = points
         self.exact = exact
-        self.places = np.ones((len(grid), 4))
-        self.places[:, :3] = grid
+        self.places = np.ones((len(points), 4))
+        self.places[:, :3] = points.images.places
         room = 64
         self.corners = np.empty((room, 3), np.int64)
         self.neighbours = np.empty((room, 3), np.int64)
-        self.normals = np.empty((room, 3), np.int64)
         self.images = np.empty((room, 4))
+        self.bounds = np.empty(room)
         self.alive = np.zeros(room, np.bool_)
         self.made = 0
         self.near: list[Ints] = []
         a, b, c, d = start
         corners = np.array([(a, b, c), (b, a, d), (c, b, d), (a, c, d)], np.int64)
         self._add(corners, np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)], np.int64))
-        rest = np.ones(len(grid), np.bool_)
+        rest = np.ones(len(points), np.bool_)
         rest[start] = False
         self.waiting, self.home, self.height = self._tried_against_all(np.flatnonzero(rest), 0)
 
     def _add(self, corners: Ints, neighbours: Ints) -> None:
         end = self.made + len(corners)
         while end > len(self.alive):
-            for name in ("corners", "neighbours", "normals", "images", "alive"):
+            for name in ("corners", "neighbours", "images", "bounds", "alive"):
                 array = getattr(self, name)
                 setattr(self, name, np.concatenate([array, np.zeros_like(array)]))
-        p, q, r = (self.grid[corners[:, k]] for k in range(3))
-        (u1, u2, u3), (v1, v2, v3) = (q - p).T, (r - p).T
+        p, q, r = (self.places[corners[:, k], :3] for k in range(3))
+        u, v = q - p, r - p
+        (u1, u2, u3), (v1, v2, v3) = u.T, v.T
         normals = np.stack([u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1], axis=1)
         new = slice(self.made, end)
-        self.corners[new], self.neighbours[new], self.normals[new] = corners, neighbours, normals
-        images = normals / np.maximum(1, abs(normals).sum(axis=1))[:, None]
+        self.corners[new], self.neighbours[new] = corners, neighbours
+        # A normal without a clear direction gets a bound that no value exceeds.
+        exponents = np.frexp(abs(normals).max(axis=1))[1]
+        images = np.ldexp(normals, -exponents[:, None])
         self.images[new, :3] = images
         self.images[new, 3] = -(images * p).sum(axis=1)
+        widths = np.maximum(abs(u), abs(v)).max(axis=1)
+        self.bounds[new] = 0.0 if self.exact else _BOUND * (1 + np.ldexp(widths, np.minimum(-exponents, 1000)))
         self.alive[new] = True
         self.made = end
 
     def _signed(self, values: Floats, points: Ints, triangles: Ints) -> Floats:
         """Return the values of planes at points; an uncertain value becomes its exact sign times 1e-300."""
-        doubtful = np.flatnonzero(abs(values) <= DOUBT)
-        if doubtful.size:
-            point, triangle = points[doubtful], triangles[doubtful]
-            differences = self.grid[point] - self.grid[self.corners[triangle, 0]]
-            values[doubtful] = long_signs(self.normals[triangle], differences) * 1e-300
+        doubtful = np.flatnonzero(~(abs(values) > self.bounds[triangles]))
+        if doubtful.size and not self.exact:
+            distinct, places = np.unique(triangles[doubtful], return_inverse=True)
+            planes = _exact_planes(self.points, self.corners[distinct])
+            values[doubtful] = planes.exact(places, points[doubtful]) * 1e-300
         return values
 
-    def _set_aside(self, points: Ints, largest: Floats) -> None:
-        """Record those of the given points, none of which is outside the surface, that may lie on it."""
-        self.near.append(points[largest == 0] if self.exact else points[largest >= NEAR])
+    def _outside(self, points: Ints, chosen: Ints, largest: Floats) -> tuple[Ints, Ints, Floats]:
+        """Return the points that see their chosen triangle. Record those that lie in its plane."""
+        on, outside = largest == 0, largest > 0
+        self.near.append(np.stack([points[on], chosen[on]]))
+        return points[outside], chosen[outside], largest[outside]
 
     def _tried_against_all(self, points: Ints, first: int) -> tuple[Ints, Ints, Floats]:
         """Compare every point with all triangles from index ``first`` on.
@@ -180,14 +219,12 @@ class _Growing:
         for start in range(0, len(points), step):
             block = slice(start, start + step)
             values = self.places[points[block]] @ self.images[first : self.made].T
-            rows, columns = np.nonzero(abs(values) <= DOUBT)
+            rows, columns = np.nonzero(~(abs(values) > self.bounds[first : self.made]))
             if rows.size:
                 values[rows, columns] = self._signed(values[rows, columns], points[block][rows], triangles[columns])
             best = values.argmax(axis=1)
             chosen[block], largest[block] = best + first, values[np.arange(len(values)), best]
-        outside = largest > 0
-        self._set_aside(points[~outside], largest[~outside])
-        return points[outside], chosen[outside], largest[outside]
+        return self._outside(points, chosen, largest)
 
     def _tried_against_own(self, points: Ints, remover: Ints, starts: Ints, counts: Ints) -> tuple[Ints, Ints, Floats]:
         """Compare each point only with the new triangles of the inserted point that removed its triangle.
@@ -205,9 +242,7 @@ class _Growing:
         chosen = np.empty(len(points), np.int64)
         best = values == largest[row_point]
         chosen[row_point[best]] = triangles[best]
-        outside = largest > 0
-        self._set_aside(points[~outside], largest[~outside])
-        return points[outside], chosen[outside], largest[outside]
+        return self._outside(points, chosen, largest)
 
     def round(self) -> bool:
         """Insert some of the waiting points. Return False if the surface is no longer closed."""
@@ -229,9 +264,9 @@ class _Growing:
         # The horizon of each point must be one cycle: sort its edges by start, and find for each end the edge that
         # starts there.
         start, end = self.corners[edge_from, edge], self.corners[edge_from, (edge + 1) % 3]
-        order = np.argsort(edge_rank * len(self.grid) + start)
+        order = np.argsort(edge_rank * len(self.places) + start)
         edge_rank, start, end, beyond = edge_rank[order], start[order], end[order], beyond[order]
-        leaving, arriving = edge_rank * len(self.grid) + start, edge_rank * len(self.grid) + end
+        leaving, arriving = edge_rank * len(self.places) + start, edge_rank * len(self.places) + end
         following = np.searchsorted(leaving, arriving)
         if (leaving[1:] == leaving[:-1]).any() or (leaving[following.clip(max=len(leaving) - 1)] != arriving).any():
             return False
@@ -294,7 +329,7 @@ class _Growing:
         """Let points that waited at removed triangles wait at new ones, from index ``first`` on, if they see one."""
         lost = ~self.alive[self.home]
         orphans, remover = self.waiting[lost], owner[self.home[lost]]
-        done = np.zeros(len(self.grid), np.bool_)
+        done = np.zeros(len(self.places), np.bool_)
         done[inserted] = True
         still_waiting = ~done[orphans]
         orphans, remover = orphans[still_waiting], remover[still_waiting]

@@ -5,6 +5,8 @@ import itertools
 import math
 import random
 import sys
+from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -16,9 +18,10 @@ from modern.exact_hull import CertificateError, ExactHull, exact_hull, kernels, 
 from modern.exact_hull import build as build_module
 from modern.exact_hull import certificate as checks
 from modern.exact_hull.coordinates import Coordinates, read_points
-from modern.exact_hull.facets import merged, planes_of, rotated
+from modern.exact_hull.facets import independent, merged, planes_of, rotated
 from modern.exact_hull.planes import long_signs
-from modern.exact_hull.proposal import Proposal, _simplex, load, on_grid, propose
+from modern.exact_hull.proposal import Proposal, _simplex, in_doubles, load
+from modern.exact_hull.proposal import propose as proposed
 from tests.support.corrupted import BIG, GRID, OCTAHEDRON, PRISM, ball
 
 LAW = settings(deadline=None, max_examples=200)
@@ -46,6 +49,11 @@ SETS = {
 }
 
 
+FLOATS = [tuple(random.Random(k).gauss(0, 1) for k in range(3 * n, 3 * n + 3)) for n in range(300)]
+# The surface of a box, turned so that its faces are plane only up to rounding.
+TURNED = [(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z + 0.1 * x) for x, y, z in CUBE if {x, y, z} & {0, 5}]
+
+
 @pytest.fixture
 def _proposed(monkeypatch: pytest.MonkeyPatch) -> None:
     """Propose hulls also for few points, and prevent the exact construction."""
@@ -68,23 +76,75 @@ def test_the_proposed_hull_is_the_exact_hull(name: str, monkeypatch: pytest.Monk
     assert hull == built(points, monkeypatch)
 
 
-@pytest.mark.parametrize("name", SETS)
+def propose(points, fast: bool | None = None) -> Proposal:
+    coordinates = read_points(points)
+    proposal = proposed(coordinates, independent(coordinates), fast)
+    assert proposal is not None
+    return proposal
+
+
+@pytest.mark.parametrize("name", [*SETS, "floats", "turned box"])
 def test_the_kernel_and_numpy_propose_the_same_polytope(name: str) -> None:
     """The kernel runs in Python, and compiled if numba is installed."""
-    points = SETS[name]
+    points = {**SETS, "floats": FLOATS, "turned box": TURNED}[name]
     hull = exact_hull(points)
-    grid, exact = on_grid(read_points(points))
-    start = np.array(_simplex(grid))
+    coordinates = read_points(points)
+    start = np.array(_simplex(coordinates, independent(coordinates)))
+    proposals = [propose(points)]
     ways = [kernels.grow]
     with contextlib.suppress(NotInstalled):
         ways.append(load())
     for grow in ways:
-        known, room = kernels.surface(grid), kernels.room(len(grid))
-        corners = known.corners[: grow(known, room, start, exact)]
-        triangles, near = corners[corners[:, 0] >= 0], room.near
-        assert set(planes_of(triangles, read_points(points))) == {facet.plane for facet in hull.facets}
-        named = {*triangles.ravel().tolist(), *np.flatnonzero(near).tolist()}
+        if (places := in_doubles(coordinates)) is None:
+            continue
+        known, room = kernels.surface(places, False), kernels.room(len(places))
+        corners = known.corners[: grow(known, room, start)]
+        near = np.flatnonzero(room.near >= 0)
+        proposals.append(Proposal(corners[corners[:, 0] >= 0], near, near))
+    assert len(proposals) == 1 + len(ways) * (name not in ("big",))
+    for way in proposals:
+        assert set(planes_of(way.triangles, coordinates)) == {facet.plane for facet in hull.facets}
+        named = {*way.triangles.ravel().tolist(), *way.near.tolist()}
         assert named >= {*hull.vertices, *hull.boundary}
+
+
+NUMBERS = st.builds(math.ldexp, st.integers(-(2**53), 2**53).map(float), st.integers(-120, -53))
+
+
+@given(st.lists(st.tuples(NUMBERS, NUMBERS, NUMBERS), min_size=4, max_size=4), st.integers(0, 3))
+@LAW
+def test_expansions_have_the_exact_sign(rows: list[tuple[float, ...]], flat: int) -> None:
+    """The fourth point may lie near the plane of the others, so that the determinant cancels almost completely."""
+    if flat:
+        rows[3] = tuple(a + (b - a) * 0.25 * flat + (c - a) * 0.5 for a, b, c in zip(*rows[:3], strict=True))
+    a, b, c, d = ([Fraction(number) for number in row] for row in rows)
+    u, v, w = ([x - y for x, y in zip(row, a, strict=True)] for row in (b, c, d))
+    true = sum(w[i] * (u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2]) for i in range(3))
+    computed = kernels.orientation(np.empty(192), np.array(rows), np.array([[0, 1, 2]]), 0, 3)
+    assert np.sign(computed) == (true > 0) - (true < 0)
+
+
+@given(st.lists(st.tuples(NUMBERS, NUMBERS, NUMBERS), min_size=5, max_size=9, unique=True))
+@LAW
+def test_values_in_the_kernel_have_the_exact_sign(rows: list[tuple[float, ...]]) -> None:
+    """Half of the triangles are perpendicular to an axis."""
+    for points in (rows, [*((0.25, y, z) for _, y, z in rows[:3]), *rows[3:]]):
+        known = kernels.surface(np.array(points), False)
+        kernels.place_triangle(known, 0, 0, 1, 2)
+        a, *others = ([Fraction(number) for number in row] for row in points)
+        u, v, *rest = ([x - y for x, y in zip(row, a, strict=True)] for row in others)
+        for p, w in enumerate(rest, 3):
+            true = sum(w[i] * (u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2]) for i in range(3))
+            assert np.sign(kernels.value(known, 0, p)) == (true > 0) - (true < 0)
+
+
+@pytest.mark.parametrize("name", ["big", "huge", "mixed"])
+def test_points_that_doubles_do_not_hold_are_left_to_numpy(name: str) -> None:
+    huge = [tuple(number << 70 for number in point) for point in ball(30, 3)] + [(1, 2, 3)]
+    mixed = [(x * 2.0**-900, y * 2.0**900, z * 2.0**900 + x * 2.0**-900) for x, y, z in CUBE]
+    points = {"big": BIG[:27], "huge": huge, "mixed": mixed}[name]
+    assert in_doubles(read_points(points)) is None
+    assert propose(points, fast=False).triangles.tolist() == propose(points).triangles.tolist()
 
 
 def test_a_missing_kernel_raises_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -128,55 +188,47 @@ def test_signs_close_to_zero_are_exact(a: int, b: int, c: int, off: int) -> None
     assert long_signs(normal, np.array([[c, b, 1]], np.int64))[0] == np.sign(off)
 
 
-def test_points_are_rounded_to_the_grid() -> None:
-    near, exact = on_grid(read_points([(5, -7, 2**29), (6, 9, -(2**29) + 1)]))
-    assert exact
-    assert near.tolist() == [[0, 0, 2**30 - 1], [1, 16, 0]]
-    far, exact = on_grid(read_points([(10**40, 0, 0), (10**40 + 2**40, 1, 0), (10**40 + 2**40 - 1, 0, 1)]))
-    assert not exact
-    assert far.max() < 2**30
-    assert far[:, 0].tolist() == [0, 2**29, 2**29 - 1]
-
-
-def test_points_that_are_coplanar_after_rounding_have_no_proposal() -> None:
-    """The points become coplanar when they are rounded, so the hull is constructed without a proposal."""
-    points = [(x << 45, y << 45, (x + y << 45) + x * y % 3) for x in range(20) for y in range(20)]
-    assert propose(read_points(points)) is None
+@pytest.mark.usefixtures("_proposed")
+def test_images_that_are_coplanar_are_told_apart() -> None:
+    """The images of the points are coplanar, so the first four points are those that span space."""
+    points = [(x << 60, y << 60, (x + y << 60) + x * y % 3) for x in range(20) for y in range(20)]
     assert exact_hull(points).dimension == 3
 
 
 def dropped(count: int):
     """Return a proposal without ``count`` of the points."""
 
-    def wrong(points, fast) -> Proposal | None:
-        found = propose(Coordinates(points.numbers[count:]), fast)
-        return found and Proposal(found.triangles + count, found.near + count)
+    def wrong(points, basis, fast) -> Proposal:
+        proposal = propose(Coordinates(points.numbers[count:]), fast)
+        return Proposal(proposal.triangles + count, proposal.near + count, proposal.at)
 
     return wrong
 
 
-def turned(points, fast) -> Proposal | None:
-    found = propose(points, fast)
-    return found and Proposal(found.triangles[:, ::-1], found.near)
+def turned(points, basis, fast) -> Proposal:
+    made = propose(points, fast)
+    return replace(made, triangles=made.triangles[:, ::-1])
 
 
-def torn(points, fast) -> Proposal | None:
-    found = propose(points, fast)
-    return found and Proposal(found.triangles[1:], found.near)
+def torn(points, basis, fast) -> Proposal:
+    made = propose(points, fast)
+    return replace(made, triangles=made.triangles[1:], at=made.at * 0)
 
 
-def pinched(points, fast) -> Proposal | None:
-    found = propose(points, fast)
-    return found and Proposal(np.concatenate([found.triangles, found.triangles[:1, [0, 0, 1]]]), found.near)
+def pinched(points, basis, fast) -> Proposal:
+    made = propose(points, fast)
+    return replace(made, triangles=np.concatenate([made.triangles, made.triangles[:1, [0, 0, 1]]]))
 
 
-def unaware(points, fast) -> Proposal | None:
+def unaware(points, basis, fast) -> Proposal:
     """The proposal names no points that may lie on the surface."""
-    found = propose(points, fast)
-    return found and Proposal(found.triangles, found.near[:0])
+    made = propose(points, fast)
+    return replace(made, near=made.near[:0], at=made.at[:0])
 
 
-@pytest.mark.parametrize("wrong", [dropped(1), dropped(9), turned, torn, pinched, unaware, lambda points, fast: None])
+@pytest.mark.parametrize(
+    "wrong", [dropped(1), dropped(9), turned, torn, pinched, unaware, lambda points, basis, fast: None]
+)
 @pytest.mark.parametrize("name", ["cube", "ball", "sphere", "octahedral ball"])
 def test_after_a_wrong_proposal_the_hull_is_constructed(wrong, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     points = SETS[name]
@@ -197,7 +249,7 @@ def test_a_hull_constructed_after_a_refusal_is_proved_too(monkeypatch: pytest.Mo
 def test_vectorised_planes_equal_those_of_single_triangles() -> None:
     """The coordinates are below and above 2**30, and some faces have several triangles."""
     for points in (CUBE, BIG[:27], ball(40, 8), [tuple(10**9 * n for n in p) for p in CUBE]):
-        triangles = propose(read_points(points)).triangles
+        triangles = propose(points).triangles
         for plane, (a, b, c) in zip(planes_of(triangles, read_points(points)), triangles.tolist(), strict=True):
             p, q, r = points[a], points[b], points[c]
             assert all(plane[0] * x + plane[1] * y + plane[2] * z + plane[3] == 0 for x, y, z in (p, q, r))
