@@ -82,8 +82,6 @@ def _opened(path: Path) -> sqlite3.Connection:
         connection.execute("COMMIT")
         if connection.execute("PRAGMA quick_check").fetchone()[0] != "ok":
             raise sqlite3.DatabaseError("damaged")
-        # Earlier versions wrote a journal, which remained after kill -9.
-        path.with_name(f"{NAME}-journal").unlink(missing_ok=True)
     except (sqlite3.Error, OSError):
         connection.close()
         raise

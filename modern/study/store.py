@@ -38,21 +38,6 @@ def sweep(folder: Path) -> None:
         path.unlink(missing_ok=True)
 
 
-@dataclass(frozen=True, slots=True)
-class Run:
-    """The answer of one route to one sample, as reports read it."""
-
-    cell: int
-    index: int
-    n: int
-    dimension: int
-    tags: dict[str, int | str]
-    route: str
-    outcome: str
-    detail: str
-    figures: dict[str, int | str]
-
-
 @dataclass
 class Store:
     """The rows of a study on disk, in the order of cells and samples. Readers hold one row at a time in memory."""
@@ -125,27 +110,17 @@ class Store:
             digest.update("".join(card + "\n" for card in row["deck"]).encode("ascii"))
         return digest.hexdigest()
 
-    def runs(self, cell: int | None = None, route: str | None = None) -> Iterator[Run]:
-        """Yield the answers to the samples of one cell or of all, by one route or by all."""
-        where, values = _where(cell, route)
-        answers = self.database.execute(
-            "SELECT runs.cell, runs.place, n, dimension, tags, route, outcome, detail, figures FROM runs "
-            "JOIN samples ON samples.cell = runs.cell AND samples.place = runs.place "
-            f"{where} ORDER BY runs.cell, runs.place, route",
-            values,
-        )
-        for c, place, n, dimension, tags, name, outcome, detail, figures in answers:
-            yield Run(c, place, n, dimension, json.loads(tags), name, outcome, detail, json.loads(figures))
-
     def counts(self, *columns: str, cell: int | None = None, route: str | None = None) -> dict[tuple[Any, ...], int]:
         """Return the number of answers for each combination of the columns or tags (``tags.kind``), sorted."""
         names = [_column(name) for name in columns]
-        where, values = _where(cell, route)
+        selected = {name: value for name, value in (("cell", cell), ("route", route)) if value is not None}
+        condition = " AND ".join(f"runs.{name} = ?" for name in selected)
+        where = f"WHERE {condition}" if selected else ""
         answers = self.database.execute(
             f"SELECT {', '.join(names)}, COUNT(*) FROM runs "
             "JOIN samples ON samples.cell = runs.cell AND samples.place = runs.place "
             f"{where} GROUP BY {', '.join(names)} ORDER BY {', '.join(names)}",
-            values,
+            list(selected.values()),
         )
         return {tuple(row[:-1]): row[-1] for row in answers}
 
@@ -165,11 +140,6 @@ class Store:
         for number, (line, index) in enumerate(zip_longest(lines, range(chunk.start, chunk.stop)), 1):
             row = _row(line or b"")
             where = f"{path}: line {number}" + ("" if index is None else f" (sample {index})")
-            if row and "checksum" not in row:
-                raise StudyFileError(
-                    f"{where} has no checksum, like all rows of earlier versions of hull1620; "
-                    "changes in it cannot be detected, so repeat the study in another folder"
-                )
             expected = None if index is None else (index, cell.seed(self.plan.seed, index), routes)
             is_intact = line == _with_checksum((line or b"").rpartition(_CHECKSUM_FIELD)[0] + b"}")
             if not row or not is_intact or (row["index"], row["seed"], set(row["runs"])) != expected:
@@ -190,12 +160,6 @@ def _row(line: bytes) -> Row | None:
         return None
     is_complete = isinstance(row, dict) and {"cell", "index", "seed", "deck", "judge"} <= row.keys()
     return row if is_complete and isinstance(row.get("runs"), dict) else None
-
-
-def _where(cell: int | None, route: str | None) -> tuple[str, list[int | str]]:
-    selected = {name: value for name, value in (("cell", cell), ("route", route)) if value is not None}
-    condition = " AND ".join(f"runs.{name} = ?" for name in selected)
-    return f"WHERE {condition}" if selected else "", list(selected.values())
 
 
 def _column(name: str) -> str:

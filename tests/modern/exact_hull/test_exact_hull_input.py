@@ -15,7 +15,7 @@ from modern.exact_hull.incidences import incidences
 from modern.exact_hull.surface import BOUND, frame, plane_image
 from modern.geometry.numbers import decimal
 
-LAW = settings(deadline=None, max_examples=300)
+LAW = settings(deadline=None, max_examples=150)
 
 
 @pytest.mark.parametrize(

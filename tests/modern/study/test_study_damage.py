@@ -1,7 +1,6 @@
 """Damage in the folder of a study: rows are compared with their checksums, and the index is made again."""
 
 import random
-import re
 import sqlite3
 from contextlib import closing
 from pathlib import Path
@@ -53,17 +52,7 @@ def test_file_of_rows_that_is_not_of_the_plan_is_named(copied: Path) -> None:
         run_study(PLAN, copied, workers=1, quiet=True, resume=True)
 
 
-@pytest.mark.usefixtures("_without_plots")
-def test_journal_that_an_earlier_version_left_after_a_kill_is_removed(finished: Path, copied: Path) -> None:
-    (copied / f"{INDEX}-journal").write_bytes(bytes(512))
-    with sqlite3.connect(copied / INDEX) as index:
-        index.execute("UPDATE runs SET outcome = 'right'")
-    run_study(PLAN, copied, workers=1, quiet=True, resume=True)
-    assert not (copied / f"{INDEX}-journal").exists()
-    assert contents(copied) == contents(finished)
-
-
-def test_digit_changed_in_200_places_of_the_rows_is_always_noticed_with_file_and_line(
+def test_digit_changed_in_100_places_of_the_rows_is_always_noticed_with_file_and_line(
     finished: Path, copied: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     rng = random.Random(1963)
@@ -71,7 +60,7 @@ def test_digit_changed_in_200_places_of_the_rows_is_always_noticed_with_file_and
     assert main(["study", "--verify", str(copied)]) == 0
     assert capsys.readouterr().out == f"{copied}: 44 of 44 rows are present and match their checksums\n"
     with closing(Store.open(copied, PLAN)) as store:
-        for _ in range(200):
+        for _ in range(100):
             path = rng.choice(files)
             intact = path.read_bytes()
             place = rng.choice([place for place, byte in enumerate(intact) if chr(byte).isdigit()])
@@ -124,16 +113,6 @@ def test_verify_reports_a_damaged_manifest(
     path.write_text(text.replace(before, after, 1))
     assert main(["study", "--verify", str(copied)]) == 2
     assert capsys.readouterr().err == f"hull1620: {path}: {message}\n"
-
-
-def test_rows_without_checksums_are_reported_as_those_of_an_earlier_version(
-    copied: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for path in (copied / "rows").iterdir():
-        path.write_text(re.sub(r',"checksum":"\w+"', "", path.read_text()))
-    assert main(["study", "--verify", str(copied)]) == 2
-    message = "line 1 (sample 0) has no checksum, like all rows of earlier versions of hull1620"
-    assert message in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("damage", ["empty", "short", "truncated", "noise", "different", "long", "list"])

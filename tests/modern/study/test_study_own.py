@@ -22,6 +22,7 @@ measures = ["{module}:spread"]
 [[cell]]
 family = "{module}:line"
 parameters = {{ n = 3 }}
+chunk = 1
 """
 MODULE = """\
 from modern.study.families.draws import Drawn
@@ -56,7 +57,7 @@ def test_module_next_to_the_plan_is_found(module: str, capsys: pytest.CaptureFix
 
 
 def test_worker_processes_find_the_module(module: str) -> None:
-    assert main(["study", "plans/own.toml", "--samples", "201", "--workers", "2", "--quiet"]) == 0
+    assert main(["study", "plans/own.toml", "--samples", "2", "--workers", "2", "--quiet"]) == 0
 
 
 @pytest.mark.parametrize(

@@ -298,9 +298,6 @@ def test_invalid_plan_is_rejected_before_anything_is_written(
 def test_store_answers_the_queries_of_reports(finished: Path) -> None:
     store = Store.open(finished, PLAN)
     try:
-        runs = list(store.runs(cell=1, route="listed"))
-        assert [run.index for run in runs] == list(range(20))
-        assert {run.tags["kind"] for run in runs} == {"slab"}
         counts = store.counts("tags.kind", "outcome", cell=1, route="listed")
         assert sum(counts.values()) == 20
         assert all(kind == "slab" for kind, _ in counts)
