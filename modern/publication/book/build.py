@@ -8,25 +8,32 @@ always give the same bytes.
 import re
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import Final
 
 from emulator.files import writing_bytes
-from modern.edition.sources import sources
-from modern.publication.book import parts
-from modern.publication.book.markup import Markdown, label, places, say, string
-from modern.publication.building import DIST, ROOT, BuildError, citation, run
+from modern.publication.book import front, parts
+from modern.publication.book.markup import Markdown, label, places, say
+from modern.publication.building import DIST, ROOT, BuildError, run
 from modern.publication.figures import figures, filled
 from modern.publication.numbered import numbered
 
 DOCS = ROOT / "docs"
 STANDARD: Final = "a-2a"
+# The chapters at which the numbering of chapters begins and ends.
+_NUMBERING: Final = {
+    "The story": '(..n) => if n.pos().len() == 1 { numbering("1", ..n) }',
+    "Glossary": "none",
+}
 MISSING_TYPST = "Typst typesets the book: pip install 'hull1620[edition]'"
 # The chapters with their documents below ``docs``; a name that begins with ``@`` is a part generated from data.
 CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
-    ("Introduction", ("article.md",)),
+    ("How to read this book", ("@reading",)),
+    ("The story", ("index.md", "explanation/context.md")),
+    ("The article", ("article.md",)),
     ("The algorithm", ("explanation/method.md", "explanation/eight-digits.md", "reference/concordance.md")),
     ("The text", ("explanation/doubts.md", "@text", "@transcripts")),
     ("The listings", ("@listings",)),
@@ -42,7 +49,33 @@ CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ),
     ("Studies", ("explanation/studies.md", "@studies", "weight/report.md")),
     ("Glossary", ("reference/glossary.md",)),
+    ("Bibliography", ("@bibliography",)),
 )
+_GLOSSARY: Final = "reference/glossary.md"
+_CONTEXT: Final = "explanation/context.md"
+_LITERATURE: Final = "literature.md"
+# The persons of the index, by the name that occurs in a text.
+PERSONS: Final = {
+    name.partition(",")[0]: name
+    for name in (
+        *("Appel, Arthur", "Balinski, M. L.", "Barber, C. B.", "Butler, Karen Jensen", "Bykat, A.", "Chand, D. R."),
+        *("Dobkin, D. P.", "Eddy, W. F.", "Euler, Leonhard", "Graham, R. L.", "Hong, S. J.", "Huhdanpaa, H."),
+        *("Kapur, S. S.", "Kovalevsky, Vladimir", "Motzkin, T. S.", "Nakamae, Eihachiro", "Nishita, Tomoyuki"),
+        *("Preparata, F. P.", "Schulz, Henrik", "Srihari, S. N.", "Stalley, Robert D.", "Will, Peter M.", "Yau, M.-M."),
+    )
+}
+# Subjects of the index that are not terms of the glossary, in the words in which the texts name them.
+SUBJECTS: Final = (
+    *("DATA NOT ACCEPTABLE", "ERROR IN PROGRAM", "POINTS ARE COPLANAR", "POINTS ARE NOT COPLANAR", "BOUNDARY POINTS"),
+    *("quickhull", "Qhull", "SciPy", "gift wrapping", "outside set", "horizon", "tetrahedron", "cube", "truncation"),
+    *("guard digit", "float64", "float32", "indirect addressing", "FORMAT", "PDQ FORTRAN", "Hollerith", "DO loop"),
+    *("Clopper and Pearson", "convex polyhedron", "collinear", "Oregon State University"),
+)
+# A term of the glossary with more occurrences is indexed only where a text links to it.
+_MOST_PLACES = 40
+# Paragraphs of the home page that only lead to other pages of the site.
+_NAVIGATION = re.compile(r"^\*\*(?:\[|Next:).*?(?:\n\n|\Z)", re.MULTILINE | re.DOTALL)
+FONTS = Path(__file__).parent / "fonts"
 
 
 def documents() -> dict[str, str]:
@@ -53,26 +86,57 @@ def documents() -> dict[str, str]:
     texts = {name: filled((DOCS / name).read_text(encoding="utf-8"), values) for name in names}
     for name, file in (("text.md", "fortran_src/README.md"), ("transcripts.md", "transcripts/README.md")):
         texts[name] = (ROOT / file).read_text(encoding="utf-8")
+    texts["index.md"] = _NAVIGATION.sub("", texts["index.md"])
+    # The literature of this page is the second part of the bibliography.
+    texts[_CONTEXT], _, texts[_LITERATURE] = texts[_CONTEXT].partition("## Sources\n")
     return texts
+
+
+def _subjects(texts: Mapping[str, str]) -> dict[str, str]:
+    """Return the entries of the index: the terms of the glossary by their labels, and subjects by their words.
+
+    A term of the glossary that occurs often is indexed only where a text links to it.
+    """
+    terms = re.findall(r"^## (.+)$", texts[_GLOSSARY], re.MULTILINE)
+    labels = [place for place in places(_GLOSSARY, texts[_GLOSSARY]) if place != label(_GLOSSARY)]
+    entries = [term if term[1:2].isupper() else term[0].lower() + term[1:] for term in terms]
+    whole = "\n".join(texts.values()).lower()
+    rare = {entry.lower(): entry for entry in entries if 0 < whole.count(entry.lower()) <= _MOST_PLACES}
+    named = {name.lower(): entry for name, entry in PERSONS.items()} | {name.lower(): name for name in SUBJECTS}
+    return rare | named | dict(zip(labels[-len(terms) :], entries, strict=True))
 
 
 def typst(folder: Path) -> str:
     """Return the whole book as Typst markup; its pictures are written into ``folder``."""
     texts = documents()
-    generated = {kind: "".join(part) for kind, part in _generated(folder)}
+    subjects = _subjects(texts)
+    names = re.compile(
+        rf"\b(?:{'|'.join(sorted((n for n in subjects if '--' not in n), key=len, reverse=True))})\b", re.IGNORECASE
+    )
+
+    def keep(name: str, svg: str) -> str:
+        (folder / f"{name}.svg").write_text(parts.fitted(svg), encoding="utf-8")
+        return f"{name}.svg"
+
+    def markdown(name: str, labels: Collection[str]) -> str:
+        made = partial(front.made, save=keep)
+        return Markdown(name, labels, 2, lambda file: _picture(file, folder), made, subjects, names).typst(texts[name])
+
+    generated = {kind: "".join(part) for kind, part in _generated(keep)}
     # A reference is a link only if the book has its label.
     labels = {place for name, text in texts.items() for place in places(name, text)}
     labels |= {place for text in generated.values() for place in re.findall(r" <([\w.-]+)>", text)}
-    book = [(Path(__file__).parent / "preamble.typ").read_text(encoding="utf-8"), *_front()]
+    generated["bibliography"] = "".join(front.bibliography(markdown(_LITERATURE, labels), PERSONS))
+    book = [(Path(__file__).parent / "preamble.typ").read_text(encoding="utf-8"), *front.title_and_imprint()]
     for title, chapter in CHAPTERS:
+        if title in _NUMBERING:
+            book.append(f"#set heading(numbering: {_NUMBERING[title]})\n")
         book.append(f"= {say(title)} <{label('chapter', title)}>\n\n")
         for name in chapter:
-            for part in _parts(name, texts):
-                if part.startswith("@"):
-                    book.append(generated[part[1:]])
-                else:
-                    book.append(Markdown(part, labels, 2, lambda file: _picture(file, folder)).typst(texts[part]))
-    return "".join(book)
+            book += [
+                generated[part[1:]] if part.startswith("@") else markdown(part, labels) for part in _parts(name, texts)
+            ]
+    return "".join([*book, f"= {say('Index')} <{label('chapter', 'Index')}>\n\n#subject-index()\n"])
 
 
 def _parts(name: str, texts: dict[str, str]) -> Sequence[str]:
@@ -83,25 +147,8 @@ def _parts(name: str, texts: dict[str, str]) -> Sequence[str]:
     return [name]
 
 
-def _front() -> Iterator[str]:
-    fields = citation()
-    thesis = next(document for document in sources().documents if document.id == "butler-1963")
-    released = fields["date-released"]
-    yield f'#set document(title: {string(fields["title"])}, author: "The hull1620 developers", '
-    yield f"date: datetime(year: {released.year}, month: {released.month}, day: {released.day}))\n"
-    yield '#v(24%)\n#align(center)[#text(size: 27pt, weight: "semibold")[#par(justify: false)['
-    yield f"{say('The convex hull programs of 1963')}]]\n\n#v(1em)\n"
-    yield f"#text(size: 13pt)[{say(f'{thesis.author}: {thesis.title}')}]\n\n"
-    yield f"#v(2em)\n{say('Restored, run and judged by the hull1620 developers')}\n\n"
-    yield f"{say('Edition {version}, {date-released}'.format_map(fields))}]\n#pagebreak()\n"
-    yield "#outline(title: [Contents], depth: 2)\n"
-
-
-def _generated(folder: Path) -> Iterator[tuple[str, Iterator[str]]]:
-    def keep(name: str, svg: str) -> str:
-        (folder / f"{name}.svg").write_text(parts.fitted(svg), encoding="utf-8")
-        return f"{name}.svg"
-
+def _generated(keep: front.SavePicture) -> Iterator[tuple[str, Iterator[str]]]:
+    yield "reading", front.how_to_read()
     yield "listings", parts.listings()
     yield "charts", parts.charts(keep)
     yield "examples", parts.examples(keep)
@@ -146,6 +193,7 @@ def build(out: Path) -> int:
             pdf = compiler.compile(
                 str(main_file),
                 root=folder,
+                font_paths=[str(FONTS)],
                 ignore_system_fonts=True,
                 pdf_standards=[STANDARD],
                 timestamp=datetime(2026, 1, 1, tzinfo=UTC),

@@ -6,18 +6,23 @@ a meaning.  No character of a text can therefore be interpreted as markup (Typst
 
 import posixpath
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from mdit_py_plugins.deflist import deflist_plugin
 
+# A part of a page of the site that is made from data, and the fence that replaces it.
+_MADE = re.compile(r"^:::\{made\} (.*)\n:::$", re.MULTILINE)
+_MADE_FENCE = "made "
 _DIRECTIVE = re.compile(r"^:::\{.*?^:::$\n?|^```\{.*?^```$\n?", re.MULTILINE | re.DOTALL)
 _HEAD = re.compile(r"\A---\n.*?\n---\n", re.DOTALL)
 _COMMENT = re.compile(r"<!--.*?-->\n?", re.DOTALL)
 _ROLE = re.compile(r"\{([a-z]+)\}\Z")
 _FIRST_UNSUPPORTED = 0x2E80  # the first code point of the East Asian scripts, which the fonts of Typst do not contain
+# A number with a sign, a unit, or an interval; such cells are aligned to the right.
+_NUMBER = re.compile(r"[-−+±]?[\d.,]+(?:[ %×·^/]|\([\d., to–-]*\)|[\d.,⁻⁰¹²³⁴-⁹-])*|-|–|")
 # Widths in characters: of a table, the largest weight of a column, of a cell that is not a sentence, the default for
 # the longest word, and of the gap between columns.
 _LINE, _LONG, _CELL, _WORD, _GAP = 104, 90, 40, 12, 2
@@ -70,13 +75,22 @@ def to(place: str, content: str) -> str:
 
 
 def table(
-    head: Sequence[str], rows: Iterable[Sequence[str]], widths: Sequence[int], longest: Sequence[int] | None = None
+    head: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    widths: Sequence[int],
+    longest: Sequence[int] | None = None,
+    right: Collection[int] = (),
 ) -> str:
-    """Return a table.  ``widths`` are the longest cell of each column in characters, ``longest`` the longest words."""
+    """Return a table.
+
+    ``widths`` are the longest cell of each column in characters, ``longest`` the longest words.  ``right`` are the
+    columns of numbers, which are aligned to the right.
+    """
     size, columns = columns_of(widths, [min(width, _WORD) for width in widths] if longest is None else longest)
     cells = "".join(f"[{cell}], " for row in rows for cell in row)
     top = "".join(f"[{call('strong', cell)}], " for cell in head)
-    return f"#tabular({size:.1f}pt, ({', '.join(columns)},), ({top}), ({cells}))\n\n"
+    aligned = ", ".join("right" if k in right else "left" for k in range(len(head)))
+    return f"#tabular({size:.1f}pt, ({', '.join(columns)},), ({aligned},), ({top}), ({cells}))\n\n"
 
 
 def columns_of(widths: Sequence[int], longest: Sequence[int]) -> tuple[float, list[str]]:
@@ -104,17 +118,23 @@ class Markdown:
 
     ``name`` is the path of the document below ``docs``, ``known`` are all labels of the book, and ``level`` is that of
     the first heading.  ``picture`` returns Typst's name for the file of a picture, or "" if the book lacks it.
+    ``made`` returns the printed form of a part of a page of the site.  ``subjects`` are the entries of the index: by
+    label, for links and headings, and by the words that occur in a text, which ``names`` matches.
     """
 
     name: str
     known: Collection[str]
     level: int
     picture: Callable[[str], str]
+    made: Callable[[str], str] = lambda argument: ""
+    subjects: Mapping[str, str] = field(default_factory=dict)
+    names: re.Pattern[str] = re.compile(r"(?!)")
     _slugs: dict[str, int] = field(default_factory=dict)
 
     def typst(self, source: str) -> str:
         """Translate the whole document."""
-        text = _DIRECTIVE.sub("", _COMMENT.sub("", _HEAD.sub("", source)))
+        text = _MADE.sub(rf"~~~{_MADE_FENCE}\1\n~~~", _COMMENT.sub("", _HEAD.sub("", source)))
+        text = _DIRECTIVE.sub("", text)
         tokens = MarkdownIt("commonmark").enable("table").use(deflist_plugin).parse(text)
         return "".join(self._blocks(tokens))
 
@@ -131,7 +151,7 @@ class Markdown:
                 title = _plain(inner[0])
                 first, place = not self._slugs, label(self.name, self._slug(title))
                 itself = f"#[] <{label(self.name)}>\n" if first else ""
-                return itself + heading(title, self.level + int(token.tag[1]) - 1, place)
+                return itself + heading(title, self.level + int(token.tag[1]) - 1, place) + self._entry(place)
             case "paragraph_open":
                 markup = self._inline(inner[0])
                 if _is_title(inner[0]):
@@ -143,7 +163,8 @@ class Markdown:
                 start = str(token.attrs.get("start", 1))
                 return call("enum", *self._items(inner), start=start) + "\n\n"
             case "fence" | "code_block":
-                return block(token.content)
+                is_made = token.info.startswith(_MADE_FENCE)
+                return self.made(token.info.removeprefix(_MADE_FENCE)) if is_made else block(token.content)
             case "blockquote_open":
                 return call("quote", "".join(self._blocks(inner)), block="true") + "\n\n"
             case "table_open":
@@ -188,7 +209,12 @@ class Markdown:
         # A heading may be broken into lines; the width depends on the cells.
         widths = [max(word, *map(len, column[1:])) for word, column in zip(longest, columns, strict=True)]
         head, *body = [[self._inline(cell) for cell in row] for row in rows]
-        return table(head, body, widths, longest)
+        right = [k for k, column in enumerate(columns) if column[1:] and all(map(_NUMBER.fullmatch, column[1:]))]
+        return table(head, body, widths, longest, right)
+
+    def _entry(self, subject: str) -> str:
+        """Return a mark for the index if a label or a name is one of its subjects."""
+        return f"#idx({string(self.subjects[subject])});" if subject in self.subjects else ""
 
     def _inline(self, token: Token) -> str:
         out: list[str] = []
@@ -197,6 +223,7 @@ class Markdown:
             match child.type:
                 case "text":
                     out.append(say(child.content))
+                    out += [self._entry(name.lower()) for name in dict.fromkeys(self.names.findall(child.content))]
                 case "softbreak":
                     out.append(" ")
                 case "hardbreak":
@@ -209,7 +236,8 @@ class Markdown:
                     out.append("]")
                 case "link_open":
                     place = self._target(str(child.attrs["href"]))
-                    opened = f"#to(<{place}>)[" if place else self._outside(str(child.attrs["href"]))
+                    opened = self._entry(place) if place else ""
+                    opened += f"#to(<{place}>)[" if place else self._outside(str(child.attrs["href"]))
                     out.append(opened)
                     ends.append("]" if opened else "")
                 case "link_close":

@@ -5,7 +5,7 @@ depend on page breaks.
 """
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from modern.claims.register import DOCUMENTS, UNTESTABLE, USED, Judged, judged
 from modern.drawing.draw import draw_svg
@@ -16,16 +16,18 @@ from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.formats.points import parse_input
 from modern.geometry.mesh import ExportError
 from modern.port import convex_hull
+from modern.publication.book.front import SavePicture
 from modern.publication.book.markup import block, call, code, heading, label, say, string, table
 from modern.publication.chart import chart
 from modern.publication.chart_svg import chart_svg
+from modern.publication.commentary import Gloss, commentary
 from modern.publication.examples import TITLES, VERDICTS, example, homes
 from modern.publication.facing import Card, Facing, facing
 from modern.publication.flow import flow
 
-# Saves a picture, given its name and SVG, and returns the name by which Typst finds it.
-SavePicture = Callable[[str, str], str]
-
+_SENTENCE = re.compile(r"(?<=\.) (?=[A-Z])")
+# The longest reading in a note, in characters.
+_LONGEST = 120
 _FONTS = re.compile(r"font-family(=|:)\s*(\"[^\"]*\"|[^;\"}]*)")
 _SHORT = {"holds": "holds", "holds with a condition": "with a condition", "does not hold": "does not hold"}
 
@@ -36,49 +38,116 @@ def fitted(svg: str) -> str:
 
     def font(match: re.Match[str]) -> str:
         monospaced = "mono" in match[2].lower() or "courier" in match[2].lower()
-        family = "DejaVu Sans Mono" if monospaced else "Libertinus Serif"
+        family = "IBM Plex Mono" if monospaced else "IBM Plex Sans"
         return f'font-family="{family}"' if match[1] == "=" else f"font-family:'{family}'"
 
     return _FONTS.sub(font, svg)
 
 
 def listings() -> Iterator[str]:
-    """Yield the facing text of every built-in program, each page of the thesis followed by its notes."""
-    shown: set[str] = set()
+    """Yield the listings of the programs with the commentary alongside, each followed by its textual notes.
+
+    A variant of a program is shown only in the passages in which a card differs.
+    """
     for name in programs.NAMES:
-        listing = facing(name)
+        listing, entry = facing(name), programs.built_in(name)
+        yield "#pagebreak(weak: true)\n" if name != programs.NAMES[0] else ""
         yield heading(f"{name}.f: {listing.title}", 2, label(name))
-        for row in listing.everywhere:
-            if row.id not in shown:
-                shown.add(row.id)
-                yield _entry(row, listing)
-        for page, cards in listing.pages():
-            yield heading(f"Page {page}", 3, label(name, f"page-{page}"))
-            yield from (_card(name, card) for card in cards)
-            concerned = {row for card in cards for row in card.concerned} - shown
-            shown |= concerned
-            yield from (_entry(row, listing) for row in listing.rows() if row.id in concerned)
+        base = facing(entry.text)
+        is_variant = name != entry.text
+        if is_variant:
+            yield say(f"Only the passages that differ from {entry.text} are shown.") + "\n\n"
+        rows = [row for row in listing.rows() if not is_variant or row not in base.rows()]
+        noted = {row.id for row in base.rows()} | {row.id for row in rows}
+        texts = {card.text for card in base.cards}
+        page = ""
+        for passage in commentary(name).blocks:
+            cards = [listing.cards[number - 1] for number in passage.cards]
+            if is_variant and texts.issuperset(card.text for card in cards):
+                continue
+            items = []
+            for card in cards:
+                if card.page != page:
+                    page = card.page
+                    items.append(f"[#sheet([p. {say(page)}]) <{label(name, f'page-{page}')}>]")
+                items.append(f"[{_card(name, card, noted)}]")
+            comment = say(" ".join(passage.text.split()))
+            if passage.steps:
+                comment += "#parbreak();" + call("emph", say(f"Chapter 3: {'; '.join(passage.steps)}."))
+            if not is_variant:
+                comment += "".join(_mark(name, g) for g in commentary(name).variables if passage.title in g.set_in)
+            yield f"#passage([{say(passage.title)}], [{comment}], ({', '.join(items)},))\n\n"
+        if not is_variant:
+            yield from _variables(name)
+        yield heading(f"Textual notes to {name}", 3, label("notes", name))
+        yield from _grouped(rows, {row.id: _places(row, listing) for row in rows})
 
 
-def _card(name: str, card: Card) -> str:
+def _variables(name: str) -> Iterator[str]:
+    """Yield the table of the variables of a program, each with the blocks that set it as entries of the index."""
+    yield heading(f"Variables of {name}", 3, label("variables", name))
+    rows = []
+    for gloss in commentary(name).variables:
+        limits = f"{gloss.limits[0]} to {gloss.limits[1]}" if gloss.limits else ""
+        rows.append([_mark(name, gloss) + code(gloss.name), say(limits), say(" ".join(gloss.text.split()))])
+    yield table([say(title) for title in ("name", "values", "meaning")], rows, (6, 11, 120), (6, 11, 14))
+
+
+def _mark(name: str, gloss: Gloss) -> str:
+    return f"#idx({string(f'{gloss.name} ({name})')});"
+
+
+def _card(name: str, card: Card, noted: Collection[str]) -> str:
     changed = not card.witness or card.changed or any(piece.changed for piece in card.witness)
     sign = "+" if not card.witness else "≠" if changed else ""
     witness = "" if not changed else " / ".join(f"{piece.line}: {piece.text.strip()}" for piece in card.witness)
-    rows = ", ".join(card.rows)
+    rows = ", ".join(f"#link(<{label('row', row)}>)[{say(row)}]" if row in noted else say(row) for row in card.rows)
     place = f"#[{say(card.place)}] <{label('card', name, card.place)}>"
-    return f"#card([{place}], [{say(sign)}], {string(card.text)}, {string(witness)}, [{say(rows)}])\n"
+    return f"#card([{place}], [{say(sign)}], {string(card.text)}, {string(witness)}, [{rows}])"
 
 
-def _entry(row: Row, listing: Facing) -> str:
-    cards = listing.cards_of(row.id)
-    at = f" {', '.join(card.place for card in cards[:6])}" if cards else ""
-    if len(cards) > 6:
-        at += f" and {len(cards) - 6} more"
-    kinds = call("text", say(f"{row.layer}, {row.kind}; {row.certainty}"), style='"italic"')
-    rejected = "".join(f" Rejected: {code(r.reading)} {say(r.reason)}" for r in row.rejected)
-    ground = row.ground.get("kind", "none: the reading is a conjecture")
-    text = f"{_head(row)}{say(at)} {kinds}. {_readings(row)}{say(row.reason)}{rejected} {say(row.evidence)} "
-    return f"#entry[{text}{say(f'Ground: {ground}.')}]\n\n"
+def _places(row: Row, listing: Facing) -> str:
+    places = [card.place for card in listing.cards_of(row.id)]
+    return ", ".join(places[:6]) + (f" and {len(places) - 6} more" if len(places) > 6 else "")
+
+
+def _grouped(rows: Iterable[Row], places: Mapping[str, str] | None = None) -> Iterator[str]:
+    """Yield the notes on rows; rows of one kind with the same reason share one note.
+
+    ``places`` names the cards that each row changes.
+    """
+
+    def readings(row: Row) -> str:
+        at = say((places or {}).get(row.id, ""))
+        return f"{at} {_reading(row.witness)} → {_reading(row.lemma)} "
+
+    groups: dict[tuple[str, ...], list[Row]] = {}
+    for row in rows:
+        groups.setdefault((row.layer, row.kind, row.certainty, row.reason), []).append(row)
+    for (layer, kind, certainty, reason), members in groups.items():
+        about = f"{call('strong', say(kind))}{say(f' ({layer}, {certainty}). {reason} ')}"
+        if len(members) == 1:
+            (row,) = members
+            reasons = f"{about}{say(row.evidence)} {_rejected(row)}{say(_ground(row))}"
+            yield f"#entry[{_head(row)} {readings(row)}{reasons}]\n\n"
+            continue
+        evidence = {row.id: _SENTENCE.split(row.evidence) for row in members}
+        shared = [sentence for sentence in evidence[members[0].id] if all(sentence in e for e in evidence.values())]
+        notes = []
+        for row in members:
+            rest = " ".join(sentence for sentence in evidence[row.id] if sentence not in shared)
+            notes.append(f"[{_head(row)} {readings(row)}{say(rest)} {_rejected(row)}]")
+        grounds = {_ground(row) for row in members}
+        common = say(" ".join([*shared, *(grounds if len(grounds) == 1 else ())]))
+        yield f"#notes([{about}{common}], ({', '.join(notes)},))\n\n"
+
+
+def _rejected(row: Row) -> str:
+    return "".join(f"Rejected: {code(r.reading)} {say(r.reason)} " for r in row.rejected)
+
+
+def _ground(row: Row) -> str:
+    return f"Ground: {row.ground.get('kind', 'none, because the reading is a conjecture')}."
 
 
 def charts(save: SavePicture) -> Iterator[str]:
@@ -86,20 +155,23 @@ def charts(save: SavePicture) -> Iterator[str]:
     yield "#pagebreak(weak: true)\n\n"
     for name in programs.NAMES:
         drawn = chart(flow(programs.program(name)))
+        sheets: list[str] = []
         for number in range(1, len(drawn.pages) + 1):
             title = f"Flow chart of {name}, sheet {number} of {len(drawn.pages)}"
             if number == 1:
                 yield heading(f"Flow chart of {name}", 2, label("chart", name))
-            yield heading(f"Sheet {number} of {len(drawn.pages)}", 3, label("chart", name, str(number)))
             file = save(f"chart-{name}-{number}", chart_svg(drawn, number))
-            image = f'image({string(file)}, alt: {string(title)}, height: 1fr, fit: "contain")'
-            yield f"#align(center, {image})\n#pagebreak(weak: true)\n\n"
+            picture = f"#picture({string(file)}, {string(title)}, height: 200mm)"
+            sheets.append(f"[#[{picture}] <{label('chart', name, str(number))}>]")
+        for number in range(0, len(sheets), 2):
+            yield f"#grid(columns: (1fr, 1fr), column-gutter: 4mm, {', '.join(sheets[number : number + 2])})\n"
+            yield "#pagebreak(weak: true)\n\n"
 
 
 def examples(save: SavePicture) -> Iterator[str]:
     """Yield the printed examples: verdicts, pictures, the printed cards, and the rows of the apparatus."""
     for number in EXAMPLES:
-        yield heading(f"Example {number}", 2, label(f"example{number}.md"))
+        yield "#pagebreak(weak: true)\n" + heading(f"Example {number}", 2, label(f"example{number}.md"))
         parts = example(number)
         rows = []
         for part in parts:
@@ -113,34 +185,35 @@ def examples(save: SavePicture) -> Iterator[str]:
             cards = "\n".join(card.print for card in part.cards)
             if cards.strip():
                 yield heading(part.title, 3, label(f"example{number}", part.id))
-                yield block(cards, "7pt")
-            yield from (_short(row) for row in part.rows if homes()[row.id] == (number, part.id))
+                yield block(cards, "7.6pt")
+        rows_shown = [row for part in parts for row in part.rows if homes()[row.id] == (number, part.id)]
+        if rows_shown:
+            yield heading(f"Textual notes to example {number}", 3, label("notes", f"example{number}"))
+        yield from _grouped(rows_shown)
 
 
 def _head(row: Row) -> str:
     return f"#[{call('strong', say(row.id))}] <{label('row', row.id)}>"
 
 
-def _readings(row: Row) -> str:
-    return f"{code(row.witness or ' ')} → {code(row.lemma or ' ')}. "
-
-
-def _short(row: Row) -> str:
-    text = f"{_head(row)} {say(f'{row.kind}, {row.certainty}: ')}{_readings(row)}"
-    return f"#entry[{text}{say(row.reason)}]\n\n"
+def _reading(text: str) -> str:
+    """Return a reading as code; a long one is abbreviated in the middle."""
+    if len(text) > _LONGEST:
+        text = f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 3 :]}"
+    return code(text) if text else "–"
 
 
 def _pictures(number: int, save: SavePicture) -> Iterator[str]:
     points = parse_input(input_deck(number).text(), f"example{number}").points
     hull = convex_hull(points, "exact", history=True, on_refusal="return")
     file = save(f"hull-{number}", draw_svg(hull, width=520))
-    yield f"#picture({string(file)}, {string(f'The hull of example {number}')}, width: 58%)\n\n"
+    yield f"#picture({string(file)}, {string(f'The hull of example {number}')}, width: 42%)\n\n"
     try:
         stages = frames(hull)
     except ExportError:
         return
     file = save(f"stages-{number}", strip(stages))
-    yield f"#picture({string(file)}, {string(f'The construction of example {number}, H1 to Hf')}, width: 88%)\n\n"
+    yield f"#picture({string(file)}, {string(f'The construction of example {number}, H1 to Hf')}, width: 66%)\n\n"
 
 
 def statements() -> Iterator[str]:

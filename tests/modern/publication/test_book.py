@@ -11,9 +11,11 @@ from hypothesis import strategies as st
 from modern.claims.apparatus_checks import texts
 from modern.claims.register import DOCUMENTS, statements_of
 from modern.edition import programs
+from modern.edition.sources import sources
 from modern.publication.book import build as book
 from modern.publication.book.markup import Markdown, columns_of, label, say, string, table
-from modern.publication.book.parts import fitted, listings, statements
+from modern.publication.book.parts import examples, fitted, listings, statements
+from modern.publication.commentary import commentary
 from modern.publication.facing import facing
 
 compiler = pytest.importorskip("typst", reason="the book is set by typst")
@@ -107,20 +109,60 @@ def test_a_wide_table_breaks_its_widest_column_or_is_set_smaller() -> None:
 def test_pictures_use_the_fonts_of_the_book() -> None:
     text = '<text font-family="Helvetica, Arial, sans-serif">a</text>'
     svg = f'<svg><a href="x">{text}</a><style>.m{{font-family:monospace}}</style></svg>'
-    serif = '<text font-family="Libertinus Serif">a</text>'
-    assert fitted(svg) == f"<svg>{serif}<style>.m{{font-family:'DejaVu Sans Mono'}}</style></svg>"
+    sans = '<text font-family="IBM Plex Sans">a</text>'
+    assert fitted(svg) == f"<svg>{sans}<style>.m{{font-family:'IBM Plex Mono'}}</style></svg>"
 
 
-def test_every_card_and_row_of_the_listings_occurs_once() -> None:
+def test_every_card_row_comment_and_variable_of_the_listings_occurs_once() -> None:
     markup = "".join(listings())
-    for name in programs.NAMES:
-        for card in facing(name).cards:
-            assert markup.count(f"<{label('card', name, card.place)}>") == 1
     for name in programs.TEXTS:
+        for card in facing(name).cards:
+            assert markup.count(f" <{label('card', name, card.place)}>") == 1
         for row in texts()[name].rows:
-            assert markup.count(f"<{label('row', row.id)}>") <= 1
-    missing = [r.id for n in programs.TEXTS for r in texts()[n].rows if f"<{label('row', r.id)}>" not in markup]
-    assert missing == []
+            assert markup.count(f" <{label('row', row.id)}>") == 1
+        for block in commentary(name).blocks:
+            assert string(" ".join(block.text.split())) in markup
+        assert {f"{variable.name} ({name})" for variable in commentary(name).variables} <= indexed(markup)
+
+
+def test_of_a_variant_only_the_passages_that_differ_are_shown() -> None:
+    markup = "".join(listings())
+    cards = facing("program1_examples").cards
+    shown = [card for card in cards if f" <{label('card', 'program1_examples', card.place)}>" in markup]
+    new = {card.text for card in cards} - {card.text for card in facing("program1").cards}
+    assert new <= {card.text for card in shown}
+    assert len(shown) < len(cards) / 2
+
+
+def indexed(markup: str) -> set[str]:
+    return set(re.findall(r'#idx\("([^"]+)"\);', markup))
+
+
+def test_notes_with_the_same_reason_are_grouped() -> None:
+    markup = "".join(examples(lambda name, svg: name))
+    reason = "The OCR dropped a zero from a run of zeros."
+    rows = [row for row in texts()["chapter6"].rows if row.reason == reason]
+    assert len(rows) > 100
+    assert markup.count(reason) <= 6, "one note in each example"
+
+
+def test_numbers_are_aligned_to_the_right() -> None:
+    markup = typst("| set | share | note |\n|---|---|---|\n| a | 1.5 (1.2 to 1.8) % | x |\n| b | - | 3 |\n")
+    assert "(left, right, left,)" in markup
+
+
+def test_terms_and_persons_are_indexed(whole: tuple[str, Path]) -> None:
+    entries = indexed(whole[0])
+    assert {"Butler, Karen Jensen", "Yau, M.-M.", "apparatus", "ATTN", "quickhull", "NE (program3)"} <= entries
+
+
+def test_the_front_matter_names_edition_licences_and_sources(whole: tuple[str, Path]) -> None:
+    front = whole[0].partition("#outline")[0]
+    for text in ("Edition 0.1.0", "CC0 1.0", "MIT licence", "have not seen its pages", "IBM Plex"):
+        assert text in front
+    bibliography = whole[0].partition('= #"Bibliography";')[2]
+    assert all(document.title in bibliography for document in sources().documents)
+    assert "doi:10.1147/rd.206.0590" in bibliography
 
 
 def test_every_statement_occurs_once() -> None:
@@ -146,7 +188,7 @@ def test_every_reference_of_the_book_resolves(whole: tuple[str, Path]) -> None:
     text, folder = whole
     labels = re.findall(r" <([\w.-]+)>", text)
     assert len(labels) == len(set(labels)), sorted({name for name in labels if labels.count(name) > 1})[:5]
-    references = set(re.findall(r"#to\(<([\w.-]+)>\)", text))
+    references = set(re.findall(r"#(?:to|link)\(<([\w.-]+)>\)", text))
     assert len(references) > 50
     assert references <= set(labels)
     pictures = set(re.findall(r'"([\w.-]+\.svg)"', text))
@@ -157,10 +199,17 @@ def test_the_book_is_pdf_a(tmp_path: Path, whole: tuple[str, Path]) -> None:
     text, folder = whole
     (folder / "book.typ").write_text(text, encoding="utf-8")
     made = compiler.compile(
-        str(folder / "book.typ"), root=str(folder), ignore_system_fonts=True, pdf_standards=[book.STANDARD]
+        str(folder / "book.typ"),
+        root=str(folder),
+        font_paths=[str(book.FONTS)],
+        ignore_system_fonts=True,
+        pdf_standards=[book.STANDARD],
     )
     assert made.startswith(b"%PDF-1.7")
     assert b"<pdfaid:part>2</pdfaid:part>" in made
+    assert {b"IBMPlexSerif", b"IBMPlexSans", b"IBMPlexMono"} <= {
+        name[:-7] for name in re.findall(rb"IBMPlex\w+-Regular", made)
+    } | set(re.findall(rb"\+(IBMPlex(?:Serif|Sans|Mono))", made))
     assert b"<pdfaid:conformance>A</pdfaid:conformance>" in made
 
 

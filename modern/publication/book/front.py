@@ -1,0 +1,181 @@
+"""The front and back matter of the book: title, imprint, how to read it, the figures of the essay, the bibliography."""
+
+from collections.abc import Callable, Iterator, Mapping
+
+from modern.claims.register import COLUMNS, DOCUMENTS, THESIS, counts
+from modern.drawing.draw import draw_svg
+from modern.drawing.punched import cards_svg
+from modern.drawing.stages import frames, strip
+from modern.edition import programs
+from modern.edition.chapter6 import input_deck
+from modern.edition.sources import Document, sources
+from modern.formats.deck import data_deck
+from modern.formats.points import parse_input
+from modern.port import convex_hull
+from modern.publication.book.markup import block, code, heading, label, say, string, table
+from modern.publication.building import citation
+from modern.publication.facing import facing
+from modern.publication.site.pages.story import CORNERS, EXAMPLE, FIRST, plane_values
+from modern.thesis.job import run_hull
+
+# Saves a picture, given its name and SVG, and returns the name by which Typst finds it.
+SavePicture = Callable[[str, str], str]
+_CUBE = [[str(n >> k & 1) for k in (2, 1, 0)] for n in range(8)]
+
+
+def title_and_imprint() -> Iterator[str]:
+    """Yield the title page, the imprint on its back, and the contents."""
+    fields = citation()
+    thesis = _document(THESIS)
+    released, author = fields["date-released"], fields["authors"][0]["name"]
+    yield f"#set document(title: {string(fields['title'])}, author: {string(author)}, "
+    yield f"date: datetime(year: {released.year}, month: {released.month}, day: {released.day}))\n"
+    yield '#v(22%)\n#[#set text(font: sans); #set par(justify: false); #text(size: 28pt, weight: "semibold")['
+    yield f"{say('The convex hull programs of 1963')}]\n\n#v(0.6em)\n"
+    yield f"#text(size: 13pt)[{say(thesis.author)}]\n\n#text(size: 12pt)[{say(thesis.title)}]\n\n#v(2em)\n"
+    yield "#line(length: 30%, stroke: 0.8pt + accent)\n\n#v(1em)\n"
+    yield say("An edition with commentary, restored and run on an emulated IBM 1620")
+    yield f"\n\n{say(author)}]\n#pagebreak()\n"
+    yield "#v(1fr)\n#[#set text(size: 8.6pt); #set par(justify: false, leading: 0.58em)\n"
+    for text in (
+        f"{fields['title']}. Edition {fields['version']}, {released:%B} {released.day}, {released.year}.",
+        f"Published by {author}. The names of the persons are not recorded.",
+        f"Cite as: {author}, {fields['title']}, version {fields['version']}, {released.year}.",
+        f"The thesis: {_cited(thesis)} {thesis.rights}",
+        "The notes, the commentary, the verdicts and the tables of the studies are in the public domain (CC0 1.0). "
+        "Code and documents have the MIT licence. Listings, prints and quotations belong to their authors and "
+        "publishers and are quoted as the objects of study. The file LICENSE of the source names each part.",
+        "The editors worked from an OCR text of the thesis and have not seen its pages.",
+        "Set by Typst in IBM Plex (SIL Open Font License 1.1) as PDF/A-2a. The same sources give the same file.",
+    ):
+        yield say(text) + "\n\n"
+    yield "]\n#pagebreak()\n#outline(title: [Contents], depth: 2)\n"
+
+
+def how_to_read() -> Iterator[str]:
+    """Yield the explanation of the signs of the listings, of the notes and of the references."""
+    card = next(card for card in facing("program3").cards if card.place == "131+2")
+    piece = card.witness[0]
+    witness, rows_of_card = f"{piece.line}: {piece.text.strip()}", say(", ".join(card.rows))
+    sample = f"#card([{say(card.place)}], [{say('≠')}], {string(card.text)}, {string(witness)}, [{rows_of_card}])"
+    yield say(
+        "The story and the article can be read without the rest. The listings are for readers who want to check them: "
+        "every card is shown with its place, and with the text from which it was restored if that text differs."
+    )
+    yield f"\n\n#block(above: 10pt, below: 10pt, width: 70%, [{sample}])\n\n"
+    rows = (
+        ("131+2", "the place of the card: the second statement after statement 131; references use it"),
+        ("≠", "the card differs from the OCR text; + marks a card that the OCR text lacks"),
+        ("second line", "the line of the OCR text with its number, and the rows of the apparatus that correct it"),
+        (
+            "right column",
+            "the commentary: the purpose of a block of cards, and the steps of chapter 3 in it",
+        ),
+        ("p. 64", "a rule with this text marks the beginning of a page of the thesis"),
+        ("a → b", "in a note: the reading of the OCR text and that of the edition"),
+        ("certain, probable, conjecture", "how sure a reading is; the glossary defines these and all other terms"),
+        ("thesis.16", "statement 16 of the register of verdicts; the other documents have their own names"),
+    )
+    yield table([say("sign"), say("meaning")], [[say(a), say(b)] for a, b in rows], (29, 110), (14, 14))
+    yield say("A number after a reference is the page of this book. The site has the same text and runs the programs.")
+    yield "\n\n"
+
+
+def made(argument: str, save: SavePicture) -> str:
+    """Return the printed form of a figure of the essay (``story card``, ``home verdicts``, ...), or an empty text."""
+    makers: dict[str, Callable[[SavePicture], str]] = {
+        "story card": _card,
+        "story growth": _growth,
+        "story truncation": _truncation,
+        "story cube": _cube,
+        "home pictures": _mended,
+        "home verdicts": _verdicts,
+    }
+    return makers[argument](save) if argument in makers else ""
+
+
+def _table(caption: str, head: tuple[str, ...], rows: list[list[str]], widths: tuple[int, ...], right: range) -> str:
+    content = table([say(name) for name in head], rows, widths, right=right).strip()
+    return f"#figure([{content}], caption: [{say(caption)}])\n\n"
+
+
+def _picture(file: str, caption: str, width: str) -> str:
+    return f"#picture({string(file)}, {string(caption)}, width: {width})\n\n"
+
+
+def _card(save: SavePicture) -> str:
+    deck = input_deck(EXAMPLE)
+    svg = cards_svg(type(deck)(deck.source, deck.cards[1:2]), title="a punched data card")
+    return _picture(save("essay-card", svg), f"The first point of example {EXAMPLE} on a punched card", "92%")
+
+
+def _growth(save: SavePicture) -> str:
+    points = parse_input(input_deck(EXAMPLE).text(), f"example{EXAMPLE}").points
+    svg = strip(frames(convex_hull(points, "exact", history=True)))
+    return _picture(save("essay-growth", svg), f"The hull of example {EXAMPLE} grows in the order of program 3", "64%")
+
+
+def _truncation(save: SavePicture) -> str:
+    rows = []
+    for x in (95, 320, 590, 635, 815, 905):
+        points = ((x, *FIRST), *CORNERS)
+        (exact, _), (machine, values) = (plane_values(name, points) for name in ("exact", "truncating"))
+        rows.append([say(str(cell)) for cell in (x, exact, machine, *values)])
+    others = " and ".join(f"({', '.join(map(str, point))})" for point in CORNERS)
+    caption = f"The plane through (x, {FIRST[0]}, {FIRST[1]}), {others}, as program 3 calculates it. "
+    caption += "Its value at each of the three points should be zero."
+    head = ("x", "D, exactly", "D in eight digits", "first point", "second", "third")
+    return _table(caption, head, rows, (4, 14, 18, 14, 14, 14), range(6))
+
+
+def _cube(save: SavePicture) -> str:
+    run = run_hull(data_deck(_CUBE, "cube"), programs.program)
+    typed = [event.text for step in run.steps for event in step.result.events if event.what == "type"]
+    hull = convex_hull([tuple(map(int, corner)) for corner in _CUBE], "exact")
+    drawn = _picture(save("essay-cube", draw_svg(hull, width=360)), "The unit cube, which program 3 cannot do", "38%")
+    return drawn + block("\n".join(typed), "8pt")
+
+
+def _mended(save: SavePicture) -> str:
+    cards = {card.place: card for card in facing("program3").cards}
+    shown = [cards[place] for place in ("105+3", "130", "131+2", "143", "167")]
+    rows = [[code(card.witness[0].text.strip()), "→", code(card.text.strip())] for card in shown]
+    caption = "Five damaged lines and the cards restored from them"
+    return _table(caption, ("OCR text", "", "restored card"), rows, (40, 2, 40), range(0))
+
+
+def _verdicts(save: SavePicture) -> str:
+    rows = []
+    for name in DOCUMENTS:
+        count = counts(name)
+        rows.append([say(_document(name).author), *(say(str(count[verdict])) for verdict in COLUMNS)])
+    caption = "The verdicts on the statements of the five documents"
+    return _table(caption, ("document", *COLUMNS), rows, (34, *map(len, COLUMNS)), range(1, 1 + len(COLUMNS)))
+
+
+def bibliography(literature: str, persons: Mapping[str, str]) -> Iterator[str]:
+    """Yield the documents of this edition, from SOURCES.toml, and then ``literature``, which is Typst markup.
+
+    ``persons`` are the entries of the index by the surnames of the authors.
+    """
+    yield heading("The five documents", 2, label("bibliography", "documents"))
+    for document in sources().documents:
+        marks = "".join(f"#idx({string(entry)});" for name, entry in persons.items() if name in document.author)
+        yield f"#entry[{marks}{say(_cited(document))} {say(document.held + '.')}]\n\n"
+    yield heading("Other literature", 2, label("bibliography", "literature"))
+    yield literature
+
+
+def _cited(document: Document) -> str:
+    """Return a document as a bibliographic entry; unknown fields are named as unknown."""
+    volume = f", {document.volume}" if document.volume not in ("", "unknown") else ""
+    pages = f", pp. {document.extent}" if document.extent != "unknown" else ", volume and pages unknown"
+    doi = f" doi:{document.doi}." if document.doi.startswith("10.") else ""
+    kind = document.kind[:1].upper() + document.kind[1:]
+    place = f"{document.institution}{volume}{pages}. {document.year}.{doi}"
+    return f"{document.author}, “{document.title}”. {kind}. {place}"
+
+
+def _document(name: str) -> Document:
+    """Return a document of SOURCES.toml by its name on the command line."""
+    return next(d for d in sources().documents if d.id.startswith("butler" if name == THESIS else name))
