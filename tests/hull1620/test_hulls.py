@@ -15,35 +15,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from hull1620 import (
-    EmulatorError,
-    ExportError,
-    Hull,
-    HullRefused,
-    PointsError,
-    convex_hull,
-    data_deck,
-    digital_hull,
-    draw,
-    exact_hull,
-    load_program,
-    read_hull,
-    read_points,
-    run_hull,
-    save,
-    voxel_hull,
-)
+import hull1620
 
 CUBE = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)]
 SQUARE = [(0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1), (1, 1, 1), (1, 0, 1)]
 DOUBLES = np.random.default_rng(1963).normal(size=(30, 3))
-BOTH = (convex_hull, exact_hull)
+BOTH = (hull1620.convex_hull, hull1620.exact_hull)
 
 small = st.integers(-6, 6)
 sets = st.lists(st.tuples(small, small, small), min_size=1, max_size=14)
 
 
-def parts(hull: Hull) -> tuple[object, ...]:
+def parts(hull: hull1620.Hull) -> tuple[object, ...]:
     """Return the content of a hull, independent of its order."""
     faces = {(face.lowest, frozenset(face.polygon), frozenset(face.on)) for face in hull.faces}
     groups = [frozenset(group.tolist()) for group in (hull.vertices, hull.boundary, hull.inside)]
@@ -53,7 +36,7 @@ def parts(hull: Hull) -> tuple[object, ...]:
 @settings(deadline=None, max_examples=150)
 @given(sets)
 def test_the_procedure_and_the_judge_have_the_same_hull(points: list[tuple[int, int, int]]) -> None:
-    ours, judged = convex_hull(points), exact_hull(points)
+    ours, judged = hull1620.convex_hull(points), hull1620.exact_hull(points)
     if len(set(points)) > 3 or ours.dimension < 2:
         assert parts(ours) == parts(judged)
     assert (ours.volume, ours.area) == (judged.volume, judged.area)
@@ -81,14 +64,14 @@ def test_coordinates_may_have_any_real_type(hull_of: Any) -> None:
 @pytest.mark.parametrize("hull_of", BOTH)
 @pytest.mark.parametrize("nothing", [[], (), iter([]), np.empty((0, 3)), np.empty(0), np.empty((0, 3), int)])
 def test_no_points_always_raise_the_same_error(hull_of: Any, nothing: Any) -> None:
-    with pytest.raises(PointsError, match=r"^there are no points$"):
+    with pytest.raises(hull1620.PointsError, match=r"^there are no points$"):
         hull_of(nothing)
 
 
-@pytest.mark.parametrize("hull_of", [digital_hull, voxel_hull])
+@pytest.mark.parametrize("hull_of", [hull1620.digital_hull, hull1620.voxel_hull])
 @pytest.mark.parametrize("nothing", [np.zeros((2, 2, 2)), np.empty((0, 3, 3)), np.zeros((3, 3, 3), bool)])
 def test_no_voxels_raise_the_same_error_as_no_points(hull_of: Any, nothing: Any) -> None:
-    with pytest.raises(PointsError, match=r"^there are no points$"):
+    with pytest.raises(hull1620.PointsError, match=r"^there are no points$"):
         hull_of(nothing)
 
 
@@ -110,7 +93,7 @@ def test_arrays_have_the_content_of_those_of_qhull(hull_of: Any) -> None:
 
 
 def test_arrays_are_read_only() -> None:
-    hull = exact_hull(CUBE)
+    hull = hull1620.exact_hull(CUBE)
     for array in (hull.points, hull.vertices, hull.boundary, hull.inside, hull.simplices, hull.equations):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
@@ -135,46 +118,49 @@ def test_volume_and_area_are_exact(hull_of: Any) -> None:
 
 
 def test_a_refusal_has_the_incomplete_result() -> None:
-    with pytest.raises(HullRefused, match=r"^no hull in float64: DATA NOT ACCEPTABLE, decided at") as caught:
-        convex_hull(DOUBLES, "float64")
-    returned = convex_hull(DOUBLES, "float64", on_refusal="return")
-    assert isinstance(caught.value.result, Hull)
+    with pytest.raises(hull1620.HullRefused, match=r"^no hull in float64: DATA NOT ACCEPTABLE, decided at") as caught:
+        hull1620.convex_hull(DOUBLES, "float64")
+    returned = hull1620.convex_hull(DOUBLES, "float64", on_refusal="return")
+    assert isinstance(caught.value.result, hull1620.Hull)
     assert caught.value.result == returned
     assert (returned.determined, returned.statement) == (False, "program3 119")
     assert repr(returned) == "<no hull: DATA NOT ACCEPTABLE at program3 119; 30 points, float64>"
     assert returned._repr_svg_() is None
     for what in ("simplices", "equations", "volume", "area"):
-        with pytest.raises(ExportError, match="there is no hull: DATA NOT ACCEPTABLE"):
+        with pytest.raises(hull1620.ExportError, match="there is no hull: DATA NOT ACCEPTABLE"):
             getattr(returned, what)
-    assert convex_hull(DOUBLES, "float64", epsilon=1e-9).determined
+    assert hull1620.convex_hull(DOUBLES, "float64", epsilon=1e-9).determined
     with pytest.raises(ValueError, match="on_refusal"):
-        convex_hull(CUBE, on_refusal="ignore")  # type: ignore[arg-type]
+        hull1620.convex_hull(CUBE, on_refusal="ignore")  # type: ignore[arg-type]
 
 
 def test_an_epsilon_that_merges_too_many_faces_is_refused_and_every_determined_hull_has_a_volume() -> None:
     points = np.random.default_rng(4).integers(-9, 10, (30, 3))
-    hulls = [convex_hull(points, "float64", epsilon=e, on_refusal="return") for e in range(0, 400, 20)]
+    hulls = [hull1620.convex_hull(points, "float64", epsilon=e, on_refusal="return") for e in range(0, 400, 20)]
     refused = [hull for hull in hulls if hull.status == "the faces do not form a closed surface"]
     assert 0 < len(refused) < len(hulls)
     for hull in hulls:
         if hull.determined:
-            assert 0 <= hull.volume <= exact_hull(points).volume * 2
+            assert 0 <= hull.volume <= hull1620.exact_hull(points).volume * 2
     e = 20 * hulls.index(refused[0])
     with pytest.raises(
-        HullRefused, match=r"do not form a closed surface, decided at .*; a smaller epsilon may find a hull"
+        hull1620.HullRefused, match=r"do not form a closed surface, decided at .*; a smaller epsilon may find a hull"
     ):
-        convex_hull(points, "float64", epsilon=e)
+        hull1620.convex_hull(points, "float64", epsilon=e)
 
 
 @pytest.mark.parametrize("epsilon", [-1, "-1", "", "rel:x", "rel:-1", "nan", float("nan"), True, [1], b"1", "1/0"])
 def test_an_invalid_epsilon_is_an_input_error(epsilon: Any) -> None:
-    for call in (lambda: convex_hull(CUBE, epsilon=epsilon), lambda: data_deck(CUBE, epsilon=epsilon)):
-        with pytest.raises(EmulatorError, match=r"^epsilon: [^\n]*$"):
+    for call in (
+        lambda: hull1620.convex_hull(CUBE, epsilon=epsilon),
+        lambda: hull1620.data_deck(CUBE, epsilon=epsilon),
+    ):
+        with pytest.raises(hull1620.EmulatorError, match=r"^epsilon: [^\n]*$"):
             call()
 
 
 def test_an_area_works_with_numpy_and_fractions_and_keeps_its_digits() -> None:
-    corner = exact_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    corner = hull1620.exact_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
     assert corner.area / corner.volume == pytest.approx(14.19615242270663)
     assert np.sqrt(corner.area) ** 2 == pytest.approx(2.366025403784439)
     again = pickle.loads(pickle.dumps(corner.area))
@@ -213,48 +199,48 @@ def test_an_accepted_hull_of_very_large_or_small_numbers_can_be_used(hull_of: An
     assert not np.isnan(hull.equations).any()
     assert len(hull.exact_points) == len(points)
     for extension in ("off", "obj", "ply", "stl", "json", "html", "svg"):
-        with suppress(ExportError):
+        with suppress(hull1620.ExportError):
             hull.save(tmp_path / f"hull.{extension}", digits=9)
 
 
 def test_all_functions_draw_the_same_picture() -> None:
-    hull = exact_hull(CUBE)
-    assert hull._repr_svg_() == hull.draw() == draw(CUBE) == draw(hull)
+    hull = hull1620.exact_hull(CUBE)
+    assert hull._repr_svg_() == hull.draw() == hull1620.draw(CUBE) == hull1620.draw(hull)
     assert hull.draw().startswith("<svg ")
-    assert hull.draw(eye=(1, 2.5, np.float32(3)), title="a cube") == draw(CUBE, (2, 5, 6), "a cube")
-    with pytest.raises(ExportError, match="has three numbers, not 2"):
+    assert hull.draw(eye=(1, 2.5, np.float32(3)), title="a cube") == hull1620.draw(CUBE, (2, 5, 6), "a cube")
+    with pytest.raises(hull1620.ExportError, match="has three numbers, not 2"):
         hull.draw(eye=(1, 2))
 
 
 def test_the_options_determine_the_content_of_a_picture() -> None:
     points = [*CUBE, (1, 1, 1)]
-    whole, without = draw(points), draw(points, labels="none", hidden=False, others=False)
+    whole, without = hull1620.draw(points), hull1620.draw(points, labels="none", hidden=False, others=False)
     assert ('class="inside"' in whole, 'class="inside"' in without) == (True, False)
     assert ('class="numbers"' in whole, 'class="numbers"' in without) == (True, False)
-    assert exact_hull(points).draw(width=900).startswith('<svg xmlns="http://www.w3.org/2000/svg" width="900"')
+    assert hull1620.exact_hull(points).draw(width=900).startswith('<svg xmlns="http://www.w3.org/2000/svg" width="900"')
 
 
 def test_the_variant_of_the_text_has_the_same_volume() -> None:
     points = np.random.default_rng(7).integers(-9, 10, (14, 3))
-    hull = convex_hull(points, text=True)
-    assert hull.volume == exact_hull(points).volume
+    hull = hull1620.convex_hull(points, text=True)
+    assert hull.volume == hull1620.exact_hull(points).volume
     assert hull.corrected == hull.record.corrected
 
 
 @pytest.mark.parametrize("ending", ["off", "obj", "ply", "stl", "json", "svg"])
 def test_the_extension_determines_the_saved_format(ending: str, tmp_path: Path) -> None:
     path = tmp_path / f"cube.{ending}"
-    exact_hull(CUBE).save(path)
+    hull1620.exact_hull(CUBE).save(path)
     first = path.read_text(encoding="ascii")
-    save(CUBE, str(path))
+    hull1620.save(CUBE, str(path))
     assert path.read_text(encoding="ascii") == first != ""
-    with pytest.raises(ExportError, match="must end with"):
-        save(CUBE, tmp_path / "cube.3ds")
+    with pytest.raises(hull1620.ExportError, match="must end with"):
+        hull1620.save(CUBE, tmp_path / "cube.3ds")
     assert [found.name for found in tmp_path.iterdir()] == [path.name]
 
 
 def test_the_record_of_an_exact_hull_is_complete(tmp_path: Path) -> None:
-    save(SQUARE, tmp_path / "square.json")
+    hull1620.save(SQUARE, tmp_path / "square.json")
     held = json.loads((tmp_path / "square.json").read_text(encoding="ascii"))
     assert (held["status"], held["plane"], held["inside"]) == ("determined", ["0", "0", "1", "-1"], [4])
     assert {tuple(face["coefficients"]) for face in held["faces"]} == {
@@ -268,23 +254,23 @@ def test_the_record_of_an_exact_hull_is_complete(tmp_path: Path) -> None:
 def test_points_become_cards_and_punched_cards_become_a_hull(tmp_path: Path) -> None:
     path = tmp_path / "points.csv"
     path.write_text("0,0,0\n4,0,0\n0,4,0\n0,0,4\n1,1,1\n.5,1,1\n", encoding="ascii")
-    points = read_points(path)
-    deck = data_deck(points)
-    run = run_hull(deck)
+    points = hull1620.read_points(path)
+    deck = hull1620.data_deck(points)
+    run = hull1620.run_hull(deck)
     assert run.complete
-    assert len(read_hull(run.final.result.punched).vertices) == len(exact_hull(points).vertices) == 4
-    assert data_deck([(0.5, 0, 0)]).cards[1].text.startswith("+.50000000E+00")
-    assert data_deck([(0, 0, 0)], epsilon=0.125).cards[0].text == " 1+.12500000E+00"
+    assert len(hull1620.read_hull(run.final.result.punched).vertices) == len(hull1620.exact_hull(points).vertices) == 4
+    assert hull1620.data_deck([(0.5, 0, 0)]).cards[1].text.startswith("+.50000000E+00")
+    assert hull1620.data_deck([(0, 0, 0)], epsilon=0.125).cards[0].text == " 1+.12500000E+00"
     with pytest.raises(ValueError, match="55 significant digits"):
-        data_deck([(0.1, 0, 0)])
-    assert data_deck([(0.1, 0, 0)], truncate=True).cards[1].text.startswith("+.10000000E+00")
-    assert run_hull(data_deck(points, epsilon="1e-3"), layers=("epsilon",)).complete
+        hull1620.data_deck([(0.1, 0, 0)])
+    assert hull1620.data_deck([(0.1, 0, 0)], truncate=True).cards[1].text.startswith("+.10000000E+00")
+    assert hull1620.run_hull(hull1620.data_deck(points, epsilon="1e-3"), layers=("epsilon",)).complete
 
 
 def test_a_run_of_60_points_warns_and_its_refusal_explains() -> None:
     points = np.random.default_rng(1).integers(-9, 10, (60, 3))
     with pytest.warns(UserWarning, match="N is 60; the programs accept 1 to 51 points"):
-        run = run_hull(data_deck(points))
+        run = hull1620.run_hull(hull1620.data_deck(points))
     assert not run.complete
     assert "X(52)" in run.refusal
     assert run.refusal in repr(run)
@@ -292,16 +278,20 @@ def test_a_run_of_60_points_warns_and_its_refusal_explains() -> None:
 
 
 def test_a_program_of_the_thesis_is_loaded_by_its_name() -> None:
-    assert load_program("program3").source == "program3.f"
-    assert load_program("program3", ("epsilon",)).statements != load_program("program3").statements
-    with pytest.raises(EmulatorError, match="no program is called 'program4'; the names are program1, program2"):
-        load_program("program4")
+    assert hull1620.load_program("program3").source == "program3.f"
+    assert hull1620.load_program("program3", ("epsilon",)).statements != hull1620.load_program("program3").statements
+    with pytest.raises(
+        hull1620.EmulatorError, match="no program is called 'program4'; the names are program1, program2"
+    ):
+        hull1620.load_program("program4")
 
 
-@pytest.mark.parametrize("call", [lambda: convex_hull(CUBE, fast=True), lambda: exact_hull(CUBE, fast=True)])
+@pytest.mark.parametrize(
+    "call", [lambda: hull1620.convex_hull(CUBE, fast=True), lambda: hull1620.exact_hull(CUBE, fast=True)]
+)
 def test_fast_without_numba_is_an_error_for_every_input(call: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
-    with pytest.raises(EmulatorError, match=r"needs numba: pip install 'hull1620\[fast\]'"):
+    with pytest.raises(hull1620.EmulatorError, match=r"needs numba: pip install 'hull1620\[fast\]'"):
         call()
 
 
@@ -311,7 +301,7 @@ def test_an_image_of_simpleitk_has_its_hull_in_its_coordinates() -> None:
     image.SetSpacing((0.5, 2, 1))
     image.SetOrigin((10, 20, 30))
     image.SetDirection((0, -1, 0, 1, 0, 0, 0, 0, 1))
-    hull = voxel_hull(image)
+    hull = hull1620.voxel_hull(image)
     assert hull.volume == 24
     # The axis x has the direction (0, 1, 0), and y (-1, 0, 0).
     assert hull.points.min(axis=0).tolist() == [5, 19.75, 29.5]
@@ -321,6 +311,6 @@ def test_an_image_of_simpleitk_has_its_hull_in_its_coordinates() -> None:
 def test_the_solidity_of_voxels_is_a_fraction() -> None:
     solid = np.zeros((3, 3, 3), bool)
     solid[[0, 2, 1], [0, 0, 1], [0, 0, 0]] = True
-    hull = digital_hull(solid)
+    hull = hull1620.digital_hull(solid)
     assert (hull.voxels, hull.solidity) == (4, Fraction(3, 4))
-    assert digital_hull(np.ones((2, 2, 2))).solidity == 1
+    assert hull1620.digital_hull(np.ones((2, 2, 2))).solidity == 1

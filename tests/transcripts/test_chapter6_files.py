@@ -6,28 +6,17 @@ from pathlib import Path
 
 import pytest
 
+from modern.edition import chapter6_cards
 from modern.edition.__main__ import main
 from modern.edition.apparatus import Line
 from modern.edition.chapter6 import chapter6_folder
-from modern.edition.chapter6_cards import (
-    Chapter,
-    TranscriptError,
-    built_files,
-    card_images,
-    cards,
-    device_files,
-    load_chapter,
-    printed_lines,
-    rebuilt,
-    write_files,
-)
 from modern.edition.chapter6_checks import check_arithmetic, check_chapter, check_files, check_tie
 
-CHAPTER = load_chapter()
-NAMES = [name for *_, name in device_files(CHAPTER)]
+CHAPTER = chapter6_cards.load_chapter()
+NAMES = [name for *_, name in chapter6_cards.device_files(CHAPTER)]
 
 
-def altered(line: str, old: str, new: str) -> Chapter:
+def altered(line: str, old: str, new: str) -> chapter6_cards.Chapter:
     """The chapter with one fragment of one line of the corrected print changed."""
     lines = tuple(Line(w.id, w.text.replace(old, new, 1), w.page) if w.id == line else w for w in CHAPTER.print)
     assert lines != CHAPTER.print
@@ -38,10 +27,10 @@ def test_the_chapter_has_no_fault() -> None:
     assert check_chapter(CHAPTER) == ()
 
 
-@pytest.mark.parametrize(("example", "program", "device", "name"), device_files(CHAPTER), ids=NAMES)
+@pytest.mark.parametrize(("example", "program", "device", "name"), chapter6_cards.device_files(CHAPTER), ids=NAMES)
 def test_committed_file_equals_its_build(example: int, program: int, device: str, name: str) -> None:
     committed = chapter6_folder().joinpath(*name.split("/")).read_bytes()
-    images = card_images(CHAPTER, example, program, device)
+    images = chapter6_cards.card_images(CHAPTER, example, program, device)
     assert committed.decode("ascii") == "".join(image + "\n" for image in images)
     assert all(image == image.rstrip() and len(image) <= 80 and "\t" not in image for image in images)
 
@@ -56,13 +45,13 @@ def test_no_other_device_file_is_committed() -> None:
 def test_cards_have_the_characters_of_the_print(entry) -> None:  # type: ignore[no-untyped-def]
     """Compare the committed file with the built lines, without the card reader."""
     committed = chapter6_folder().joinpath(*entry.file.split("/")).read_text(encoding="ascii")
-    printed = "".join(line.text for line in printed_lines(CHAPTER, entry))
+    printed = "".join(line.text for line in chapter6_cards.printed_lines(CHAPTER, entry))
     assert "".join(committed.split()) == "".join(printed.split())
 
 
 def test_printed_columns_are_the_nonblank_columns() -> None:
-    for example, program, device, _ in device_files(CHAPTER):
-        for card in cards(CHAPTER, example, program, device):
+    for example, program, device, _ in chapter6_cards.device_files(CHAPTER):
+        for card in chapter6_cards.cards(CHAPTER, example, program, device):
             if device == "typewriter":
                 assert not card.tokens
                 continue
@@ -83,19 +72,23 @@ def test_printed_columns_are_the_nonblank_columns() -> None:
     ],
 )
 def test_typed_line_as_chapter_5_states_it(example: int, typed: str) -> None:
-    assert card_images(CHAPTER, example, 1, "typewriter") == (typed,)
+    assert chapter6_cards.card_images(CHAPTER, example, 1, "typewriter") == (typed,)
 
 
 @pytest.mark.parametrize(("example", "program"), [(4, 2), (5, 3), (6, 3)])
 def test_programs_2_and_3_type_nothing(example: int, program: int) -> None:
-    assert card_images(CHAPTER, example, program, "typewriter") == ()
+    assert chapter6_cards.card_images(CHAPTER, example, program, "typewriter") == ()
 
 
 def _digits() -> list[tuple[str, str, str]]:
     """Alter one digit of the first and of the last number of every printed device file."""
     places = []
     for entry in CHAPTER.layout.devices:
-        found = [(line.id, n) for line in printed_lines(CHAPTER, entry) for n in re.findall(r"\.\d{8}E...", line.text)]
+        found = [
+            (line.id, n)
+            for line in chapter6_cards.printed_lines(CHAPTER, entry)
+            for n in re.findall(r"\.\d{8}E...", line.text)
+        ]
         for line, number in (found[0], found[-1]) if found else ():
             digit = number[1]
             places.append((line, number, number.replace(digit, str((int(digit) + 1) % 10), 1)))
@@ -142,18 +135,18 @@ def test_guard_a_reversed_plane_is_caught() -> None:
 
 def test_guard_an_unused_line_is_caught() -> None:
     layout = dataclasses.replace(CHAPTER.layout, headings=CHAPTER.layout.headings[1:])
-    assert check_tie(rebuilt(CHAPTER.text, layout)) == (
+    assert check_tie(chapter6_cards.rebuilt(CHAPTER.text, layout)) == (
         "line 1 of the corrected print belongs to no card and no heading",
     )
 
 
 def test_guard_a_line_used_twice_is_caught() -> None:
     layout = dataclasses.replace(CHAPTER.layout, headings=(*CHAPTER.layout.headings, "58"))
-    assert check_tie(rebuilt(CHAPTER.text, layout)) == ("line 58 of the corrected print is used twice",)
+    assert check_tie(chapter6_cards.rebuilt(CHAPTER.text, layout)) == ("line 58 of the corrected print is used twice",)
 
 
 def test_guard_a_changed_device_file_is_caught(tmp_path: Path) -> None:
-    write_files(CHAPTER, tmp_path)
+    chapter6_cards.write_files(CHAPTER, tmp_path)
     assert check_files(CHAPTER, tmp_path) == ()
     path = tmp_path / "example5" / "program3.punch"
     path.write_text(path.read_text().replace(".24000000E+02", ".24000001E+02"))
@@ -165,9 +158,9 @@ def test_guard_a_changed_device_file_is_caught(tmp_path: Path) -> None:
 
 
 def test_written_files_are_the_built_ones(tmp_path: Path) -> None:
-    names = write_files(CHAPTER, tmp_path)
+    names = chapter6_cards.write_files(CHAPTER, tmp_path)
     assert names == tuple(NAMES)
-    assert {n: (tmp_path / n).read_text() for n in names} == dict(built_files(CHAPTER))
+    assert {n: (tmp_path / n).read_text() for n in names} == dict(chapter6_cards.built_files(CHAPTER))
     assert not list(tmp_path.rglob("*.new"))
 
 
@@ -181,15 +174,15 @@ def test_written_files_are_the_built_ones(tmp_path: Path) -> None:
     ],
 )
 def test_a_print_that_does_not_fit_is_one_clear_line(line: str, old: str, new: str, message: str) -> None:
-    with pytest.raises(TranscriptError, match=message) as caught:
-        card_images(altered(line, old, new), 2, 1, "punch")
+    with pytest.raises(chapter6_cards.TranscriptError, match=message) as caught:
+        chapter6_cards.card_images(altered(line, old, new), 2, 1, "punch")
     assert "\n" not in str(caught.value)
     assert str(caught.value).startswith("example2/program1.punch: ")
 
 
 def test_unknown_device_is_one_clear_line() -> None:
-    with pytest.raises(TranscriptError, match=r"^chapter 6 has no punch for example 7, program 1$"):
-        card_images(CHAPTER, 7, 1, "punch")
+    with pytest.raises(chapter6_cards.TranscriptError, match=r"^chapter 6 has no punch for example 7, program 1$"):
+        chapter6_cards.card_images(CHAPTER, 7, 1, "punch")
 
 
 def test_the_command_line_checks_and_rejects_wrong_options(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,41 +3,33 @@
 import pytest
 
 from emulator.language import objectcode as op
-from emulator.machine.timing import (
-    COSTS,
-    FIELD_COSTS,
-    PUNCH_SECONDS,
-    READER_SECONDS,
-    TYPEWRITER_SECONDS,
-    Timing,
-    measure,
-)
+from emulator.machine import timing
 from emulator.objectdeck.extent import code_positions
 from tests.support.deckwork import machine
 
 
-def timed(*lines: str, data: tuple[str, ...] = ()) -> Timing:
+def timed(*lines: str, data: tuple[str, ...] = ()) -> timing.Timing:
     made = machine(*lines, data=data)
-    return measure(made.program, made.run())
+    return timing.measure(made.program, made.run())
 
 
 def test_costs_of_arithmetic_are_those_of_the_executed_traces() -> None:
     """From traces of IBM's subroutines: FMP 18.3, FDV 54, FSB 12.4, FAD 8.9 to 10.1."""
-    assert COSTS["FMP"].milliseconds == 18.3
-    assert COSTS["FDV"].milliseconds == 54.0
-    assert COSTS["FSB"].milliseconds == 12.4
-    assert 8.9 <= COSTS["FAD"].milliseconds <= 10.1
-    assert not any(COSTS[name].estimated for name in ("FAD", "FSB", "FMP", "FDV"))
+    assert timing.COSTS["FMP"].milliseconds == 18.3
+    assert timing.COSTS["FDV"].milliseconds == 54.0
+    assert timing.COSTS["FSB"].milliseconds == 12.4
+    assert 8.9 <= timing.COSTS["FAD"].milliseconds <= 10.1
+    assert not any(timing.COSTS[name].estimated for name in ("FAD", "FSB", "FMP", "FDV"))
 
 
 def test_device_speeds_are_those_of_the_reference_card() -> None:
     """Reference card X26-5743-2: 250 and 125 cards a minute, 10 characters a second."""
-    assert (READER_SECONDS, PUNCH_SECONDS, TYPEWRITER_SECONDS) == (0.24, 0.48, 0.1)
+    assert (timing.READER_SECONDS, timing.PUNCH_SECONDS, timing.TYPEWRITER_SECONDS) == (0.24, 0.48, 0.1)
 
 
 def test_every_operation_has_a_cost() -> None:
-    assert set(COSTS) == set(op.NAMES)
-    assert set(FIELD_COSTS) == {kind + way for kind in "EFI" for way in "<>"}
+    assert set(timing.COSTS) == set(op.NAMES)
+    assert set(timing.FIELD_COSTS) == {kind + way for kind in "EFI" for way in "<>"}
 
 
 def test_a_run_executes_one_stop() -> None:
@@ -74,7 +66,7 @@ def test_statements_are_counted() -> None:
 
 def test_processor_seconds_are_counts_times_costs() -> None:
     table = timed("A=2.", "DO 5 I=1,7", "B=A*A", "5 C=B/A+A", "END")
-    expected = sum(COSTS[name].milliseconds * count for name, count in table.operations) / 1000
+    expected = sum(timing.COSTS[name].milliseconds * count for name, count in table.operations) / 1000
     assert table.processor_seconds == pytest.approx(expected)
     assert table.seconds == pytest.approx(expected)
 

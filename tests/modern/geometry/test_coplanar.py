@@ -14,17 +14,7 @@ from hypothesis import strategies as st
 
 import hull1620
 from modern.formats.export import export_text
-from modern.geometry.coplanar import (
-    CoplanarError,
-    Joined,
-    coplanar,
-    distance_text,
-    join,
-    join_summary,
-    joined_mesh,
-    parse_distance,
-    root_text,
-)
+from modern.geometry import coplanar
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import Mesh, mesh, sides
 from modern.port import convex_hull
@@ -37,8 +27,8 @@ def exact(points: object) -> Hull:
     return convex_hull(points, "exact")  # type: ignore[arg-type]
 
 
-def read(points: object, within: object) -> tuple[Hull, Joined]:
-    hull, found = coplanar(exact(points), within)
+def read(points: object, within: object) -> tuple[Hull, coplanar.Joined]:
+    hull, found = coplanar.coplanar(exact(points), within)
     assert found is not None
     return hull, found
 
@@ -64,10 +54,12 @@ def test_a_dodecahedron_in_doubles_has_twelve_faces() -> None:
 
 def test_a_distance_of_zero_joins_nothing() -> None:
     hull = exact(dodecahedron())
-    found, joined = coplanar(hull, 0)
+    found, joined = coplanar.coplanar(hull, 0)
     assert joined is not None
     assert (found.faces, found.vertices, joined.square) == (hull.faces, hull.vertices, 0)
-    assert "no two of 36 faces lie within 0 of one plane; the next face is joined if E is " in join_summary(joined)
+    assert "no two of 36 faces lie within 0 of one plane; the next face is joined if E is " in coplanar.join_summary(
+        joined
+    )
 
 
 @settings(deadline=None, max_examples=40)
@@ -96,11 +88,11 @@ def test_the_joined_faces_follow_the_definition(seed: int, within: str) -> None:
     points = [tuple(draw.randrange(-9, 10) for _ in range(3)) for _ in range(draw.randrange(5, 14))]
     hull = exact(points)
     if hull.dimension < 3:
-        assert coplanar(hull, within) == (hull, None)
+        assert coplanar.coplanar(hull, within) == (hull, None)
         return
     try:
-        _, joined = coplanar(hull, within)
-    except CoplanarError:
+        _, joined = coplanar.coplanar(hull, within)
+    except coplanar.CoplanarError:
         return
     assert joined is not None
     expected, greatest = joined_faces(mesh(hull), Fraction(within))
@@ -116,14 +108,14 @@ def test_the_joined_faces_follow_the_definition(seed: int, within: str) -> None:
 
 def test_the_next_distance_joins_one_more_face() -> None:
     hull = exact([(0, 0, 0), (8, 0, 0), (0, 9, 0), (8, 9, 1), (3, 4, 12)])
-    _, first = coplanar(hull, 0)
+    _, first = coplanar.coplanar(hull, 0)
     assert first is not None
     assert first.beyond is not None
-    _, second = coplanar(hull, root_text(first.beyond))
+    _, second = coplanar.coplanar(hull, coplanar.root_text(first.beyond))
     assert second is not None
     assert len(second.groups) == len(first.groups) - 1
-    just_below = Fraction(root_text(first.beyond)) * Fraction(99, 100)
-    _, still = coplanar(hull, just_below)
+    just_below = Fraction(coplanar.root_text(first.beyond)) * Fraction(99, 100)
+    _, still = coplanar.coplanar(hull, just_below)
     assert still is not None
     assert len(still.groups) == len(first.groups)
 
@@ -135,10 +127,10 @@ def test_points_within_a_joined_face_are_left_out() -> None:
     assert sorted(len(face.polygon) for face in found.faces) == [4] * 6
     assert (sorted(found.vertices), sorted(found.boundary)) == ([*range(8)], [8, 9, 10])
     assert sorted(index for face in found.faces for index in face.on) == [8, 9, 10]
-    assert len(joined_mesh(mesh(exact([*cube, *bumps])), joined).points) == 8
+    assert len(coplanar.joined_mesh(mesh(exact([*cube, *bumps])), joined).points) == 8
     # The largest triangle on top runs up to the bump in the middle, and its plane on to twice that height.
     words = "a vertex lies at most 0.002 from its plane; 3 vertices inside joined faces are left out"
-    assert join_summary(joined).startswith(f"14 faces are joined into 6 within 0.01; {words}; the next")
+    assert coplanar.join_summary(joined).startswith(f"14 faces are joined into 6 within 0.01; {words}; the next")
 
 
 OCTAHEDRON = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
@@ -160,8 +152,8 @@ CROOKED = [(8, 1, -9), (-7, 7, 0), (3, -6, 7), (-6, 4, 5), (-9, 9, -3), (-3, 2, 
     ],
 )
 def test_unsuitable_distances_are_rejected(points: Points, within: object, message: str) -> None:
-    with pytest.raises(CoplanarError) as caught:
-        coplanar(exact(points), within)
+    with pytest.raises(coplanar.CoplanarError) as caught:
+        coplanar.coplanar(exact(points), within)
     assert str(caught.value).startswith(message)
 
 
@@ -177,29 +169,29 @@ def test_a_joined_face_with_a_hole_is_rejected() -> None:
         m = (k + 1) % 4
         faces += [(k, m, 4 + m, 4 + k), (4 + k, 4 + m, 8 + m, 8 + k), (8 + k, 8 + m, 12 + m, 12 + k)]
     pit = Mesh(3, tuple((str(x), str(y), str(z)) for x, y, z in points), tuple(faces))
-    with pytest.raises(CoplanarError, match=r"^within 1 a joined face would not be one simple polygon$"):
-        join(pit, Fraction(1))
+    with pytest.raises(coplanar.CoplanarError, match=r"^within 1 a joined face would not be one simple polygon$"):
+        coplanar.join(pit, Fraction(1))
     opened = Mesh(3, pit.points, pit.faces[1:])
-    with pytest.raises(CoplanarError, match=r"^the faces do not form a closed surface$"):
-        join(opened, Fraction(1))
-    with pytest.raises(CoplanarError, match=r"^face 1 has no area$"):
-        join(Mesh(3, pit.points, ((0, 1, 0), *pit.faces)), Fraction(1))
+    with pytest.raises(coplanar.CoplanarError, match=r"^the faces do not form a closed surface$"):
+        coplanar.join(opened, Fraction(1))
+    with pytest.raises(coplanar.CoplanarError, match=r"^face 1 has no area$"):
+        coplanar.join(Mesh(3, pit.points, ((0, 1, 0), *pit.faces)), Fraction(1))
 
 
 @given(st.fractions(0, 10**6))
 def test_a_root_is_rounded_up_to_three_digits(value: Fraction) -> None:
-    text = root_text(value)
+    text = coplanar.root_text(value)
     assert Fraction(text) ** 2 >= value
     assert Fraction(text) ** 2 <= value * Fraction(1022, 1000)
 
 
 def test_distances_are_read_and_written() -> None:
-    assert [distance_text(Fraction(value)) for value in (0.001, 1e-9, "1/3", "0.25", 5, "1/1000003")] == [
+    assert [coplanar.distance_text(Fraction(value)) for value in (0.001, 1e-9, "1/3", "0.25", 5, "1/1000003")] == [
         *("0.001", "1e-9", "1/3", "0.25", "5", "1/1000003")
     ]
-    assert distance_text(Fraction(1, 10**20 + 7)) == "1e-20"
-    assert parse_distance("1e-9") == Fraction(1, 10**9)
-    assert parse_distance(np.float32(0.5)) == parse_distance("1/2") == Fraction(1, 2)
+    assert coplanar.distance_text(Fraction(1, 10**20 + 7)) == "1e-20"
+    assert coplanar.parse_distance("1e-9") == Fraction(1, 10**9)
+    assert coplanar.parse_distance(np.float32(0.5)) == coplanar.parse_distance("1/2") == Fraction(1, 2)
 
 
 def test_the_public_hull_has_joined_faces() -> None:

@@ -9,23 +9,14 @@ from hypothesis import strategies as st
 
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import CORRECTED, Method, appel_will
-from modern.papers.appel_will.star import (
-    Image,
-    as_corrected,
-    as_printed,
-    in_one_pass,
-    on_one_ray,
-    project,
-    star_polygon,
-    vorticity,
-)
+from modern.papers.appel_will import star as stars
 
-PRINTED = Method(star=as_printed)
+PRINTED = Method(star=stars.as_printed)
 CUBE = list(product((0, 1), repeat=3))
 FIG_4 = [(1, 0, 2), (0, 0, 2), (0, 1, 1), (1, 1, 1), (0, 2, 1), (1, 2, 1), (0, 0, 0), (1, 0, 0), (1, 2, 0), (0, 2, 0)]
 
 
-def is_corner(images: list[Image]) -> bool:
+def is_corner(images: list[stars.Image]) -> bool:
     """Return True if C is a corner of the hull of C and the images, according to the exact hull."""
     return 0 in exact_hull([(0, 0, 0), *((x, y, 0) for x, y in images)]).vertices
 
@@ -35,25 +26,25 @@ images_far = st.tuples(st.integers(-(10**12), 10**12), st.integers(-(10**12), 10
 
 
 @given(st.lists(st.one_of(images_near, images_far), max_size=9))
-def test_the_corrected_test_and_the_one_pass_test_agree_with_the_exact_hull(images: list[Image]) -> None:
-    assert as_corrected(images) == in_one_pass(images) == is_corner(images)
+def test_the_corrected_test_and_the_one_pass_test_agree_with_the_exact_hull(images: list[stars.Image]) -> None:
+    assert stars.as_corrected(images) == stars.in_one_pass(images) == is_corner(images)
 
 
 @given(st.lists(images_near, min_size=1, max_size=9))
-def test_the_printed_test_differs_only_if_two_images_are_on_one_ray(images: list[Image]) -> None:
-    shared_ray = any(on_one_ray(a, b) for k, a in enumerate(images) for b in images[:k])
-    assert as_printed(images) == (as_corrected(images) or shared_ray)
+def test_the_printed_test_differs_only_if_two_images_are_on_one_ray(images: list[stars.Image]) -> None:
+    shared_ray = any(stars.on_one_ray(a, b) for k, a in enumerate(images) for b in images[:k])
+    assert stars.as_printed(images) == (stars.as_corrected(images) or shared_ray)
 
 
 @given(st.lists(images_near, min_size=1, max_size=9))
-def test_the_star_polygon_goes_around_once(images: list[Image]) -> None:
+def test_the_star_polygon_goes_around_once(images: list[stars.Image]) -> None:
     """The angles increase: the upper half turn comes first, and within each half no rotation is clockwise."""
-    star = star_polygon(images)
+    star = stars.star_polygon(images)
     assert sorted(star) == sorted(images)
     upper = [y > 0 or (y == 0 and x > 0) for x, y in star]
     assert upper == sorted(upper, reverse=True)
     for a, b, a_upper, b_upper in zip(star, star[1:], upper, upper[1:], strict=False):
-        assert a_upper != b_upper or vorticity(a, b) >= 0
+        assert a_upper != b_upper or stars.vorticity(a, b) >= 0
 
 
 @pytest.mark.parametrize(
@@ -69,9 +60,9 @@ def test_the_star_polygon_goes_around_once(images: list[Image]) -> None:
     ],
     ids=["I", "II", "I, C outside", "III", "all on one ray", "III alone", "nothing else"],
 )
-def test_the_collinear_cases_of_fig_12(images: list[Image], printed: bool, corrected: bool) -> None:
-    assert as_printed(images) == printed
-    assert as_corrected(images) == in_one_pass(images) == corrected
+def test_the_collinear_cases_of_fig_12(images: list[stars.Image], printed: bool, corrected: bool) -> None:
+    assert stars.as_printed(images) == printed
+    assert stars.as_corrected(images) == stars.in_one_pass(images) == corrected
 
 
 def test_the_printed_test_accepts_the_face_diagonals_of_a_cube() -> None:
@@ -108,8 +99,8 @@ def test_the_printed_test_adds_edges_on_most_small_grids_and_never_misses_one() 
 
 def test_a_projection_sorts_the_line_and_keeps_the_sense_of_rotation() -> None:
     points = [(0, 0, 5), (0, 0, 9), (1, 0, 3), (0, 1, -4), (0, 0, 7), (0, 0, -1)]
-    projection = project(points, (0, 1), range(6))
+    projection = stars.project(points, (0, 1), range(6))
     assert [points[index][2] for index in projection.line] == [-1, 5, 7, 9]
     assert len(projection.images) == 2
-    assert vorticity(*projection.images) > 0
-    assert vorticity(*project(points, (1, 0), range(6)).images) > 0
+    assert stars.vorticity(*projection.images) > 0
+    assert stars.vorticity(*stars.project(points, (1, 0), range(6)).images) > 0

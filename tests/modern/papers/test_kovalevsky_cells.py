@@ -10,33 +10,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modern.digital.solids import ball, half_ball
-from modern.papers.kovalevsky_schulz import (
-    INVISIBLE,
-    VISIBLE,
-    CellList,
-    CellListError,
-    Economical,
-    Flat,
-    convex_polyhedron,
-    expanded,
-    merged,
-    straightened,
-)
+from modern.papers import kovalevsky_schulz as ks
 from modern.papers.kovalevsky_schulz import cells as cells_module
 from modern.papers.kovalevsky_schulz.cells import all_rows, cube_triangles, economical_size, planes_of
 
 POINTS = st.lists(st.tuples(*[st.integers(-3, 3)] * 3), min_size=4, max_size=40)
-COPLANAR = st.sampled_from([VISIBLE, INVISIBLE])
-CUBE = Economical(
+COPLANAR = st.sampled_from([ks.VISIBLE, ks.INVISIBLE])
+CUBE = ks.Economical(
     tuple((x, y, z) for z in (0, 2) for y in (0, 2) for x in (0, 2)),
     ((1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (2, 4, 8, 6), (3, 7, 8, 4), (1, 5, 7, 3)),
 )
 
 
-def states(points: list[tuple[int, int, int]], coplanar: str) -> list[CellList]:
+def states(points: list[tuple[int, int, int]], coplanar: str) -> list[ks.CellList]:
     """Return the cell list of triangles, the merged and the straightened one, or none for points in one plane."""
-    cells = convex_polyhedron(points, coplanar)
-    return [] if isinstance(cells, Flat) else [cells, merged(cells), straightened(merged(cells))]
+    cells = ks.convex_polyhedron(points, coplanar)
+    return [] if isinstance(cells, ks.Flat) else [cells, ks.merged(cells), ks.straightened(ks.merged(cells))]
 
 
 @settings(max_examples=50)
@@ -79,11 +68,11 @@ def test_merging_gives_maximal_faces_and_straightening_removes_vertices_in_line(
 
 def test_merging_keeps_a_vertex_on_an_edge_and_drops_one_within_a_face() -> None:
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (2, 2, 4)]
-    cells = convex_polyhedron([(1, 1, 0), (2, 0, 0), *square], INVISIBLE)
-    assert isinstance(cells, CellList)
+    cells = ks.convex_polyhedron([(1, 1, 0), (2, 0, 0), *square], ks.INVISIBLE)
+    assert isinstance(cells, ks.CellList)
     assert {(1, 1, 0), (2, 0, 0)} <= set(cells.points)
-    assert set(merged(cells).points) == {(2, 0, 0), *square}
-    assert set(straightened(merged(cells)).points) == set(square)
+    assert set(ks.merged(cells).points) == {(2, 0, 0), *square}
+    assert set(ks.straightened(ks.merged(cells)).points) == set(square)
 
 
 @settings(max_examples=50)
@@ -91,18 +80,18 @@ def test_merging_keeps_a_vertex_on_an_edge_and_drops_one_within_a_face() -> None
 def test_the_economical_encoding_preserves_the_cell_list(points: list[tuple[int, int, int]], coplanar: str) -> None:
     for cells in states(points, coplanar):
         encoding = cells.economical()
-        assert expanded(encoding).economical() == encoding
+        assert ks.expanded(encoding).economical() == encoding
         assert len(encoding.integers()) == economical_size(cells) + 2 + len(cells.faces)
 
 
 def test_a_cube_is_expanded_from_its_encoding() -> None:
-    cells = expanded(CUBE)
+    cells = ks.expanded(CUBE)
     assert cells.economical() == CUBE
     assert cells.planes() == ((0, 0, -1, 0), (0, 0, 1, -2), (0, -1, 0, 0), (1, 0, 0, -2), (0, 1, 0, -2), (-1, 0, 0, 0))
     assert len(list(all_rows(cells))) == 3 + 8 + 12 + 6
 
 
-def faces(*cycles: tuple[int, ...]) -> Economical:
+def faces(*cycles: tuple[int, ...]) -> ks.Economical:
     return replace(CUBE, faces=cycles)
 
 
@@ -117,7 +106,7 @@ def faces(*cycles: tuple[int, ...]) -> Economical:
         (faces((1, 2, 4, 3), *CUBE.faces[1:]), "has a face on only one of its sides"),
         (replace(CUBE, points=(*CUBE.points, (1, 1, 1))), "vertex 9 belongs to no face"),
         (
-            Economical(
+            ks.Economical(
                 (*CUBE.points, *((x + 9, y, z) for x, y, z in CUBE.points)),
                 (*CUBE.faces, *(tuple(number + 8 for number in face) for face in CUBE.faces)),
             ),
@@ -127,21 +116,21 @@ def faces(*cycles: tuple[int, ...]) -> Economical:
         (replace(CUBE, points=((1, 1, 1), *CUBE.points[1:])), "face 1: vertex 2 lies outside of its plane"),
         (faces(*(face[::-1] for face in CUBE.faces)), "lies outside of its plane"),
         (
-            Economical(((0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0)), ((1, 2, 3), (1, 4, 2), (2, 4, 3), (1, 3, 4))),
+            ks.Economical(((0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0)), ((1, 2, 3), (1, 4, 2), (2, 4, 3), (1, 3, 4))),
             "a face has no area",
         ),
     ],
 )
-def test_encodings_of_no_convex_surface_are_rejected(encoding: Economical, message: str) -> None:
-    with pytest.raises(CellListError) as caught:
-        expanded(encoding)
+def test_encodings_of_no_convex_surface_are_rejected(encoding: ks.Economical, message: str) -> None:
+    with pytest.raises(ks.CellListError) as caught:
+        ks.expanded(encoding)
     assert message in str(caught.value)
 
 
 def test_planes_of_polygons_with_vertices_in_line() -> None:
     polygon = [(0, 0, 5), (2, 0, 5), (4, 0, 5), (4, 4, 5), (0, 4, 5)]
     assert planes_of(polygon, [range(1, 6), (5, 4, 2, 1)]) == [(0, 0, 1, -5), (0, 0, -1, 5)]
-    with pytest.raises(CellListError, match="no area"):
+    with pytest.raises(ks.CellListError, match="no area"):
         planes_of([*polygon, (1, 1, 1), (2, 2, 2), (3, 3, 3)], [range(1, 6), (6, 7, 8)])
 
 
@@ -149,11 +138,14 @@ def test_a_vertex_one_unit_outside_of_a_large_hull_is_detected() -> None:
     """The values are floats, 64-bit integers or Python's integers, and the planes are tested block by block."""
     for far in (2, 10**4, 10**6, 10**12):
         points = tuple((x * far // 2, y * far // 2, z * far // 2) for x, y, z in CUBE.points)
-        assert expanded(replace(CUBE, points=points)).points == points
+        assert ks.expanded(replace(CUBE, points=points)).points == points
         triangles = ((1, 3, 4), (1, 4, 2), *CUBE.faces[1:])
         lowered = ((0, 0, 1), *points[1:])
-        with pytest.raises(CellListError, match="lies outside of its plane"), patch.object(cells_module, "_BLOCK", 3):
-            expanded(Economical(lowered, triangles))
+        with (
+            pytest.raises(ks.CellListError, match="lies outside of its plane"),
+            patch.object(cells_module, "_BLOCK", 3),
+        ):
+            ks.expanded(ks.Economical(lowered, triangles))
 
 
 def test_marching_cubes_gives_2_n_minus_4_triangles_for_n_squares() -> None:

@@ -9,27 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from modern.claims.published import (
-    CANNOT,
-    CORRECTED,
-    EXPLAINED,
-    PAPERS,
-    Paper,
-    PublishedResult,
-    findings,
-    judge,
-    produced_by,
-    read_results,
-    results_of,
-    text_of,
-)
+from modern.claims import published
 from modern.cli.main import main
 from modern.edition.apparatus import ApparatusError
 from modern.edition.reproduce import DIFFERENT, EXACT
 
-PAPER = PAPERS[0]
-PLAIN = PublishedResult("one", "Fig. 1", "two numbers", ("1 2",), ("1 2",), ())
-ROW = next(result.rows[0] for result in results_of(PAPER) if result.rows)
+PAPER = published.PAPERS[0]
+PLAIN = published.PublishedResult("one", "Fig. 1", "two numbers", ("1 2",), ("1 2",), ())
+ROW = next(result.rows[0] for result in published.results_of(PAPER) if result.rows)
 
 
 @pytest.mark.parametrize(
@@ -39,20 +26,20 @@ ROW = next(result.rows[0] for result in results_of(PAPER) if result.rows)
         (PLAIN, ["1 3"], DIFFERENT),
         (PLAIN, ["1 2", "3"], DIFFERENT),
         (PLAIN, [], DIFFERENT),
-        (replace(PLAIN, rows=(ROW,)), ["1 2"], CORRECTED),
+        (replace(PLAIN, rows=(ROW,)), ["1 2"], published.CORRECTED),
         (replace(PLAIN, rows=(ROW,)), ["1 3"], DIFFERENT),
-        (replace(PLAIN, differs="a slip"), ["1 3"], EXPLAINED),
+        (replace(PLAIN, differs="a slip"), ["1 3"], published.EXPLAINED),
         (replace(PLAIN, differs="a slip"), ["1 2"], DIFFERENT),
         (replace(PLAIN, differs="a slip"), [], DIFFERENT),
-        (replace(PLAIN, cannot="no data"), [], CANNOT),
+        (replace(PLAIN, cannot="no data"), [], published.CANNOT),
         (replace(PLAIN, cannot="no data"), ["1 2"], DIFFERENT),
     ],
 )
-def test_verdicts(result: PublishedResult, produced: list[str], kind: str) -> None:
-    finding = judge(PAPER, result, produced)
+def test_verdicts(result: published.PublishedResult, produced: list[str], kind: str) -> None:
+    finding = published.judge(PAPER, result, produced)
     assert finding.kind == kind
     assert finding.holds == (kind != DIFFERENT)
-    assert finding.excused == (kind in (EXPLAINED, CANNOT))
+    assert finding.excused == (kind in (published.EXPLAINED, published.CANNOT))
 
 
 @pytest.mark.parametrize(
@@ -71,15 +58,15 @@ def test_every_line_of_the_print_belongs_to_one_result(tmp_path: Path, lines: tu
     entry = '[[result]]\nid = "{}"\nplace = "p. 1"\nsays = "numbers"\nlines = [{}]\n'
     (tmp_path / "results.toml").write_text(entry.format("one", lines[0]) + entry.format("two", lines[1]))
     with pytest.raises(ApparatusError) as caught:
-        read_results(PAPER, tmp_path)
+        published.read_results(PAPER, tmp_path)
     assert str(caught.value) == message
 
 
-EMENDATIONS = [(paper, row.id) for paper in PAPERS for row in text_of(paper).rows]
+EMENDATIONS = [(paper, row.id) for paper in published.PAPERS for row in published.text_of(paper).rows]
 
 
 @pytest.mark.parametrize(("paper", "row"), EMENDATIONS, ids=[row for _, row in EMENDATIONS])
-def test_every_emendation_is_needed(paper: Paper, row: str, tmp_path: Path) -> None:
+def test_every_emendation_is_needed(paper: published.Paper, row: str, tmp_path: Path) -> None:
     """Without the row a result differs, or a line belongs to no result."""
     folder = files("transcripts").joinpath(paper.folder)
     head, *rows = folder.joinpath("apparatus.toml").read_text(encoding="utf-8").split("[[row]]")
@@ -89,27 +76,29 @@ def test_every_emendation_is_needed(paper: Paper, row: str, tmp_path: Path) -> N
     for name in ("witness.txt", "results.toml"):
         (tmp_path / name).write_bytes(folder.joinpath(name).read_bytes())
     try:
-        produced = produced_by(paper)
-        results = read_results(paper, tmp_path)
-        assert DIFFERENT in [judge(paper, result, produced.get(result.id, ())).kind for result in results]
+        produced = published.produced_by(paper)
+        results = published.read_results(paper, tmp_path)
+        assert DIFFERENT in [published.judge(paper, result, produced.get(result.id, ())).kind for result in results]
     except ApparatusError:
         assert row == "AW-09", "only this row deletes lines, which belong to no result"
 
 
-@pytest.mark.parametrize("paper", PAPERS, ids=lambda paper: paper.name)
-def test_a_changed_number_is_detected(paper: Paper) -> None:
-    for finding in findings(paper):
-        if finding.kind in (EXACT, CORRECTED):
+@pytest.mark.parametrize("paper", published.PAPERS, ids=lambda paper: paper.name)
+def test_a_changed_number_is_detected(paper: published.Paper) -> None:
+    for finding in published.findings(paper):
+        if finding.kind in (EXACT, published.CORRECTED):
             *lines, last = finding.produced
-            assert judge(paper, finding.result, [*lines, f"{last}1"]).kind == DIFFERENT
+            assert published.judge(paper, finding.result, [*lines, f"{last}1"]).kind == DIFFERENT
 
 
-@pytest.mark.parametrize("paper", PAPERS, ids=lambda paper: paper.name)
-def test_the_command_reports_every_verdict(paper: Paper, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("paper", published.PAPERS, ids=lambda paper: paper.name)
+def test_the_command_reports_every_verdict(
+    paper: published.Paper, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = tmp_path / "verdicts.json"
     assert main(["reproduce", paper.name, "--json", str(path)]) == 0
     out = " ".join(capsys.readouterr().out.split())
-    verdicts = list(findings(paper))
+    verdicts = list(published.findings(paper))
     kinds = Counter(finding.kind for finding in verdicts)
     assert out.startswith(paper.title)
     assert all(f"{count} {kind}" in out for kind, count in kinds.items())
@@ -123,11 +112,11 @@ def test_a_result_that_is_not_reproduced_gives_exit_code_1(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], request: pytest.FixtureRequest
 ) -> None:
     module = import_module(PAPER.module)
-    lines = dict(produced_by(PAPER))
+    lines = dict(published.produced_by(PAPER))
     lines["fig14"] = ["1 1 3", *lines["fig14"][1:]]
     monkeypatch.setattr(module, "produced", lambda printed: lines)
-    produced_by.cache_clear()
-    request.addfinalizer(produced_by.cache_clear)
+    published.produced_by.cache_clear()
+    request.addfinalizer(published.produced_by.cache_clear)
     assert main(["reproduce", PAPER.name]) == 1
     out = capsys.readouterr().out
     assert "Fig. 14: different" in out

@@ -9,16 +9,7 @@ import pytest
 
 from modern.digital.intervals import lower_chain
 from modern.exact_hull import exact_hull
-from modern.papers.yau_srihari import octree_hull
-from modern.papers.yau_srihari.convexity import (
-    convex_deficiency,
-    half_cell_expansion,
-    is_digitally_convex,
-    is_midpoint_convex,
-    is_simple,
-    midpoint_cover,
-    voxels_of,
-)
+from modern.papers.yau_srihari import convexity, octree_hull
 from modern.papers.yau_srihari.hull import components
 from tests.support.digital_judge import random_solid, solid_of
 
@@ -38,19 +29,21 @@ def solids(count: int, side: int) -> list[np.ndarray]:
 
 
 def test_the_half_cell_expansion_has_eight_cells_per_voxel() -> None:
-    assert half_cell_expansion(solid_of([(0, 0, 0)])).all()
+    assert convexity.half_cell_expansion(solid_of([(0, 0, 0)])).all()
     for array in solids(10, 4):
         expected = {
-            tuple(a + b for a, b in zip(v, s, strict=True)) for v in voxels_of(array) for s in product((0, 1), repeat=3)
+            tuple(a + b for a, b in zip(v, s, strict=True))
+            for v in convexity.voxels_of(array)
+            for s in product((0, 1), repeat=3)
         }
-        assert set(voxels_of(half_cell_expansion(array))) == expected
+        assert set(convexity.voxels_of(convexity.half_cell_expansion(array))) == expected
 
 
 def test_simple_solids_are_connected_and_without_gaps_along_the_axes() -> None:
-    assert is_simple(solid_of([(0, 0, 0), (1, 0, 0), (1, 1, 0)]))
-    assert not is_simple(solid_of([(0, 0, 0), (2, 0, 0), (0, 1, 0), (1, 1, 0), (2, 1, 0)]))
-    assert not is_simple(solid_of([(0, 0, 0), (1, 1, 0)]))
-    assert is_simple(solid_of(RING))
+    assert convexity.is_simple(solid_of([(0, 0, 0), (1, 0, 0), (1, 1, 0)]))
+    assert not convexity.is_simple(solid_of([(0, 0, 0), (2, 0, 0), (0, 1, 0), (1, 1, 0), (2, 1, 0)]))
+    assert not convexity.is_simple(solid_of([(0, 0, 0), (1, 1, 0)]))
+    assert convexity.is_simple(solid_of(RING))
 
 
 @pytest.mark.parametrize(
@@ -59,26 +52,26 @@ def test_simple_solids_are_connected_and_without_gaps_along_the_axes() -> None:
 def test_a_midpoint_cover_doubles_for_each_odd_sum(
     x: tuple[int, int, int], y: tuple[int, int, int], cells: int
 ) -> None:
-    assert len(midpoint_cover(x, y)) == cells
+    assert len(convexity.midpoint_cover(x, y)) == cells
 
 
 def test_a_gap_in_a_row_is_not_midpoint_convex() -> None:
-    assert is_midpoint_convex(solid_of([(0, 0, 0), (1, 1, 1)]))
-    assert not is_midpoint_convex(solid_of([(0, 0, 0), (2, 0, 0)]))
+    assert convexity.is_midpoint_convex(solid_of([(0, 0, 0), (1, 1, 1)]))
+    assert not convexity.is_midpoint_convex(solid_of([(0, 0, 0), (2, 0, 0)]))
 
 
 def test_the_hulls_of_small_solids_pass_the_kim_rosenfeld_test() -> None:
     for array in solids(30, 5):
         hull = octree_hull(array).filled
-        assert is_simple(hull)
-        assert is_digitally_convex(hull)
+        assert convexity.is_simple(hull)
+        assert convexity.is_digitally_convex(hull)
 
 
 def test_the_hull_of_a_connected_solid_need_not_be_digitally_convex() -> None:
     path = solid_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0), (0, 1, 1), (0, 1, 2)])
-    assert is_simple(path)
+    assert convexity.is_simple(path)
     assert np.array_equal(octree_hull(path).filled, path)
-    assert not is_digitally_convex(path)
+    assert not convexity.is_digitally_convex(path)
 
 
 def test_the_hull_of_a_connected_solid_need_not_be_connected() -> None:
@@ -87,22 +80,22 @@ def test_the_hull_of_a_connected_solid_need_not_be_connected() -> None:
     stairs = solid_of(steps)
     assert components(stairs) == 1
     filled = octree_hull(stairs).filled
-    assert {*voxels_of(filled)} - {*steps} == {(2, 1, 1)}
+    assert {*convexity.voxels_of(filled)} - {*steps} == {(2, 1, 1)}
     assert components(filled) == 2
 
 
 def test_a_bend_and_a_ring_are_not_convex() -> None:
     bend = solid_of([*((x, 0, 0) for x in range(4)), *((0, y, 0) for y in range(1, 4))])
-    assert is_simple(bend)
-    assert not is_digitally_convex(bend)
-    assert not is_digitally_convex(solid_of(RING))
-    assert is_digitally_convex(np.ones((2, 3, 2), dtype=np.bool_))
-    assert is_digitally_convex(solid_of([(0, 0, 0), (1, 0, 0), (1, 1, 0)]))
+    assert convexity.is_simple(bend)
+    assert not convexity.is_digitally_convex(bend)
+    assert not convexity.is_digitally_convex(solid_of(RING))
+    assert convexity.is_digitally_convex(np.ones((2, 3, 2), dtype=np.bool_))
+    assert convexity.is_digitally_convex(solid_of([(0, 0, 0), (1, 0, 0), (1, 1, 0)]))
 
 
 def is_image_of_hull(region: np.ndarray) -> bool:
     """Return True if the hull of the digital points meets no closed voxel outside the region, so it is a preimage."""
-    points = voxels_of(region)
+    points = convexity.voxels_of(region)
     low, high = (tuple(f(p[k] for p in points) for k in range(3)) for f in (min, max))
     around = product(*(range(a - 1, b + 2) for a, b in zip(low, high, strict=True)))
     return all(voxel in {*points} or disjoint(points, voxel) for voxel in around)
@@ -123,7 +116,7 @@ def test_a_hull_that_meets_no_other_voxel_is_a_preimage() -> None:
 
 def test_the_solid_is_its_hull_less_its_deficiency() -> None:
     for array in solids(10, 5):
-        missing = convex_deficiency(array)
+        missing = convexity.convex_deficiency(array)
         assert np.array_equal(octree_hull(array).filled & ~missing, array)
         assert not (missing & array).any()
 

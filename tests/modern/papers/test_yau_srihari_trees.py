@@ -14,24 +14,9 @@ from hypothesis.extra import numpy as arrays
 
 from modern.digital.intervals import lower_chain
 from modern.papers.yau_srihari import Printed, octree_hull
+from modern.papers.yau_srihari import quadtree as trees
 from modern.papers.yau_srihari.envelope import outline, reduced_tree
 from modern.papers.yau_srihari.octree import QUADRANTS, Octree, count, nodes, octree, side_for, voxels_of
-from modern.papers.yau_srihari.quadtree import (
-    NO_COLUMN,
-    Leaf,
-    Quadtree,
-    bounds_by_level,
-    ceiling,
-    floor,
-    graph_side,
-    heights,
-    line,
-    mirrored,
-    no_columns,
-    sons_of,
-    with_columns,
-    written,
-)
 from modern.papers.yau_srihari.search import Search, normal_of
 from tests.support.digital_judge import random_solid, solid_of
 
@@ -87,21 +72,21 @@ def test_floor_and_ceiling_are_the_ends_of_columns(cube: np.ndarray) -> None:
     for x, y, z in np.argwhere(cube).tolist():
         lowest.setdefault((x, y), z)
         highest[x, y] = z
-    assert heights(floor(tree)) == lowest
-    assert heights(ceiling(tree)) == highest
-    assert heights(mirrored(ceiling(tree))) == {place: -z for place, z in highest.items()}
+    assert trees.heights(trees.floor(tree)) == lowest
+    assert trees.heights(trees.ceiling(tree)) == highest
+    assert trees.heights(trees.mirrored(trees.ceiling(tree))) == {place: -z for place, z in highest.items()}
 
 
-def values_hold(tree: Quadtree) -> bool:
+def values_hold(tree: trees.Quadtree) -> bool:
     """Return True if every node and every level has the least and the greatest unmarked height below it."""
-    levels = bounds_by_level(tree)
+    levels = trees.bounds_by_level(tree)
     for part, x, y, side in squares(tree, tree.side):
         columns = zip(*map(np.ravel, (part.values, part.there, part.marked)), strict=True)
         below = [int(z) for z, there, marked in columns if there and not marked]
         low, high = (grid[x // side, y // side] for grid in levels[side.bit_length() - 1])
         if (part.low, part.high) != (min(below, default=None), max(below, default=None)):
             return False
-        if (low, high) != (min(below, default=NO_COLUMN), max(below, default=-NO_COLUMN)):
+        if (low, high) != (min(below, default=trees.NO_COLUMN), max(below, default=-trees.NO_COLUMN)):
             return False
     return True
 
@@ -110,12 +95,12 @@ def values_hold(tree: Quadtree) -> bool:
 @given(CUBES)
 def test_a_line_of_a_quadtree_lists_its_columns(cube: np.ndarray) -> None:
     side = len(cube)
-    tree = floor(octree(cube))
-    columns = heights(tree)
+    tree = trees.floor(octree(cube))
+    columns = trees.heights(tree)
     assert values_hold(tree)
     for at in range(side):
-        assert list(line(tree, 0, at)) == sorted((y, z) for (x, y), z in columns.items() if x == at)
-        assert list(line(tree, 1, at)) == sorted((x, z) for (x, y), z in columns.items() if y == at)
+        assert list(trees.line(tree, 0, at)) == sorted((y, z) for (x, y), z in columns.items() if x == at)
+        assert list(trees.line(tree, 1, at)) == sorted((x, z) for (x, y), z in columns.items() if y == at)
 
 
 @FEW
@@ -123,16 +108,16 @@ def test_a_line_of_a_quadtree_lists_its_columns(cube: np.ndarray) -> None:
 def test_written_leaves_replace_those_of_the_tree(cube: np.ndarray, data: st.DataObject) -> None:
     side = len(cube)
     places = st.tuples(*[st.integers(0, side - 1)] * 2)
-    cells = data.draw(st.dictionaries(places, st.builds(Leaf, st.integers(-9, 9), st.booleans()), max_size=9))
-    tree = floor(octree(cube))
-    after = written(tree, cells)
-    assert heights(after) == heights(tree) | {place: leaf.value for place, leaf in cells.items()}
+    cells = data.draw(st.dictionaries(places, st.builds(trees.Leaf, st.integers(-9, 9), st.booleans()), max_size=9))
+    tree = trees.floor(octree(cube))
+    after = trees.written(tree, cells)
+    assert trees.heights(after) == trees.heights(tree) | {place: leaf.value for place, leaf in cells.items()}
     assert values_hold(after)
 
 
 def test_a_node_without_unmarked_leaves_has_no_value() -> None:
-    tree = written(no_columns(2), {(0, 0): Leaf(3, marked=True), (1, 0): Leaf(5, marked=True)})
-    assert heights(tree) == {(0, 0): 3, (1, 0): 5}
+    tree = trees.written(trees.no_columns(2), {(0, 0): trees.Leaf(3, marked=True), (1, 0): trees.Leaf(5, marked=True)})
+    assert trees.heights(tree) == {(0, 0): 3, (1, 0): 5}
     assert (tree.low, tree.high) == (None, None)
 
 
@@ -146,7 +131,7 @@ def test_epigraph_and_hypograph_are_the_voxels_above_and_below(columns: np.ndarr
     for above in (True, False):
         voxels = np.zeros((side, side, side), dtype=np.bool_)
         voxels[x, y] = (np.arange(side) >= z[:, None]) if above else (np.arange(side) <= z[:, None])
-        assert graph_side(with_columns(no_columns(side), x, y, z), above) == octree(voxels)
+        assert trees.graph_side(trees.with_columns(trees.no_columns(side), x, y, z), above) == octree(voxels)
 
 
 @given(st.dictionaries(st.integers(-9, 9), st.integers(-9, 9), min_size=1))
@@ -175,18 +160,18 @@ def test_an_outline_is_the_hull_of_places(places: list[tuple[int, int]], corners
 # The bounds of section 4.6.2.
 
 
-def squares(tree: Quadtree, side: int, x: int = 0, y: int = 0) -> Iterator[tuple[Quadtree, int, int, int]]:
+def squares(tree: trees.Quadtree, side: int, x: int = 0, y: int = 0) -> Iterator[tuple[trees.Quadtree, int, int, int]]:
     if tree.there.any():
         yield tree, x, y, side
         half = side // 2
-        for (i, j), son in zip(QUADRANTS, sons_of(tree), strict=True):
+        for (i, j), son in zip(QUADRANTS, trees.sons_of(tree), strict=True):
             if half:
                 yield from squares(son, half, x + i * half, y + j * half)
 
 
-def lower_tree(array: Any) -> Quadtree:
+def lower_tree(array: Any) -> trees.Quadtree:
     """Return the reduced tree in which the faces of the lower half of a solid's hull are searched."""
-    return reduced_tree(floor(octree(array)))
+    return reduced_tree(trees.floor(octree(array)))
 
 
 def violations(array: Any, printed: Printed) -> tuple[int, int, int]:
@@ -206,7 +191,7 @@ def violations(array: Any, printed: Printed) -> tuple[int, int, int]:
             least, most = search.bounds(part.low, part.high, x, y, side)
             if least is None or most is None:
                 continue
-            scores = [search.score((x + i, y + j, z)) for (i, j), z in heights(part).items()]
+            scores = [search.score((x + i, y + j, z)) for (i, j), z in trees.heights(part).items()]
             best = max(score for score in scores if score is not None)
             bounded += 1
             least_violated += best < least
@@ -239,7 +224,7 @@ def test_the_next_face_has_no_vertex_in_a_square_on_the_known_side(seed: int) ->
         for part, x, y, side in squares(tree, hull.side):
             if any(search.beyond(x + i * (side - 1), y + j * (side - 1)) for i, j in QUADRANTS):
                 continue
-            points = [(x + i, y + j, z) for (i, j), z in heights(part).items()]
+            points = [(x + i, y + j, z) for (i, j), z in trees.heights(part).items()]
             assert all(normal_of(start, end, point)[2] >= 0 for point in points)
             if step.face:
                 assert {*points} & {*step.face.vertices} <= {start, end}
@@ -260,11 +245,11 @@ def test_the_search_finds_the_best_of_all_points(seed: int) -> None:
     tree = lower_tree(array)
     for step in hull.lower.steps:
         search = Search(*step.edge, step.normal, Printed())
-        every = [(x, y, z) for (x, y), z in heights(tree).items() if search.beyond(x, y)]
+        every = [(x, y, z) for (x, y), z in trees.heights(tree).items() if search.beyond(x, y)]
         scores = {point: score for point in every if (score := search.score(point)) is not None}
         best = max(scores.values(), default=None)
         assert {*search.run(tree)} == {point for point, score in scores.items() if score == best}
-        assert Search(*step.edge, step.normal, Printed()).run(no_columns(hull.side)) == []
+        assert Search(*step.edge, step.normal, Printed()).run(trees.no_columns(hull.side)) == []
 
 
 def test_z_max_does_not_bound_the_least_angle() -> None:
@@ -294,6 +279,6 @@ def test_the_search_visits_less_than_half_of_the_nodes() -> None:
     source = np.random.default_rng(5)
     array = source.random((32, 32, 32)) < 0.02
     hull = octree_hull(array)
-    whole = sum(1 for _ in squares(reduced_tree(floor(octree(array))), 32))
+    whole = sum(1 for _ in squares(reduced_tree(trees.floor(octree(array))), 32))
     visited = [step.visited for step in hull.lower.steps]
     assert sum(visited) < len(visited) * whole / 2
