@@ -10,20 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modern.geometry.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL
+from modern.port import growth
 from modern.port.arithmetic import Arithmetic, Scalar, Vector, plane
-from modern.port.growth import (
-    LAST_PAIR,
-    LAST_REPEAT,
-    TABLE_OF_PLANES,
-    THROUGH_CENTRE,
-    Grown,
-    Progress,
-    Remaining,
-    Stopped,
-    Watcher,
-    grow,
-    stage,
-)
 from modern.port.table import Equations, PointTable, turned
 
 # The numbers of planes that the table holds in the listing and in the layer ``corrected`` (4N-11 for N = 51).
@@ -48,17 +36,17 @@ class Polyhedron:
     points: PointTable
     table: Equations
     centre: tuple[Scalar, ...] | None
-    progress: Progress
-    watch: Watcher | None = None
+    progress: growth.Progress
+    watch: growth.Watcher | None = None
     vertices: int = 4
     to_check: int = 0
-    remaining: Remaining = field(default_factory=Remaining)
+    remaining: growth.Remaining = field(default_factory=growth.Remaining)
     # True to replace the planes after the first in the order of their numbers, as the text of the thesis does (p. 32).
     text: bool = False
 
-    def run(self, grow_stage: "Callable[[Polyhedron, bool], Grown | None]" = stage) -> None:
+    def run(self, grow_stage: "Callable[[Polyhedron, bool], growth.Grown | None]" = growth.stage) -> None:
         """Expand the first tetrahedron H_1 to the hull of all points (statements 103 to 160), by ``grow_stage``."""
-        grow(self, grow_stage)
+        growth.grow(self, grow_stage)
 
     def outside_point(self) -> int | None:
         """Return the point farthest outside the first plane that has a point outside (statements 115 to 125)."""
@@ -66,7 +54,7 @@ class Polyhedron:
             # Statements 116 to 119: the three defining points must satisfy the equation exactly.
             values = self.table.one_at(self.to_check, self.points.rows)
             if self.arithmetic.sign(values[self.table.defining[:, self.to_check]]).any():
-                raise Stopped(NOT_ACCEPTABLE, "program3 119")
+                raise growth.Stopped(NOT_ACCEPTABLE, "program3 119")
             index = self.arithmetic.last_largest(values)
             if self.arithmetic.sign(values[index : index + 1])[0] > 0:
                 return index
@@ -81,7 +69,7 @@ class Polyhedron:
         """
         new = self.vertices
         if new == len(self.points):
-            raise Stopped(ERROR, "program3 103")  # by rounding a vertex can lie outside the hull
+            raise growth.Stopped(ERROR, "program3 103")  # by rounding a vertex can lie outside the hull
         self.vertices += 1
         self.points.swap(index, new)
         self.remaining.swapped(index - new)
@@ -123,9 +111,9 @@ class Polyhedron:
     def note(self, fresh: Fresh, size: int) -> None:
         """Record conditions at which the listing would have stopped: a plane through C, or a full table of planes."""
         if fresh.through:
-            self.progress.correct(THROUGH_CENTRE)
+            self.progress.correct(growth.THROUGH_CENTRE)
         if size > LISTED_PLANES:
-            self.progress.correct(TABLE_OF_PLANES)
+            self.progress.correct(growth.TABLE_OF_PLANES)
 
     def signs(self, fresh: Fresh, point: tuple[Scalar, ...]) -> NDArray[np.int8]:
         return self.arithmetic.sign(self.table.values(fresh.coefficients, point))
@@ -150,7 +138,7 @@ class Polyhedron:
             retained[[first, second]] = False
             # The listing continues at the position of the deleted plane and reads the planes after it (142, 154).
             if retained[first:].sum() <= 1:
-                self.progress.correct(LAST_PAIR)
+                self.progress.correct(growth.LAST_PAIR)
         return retained
 
     def stop(self, first_equation: int, above: dict[int, Scalar], new: int) -> None:
@@ -165,12 +153,12 @@ class Polyhedron:
         while True:
             corners = tuple(defining[equation].tolist())
             if size + 3 > self.limit or corners in replaced:
-                raise Stopped(TABLE_FULL, "program3 130")
+                raise growth.Stopped(TABLE_FULL, "program3 130")
             replaced.add(corners)
             above.pop(equation)
             fresh = self.three_planes(defining[equation][:, None], new)
             if fresh.degenerate:
-                raise Stopped(ERROR, "program3 133")
+                raise growth.Stopped(ERROR, "program3 133")
             self.note(fresh, size + 3)
             # Three planes were added and one was deleted (statements 131 and 157).
             size += 2
@@ -185,7 +173,7 @@ class Polyhedron:
 On = list[NDArray[np.int64]]
 
 
-def strike_repeats(table: Equations, on: On, count: int, progress: Progress) -> On:
+def strike_repeats(table: Equations, on: On, count: int, progress: growth.Progress) -> On:
     """Keep only the first equation of each plane, and return the points on each (statements 164 to 174)."""
     mm, nn, kk = table.defining
     struck_by = np.full(len(table), -1)
@@ -202,7 +190,7 @@ def strike_repeats(table: Equations, on: On, count: int, progress: Progress) -> 
     # The listing reads beyond its table if an equation deletes the last of those after it (statements 169 to 172).
     last = np.flatnonzero(retained)[-1]
     if (struck_by == last).any():
-        progress.correct(LAST_REPEAT)
+        progress.correct(growth.LAST_REPEAT)
     table.keep(retained)
     return [satisfying for k, satisfying in enumerate(on) if retained[k]]
 

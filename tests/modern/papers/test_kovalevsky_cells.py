@@ -4,15 +4,13 @@ from collections import Counter
 from dataclasses import replace
 from unittest.mock import patch
 
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modern.digital.solids import ball, half_ball
 from modern.papers import kovalevsky_schulz as ks
 from modern.papers.kovalevsky_schulz import cells as cells_module
-from modern.papers.kovalevsky_schulz.cells import all_rows, cube_triangles, economical_size, planes_of
+from modern.papers.kovalevsky_schulz.cells import all_rows, economical_size, planes_of
 
 POINTS = st.lists(st.tuples(*[st.integers(-3, 3)] * 3), min_size=4, max_size=40)
 COPLANAR = st.sampled_from([ks.VISIBLE, ks.INVISIBLE])
@@ -146,13 +144,3 @@ def test_a_vertex_one_unit_outside_of_a_large_hull_is_detected() -> None:
             patch.object(cells_module, "_BLOCK", 3),
         ):
             ks.expanded(ks.Economical(lowered, triangles))
-
-
-def test_marching_cubes_gives_2_n_minus_4_triangles_for_n_squares() -> None:
-    """This relation, confirmed by scikit-image, connects the two counts of Fig. 10 and Table 4."""
-    measure = pytest.importorskip("skimage.measure")
-    for volume in (ball(8), half_ball(8), half_ball(10)):
-        padded = np.pad(volume.array, 1)
-        squares = sum(int(np.count_nonzero(np.diff(padded, axis=axis))) for axis in range(3))
-        triangles = measure.marching_cubes(padded.astype(np.float32), 0.5, method="lorensen")[1]
-        assert len(triangles) == cube_triangles(squares)

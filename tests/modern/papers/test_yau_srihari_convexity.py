@@ -1,14 +1,11 @@
 """Digital convexity (3.2.1 to 3.2.3), half-cell expansion and convex deficiency."""
 
 import random
-from collections.abc import Iterable
 from itertools import product
 
 import numpy as np
 import pytest
 
-from modern.digital.intervals import lower_chain
-from modern.exact_hull import exact_hull
 from modern.papers.yau_srihari import convexity, octree_hull
 from modern.papers.yau_srihari.hull import components
 from tests.support.digital_judge import random_solid, solid_of
@@ -93,48 +90,8 @@ def test_a_bend_and_a_ring_are_not_convex() -> None:
     assert convexity.is_digitally_convex(solid_of([(0, 0, 0), (1, 0, 0), (1, 1, 0)]))
 
 
-def is_image_of_hull(region: np.ndarray) -> bool:
-    """Return True if the hull of the digital points meets no closed voxel outside the region, so it is a preimage."""
-    points = convexity.voxels_of(region)
-    low, high = (tuple(f(p[k] for p in points) for k in range(3)) for f in (min, max))
-    around = product(*(range(a - 1, b + 2) for a, b in zip(low, high, strict=True)))
-    return all(voxel in {*points} or disjoint(points, voxel) for voxel in around)
-
-
-def disjoint(points: list[tuple[int, int, int]], voxel: Iterable[int]) -> bool:
-    """Return True if the origin is outside of the hull of all differences of the points and the voxel's corners."""
-    corners = [[2 * c + d for c, d in zip(voxel, step, strict=True)] for step in product((-1, 1), repeat=3)]
-    differences = {tuple(2 * a - b for a, b in zip(p, c, strict=True)) for p in points for c in corners}
-    return any(facet.plane[3] > 0 for facet in exact_hull([*differences]).facets)
-
-
-def test_a_hull_that_meets_no_other_voxel_is_a_preimage() -> None:
-    assert is_image_of_hull(np.ones((2, 2, 2), dtype=np.bool_))
-    assert is_image_of_hull(solid_of([(0, 0, 0), (1, 0, 0), (2, 0, 0)]))
-    assert not is_image_of_hull(solid_of([(0, 0, 0), (2, 1, 0)]))
-
-
 def test_the_solid_is_its_hull_less_its_deficiency() -> None:
     for array in solids(10, 5):
         missing = convexity.convex_deficiency(array)
         assert np.array_equal(octree_hull(array).filled & ~missing, array)
         assert not (missing & array).any()
-
-
-def test_a_chain_of_sorted_points_takes_linear_time() -> None:
-    """Each point is pushed onto the chain once and popped at most once, so the products grow linearly."""
-    multiplications = 0
-
-    class Counted(int):
-        def __mul__(self, factor: object) -> int:  # type: ignore[override]
-            nonlocal multiplications
-            multiplications += 1
-            return int(self) * int(factor)  # type: ignore[call-overload, no-any-return]
-
-    source = random.Random(1)
-    products = []
-    for count in (100, 400):
-        multiplications = 0
-        lower_chain([(Counted(k), Counted(source.randint(0, 99))) for k in range(count)])
-        products.append(multiplications)
-    assert products[1] <= 6 * products[0] or products == [0, 0]
