@@ -8,7 +8,8 @@ from xml.etree import ElementTree
 import pytest
 
 from modern.cli.main import main
-from tests.modern.papers.test_nakamae_scenes import CUBE, HEAD
+from tests.modern.papers.test_nakamae_scenes import HEAD
+from tests.support.solids import CUBE, CUBE_FACES
 
 
 def run(*arguments: str) -> int:
@@ -18,7 +19,8 @@ def run(*arguments: str) -> int:
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "cube.off").write_text(CUBE)
+    rows = [" ".join(map(str, row)) for row in (*CUBE, *((len(face), *face) for face in CUBE_FACES))]
+    (tmp_path / "cube.off").write_text("\n".join(["OFF", "8 6 12", *rows, ""]))
     (tmp_path / "points.csv").write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n")
     shutil.copy(str(files("modern.papers.nakamae_nishita").joinpath("scenes", "house.toml")), tmp_path / "mine.toml")
     return tmp_path
