@@ -44,6 +44,7 @@ KINDS = {
 # The seconds allowed for reading a file, plus one for each megabyte.
 LIMIT = 60
 _NO_PIXELS = "expected pixel data, found none"
+_NOT_DICOM = "not a DICOM file with the mark DICM"
 _CHILD = str(Path(__file__).with_name("itk_child.py"))
 
 
@@ -102,10 +103,10 @@ def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | 
         header = check_nifti(path)
         return header.sizes, header, ""
     if kind == "DICOM":
-        sizes = check_dicom(path)
-        if sizes is None:
+        pixels, _ = check_dicom(path)
+        if pixels is None:
             raise VolumeError(f"{path}: {_NO_PIXELS}")
-        return sizes, None, ""
+        return pixels, None, ""
     if kind == "MetaImage":
         sizes, outside = check_metaimage(path)
         return sizes, None, outside
@@ -113,40 +114,51 @@ def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | 
 
 
 def _slices(folder: str) -> dict[str, str]:
-    """Check every DICOM file of a folder. Return a remark for each, which is empty for an intact image.
+    """Check every DICOM file of a folder. Return a remark for each file, which is empty for an intact image.
 
-    Raise VolumeError for a damaged file, because SimpleITK may leave it out of its series.
+    Raise VolumeError for a damaged file, because SimpleITK may leave it out of its series. A file without pixel data is
+    damaged if its object is of the same class as an image.
     """
-    remarks = {}
+    remarks, classes = {}, {}
     with os.scandir(folder) as entries:
         for entry in sorted(entries, key=lambda entry: entry.name):
-            if not entry.is_file() or not (has_signature(entry.path) or entry.name.lower().endswith(".dcm")):
+            if not entry.is_file() or entry.name.startswith("."):
+                continue
+            if not (has_signature(entry.path) or entry.name.lower().endswith(".dcm")):
+                remarks[entry.name] = _NOT_DICOM
                 continue
             try:
-                remarks[entry.name] = _NO_PIXELS if check_dicom(entry.path) is None else ""
+                sizes, classes[entry.name] = check_dicom(entry.path)
+                remarks[entry.name] = _NO_PIXELS if sizes is None else ""
             except Unverifiable as error:
                 remarks[entry.name] = str(error).removeprefix(f"{entry.path}: ")
+    images = {classes[name] for name, remark in remarks.items() if not remark}
+    for name, remark in remarks.items():
+        if remark == _NO_PIXELS and classes[name] in images:
+            raise VolumeError(f"{os.path.join(folder, name)}: damaged or truncated: {_NO_PIXELS}")
     return remarks
 
 
 def _slice_notes(folder: str, used: Sequence[str], remarks: Mapping[str, str]) -> list[str]:
-    """Return notes about files without pixel data. Raise VolumeError if a slice was not verified."""
+    """Return notes about the files that are left out. Raise VolumeError if a slice was not verified."""
     for name in used:
-        remark = remarks.get(name, "not a DICOM file with the mark DICM")
+        remark = remarks.get(name, _NOT_DICOM)
         if remark:
             raise VolumeError(f"{os.path.join(folder, name)}: {remark}")
-    empty = [name for name, remark in remarks.items() if remark == _NO_PIXELS and name != "DICOMDIR"]
-    if empty:
-        names = ", ".join(empty[:4]) + (", ..." if len(empty) > 4 else "")
-        return [f"{len(empty)} DICOM files without pixel data are left out: {names}"]
-    return []
+    notes = []
+    for kind, cause in (("DICOM files without pixel data", _NO_PIXELS), ("files that are not DICOM", _NOT_DICOM)):
+        left_out = [name for name, remark in remarks.items() if remark == cause and name != "DICOMDIR"]
+        if left_out:
+            names = ", ".join(left_out[:4]) + (", ..." if len(left_out) > 4 else "")
+            notes.append(f"{kind} are left out ({len(left_out)}): {names}")
+    return notes
 
 
 def _without_ones(sizes: Sequence[int]) -> list[int]:
-    kept = list(sizes)
-    while kept and kept[-1] == 1:
-        kept.pop()
-    return kept
+    sides = list(sizes)
+    while sides and sides[-1] == 1:
+        sides.pop()
+    return sides
 
 
 def _check_file(path: str) -> None:

@@ -13,9 +13,12 @@ import os
 import re
 import sys
 from collections.abc import Iterable
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from emulator.errors import EmulatorError, quoted
+
+if TYPE_CHECKING:
+    from _typeshed import SupportsWrite
 
 OK, DIFFERS, BAD_INPUT = 0, 1, 2
 
@@ -49,6 +52,11 @@ class Parser(argparse.ArgumentParser):
         """Print one line and exit with 2, without the usage lines of argparse."""
         print_error(f"{message} (try {self.prog} --help)", self.prog)
         self.exit(BAD_INPUT)
+
+    def _print_message(self, message: str, file: SupportsWrite[str] | None = None) -> None:
+        """Write a message.  Argparse would ignore that an unbuffered output cannot be written."""
+        if stream := file or sys.stderr:
+            stream.write(message)
 
 
 def print_error(message: str, source: str = "hull1620") -> None:

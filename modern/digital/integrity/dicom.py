@@ -22,11 +22,11 @@ _SHORT = frozenset(
     | {b"ST", b"TM", b"UI", b"UL", b"US"}
 )
 _IMPLICIT, _EXPLICIT, _BIG_ENDIAN = "1.2.840.10008.1.2", "1.2.840.10008.1.2.1", "1.2.840.10008.1.2.2"
-_SYNTAX = (0x0002, 0x0010)
+_CLASS, _SYNTAX = (0x0002, 0x0002), (0x0002, 0x0010)
 _SAMPLES, _FRAMES, _ROWS, _COLUMNS, _BITS = ((0x0028, number) for number in (0x02, 0x08, 0x10, 0x11, 0x100))
 _PIXELS = (0x7FE0, 0x0010)
 _ITEM, _ITEM_END, _SEQUENCE_END = ((0xFFFE, number) for number in (0xE000, 0xE00D, 0xE0DD))
-_KEPT = {_SYNTAX, _SAMPLES, _FRAMES, _ROWS, _COLUMNS, _BITS}
+_KEPT = {_CLASS, _SYNTAX, _SAMPLES, _FRAMES, _ROWS, _COLUMNS, _BITS}
 _UNDEFINED = 0xFFFFFFFF
 _DEEPEST = 32
 
@@ -128,8 +128,8 @@ def has_signature(path: str) -> bool:
         return file.read(position + len(mark))[position:] == mark
 
 
-def check_dicom(path: str) -> tuple[int, ...] | None:
-    """Return columns, rows and frames, or None for a file without pixel data.
+def check_dicom(path: str) -> tuple[tuple[int, ...] | None, bytes]:
+    """Return columns, rows and frames, or None for a file without pixel data; and the class of the object.
 
     Raise VolumeError if an element is damaged or truncated, and Unverifiable if the pixel data are compressed.
     """
@@ -149,8 +149,9 @@ def check_dicom(path: str) -> tuple[int, ...] | None:
         elements.is_implicit = syntax == _IMPLICIT
         elements.order = ">" if syntax == _BIG_ENDIAN else "<"
         elements.read_set(elements.size)
+    object_class = elements.values.get(_CLASS, b"")
     if elements.pixels is None:
-        return None
+        return None, object_class
     if elements.pixels == _UNDEFINED or syntax not in (_IMPLICIT, _EXPLICIT, _BIG_ENDIAN):
         raise Unverifiable(_without_checksum(path, syntax))
     frames = elements.values.get(_FRAMES, b"1").strip(b"\0 ") or b"1"
@@ -161,7 +162,7 @@ def check_dicom(path: str) -> tuple[int, ...] | None:
     bits = sizes[0] * sizes[1] * sizes[2] * elements.integer(_SAMPLES, 1) * elements.integer(_BITS)
     # Every value is padded to an even number of bytes.
     check_length(path, 2 * -(-bits // 16), elements.pixels + elements.pixels % 2)
-    return sizes
+    return sizes, object_class
 
 
 def _without_checksum(path: str, syntax: str) -> str:

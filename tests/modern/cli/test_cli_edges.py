@@ -122,11 +122,32 @@ def test_an_unwritable_output_is_reported_before_the_work(
         assert err.startswith(f"hull1620: {path}: " if path else "hull1620: a file without a name")
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        "draw example1 --against both -o both",
+        "compile program1 --object --library both -o both",
+        "hull example1 --operator=both --log both",
+        "listing program1 example1 --operator=both -o both",
+        "tei --check both -o both",
+        "hull both --punch both",
+    ],
+)
+def test_an_output_that_is_also_an_input_is_rejected_before_the_work(
+    words: str, room: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (room / "both").write_text("kept", encoding="ascii")
+    message = "hull1620: both: this output is also an input, which would be overwritten; choose another name\n"
+    assert call(capsys, *words.split()) == (2, "", message)
+    assert (room / "both").read_text(encoding="ascii") == "kept"
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize("words", ["--help", "hull --help", "--version", "hull example1", "diff example1", "hull no 2"])
-def test_output_to_a_full_device_ends_with_2_and_one_line(words: str) -> None:
+def test_output_to_a_full_device_ends_with_2_and_one_line(words: str, unbuffered: str) -> None:
     if not os.path.exists("/dev/full"):
         pytest.skip("/dev/full does not exist")
-    environment = {name: text for name, text in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
     command = f"{sys.executable} -m hull1620 {words}> /dev/full"
     done = subprocess.run(["sh", "-c", command], cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
     typed = ["CONVEX HULL"] if words == "hull example1" else []

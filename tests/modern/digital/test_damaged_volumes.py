@@ -194,6 +194,23 @@ def test_a_damaged_volume_is_rejected_or_gives_the_true_values(name: str) -> Non
 
 
 @needs_itk
+def test_a_slice_truncated_at_any_byte_is_damaged_also_between_two_elements() -> None:
+    sample = series()
+    whole = Path(sample.damaged_file).read_bytes()
+    for length in range(len(whole)):
+        Path(sample.damaged_file).write_bytes(whole[:length])
+        assert "damaged" in (message := rejection("ct")) or "not a DICOM file" in message or "bytes of data" in message
+
+
+@needs_itk
+def test_files_of_a_series_that_are_not_dicom_are_named_as_left_out() -> None:
+    sample = series()
+    Path("ct/readme").write_text("no image")
+    Path("ct/.hidden").write_text("")
+    assert read_scan(sample.path).notes[-1] == "ct: files that are not DICOM are left out (1): readme"
+
+
+@needs_itk
 def test_a_compressed_volume_is_verified_piece_by_piece(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(streams, "CHUNK", 7)
     for name in ("MHA compressed", "NIfTI with gzip", "TIFF with Deflate"):
