@@ -6,7 +6,6 @@ import argparse
 import shutil
 import textwrap
 from collections.abc import Iterator
-from dataclasses import replace
 
 from emulator.language.objectcode import Line
 from emulator.machine.comparison import Loss
@@ -15,7 +14,6 @@ from emulator.machine.divergence import Divergence, diverge
 from modern.cli.shared.console import DIFFERS, OK, check_one_standard_input, counted, print_report, write_json
 from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.programs import load_program, machine_options, number_system
-from modern.edition import programs
 
 _NARROWEST, _WIDEST = 40, 120
 
@@ -25,9 +23,6 @@ def main(args: argparse.Namespace) -> int:
     studied = number_system(args.arithmetic, "--arithmetic")
     reference = number_system(args.against, "--against")
     options = machine_options(args)
-    if args.program not in programs.NAMES:
-        # Only the programs of the thesis require complete data sets.
-        options = replace(options, hopper="any")
     program = load_program(args)
     deck = deck_for(args.program, args.deck) if args.deck else no_deck(program)
     divergence = diverge(program, deck, studied, reference, options, values=not args.first)

@@ -9,7 +9,7 @@ import argparse
 import shutil
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from textwrap import wrap
 
 from emulator.errors import DeckError, Diagnostic
@@ -56,9 +56,6 @@ def main(args: argparse.Namespace) -> int:
     if program is None or (args.deck is None and program.uses("READ", "ACCEPT")):
         _write(args.output, [*_plain(source, messages, notes_above), *glosses])
         return OK if program is not None else BAD_INPUT
-    if args.program not in programs.NAMES:
-        # Only the programs of the thesis require complete data sets.
-        options = replace(options, hopper="any")
     deck = deck_for(args.program, args.deck) if args.deck else no_deck(program)
     answers = _answers(args.operator)
     result = Machine(program, deck, options).run(_operator(answers), output=lambda events: None)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from emulator.files import write_text
-from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, print_notes
+from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, print_notes, print_report
 from modern.cli.shared.volumes import array_note, coordinate_words, printable, volume_of
 from modern.digital.solids import Volume
 from modern.digital.volumes import ARRAYS, write_array
@@ -42,8 +42,7 @@ def main(args: argparse.Namespace) -> int:
         notes = (*notes, coordinate_words(None, corners=False))
     print_notes(notes)
     x, y, z = (*volume.origin, 0)[:3]
-    for line in _lines(hull, volume.source, (x, y, z), args.tables or args.trace, args.trace):
-        print(line)
+    print_report(args, _lines(hull, volume.source, (x, y, z), args.tables or args.trace, args.trace))
     if printed.names():
         print_notes([f"note: used as printed: {', '.join(printed.names())}"])
     print_notes(f"note: {fault}" for fault in hull.faults)

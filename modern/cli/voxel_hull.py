@@ -62,14 +62,11 @@ def _report_hull(args: argparse.Namespace) -> None:
     if args.output is not None:
         write_text(args.output, _mesh(hull, args))
     print_notes([*notes, printable(coordinate_words(volume.world, not args.centres))])
-    print(f"{volume.source}: {counted(volume.count, 'voxel')}")
-    for line in _count_lines(hull):
-        print(line)
-    for line in measure_lines(measures, volume.world.unit if volume.world else "", not args.centres):
-        print(line)
+    print_report(args, [f"{volume.source}: {counted(volume.count, 'voxel')}"])
+    print_report(args, _count_lines(hull))
+    print_report(args, measure_lines(measures, volume.world.unit if volume.world else "", not args.centres))
     if args.cells and isinstance(hull.surface, Surface):
-        for line in all_rows(hull.surface.straight if args.straight else hull.surface.faces):
-            print(line)
+        print_report(args, all_rows(hull.surface.straight if args.straight else hull.surface.faces))
 
 
 def _fill(args: argparse.Namespace) -> None:
@@ -146,17 +143,10 @@ def _mesh(hull: VoxelHull, args: argparse.Namespace) -> str:
 
 def _check_options(args: argparse.Namespace) -> None:
     """Raise UsageError for options that would have no effect."""
-    arguments = {
-        "--vertices": args.vertices,
-        "--corners": args.corners,
-        "--coplanar": args.coplanar,
-        "--order": args.order,
-        "--cells": args.cells,
-        "--straight": args.straight,
-    }
-    unused = [name for name, value in arguments.items() if value]
+    options = ("vertices", "corners", "coplanar", "order", "cells", "straight")
+    unused = [name for name in options if getattr(args, name)]
     if args.fill and unused:
-        raise UsageError(f"{unused[0]} has no effect with --fill, which fills the hull of the voxels' centres")
+        raise UsageError(f"--{unused[0]} has no effect with --fill, which fills the hull of the voxels' centres")
     if args.each_label and args.cells:
         raise UsageError("--cells prints one hull and cannot be combined with --each-label")
     if args.each_label and args.threshold is not None:

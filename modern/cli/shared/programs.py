@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Literal
 
 from emulator.errors import LowerCaseError
 from emulator.language.cards import Deck, read_deck
@@ -56,11 +57,15 @@ def load_program_and_data(args: argparse.Namespace) -> tuple[Program, Deck]:
 
 
 def machine_options(args: argparse.Namespace) -> Options:
-    """Return the machine that the options describe.  Raise UsageError for an unknown arithmetic or a limit below 1."""
+    """Return the machine that the options describe.  Raise UsageError for an unknown arithmetic or a limit below 1.
+
+    Only the programs of the thesis require complete data sets.
+    """
     arithmetic = number_system(args.arithmetic, "--arithmetic")
     if args.limit < 1:
         raise UsageError(f"--limit: expected at least 1 statement, found {args.limit}")
-    return Options(arithmetic, frozenset(args.switch), args.core, args.bounds, args.limit)
+    hopper: Literal["first", "any"] = "first" if getattr(args, "program", "program1") in programs.NAMES else "any"
+    return Options(arithmetic, frozenset(args.switch), args.core, args.bounds, args.limit, hopper=hopper)
 
 
 def number_system(name: str, option: str) -> Numbers:
