@@ -145,9 +145,9 @@ def _method(args: argparse.Namespace) -> Method:
 
 
 def _report(
-    source: Input, given: Sequence[Surface], hull: Assembled, joined: Joined | None, trace: bool, width: int
+    source: Input, inputs: Sequence[Surface], hull: Assembled, joined: Joined | None, trace: bool, width: int
 ) -> Iterator[str]:
-    yield _first_line(source, given)
+    yield _first_line(source, inputs)
     if hull.preprocessing is not None:
         yield from _preprocessing(hull.preprocessing)
     if hull.deleted:
@@ -176,14 +176,14 @@ def _report(
         yield f"Topological map, faces within {distance_text(joined.within)} of one plane merged"
         for number, surface in enumerate(joined_surfaces(hull, joined), 1):
             yield f"surface {number}: {_points(surface)}"
-    if given and not hull.fault:
+    if inputs and not hull.fault:
         yield ""
-        yield from _fates(given, _compared(given, hull, joined))
+        yield from _fates(inputs, _compared(inputs, hull, joined))
 
 
-def _summary(source: Input, given: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Iterator[str]:
+def _summary(source: Input, inputs: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Iterator[str]:
     """Yield the report of many points: one line for each table."""
-    yield _first_line(source, given)
+    yield _first_line(source, inputs)
     if hull.preprocessing is not None:
         deleted_first = counted(len(hull.preprocessing.deleted), "point")
         yield f"{deleted_first} deleted by rule {hull.preprocessing.rule} before any projection"
@@ -196,12 +196,12 @@ def _summary(source: Input, given: Sequence[Surface], hull: Assembled, joined: J
         surfaces = joined_surfaces(hull, joined)
         within = distance_text(joined.within)
         yield f"faces within {within} of one plane merged: {counted(len(surfaces), 'surface')}{_sizes(surfaces)}"
-    if given and not hull.fault:
-        fates = _compared(given, hull, joined)
+    if inputs and not hull.fault:
+        fates = _compared(inputs, hull, joined)
         deleted = sum(number is None for number in fates.of)
-        respecified = len(given) - deleted - len(fates.unchanged)
+        respecified = len(inputs) - deleted - len(fates.unchanged)
         yield (
-            f"of {counted(len(given), 'input surface')} {len(fates.unchanged)} kept, {respecified} respecified, "
+            f"of {counted(len(inputs), 'input surface')} {len(fates.unchanged)} kept, {respecified} respecified, "
             f"{deleted} deleted; {len(fates.added)} added"
         )
     yield "for all tables add --all"
@@ -213,8 +213,8 @@ def _sizes(loops: Sequence[Sequence[int]]) -> str:
     return f" ({', '.join(f'{sizes[size]} of {size} lines' for size in sorted(sizes))})" if sizes else ""
 
 
-def _first_line(source: Input, given: Sequence[Surface]) -> str:
-    surfaces = f", {counted(len(given), 'surface')}" if given else ""
+def _first_line(source: Input, inputs: Sequence[Surface]) -> str:
+    surfaces = f", {counted(len(inputs), 'surface')}" if inputs else ""
     return f"{source.source}: {counted(len(source.points), 'point')}{surfaces}"
 
 
@@ -223,11 +223,11 @@ def _kind(hull: Assembled) -> str:
     return f"{counted(hull.projections, 'projection')}; {KINDS[hull.dimension]}{of}"
 
 
-def _compared(given: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Fates:
+def _compared(inputs: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Fates:
     """Return what happened to each input surface: kept, respecified or deleted."""
     if joined is None:
-        return hull.fates(given)
-    return fates_by_points(given, joined_points(hull, joined), joined_surfaces(hull, joined))
+        return hull.fates(inputs)
+    return fates_by_points(inputs, joined_points(hull, joined), joined_surfaces(hull, joined))
 
 
 def _preprocessing(preprocessing: Preprocessing) -> Iterator[str]:
@@ -253,7 +253,7 @@ def _growth(loop: Loop, width: int) -> Iterator[str]:
         yield "  IUC(L)" + "".join(f"{count:>{cell}}" for count in uses)
 
 
-def _fates(given: Sequence[Surface], fates: Fates) -> Iterator[str]:
+def _fates(inputs: Sequence[Surface], fates: Fates) -> Iterator[str]:
     yield "Input surfaces"
     for number, new_number in enumerate(fates.of):
         if new_number is None:

@@ -19,13 +19,13 @@ from modern.cli.shared.console import BAD_INPUT, OK, Parser, check_outputs, miss
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code.
 
-    arguments: the words after ``hull1620``; by default those of the process.
+    arguments: the arguments after ``hull1620``; by default those of the process.
     """
     if "_ARGCOMPLETE" in os.environ:
         complete(build_parser([]))
-    words = sys.argv[1:] if arguments is None else list(arguments)
+    tokens = sys.argv[1:] if arguments is None else list(arguments)
     # Argparse must not read the word after --operator as its value, because the option is complete without one.
-    words = ["--operator=" if word == "--operator" else word for word in words]
+    tokens = ["--operator=" if word == "--operator" else word for word in tokens]
     # Most objects of a command live until its end, so searching for garbage after every 700 of them wastes time.
     gc.set_threshold(100_000)
     for stream in (sys.stdout, sys.stderr):
@@ -38,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     code = BAD_INPUT
     try:
-        code = _call(words)
+        code = _call(tokens)
         if sys.stdout is not None:
             sys.stdout.flush()
     except BrokenPipeError:
@@ -69,10 +69,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return code
 
 
-def _call(words: Sequence[str]) -> int:
-    """Parse the words, run the command and return its exit code."""
+def _call(tokens: Sequence[str]) -> int:
+    """Parse the arguments, run the command and return its exit code."""
     try:
-        args, unknown = build_parser(words).parse_known_args(words)
+        args, unknown = build_parser(tokens).parse_known_args(tokens)
     except SystemExit as end:
         return int(end.code or OK)
     if unknown:
@@ -93,8 +93,8 @@ def _call(words: Sequence[str]) -> int:
         return BAD_INPUT
 
 
-def build_parser(words: Sequence[str]) -> Parser:
-    """Return the parser for the command named by the first word, or for all commands if it names none."""
+def build_parser(tokens: Sequence[str]) -> Parser:
+    """Return the parser for the command named by the first token, or for all commands if it names none."""
     parser = Parser(
         prog="hull1620",
         description="Run Karen Jensen Butler's convex hull programs of 1963 on an emulated IBM 1620, find exact hulls, "
@@ -102,10 +102,10 @@ def build_parser(words: Sequence[str]) -> Parser:
         epilog="PROGRAM.f is a file, or one of program1, program2, program3 and program1_examples. "
         "'-' means standard input or standard output.",
     )
-    parser.add_argument("--version", action="version", version=f"hull1620 {version()}" if "--version" in words else "")
+    parser.add_argument("--version", action="version", version=f"hull1620 {version()}" if "--version" in tokens else "")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
     # Building every parser takes time; all of them are needed only for --help and for unknown commands.
-    for name in words[:1] if words and words[0] in COMMANDS else COMMANDS:
+    for name in tokens[:1] if tokens and tokens[0] in COMMANDS else COMMANDS:
         summary, add_arguments = COMMANDS[name]
         description = summary[0].upper() + summary[1:] + "."
         add_arguments(commands.add_parser(name, help=summary, description=description))

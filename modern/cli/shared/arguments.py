@@ -23,14 +23,14 @@ def add(parser: _ActionsContainer, texts: Mapping[str, str], **settings: Any) ->
     An option with neither metavar nor ``choices`` is a switch.  ``settings`` are those of ``add_argument``, for each
     of the arguments.
     """
-    for words, text in texts.items():
-        *names, last = words.split()
+    for names, text in texts.items():
+        *flags, last = names.split()
         if not last.startswith("-"):
-            parser.add_argument(*names, metavar=last, help=text, **settings)
+            parser.add_argument(*flags, metavar=last, help=text, **settings)
         elif "choices" in settings:
-            parser.add_argument(*names, last, help=text, **settings)
+            parser.add_argument(*flags, last, help=text, **settings)
         else:
-            parser.add_argument(*names, last, help=text, action="store_true", **settings)
+            parser.add_argument(*flags, last, help=text, action="store_true", **settings)
 
 
 def result_arguments(parser: ArgumentParser) -> None:

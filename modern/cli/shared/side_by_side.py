@@ -69,16 +69,16 @@ def side_by_side(
         return
     longest = [max(max(len(pair.lines[k]), len(pair.masks[k])) for pair in pairs) for k in (0, 1)]
     lead = " " * indent
-    left = max(longest[0], len(heads[0]))
+    left_width = max(longest[0], len(heads[0]))
     marks = [mark for mark in _LEGEND if any(pair.mark == mark for pair in pairs)]
     legend = "; ".join(f"{mark} {_LEGEND[mark]}" for mark in marks)
     yield from textwrap.wrap(legend, max(_NARROWEST, width), initial_indent=lead, subsequent_indent=lead)
-    if left + 3 + max(longest[1], len(heads[1])) <= width - indent - 6:
-        yield f"{lead}{'':>4}  {heads[0]:<{left}}   {heads[1]}".rstrip()
+    if left_width + 3 + max(longest[1], len(heads[1])) <= width - indent - 6:
+        yield f"{lead}{'':>4}  {heads[0]:<{left_width}}   {heads[1]}".rstrip()
         for number, pair in enumerate(pairs, 1):
-            yield f"{lead}{number:>4}  {pair.lines[0]:<{left}} {pair.mark} {pair.lines[1]}".rstrip()
+            yield f"{lead}{number:>4}  {pair.lines[0]:<{left_width}} {pair.mark} {pair.lines[1]}".rstrip()
             if any(pair.masks):
-                yield paint(f"{lead}{'':>4}  {pair.masks[0]:<{left}}   {pair.masks[1]}".rstrip())
+                yield paint(f"{lead}{'':>4}  {pair.masks[0]:<{left_width}}   {pair.masks[1]}".rstrip())
         return
     for number, pair in enumerate(pairs, 1):
         yield from _one_below_the_other(number, pair, heads, width, lead[:2], paint)

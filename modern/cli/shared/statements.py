@@ -50,7 +50,11 @@ def theorem_lines(judgements: Sequence[Judged], paint: Paint, indented: Indented
             if previous:
                 yield ""
             previous = row.part
-            ranges = [other.statement.page.split("-") for other in judgements if other.statement.part == row.part]
+            ranges = [
+                judged_row.statement.page.split("-")
+                for judged_row in judgements
+                if judged_row.statement.part == row.part
+            ]
             pages = sorted(int(page) for pages in ranges for page in pages)
             yield f"Theorem {row.part} (p. {pages[0]}-{pages[-1]})"
         yield f"  {paint(str(judged.computed), EXACT if judged.agrees else DIFFERENT):<6} {row.says}"

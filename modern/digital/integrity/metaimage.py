@@ -114,9 +114,9 @@ def _fields(head: bytes, path: str) -> tuple[dict[str, str], int]:
 
 def _listed(lines: bytes, name: str, sizes: tuple[int, ...], path: str) -> tuple[list[str], int]:
     """Return the names of the files in a list, and the number of axes that each file has."""
-    words = name.split()
-    axes = int(words[1]) if len(words) == 2 and re.fullmatch("[1-9]", words[1], re.ASCII) else len(sizes) - 1
-    if words[0] != "LIST" or len(words) > 2 or not 1 <= axes < len(sizes):
+    tokens = name.split()
+    axes = int(tokens[1]) if len(tokens) == 2 and re.fullmatch("[1-9]", tokens[1], re.ASCII) else len(sizes) - 1
+    if tokens[0] != "LIST" or len(tokens) > 2 or not 1 <= axes < len(sizes):
         raise VolumeError(
             f"{path}: {_DATA}: expected LIST and a number of axes below {len(sizes)}, found {quoted(name)}"
         )
@@ -150,10 +150,10 @@ def _flag(fields: Mapping[str, str], name: str, path: str, default: bool = False
 
 
 def _integers(fields: Mapping[str, str], name: str, path: str) -> list[int]:
-    words = fields.get(name, "").split()
-    if not words or not all(map(_INTEGER.fullmatch, words)):
+    numbers = fields.get(name, "").split()
+    if not numbers or not all(map(_INTEGER.fullmatch, numbers)):
         raise VolumeError(f"{path}: {name}: expected integers, found {quoted(fields.get(name, 'nothing'))}")
-    return [int(word) for word in words]
+    return [int(number) for number in numbers]
 
 
 def _integer(fields: Mapping[str, str], name: str, path: str, default: int | None = None) -> int:

@@ -44,7 +44,7 @@ def _downloads() -> Iterator[Download]:
     if (wheel := newest_wheel()) is not None:
         yield Download(wheel.name, "The software as a Python wheel", "MIT", {wheel.name: wheel.read_bytes()})
     if (pyz := DIST / "hull1620.pyz").is_file():
-        licence = "MIT, and the licences in the file of lark (MIT) and mpmath (BSD)"
+        licence = "MIT; contains lark (MIT) and mpmath (BSD)"
         yield Download(pyz.name, "The software as one file, without numpy", licence, {pyz.name: pyz.read_bytes()})
     yield Download("source.zip", "The whole source, with tests and documents", "MIT, CC0; see LICENSE", _read(sources))
     if (book := DIST / "hull1620.pdf").is_file():
