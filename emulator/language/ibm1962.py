@@ -25,7 +25,8 @@ ITEM, LAST_ITEM = 4992, 4940
 # Arithmetic.  Each routine receives the field of its operand.  A floating-point number enters and leaves FAC by TO_FAC
 # and FROM_FAC, and so does a fixed-point number.
 TO_FAC, FROM_FAC = 1238, 1306
-OPERATIONS = {"FAD": 518, "FSB": 408, "FMP": 1378, "FDV": 1862, "FDVR": 1756}
+OPERATIONS = {"FAD": 518, "FSB": 408, "FMP": 1378, "FDV": 1862, "FDVR": 1756, "POWERX": 3670}
+FIXED = {"XAD": 2644, "XSB": 2700, "XMP": 2748, "XDV": 2876, "XDVR": 2816}
 # Operations on FAC alone.
 ALONE = {"RSGN": 2546, "FLOAT": 3222, "FIX": 3494}
 

@@ -1,21 +1,28 @@
-"""Floating-point operations of the library, many in one run, compared with those of the profile ``ibm1962``."""
+"""Operations of the library, compared with those of the profile ``ibm1962``."""
 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
-from emulator.language.ibm1962 import ALONE, FROM_FAC, OPERATIONS, TO_FAC, call, field_text, fixed_field, floating_field
+from emulator.language.ibm1962 import (
+    ALONE,
+    FIXED,
+    FROM_FAC,
+    OPERATIONS,
+    TO_FAC,
+    call,
+    field_text,
+    fixed_field,
+    floating_field,
+)
 from emulator.numbers import accumulator, arithmetic
-from emulator.numbers.arithmetic import IBM1962, MINUS_ZERO, ZERO
-from modern.bench.ibm1962.simulator import run
+from emulator.numbers.arithmetic import IBM1962, MINUS_ZERO, ZERO, wrap_integer
+from modern.bench.ibm1962.simulator import Job, run_jobs
 
-# The calls begin here and the fields end below here, in a machine of 40,000 positions.
-CODE, TOP, CORE = 9000, 39900, 40000
+# The object program begins at CODE; its two operands and its result are below TOP.
+CODE, TOP = 9000, 15000
 HALT = [4, 8, *[0] * 10]
-
-# The number of operations that one run executes.
-BATCH = 250
 
 _EMULATED = {
     "FAD": accumulator.add,
@@ -23,46 +30,40 @@ _EMULATED = {
     "FMP": accumulator.multiply,
     "FDV": accumulator.divide,
 }
+_FIXED: dict[str, Callable[[int, int], tuple[int, int]]] = {
+    "XAD": lambda first, second: (wrap_integer(first + second), 0),
+    "XSB": lambda first, second: (wrap_integer(first - second), 0),
+    "XMP": lambda first, second: (wrap_integer(first * second), 0),
+    "XDV": accumulator.divide_fixed,
+    "XDVR": lambda first, second: accumulator.divide_fixed(second, first),
+}
 
 # The operations of :func:`at_random`; sums are the most frequent.
-_DRAWN = ("FAD", "FAD", "FSB", "FSB", "FMP", "FDV", "FDVR", "RSGN", "FIX", "FLOAT")
+_DRAWN = ("FAD", "FAD", "FSB", "FSB", "FMP", "FDV", "FDVR", "RSGN", "FIX", "FLOAT", *FIXED, "POWERX", "POWERX")
 
-# An operation with its operands: FAC and the other number, such as ``.25000000E+01``, or one number.
+# An operation with its operands: FAC and the other number, such as ``.25000000E+01`` or ``-12``, or one number.
 Case = tuple[str, str, str]
 
 
 def executed(cases: Sequence[Case], deck: Sequence[str]) -> list[tuple[str, str]]:
-    """Return the result and the error code of each case, as the library computes them."""
-    results: list[tuple[str, str]] = []
-    for k in range(0, len(cases), BATCH):
-        results += _batch(cases[k : k + BATCH], deck)
-    return results
-
-
-def _batch(cases: Sequence[Case], deck: Sequence[str]) -> list[tuple[str, str]]:
-    code: list[int] = []
-    stored: dict[int, Sequence[int]] = {}
-    for k, (operation, first, second) in enumerate(cases):
-        at = TOP - 30 * k
-        stored[at - 9] = fixed_field(first) if operation == "FLOAT" else floating_field(first)
-        stored[at - 19] = floating_field(second) if second else [0] * 10
-        code += call(TO_FAC, at)
-        code += call(ALONE[operation]) if operation in ALONE else call(OPERATIONS[operation], at - 10)
-        code += call(FROM_FAC, at - 20)
-    last = TOP - 30 * (len(cases) - 1) - 29
-    output = run(deck, start=CODE, core=CORE, stored=stored | {CODE: [*code, *HALT]}, examine=[(last, TOP)])
-    # A code has no place in core: the typed codes are assigned by running the emulator's errors in the same order.
-    codes = iter([line.split()[1] for line in output.typed if line.startswith("ERROR")])
+    """Return the result and the error codes of each case, as the library computes them."""
     results = []
-    for k, case in enumerate(cases):
-        kind = "I" if case[0] == "FIX" else "E"
-        error = next(codes, "?") if emulated(case)[1] else ""
-        results.append((field_text(output.field(TOP - 30 * k - 20), kind).replace("E-00", "E+00"), error))
-    # A code that the emulator did not expect is added to the last result, so that the comparison fails.
-    unassigned = " ".join(codes)
-    if unassigned:
-        results[-1] = (results[-1][0], f"{results[-1][1]} and {unassigned}")
+    for case, output in zip(cases, run_jobs(deck, [_job(case) for case in cases]), strict=True):
+        kind = "I" if case[0] in FIXED or case[0] == "FIX" else "E"
+        codes = [line.split()[1] for line in output.typed if line.startswith("ERROR")]
+        results.append((field_text(output.field(TOP - 20), kind).replace("E-00", "E+00"), " ".join(codes)))
     return results
+
+
+def _job(case: Case) -> Job:
+    operation, first, second = case
+    entry = call(ALONE[operation]) if operation in ALONE else call((OPERATIONS | FIXED)[operation], TOP - 10)
+    code = [*call(TO_FAC, TOP), *entry, *call(FROM_FAC, TOP - 20), *HALT]
+    return Job(CODE, {CODE: code, TOP - 9: _field(first), TOP - 19: _field(second)}, examine=[(TOP - 29, TOP)])
+
+
+def _field(number: str) -> list[int]:
+    return floating_field(number) if "." in number else fixed_field(number or "0")
 
 
 def emulated(case: Case) -> tuple[str, str]:
@@ -70,15 +71,21 @@ def emulated(case: Case) -> tuple[str, str]:
     operation, first, second = case
     rules = IBM1962.rules
     event = 0
+    if operation in FIXED or operation == "FIX":
+        value, event = (
+            (arithmetic.to_integer(*pair(first), rules), 0)
+            if operation == "FIX"
+            else _FIXED[operation](int(first), int(second))
+        )
+        return f"{'-' if value < 0 else ''}{abs(value):04}", f"E{event}" if event else ""
     if operation == "FLOAT":
         m, e = arithmetic.from_integer(int(first), rules)
-    elif operation == "FIX":
-        value = arithmetic.to_integer(*pair(first), rules)
-        return f"{'-' if value < 0 else ''}{abs(value):04}", ""
     elif operation == "RSGN":
         m, e = accumulator.negate(*pair(first))
     elif operation == "FDVR":
         m, e, event = accumulator.divide(*pair(second), *pair(first), rules)
+    elif operation == "POWERX":
+        m, e, event = arithmetic.whole_power(*pair(first), int(second), rules)
     else:
         m, e, event = _EMULATED[operation](*pair(first), *pair(second), rules)
     return number_text(m, e), f"E{event}" if event else ""
@@ -105,30 +112,30 @@ def at_random(seed: int, count: int) -> list[Case]:
     cases = []
     for _ in range(count):
         operation = r.choice(_DRAWN)
-        # The library divides wrongly if the dividend has the smallest exponent (docs/reference/ibm-library.md).
-        low = -98 if operation.startswith("FDV") else -99
         near = r.choice([r.randint(-5, 5), r.randint(-5, 5), r.randint(-5, 5), r.randint(-99, 99), -98, 98])
-        first = _number(r, near, low)
-        second = r.choice([_number(r, near, low), first, number_text(*accumulator.negate(*pair(first)))])
-        if operation == "FLOAT":
-            first = str(r.randint(-9999, 9999))
-        cases.append((operation, first, second if operation in OPERATIONS else ""))
+        first = _number(r, near)
+        second = r.choice([_number(r, near), first, number_text(*accumulator.negate(*pair(first)))])
+        if operation == "FLOAT" or operation in FIXED:
+            first = _integer(r)
+        if operation == "POWERX" or operation in FIXED:
+            second = _integer(r)
+        cases.append((operation, first, "" if operation in ALONE else second))
     return cases
 
 
-def _number(r: random.Random, near: int, low: int) -> str:
+def _integer(r: random.Random) -> str:
+    return str(r.choice([r.randint(-9999, 9999), r.randint(-20, 20), r.randint(-3, 3), "-0"]))
+
+
+def _number(r: random.Random, near: int) -> str:
     if r.random() < 0.05:
         return r.choice(["", "-"]) + ".00000000E-99"
     size = r.choice([r.randint(10**7, 10**8 - 1), r.randint(1, 9) * 10**7, 10**7 + r.randint(0, 99), 10**8 - 1])
-    return number_text(r.choice([1, -1]) * size, max(low, min(99, near + r.randint(-2, 2))))
+    return number_text(r.choice([1, -1]) * size, max(-99, min(99, near + r.randint(-2, 2))))
 
 
 def different(cases: Sequence[Case], deck: Sequence[str]) -> Iterator[tuple[Case, tuple[str, str], tuple[str, str]]]:
     """Yield the cases whose results differ, with the result of the library and that of the emulator."""
     for case, result in zip(cases, executed(cases, deck), strict=True):
-        expected = emulated(case)
-        if result != expected:
-            # In a batch an error code may belong to another case.
-            (alone,) = executed([case], deck)
-            if alone != expected:
-                yield case, alone, expected
+        if result != emulated(case):
+            yield case, result, emulated(case)

@@ -71,11 +71,23 @@ def _comparable(outcome: Outcome) -> tuple[object, ...]:
     return typed, [card[:SEQUENCE].rstrip() for card in outcome.punched], numbers
 
 
-def at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
-    """Yield random statements with their cards, without end: fields, literals, skips, slashes and errors."""
+def fields_at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
+    """Yield random statements that write one number by a FORMAT of one field, without end."""
     r = random.Random(seed)
     while True:
-        text = "(" + ",".join(_spec(r) for _ in range(r.randint(1, 6))).replace(",/,", "/") + ")"
+        kind = r.choice("EEFFI")
+        # An E field of fewer columns stores its exponent in the text of the error codes.
+        width = r.randint(4 if kind == "E" else 1, 7 if kind == "I" else r.choice([16, 30]))
+        field = f"{kind}{width}" + ("" if kind == "I" else f".{r.randint(0, width)}")
+        yield Statement(r.choice(["TYPE", "PUNCH"]), f"({field})", [_number(r, kind)]), ()
+
+
+def at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
+    """Yield random statements with their cards, without end: fields, literals, skips, slashes, groups and errors."""
+    r = random.Random(seed)
+    while True:
+        items = [_group(r) if r.random() < 0.2 else _spec(r) for _ in range(r.randint(1, 6))]
+        text = f"({','.join(items)})".replace(",/,", "/")
         verb = r.choice(["TYPE", "PUNCH", "READ", "READ"])
         spec = Statement(verb, text).spec
         fields = [item for item in spec.specs if isinstance(item, Field)]
@@ -89,6 +101,10 @@ def at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
             yield Statement(verb, text, [BEFORE[kind] for kind in kinds]), cards
         else:
             yield Statement(verb, text, [_number(r, kind) for kind in kinds]), ()
+
+
+def _group(r: random.Random) -> str:
+    return f"{r.choice(['', '2', '3'])}({','.join(_spec(r) for _ in range(r.randint(1, 3)))})".replace(",/,", "/")
 
 
 def _spec(r: random.Random) -> str:

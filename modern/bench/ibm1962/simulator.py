@@ -15,11 +15,16 @@ from tempfile import TemporaryDirectory
 
 SECONDS = 20.0
 
+# Jobs that one simulator executes, and the instructions that each of them may execute.
+BATCH, STEPS = 500, 5_000_000
+
 # Lines of the output that the simulator itself writes, not the simulated program.
-_SIMULATOR = re.compile(r"IBM 1620 simulator|CD[PR]: |HALT instruction|Goodbye|\d{5}:\t|Invalid |No card in")
+_SIMULATOR = re.compile(
+    r"IBM 1620 simulator|CD[PR]: |HALT instruction|Goodbye|\d{5}:\t|Invalid |No card in|Step expired|%SIM-INFO|/.*\.ini-\d"
+)
 # What it writes may follow a typed line at once, because the carriage returns only before the next line.
 _POSITION = re.compile(r"(\d{5}):\t([0-9A-F]{2})\n?")
-_TROUBLE = re.compile(r"^(?:Invalid|No card in) [^\n]*$", re.MULTILINE)
+_TROUBLE = re.compile(r"^(?:Invalid|No card in|Step expired) ?[^\n]*$", re.MULTILINE)
 
 
 class Unavailable(Exception):
@@ -45,6 +50,16 @@ class Run:
     def field(self, address: int) -> list[int]:
         """Return ten examined digits, those of the field whose low-order position is ``address``."""
         return [self.core[position] for position in range(address - 9, address + 1)]
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """An object program for a loaded library: where it starts, positions to set, data cards, positions to return."""
+
+    start: int
+    stored: Mapping[int, Sequence[int]]
+    cards: Sequence[str] = ()
+    examine: Sequence[tuple[int, int]] = ()
 
 
 def simulator() -> str:
@@ -105,22 +120,55 @@ def run(
     Failed
         If the run takes longer than ``seconds``.
     """
-    script = [f"set cpu {core // 1000}K", "deposit arstop 0", "attach cdr deck.txt", "attach -n cdp punched.txt"]
-    script += [f"deposit sw{number} 1" for number in switches]
-    script.append("boot cdr")
-    for address, positions in (stored or {}).items():
-        script += [f"deposit {address + k} {position:X}" for k, position in enumerate(positions)]
+    script = [f"deposit sw{number} 1" for number in switches]
+    script += ["attach -n cdp punched-0", "boot cdr", *_deposits(stored or {})]
     script.append("continue" if start is None else f"go {start}")
     script += ["continue"] * starts
     script += [f"examine {first}-{last}" for first, last in examine]
-    script += ["detach all", "quit"]
+    log, (punched,) = _execute(script, {"deck": [*deck, *cards]}, 1, keys, core, seconds)
+    return _result(log.partition("LOAD DATA\n")[2], punched)
+
+
+def run_jobs(deck: Sequence[str], jobs: Sequence[Job], *, core: int = 20000) -> list[Run]:
+    """Load a deck once for many jobs, run them one after the other, and return their outputs.
+
+    What a job leaves in the library's core storage remains there for the next job.  Raise Unavailable, or Failed.
+    """
+    results: list[Run] = []
+    for at in range(0, len(jobs), BATCH):
+        batch = jobs[at : at + BATCH]
+        script, files = ["attach -n cdp loading", "boot cdr"], {"deck": deck}
+        for k, job in enumerate(batch):
+            files[f"cards-{k}"] = job.cards
+            script += [f"attach -n cdp punched-{k}", f"attach cdr cards-{k}", *_deposits(job.stored)]
+            script += [f"deposit pc {job.start}", "echo JOB", f"step {STEPS}"]
+            script += [f"examine {first}-{last}" for first, last in job.examine]
+        log, punched = _execute(script, files, len(batch), (), core, SECONDS + len(batch))
+        results += map(_result, log.split("JOB\n")[1:], punched)
+    return results
+
+
+def _deposits(stored: Mapping[int, Sequence[int]]) -> Iterator[str]:
+    for address, positions in stored.items():
+        yield from (f"deposit {address + k} {position:X}" for k, position in enumerate(positions))
+
+
+def _execute(
+    script: Sequence[str], files: Mapping[str, Sequence[str]], count: int, keys: Sequence[str], core: int, seconds: float
+) -> tuple[str, list[list[str]]]:
+    """Run the simulator in a temporary folder with files of cards.  Return its log and ``count`` files of punched cards."""
+    first = [f"set cpu {core // 1000}K", "deposit arstop 0", "attach cdr deck"]
     with TemporaryDirectory(prefix="i1620-") as folder:
         here = Path(folder)
-        (here / "deck.txt").write_text("".join(f"{card}\n" for card in (*deck, *cards)), encoding="latin1")
-        (here / "run.ini").write_text("\n".join(script) + "\n")
+        for name, cards in files.items():
+            (here / name).write_text("".join(f"{card}\n" for card in cards), encoding="latin1")
+        (here / "run.ini").write_text("\n".join([*first, *script, "detach all", "quit"]) + "\n")
         log = _typewriter([simulator(), "run.ini"], here, keys, seconds)
-        path = here / "punched.txt"
-        punched = path.read_text(encoding="latin1").splitlines() if path.exists() else []
+        paths = [here / f"punched-{k}" for k in range(count)]
+        return log, [path.read_text(encoding="latin1").splitlines() if path.exists() else [] for path in paths]
+
+
+def _result(log: str, punched: Sequence[str]) -> Run:
     trouble = _TROUBLE.search(log)
     return Run(
         tuple(_typed(_POSITION.sub("", log))),
@@ -136,8 +184,7 @@ def _typed(log: str) -> Iterator[str]:
     The carriage returns before each line, so that a line ends where the next one begins.
     """
     # The simulator's own lines come before or after those of the program, depending on the buffers of its version.
-    lines = log.partition("LOAD DATA\n")[2].split("\n")
-    yield from (line.removeprefix(">") for line in lines if line and not _SIMULATOR.match(line))
+    yield from (line.removeprefix(">") for line in log.split("\n") if line and not _SIMULATOR.match(line))
 
 
 def _typewriter(command: list[str], folder: Path, keys: Sequence[str], seconds: float) -> str:

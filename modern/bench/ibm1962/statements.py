@@ -18,7 +18,7 @@ from emulator.language.ibm1962 import (
     format_positions,
 )
 from emulator.language.tree import Format, Place
-from modern.bench.ibm1962.simulator import Run, run
+from modern.bench.ibm1962.simulator import Job, Run, run, run_jobs
 
 # The parts of the object program: the calls, the FORMAT, the field of its label, and the first number of the list.
 CALLS, WORDS, LABEL, NUMBERS = 9000, 10000, 15186, 14700
@@ -57,27 +57,46 @@ class Outcome:
     trouble: str = ""
 
 
-def execute(statement: Statement, deck: Sequence[str], *, cards: Sequence[str] = (), seconds: float = 5) -> Outcome:
+def execute(statement: Statement, deck: Sequence[str], *, cards: Sequence[str] = ()) -> Outcome:
     """Execute a statement with the library in ``deck``.  ``cards`` are data cards, or lines that are typed."""
-    values = statement.values
-    kinds = ["E" if "." in value else "I" for value in values]
-    addresses = [NUMBERS - 10 * k for k in range(len(values))]
+    job = _job(statement, cards)
+    keyed = statement.verb == "ACCEPT"
+    output = run(
+        deck,
+        start=job.start,
+        stored=job.stored,
+        cards=() if keyed else cards,
+        keys=cards if keyed else (),
+        examine=job.examine,
+        seconds=5,
+    )
+    return _outcome(statement, output)
+
+
+def execute_all(cases: Sequence[tuple[Statement, Sequence[str]]], deck: Sequence[str]) -> list[Outcome]:
+    """Execute many statements with their data cards, each after the other.  ACCEPT is not among them."""
+    outputs = run_jobs(deck, [_job(statement, cards) for statement, cards in cases])
+    return [_outcome(statement, output) for (statement, _), output in zip(cases, outputs, strict=True)]
+
+
+def _job(statement: Statement, cards: Sequence[str]) -> Job:
+    values, addresses = statement.values, _addresses(statement)
     calls = call(VERBS[statement.verb], LABEL)
     for address in addresses:
         calls += call(LAST_ITEM if address == addresses[-1] else ITEM, address)
     stored = {CALLS: [*calls, *HALT], LABEL - 4: digits(WORDS, 5), WORDS + 1: format_positions(statement.spec)}
-    for address, kind, value in zip(addresses, kinds, values, strict=True):
-        stored[address - 9] = fixed_field(value) if kind == "I" else floating_field(value)
-    keyed = statement.verb == "ACCEPT"
-    examine = [(addresses[-1] - 9, NUMBERS)] if addresses else []
-    output: Run = run(
-        deck,
-        start=CALLS,
-        stored=stored,
-        cards=() if keyed else cards,
-        keys=cards if keyed else (),
-        examine=examine,
-        seconds=seconds,
+    for address, value in zip(addresses, values, strict=True):
+        stored[address - 9] = floating_field(value) if "." in value else fixed_field(value)
+    return Job(CALLS, stored, cards, [(addresses[-1] - 9, NUMBERS)] if addresses else [])
+
+
+def _addresses(statement: Statement) -> list[int]:
+    return [NUMBERS - 10 * k for k in range(len(statement.values))]
+
+
+def _outcome(statement: Statement, output: Run) -> Outcome:
+    numbers = tuple(
+        field_text(output.field(address), "E" if "." in value else "I")
+        for address, value in zip(_addresses(statement), statement.values, strict=True)
     )
-    numbers = tuple(field_text(output.field(a), kind) for a, kind in zip(addresses, kinds, strict=True))
     return Outcome(output.typed, output.punched, numbers, output.trouble)
