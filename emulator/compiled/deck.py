@@ -14,10 +14,11 @@ from typing import NamedTuple
 
 from emulator.compiled import devices as dev
 from emulator.compiled.devices import Cards, Code, Desk, Forms, Report, Tools, begin, error, finish, item
-from emulator.compiled.kernel import ADDRESS, AT, CHARACTERISTIC, EVENT, FAC, WORK, Core, Row, owe, run
+from emulator.compiled.kernel import ADDRESS, AT, AT_MINUS_ZERO, CHARACTERISTIC, EVENT, FAC, WORK, Core, Row, owe, run
 from emulator.machine import interpreter
 from emulator.machine.result import LOOP_WINDOW
-from emulator.numbers.arithmetic import ZERO, Rules, square_root, whole_power
+from emulator.numbers.accumulator import whole_power
+from emulator.numbers.arithmetic import ZERO, Rules, square_root
 from emulator.numbers.work import multiplied
 
 
@@ -29,7 +30,7 @@ class Start(NamedTuple):
 
 
 # (limit, strict bounds, type error codes, end the run at any dev.READ if the hopper is empty).
-Setting = tuple[int, int, int, int]
+Setting = tuple[int, int, int]
 
 
 def run_decks(
@@ -110,10 +111,10 @@ def run_deck(
     setting: Setting,
 ) -> int:
     """Run one deck and return the reason for its end.  The registers of the devices hold the bounds of the deck."""
-    limit, strict, as_1962, any_read = setting
+    limit, strict, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers
     devices[dev.ANY_READ] = any_read
-    devices[dev.AS_1962] = as_1962
+    devices[dev.AS_1962] = rules.as_1962
     # As in Session.advance, the counts are saved shortly before the limit, for the message about a loop.
     goal = limit - min(LOOP_WINDOW, limit // 2)
     saved = False
@@ -123,16 +124,16 @@ def run_deck(
         address = registers[ADDRESS]
         status = dev.GO_ON
         if reason == interpreter.AT_ITEM:
-            status = item(marks, forms, cards, core, desk, rules, as_1962)
+            status = item(marks, forms, cards, core, desk, rules)
         elif reason == interpreter.AT_BEGIN:
             status = begin(marks, forms, cards, desk)
         elif reason == interpreter.AT_FINISH:
             status = finish(marks, forms, cards, desk)
         elif reason == interpreter.AT_EVENT:
-            status = error(registers[EVENT], marks, desk, as_1962)
-        # Without ``powers_multiply`` the exact power is truncated once.  For exponents from -1 to 2 repeated
+            status = error(registers[EVENT], marks, desk)
+        # Without ``as_1962`` the exact power is truncated once.  For exponents from -1 to 2 repeated
         # multiplication gives the same result.  Other exponents would need more than 64 bits.
-        elif reason == interpreter.AT_POWERX and (rules.powers_multiply or -1 <= core.mantissas[address] <= 2):
+        elif reason == interpreter.AT_POWERX and (rules.as_1962 or -1 <= core.mantissas[address] <= 2):
             if registers[FAC] != 0 and not -1 <= core.mantissas[address] <= 2:
                 owe(registers, multiplied(core.mantissas[address]))
                 if registers[WORK] > limit + interpreter.SLACK:
@@ -141,7 +142,7 @@ def run_deck(
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
             if event:
-                status = error(event, marks, desk, as_1962)
+                status = error(event, marks, desk)
         elif reason == interpreter.AT_FUNCTION:
             # SQRT is the only library function that integers can compute.
             if code.roots[address] == 0:
@@ -161,7 +162,7 @@ def run_deck(
                 before[k] = counts[k]
             goal = limit
             saved = True
-        elif reason == interpreter.AT_POWER or reason == interpreter.AT_POWERX:
+        elif reason == interpreter.AT_POWER or reason == interpreter.AT_POWERX or reason == AT_MINUS_ZERO:
             return dev.NOT_HERE
         else:
             return reason

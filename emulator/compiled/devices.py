@@ -325,12 +325,12 @@ def stamp(number: int, desk: Desk) -> None:
     desk.devices[USED] = used + STAMP
 
 
-def error(number: int, marks: Marks, desk: Desk, as_1962: int) -> int:
-    """Count an error code, and type it if ``as_1962`` is set."""
+def error(number: int, marks: Marks, desk: Desk) -> int:
+    """Count an error code, and type it as the library of 1962 does."""
     registers = desk.registers
     desk.errors[CODES * marks.statements[registers[AT]] + number] += 1
     owe(registers, ERROR)
-    if not as_1962:
+    if not desk.devices[AS_1962]:
         return GO_ON
     field = desk.field
     for k in range(len(ERROR_WORDS)):
@@ -341,7 +341,7 @@ def error(number: int, marks: Marks, desk: Desk, as_1962: int) -> int:
     return put_typed(field, last + 1, marks, desk)
 
 
-def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules: Rules, as_1962: int) -> int:
+def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules: Rules) -> int:
     """Read or write one number of a list."""
     devices, field, registers = desk.devices, desk.field, desk.registers
     registers[WORK] += 1
@@ -367,7 +367,10 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
             return NOT_HERE
         if devices[AS_1962]:
             m, e, status = read_number(field, width, decimals, kind, rules)
-            e = FIXED_POINT if fixed else e
+            if fixed:
+                # Only the interpreter has a fixed-point minus zero.
+                status = FINE if e == 0 else NOT_HERE
+                e = FIXED_POINT
         elif fixed:
             m, status = read_fixed(field, width)
             e = FIXED_POINT
@@ -388,7 +391,7 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
         if too_long(devices):
             return NOT_HERE
         if fixed:
-            end = write_fixed_1962(desk.line, column, width, m)
+            end = write_fixed_1962(desk.line, column, width, abs(m), m < 0)
         else:
             end = write_floating_1962(desk.line, column, kind == E_FIELD, width, decimals, m, e, rules)
         return NOT_HERE if end < 0 else GO_ON
@@ -397,4 +400,4 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
         return GO_ON
     end, overflowed = write_floating(desk.line, column, kind == E_FIELD, width, decimals, m, e, rules)
     devices[COLUMN] = end
-    return error(F8, marks, desk, as_1962) if overflowed else GO_ON
+    return error(F8, marks, desk) if overflowed else GO_ON

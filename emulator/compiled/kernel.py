@@ -14,6 +14,7 @@ from typing import NamedTuple
 from emulator.language import objectcode as op
 from emulator.language.objectcode import Flat, element_after
 from emulator.machine import interpreter
+from emulator.machine.interpreter import is_minus_zero
 from emulator.numbers.accumulator import add, divide, divide_fixed, multiply, negate, subtract, subtract_reversed
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules, from_integer, to_integer, wrap_integer
 from emulator.numbers.work import STEPS
@@ -23,6 +24,9 @@ from emulator.numbers.work import STEPS
 PC, FAC, CHARACTERISTIC, FIXED, WORK, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2 = range(11)
 AT, DECISION, ELEMENT, COSTLY, OWED, HOPPER_EMPTY = range(11, 17)
 REGISTERS = 17
+
+# The reason to return for a fixed-point minus zero, which only the interpreter has.
+AT_MINUS_ZERO = 16
 
 Row = MutableSequence[int]
 
@@ -165,6 +169,9 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                 reason = interpreter.AT_UNDEFINED
                 break
             mantissa = wrap_integer(mantissas[variable] + mantissas[loops[address + 1]])
+            if rules.as_1962 and mantissa == 0 and mantissas[variable] < 0:
+                reason = AT_MINUS_ZERO
+                break
             mantissas[variable] = mantissa
             pc = loops[address + 3] if mantissa <= mantissas[loops[address + 2]] else pc + 1
         elif operation == op.SEND:
@@ -189,6 +196,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                 break
             mantissa = mantissas[address]
             pc += 1
+            before = fixed
             if operation == op.TOFIX:
                 fixed = mantissa
             elif operation == op.XAD:
@@ -206,6 +214,10 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                 if event:
                     reason = interpreter.AT_EVENT
                     break
+            is_result = operation != op.TOFIX and fixed == 0
+            if rules.as_1962 and is_result and is_minus_zero(operation, before < 0, mantissas[address] < 0):
+                reason = AT_MINUS_ZERO
+                break
         elif operation == op.IFX:
             decision = pc + 1
             pc = targets[address] if fixed < 0 else targets[address + 1] if fixed == 0 else targets[address + 2]
@@ -215,12 +227,18 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
         elif operation == op.RSGX:
             fixed = -fixed
             pc += 1
+            if rules.as_1962 and fixed == 0:
+                reason = AT_MINUS_ZERO
+                break
         elif operation == op.FLOAT:
             fac, fac_exponent = from_integer(fixed, rules)
             pc += 1
         elif operation == op.FIX:
             fixed = to_integer(fac, fac_exponent, rules)
             pc += 1
+            if rules.as_1962 and fixed == 0 and fac < 0 and fac_exponent > 0:
+                reason = AT_MINUS_ZERO
+                break
         elif operation == op.SELECT:
             if exponents[address] != FIXED_POINT:
                 reason = interpreter.AT_UNDEFINED

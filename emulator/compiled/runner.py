@@ -168,7 +168,7 @@ class Runner:
         rows: dict[str, Any] = {name: np.zeros((BLOCK, width), np.int64) for name, width in widths.items()}
         self.report = devices.Report(**rows, log=_codes(bytes(LOG_ROOM)))
         self.rules = profile.rules
-        flags = options.bounds == "strict", profile.as_1962, options.hopper == "any"
+        flags = options.bounds == "strict", options.hopper == "any"
         self.setting = (options.limit, *map(int, flags))
         # Load or compile the machine code now, so that a failure is noticed before the first deck.
         self.kernel = run_decks().ready(*self._arguments([]))

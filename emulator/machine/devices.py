@@ -19,6 +19,7 @@ from emulator.machine.state import FLOATING, State
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.numbers.base import Number
 from emulator.numbers.fields import (
+    FALLBACK,
     Field,
     FieldError,
     Remark,
@@ -31,6 +32,9 @@ from emulator.numbers.fields import (
 from emulator.numbers.work import ERROR
 
 ERROR_F8 = "ERROR F8"
+
+# The field of a fixed-point number after ERROR F8.
+_FIXED = Field("I", 5)
 
 
 class Ended(Exception):
@@ -211,7 +215,8 @@ class Devices:
         # Fixed-point variables need I fields, floating-point variables E or F fields (C26-5619 p. 43).
         key = spec.kind + ("<" if isinstance(self.transfer, Input) else ">")
         self.fields[key] = self.fields.get(key, 0) + 1
-        if (spec.kind == "I") != fixed:
+        # The library of 1962 writes an error code for a field of the wrong mode.
+        if (spec.kind == "I") != fixed and not isinstance(self.transfer, Output1962):
             ending = replace(self.ending("mode"), name=self.program.storage.name_of(address))
             mode: Mode = "fixed" if fixed else "floating"
             raise Ended(replace(ending, mode=mode, format=self._format, field=spec))
@@ -223,21 +228,29 @@ class Devices:
             name = self.program.storage.name_of(address)
             ending = self.ending("undefined" if kind == UNDEFINED else "mode")
             raise Ended(replace(ending, name=name, put_out=True))
+        fits = (spec.kind == "I") == fixed
         if fixed:
             # An I field that is too narrow prints the low-order digits, without a message.
-            transfer.write((write_fixed_as_1962 if self.options.numbers.as_1962 else write_fixed)(spec, value))
-            return
-        # An E or F field that is too narrow is replaced by E14.8 (C26-5619 p. 39-40): error code F8.
-        columns, overflowed = self.options.numbers.write(spec, value)
+            write = write_fixed_as_1962 if self.options.numbers.as_1962 else write_fixed
+            columns, overflowed = write(spec if fits else _FIXED, value), not fits
+        else:
+            # An E or F field that is too narrow is replaced by E14.8 (C26-5619 p. 39-40): error code F8.
+            columns, overflowed = self.options.numbers.write(spec if fits else FALLBACK, value)
+            overflowed = overflowed or not fits
         if overflowed and isinstance(transfer, Output1962):
             # The library writes a record with the error code and the number, and leaves the field blank.
-            exponent = exponent_as_1962(spec, *value) if spec.decimals + 6 > spec.width and spec.kind == "E" else ""
-            blank = transfer.end_before(spec.width, exponent).ljust(len(ERROR_F8) + 1)
+            is_narrow = fits and spec.decimals + 6 > spec.width and spec.kind == "E"
+            blank = transfer.end_before(spec.width, exponent_as_1962(spec, *value) if is_narrow else "")
+            blank = blank.ljust(len(ERROR_F8) + 1)
             self._count_error("F8")
             if self.verb == "PUNCH":
                 self.type(ERROR_F8)
             first = f"{ERROR_F8}{blank[len(ERROR_F8)]}{columns}"
-            transfer.emit(first + (blank[len(first) :] if self.verb == "PUNCH" else ""))
+            # A typed line ends one column after the number.
+            transfer.emit(first + blank[len(first) : None if self.verb == "PUNCH" else len(first) + 1])
+            return
+        if fixed:
+            transfer.write(columns)
             return
         self._beside.append((transfer.width + 1, len(columns), value))
         transfer.write(columns)

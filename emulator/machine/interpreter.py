@@ -21,7 +21,7 @@ from emulator.language import objectcode as op
 from emulator.language.objectcode import Flat, element_after
 from emulator.machine.state import FLOATING, Journal, State, Table
 from emulator.numbers.accumulator import divide_fixed
-from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, wrap_integer
+from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, is_negative, signed_zero, wrap_integer
 from emulator.numbers.base import Numbers, Trap
 
 # The frequent operations are globals of this module, because looking them up in ``op`` makes a run a fifth longer.
@@ -43,6 +43,17 @@ _WORK_NAMES = {FAD: "add", FSB: "subtract", FSBR: "subtract", FMP: "multiply", F
 _REASONS = {op.BEGIN: AT_BEGIN, op.FINISH: AT_FINISH, op.FUNCTION: AT_FUNCTION, op.PAUSE: AT_PAUSE}
 _REASONS |= {op.POWER: AT_POWER, op.POWERX: AT_POWERX}
 """Operations that the session performs, with the reason to return for each."""
+
+
+def is_minus_zero(operation: int, first: bool, second: bool) -> bool:
+    """Return True if the library of 1962 gives a fixed-point result of zero a minus sign.
+
+    A sum has the sign of the accumulator, and a product or quotient that of its operands.  ``first`` and ``second``
+    tell whether the accumulator and the operand are negative.
+    """
+    if operation <= op.XSBR:
+        return first != (operation == op.XSBR)
+    return first != second
 
 
 def run(
@@ -92,6 +103,7 @@ def run(
     add, subtract, multiply = numbers.add, numbers.subtract, numbers.multiply
     sign, checked = numbers.sign, numbers.checked
     weigh = numbers.work if numbers.is_costly else None
+    as_1962 = numbers.as_1962
     # If the run is compared with another one, ``decide`` records its decisions and ``enter`` its stores.
     decide = journal.entries.append if journal else None
     enter = journal.entries.append if journal and journal.stores else None
@@ -218,6 +230,8 @@ def run(
                     reason = AT_UNDEFINED
                     break
                 value = wrap_integer(values[variable] + values[step])
+                if as_1962 and value == 0:
+                    value = signed_zero(is_negative(values[variable]))
                 values[variable] = value
                 target = loops[address + 3] if value <= values[last] else pc + 1
                 if decide:
@@ -249,6 +263,7 @@ def run(
                     break
                 value = values[address]
                 pc += 1
+                before = fixed
                 if operation == op.TOFIX:
                     fixed = value
                 elif operation == op.XAD:
@@ -266,6 +281,8 @@ def run(
                     if event:
                         reason = AT_EVENT
                         break
+                if as_1962 and fixed == 0 and operation != op.TOFIX:
+                    fixed = signed_zero(is_minus_zero(operation, is_negative(before), is_negative(values[address])))
             elif operation == op.IFX:
                 target = targets[address + 1 + (fixed > 0) - (fixed < 0)]
                 decision = pc + 1
@@ -276,7 +293,7 @@ def run(
                 fac = numbers.negate(fac)
                 pc += 1
             elif operation == op.RSGX:
-                fixed = -fixed
+                fixed = signed_zero(not is_negative(fixed)) if as_1962 and fixed == 0 else -fixed
                 pc += 1
             elif operation == op.FLOAT:
                 fac = numbers.from_integer(fixed)

@@ -10,7 +10,7 @@ The functions use only integers and loops, so that numba can compile them.
 
 from __future__ import annotations
 
-from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules
+from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules, from_integer
 from emulator.numbers.arithmetic import add as add_digits
 from emulator.numbers.arithmetic import divide as divide_digits
 from emulator.numbers.arithmetic import multiply as multiply_digits
@@ -27,17 +27,13 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """Return FAC + number.  Adding zero changes nothing, except that the sum of two zeros is +0 in some profiles."""
     # IBM's subroutine tests for zero operands first: x + 0 is x unchanged, 0 + x is x, and profiles differ in 0 + 0.
     if mb == 0:
-        if ma == 0 and not rules.keeps_left_zero:
+        if ma == 0 and not rules.as_1962:
             return 0, ZERO, 0
         return ma, ea, 0
     if ma == 0:
         return mb, eb, 0
     m, e = add_digits(ma, ea, mb, eb, rules)
-    if e > MAX_EXPONENT:
-        return largest(m, rules), MAX_EXPONENT, SUM_OVER
-    if e < MIN_EXPONENT and m != 0:
-        return 0, vanished(m, rules), SUM_UNDER
-    return m, e, 0
+    return in_range(m, e, SUM_OVER, rules)
 
 
 def subtract(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
@@ -59,25 +55,46 @@ def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     if ma == 0 or mb == 0:
         return 0, ZERO, 0
     m, e = multiply_digits(ma, ea, mb, eb, rules)
-    if e > MAX_EXPONENT:
-        return largest(m, rules), MAX_EXPONENT, PRODUCT_OVER
-    if e < MIN_EXPONENT:
-        return 0, vanished(m, rules), PRODUCT_UNDER
-    return m, e, 0
+    return in_range(m, e, PRODUCT_OVER, rules)
 
 
 def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """Return FAC / number.  A zero dividend gives +0, and a zero divisor gives the largest number."""
     if mb == 0:
-        return largest(-1 if rules.signed_by_zero and ma < 0 else 1, rules), MAX_EXPONENT, ZERO_DIVISOR
+        return largest(-1 if ma < 0 and not rules.as_1962 else 1, rules), MAX_EXPONENT, ZERO_DIVISOR
     if ma == 0:
         return 0, ZERO, 0
     m, e = divide_digits(ma, ea, mb, eb, rules)
-    if e > MAX_EXPONENT:
-        return largest(m, rules), MAX_EXPONENT, QUOTIENT_OVER
-    if e < MIN_EXPONENT:
-        return 0, vanished(m, rules), QUOTIENT_UNDER
-    return m, e, 0
+    return in_range(m, e, QUOTIENT_OVER, rules)
+
+
+def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> State:
+    """Return ``A ** J`` by repeated multiplication, as IBM's library of 1962 does: ``(1 / A) ** -J`` if J is negative.
+
+    The first operation with an error ends the computation.  For J = -1 to 2 the result is the exact power, truncated.
+    """
+    m, e = from_integer(1, rules)
+    if count == 0:
+        return m, e, 0
+    if mantissa == 0 and count > 0:
+        return 0, ZERO, 0
+    event = 0
+    if count < 0:
+        mantissa, exponent, event = divide(m, e, mantissa, exponent, rules)
+        # FORTRAN II-D reports the reciprocal as a product.
+        if QUOTIENT_OVER <= event <= QUOTIENT_UNDER and not rules.as_1962:
+            event += PRODUCT_OVER - QUOTIENT_OVER
+    m, e = mantissa, exponent
+    times = -count if count < 0 else count
+    for done in range(1, times):
+        if event:
+            break
+        before, e_before = m, e
+        m, e, event = multiply(m, e, mantissa, exponent, rules)
+        # The base is one or minus one, so that only the sign of the power still changes.
+        if not event and e == e_before and (m == before or m == -before):
+            return (before if (times - done) % 2 == 0 else m), e, 0
+    return m, e, event
 
 
 def negate(m: int, e: int) -> tuple[int, int]:
@@ -92,9 +109,16 @@ def largest(sign: int, rules: Rules) -> int:
     return rules.limit - 1 if sign > 0 else 1 - rules.limit
 
 
-def vanished(sign: int, rules: Rules) -> int:
-    """Return the exponent of the zero that replaces a product or quotient that underflows: that of +0 or -0."""
-    return MINUS_ZERO if rules.signed_underflow and sign < 0 else ZERO
+def in_range(m: int, e: int, over: int, rules: Rules) -> State:
+    """Return a result and its event.  The event is ``over`` if the result is too large, and the next one if too small.
+
+    The result is then the largest number or a zero with the same sign.
+    """
+    if e > MAX_EXPONENT:
+        return largest(m, rules), MAX_EXPONENT, over
+    if e < MIN_EXPONENT and m != 0:
+        return 0, (MINUS_ZERO if m < 0 else ZERO), over + 1
+    return m, e, 0
 
 
 def divide_fixed(dividend: int, divisor: int) -> tuple[int, int]:

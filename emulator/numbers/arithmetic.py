@@ -38,12 +38,8 @@ class Rules(NamedTuple):
     - ``guard``: the digits beyond P that the smaller operand of a sum keeps.
     - ``sticky``: digits of the smaller operand beyond the guard digits still count as a positive fraction in rounding.
     - ``round_sums``, ``round_products``, ``round_quotients``: round the result half up instead of truncating it.
-    - ``keeps_left_zero``: the sum of two zeros has the sign of the zero in FAC.
-    - ``signed_underflow``: a result that underflows keeps its sign.
-    - ``signed_by_zero``: a number divided by zero keeps its sign.
-    - ``powers_multiply``: an integer power is computed by products, each truncated, not as the exact power truncated
-      once.
-    - ``fixes_mantissa``: a number with more than P digits before the point converts to the last four of its mantissa.
+    - ``as_1962``: signs of zeros, whole powers, conversions to fixed point, input, output and error codes follow IBM's
+      library of 1962 (docs/reference/ibm-library.md) instead of FORTRAN II-D.
     """
 
     digits: int
@@ -54,11 +50,24 @@ class Rules(NamedTuple):
     round_sums: int
     round_products: int
     round_quotients: int
-    keeps_left_zero: int
-    signed_underflow: int
-    signed_by_zero: int
-    powers_multiply: int
-    fixes_mantissa: int
+    as_1962: int
+
+
+class MinusZero(int):
+    """The fixed-point number minus zero, which only the arithmetic of IBM's library of 1962 produces."""
+
+
+FIXED_MINUS_ZERO = MinusZero()
+
+
+def signed_zero(negative: bool) -> int:
+    """Return the fixed-point zero of a sign."""
+    return FIXED_MINUS_ZERO if negative else 0
+
+
+def is_negative(value: int) -> bool:
+    """Return True if a fixed-point number has a minus sign."""
+    return value < 0 or isinstance(value, MinusZero)
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
@@ -179,6 +188,9 @@ def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
         exponent += 1
     else:
         size = size * base
+        # The library of 1962 subtracts one from the exponent of such a dividend, and -99 then loses its minus sign.
+        if rules.as_1962 and ea == MIN_EXPONENT:
+            exponent = MAX_EXPONENT + 1 - eb
     quotient = size // by
     if rules.round_quotients and 2 * (size - quotient * by) >= by:
         # Rounding cannot carry to P + 1 digits.  A quotient of all nines would need size/by above 1 - 1/base, but both
@@ -211,12 +223,8 @@ def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
     # If the number is a multiple of 10**4, its four digits left of the point are zeros.
     if exponent <= digits:
         size = size // 10 ** (digits - exponent)
-    elif rules.fixes_mantissa:
-        pass
-    elif exponent - digits < 4:
-        size = size * 10 ** (exponent - digits)
-    else:
-        return 0
+    elif not rules.as_1962:
+        size = size * 10 ** (exponent - digits) if exponent - digits < 4 else 0
     size = size % 10000
     return size if mantissa > 0 else -size
 
@@ -252,55 +260,13 @@ def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
     return root, exponent
 
 
-def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple[int, int, int]:
-    """Return ``A ** J`` by repeated multiplication, with the profile's rule for each product.
-
-    For J = -1 to 2 this is the exact power, truncated.  The third number is that of the error code E3 (overflow), E4
-    (underflow) or E7 (a negative power of zero), or 0.  The result is in range.
-    """
-    one, ones = from_integer(1, rules)
-    if count == 0:
-        return one, ones, 0
-    if mantissa == 0:
-        return (0, ZERO, 0) if count > 0 else (rules.limit - 1, MAX_EXPONENT, 7)
-    size = mantissa if mantissa > 0 else -mantissa
-    times = count if count > 0 else -count
-    m, e = size, exponent
-    for _ in range(times - 1):
-        m_before, e_before = m, e
-        m, e = multiply(m, e, size, exponent, rules)
-        # Stop early if the power no longer changes, because the base is one, or can no longer return to the exponent
-        # range.
-        if m == m_before and e == e_before:
-            break
-        if e > MAX_EXPONENT + 1 or e < MIN_EXPONENT - 1:
-            break
-    if count < 0:
-        # A negative power is the reciprocal of the positive one, which may be slightly out of range.
-        if MIN_EXPONENT - 1 <= e <= MAX_EXPONENT + 1:
-            m, e = divide(one, ones, m, e, rules)
-        else:
-            e = -e
-    if mantissa < 0 and times % 2 == 1:
-        m = -m
-    if e > MAX_EXPONENT:
-        return (rules.limit - 1 if m > 0 else -(rules.limit - 1)), MAX_EXPONENT, 3
-    if e < MIN_EXPONENT:
-        return 0, (MINUS_ZERO if rules.signed_underflow and m < 0 else ZERO), 4
-    return m, e, 0
-
-
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """A decimal arithmetic: its number of digits, its rules for truncation and rounding, and the source of these rules.
-
-    ``as_1962`` is True if input, output and error codes follow IBM's library of 1962 (docs/reference/ibm-library.md).
-    """
+    """A decimal arithmetic: its rules for truncation and rounding, and the source of these rules."""
 
     name: str
     source: str
     rules: Rules
-    as_1962: bool = False
 
     @property
     def digits(self) -> int:
@@ -314,16 +280,11 @@ def rules_of(
     sums: int = 0,
     products: int = 0,
     quotients: int = 0,
-    *,
-    left_zero: int = 0,
-    signed_by_zero: int = 1,
-    powers_multiply: int = 0,
-    fixes_mantissa: int = 0,
+    as_1962: int = 0,
 ) -> Rules:
     """Return rules with the given number of digits.  By default everything is truncated, with signs as in II-D."""
     low = 10 ** (digits - 1)
-    rounding = guard, sticky, sums, products, quotients
-    return Rules(digits, 10 * low, low, *rounding, left_zero, 1, signed_by_zero, powers_multiply, fixes_mantissa)
+    return Rules(digits, 10 * low, low, guard, sticky, sums, products, quotients, as_1962)
 
 
 TRUNCATING = Profile(
@@ -334,11 +295,15 @@ TRUNCATING = Profile(
 )
 IBM1962 = Profile(
     "ibm1962",
-    "IBM's subroutine set of 1962, executed digit by digit in a simulator: product rounded half up, the rest cut",
-    rules_of(8, products=1, left_zero=1, signed_by_zero=0, powers_multiply=1, fixes_mantissa=1),
-    as_1962=True,
+    "IBM's library of 1962, executed digit by digit in a simulator: product rounded half up, the rest cut",
+    rules_of(8, products=1, as_1962=1),
 )
-PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962)}
+TRUNCATING1962 = Profile(
+    "truncating1962",
+    "thesis p. 116 (no rounding occurs), and IBM's library of 1962 for everything about which the thesis is silent",
+    rules_of(8, as_1962=1),
+)
+PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962, TRUNCATING1962)}
 
 
 def _truncating(name: str, digits: int) -> Profile:
@@ -359,7 +324,7 @@ FAMILIES = tuple(f"{family}:P" for family in _FAMILIES)
 
 
 def profile(name: str) -> Profile:
-    """Return the profile of a name: ``truncating``, ``ibm1962``, or a family with P from 2 to 28, as ``rounding:8``.
+    """Return the profile of a name: one of PROFILES, or a family with P from 2 to 28, as ``rounding:8``.
 
     ``guarded:P`` differs from ``truncating:P`` in sums only: the smaller operand keeps one more digit during the
     addition.  ``rounding:P`` gives the exact result of + - * / rounded half up in magnitude.  Raise ArgumentError for

@@ -39,7 +39,9 @@ def low_digit(code: int) -> int:
 def read_number(
     columns: MutableSequence[int], width: int, decimals: int, kind: int, rules: Rules
 ) -> tuple[int, int, int]:
-    """Read a field.  Return mantissa, exponent and status; the mantissa of an I field is its value.
+    """Read a field.  Return mantissa, exponent and status.
+
+    The mantissa of an I field is its value, and its exponent is 0, or MINUS_ZERO for a minus zero.
 
     Every blank inside or after a number is a zero.  An exponent keeps its last two digits.
     """
@@ -86,7 +88,7 @@ def read_number(
                         mantissa = 10 * mantissa + digit
                         digits += 1
     if kind == I_FIELD:
-        return (-mantissa if negative else mantissa), 0, FINE
+        return (-mantissa if negative else mantissa), (MINUS_ZERO if negative and mantissa == 0 else 0), FINE
     if mantissa == 0:
         return 0, (MINUS_ZERO if negative else ZERO), FINE
     # The library adds the exponent, then the decimals, and rejects the field if either sum has three digits.
@@ -203,9 +205,8 @@ def write_floating(
     return write_f(columns, at, width, decimals, mantissa, exponent, rules)
 
 
-def write_fixed(columns: MutableSequence[int], at: int, width: int, value: int) -> int:
+def write_fixed(columns: MutableSequence[int], at: int, width: int, size: int, negative: bool) -> int:
     """Write an I field: the last four digits, or the last w - 1 if only w < 5 columns, one for the sign, are there."""
-    size = -value if value < 0 else value
     end = at + width
     for k in range(at, end):
         columns[k] = BLANK
@@ -218,6 +219,6 @@ def write_fixed(columns: MutableSequence[int], at: int, width: int, value: int) 
         size = size // 10
     for k in range(end - room, first):
         columns[k] = BLANK
-    if value < 0:
+    if negative:
         columns[first - 1] = MINUS
     return end

@@ -83,7 +83,11 @@ class DecimalNumbers(Numbers):
         return arithmetic.from_integer(value, self._rules)
 
     def to_integer(self, value: Pair) -> int:
-        return arithmetic.to_integer(*value, self._rules)
+        whole = arithmetic.to_integer(*value, self._rules)
+        if whole == 0 and self.as_1962:
+            # The library drops the sign only of a number below one.
+            return arithmetic.signed_zero(value[0] < 0 < value[1])
+        return whole
 
     def function(self, name: str, value: Pair) -> tuple[Pair, str]:
         return _unpacked(functions.function(name, *value, self._rules))
@@ -116,7 +120,7 @@ class DecimalNumbers(Numbers):
 
     @property
     def as_1962(self) -> bool:
-        return self.profile.as_1962
+        return bool(self._rules.as_1962)
 
     def read(self, field: Field, columns: str) -> tuple[Pair, Remark | None]:
         reader = read_as_1962 if self.as_1962 else read_floating

@@ -14,7 +14,16 @@ from typing import Literal
 
 from emulator.errors import quoted
 from emulator.numbers import columns, columns1962
-from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, UNDEFINED, ZERO, Rules, rules_of
+from emulator.numbers.arithmetic import (
+    FIXED_MINUS_ZERO,
+    MAX_EXPONENT,
+    MIN_EXPONENT,
+    UNDEFINED,
+    ZERO,
+    Rules,
+    is_negative,
+    rules_of,
+)
 
 FieldKind = Literal["E", "F", "I"]
 
@@ -149,7 +158,7 @@ def exponent_as_1962(field: Field, mantissa: int, exponent: int) -> str:
 def write_fixed_as_1962(field: Field, value: int) -> str:
     """Return the columns of an I field as IBM's library writes it, with a column for the sign."""
     codes = bytearray(field.width)
-    columns1962.write_fixed(codes, 0, field.width, value)
+    columns1962.write_fixed(codes, 0, field.width, abs(value), is_negative(value))
     return codes.decode("ascii")
 
 
@@ -165,6 +174,8 @@ def read_as_1962(field: Field, text: str, rules: Rules) -> FieldNumber:
     mantissa, exponent, status = columns1962.read_number(bytearray(codes), len(codes), field.decimals, kind, rules)
     if status == columns1962.REJECTED:
         raise FieldError(f"{text.strip()!r} is not a number of {field}")
+    if field.kind == "I" and exponent:
+        return FieldNumber(FIXED_MINUS_ZERO, 0)
     return FieldNumber(mantissa, exponent)
 
 

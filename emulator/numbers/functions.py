@@ -16,6 +16,7 @@ from functools import lru_cache
 from typing import Any
 
 from emulator.numbers import work
+from emulator.numbers.accumulator import whole_power
 from emulator.numbers.arithmetic import (
     MAX_EXPONENT,
     MIN_EXPONENT,
@@ -24,7 +25,6 @@ from emulator.numbers.arithmetic import (
     Rules,
     from_integer,
     square_root,
-    whole_power,
 )
 from emulator.numbers.base import cut_decimal, decimal_length
 
@@ -75,9 +75,10 @@ def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Val
     return Value(value.mantissa, value.exponent, "F6") if mb < 0 else value
 
 
+@lru_cache(maxsize=4096)
 def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Value:
-    """Return ``A ** J``: the exact power truncated, or a chain of products in some profiles (OPEN-QUESTIONS 8)."""
-    if mantissa == 0 or -1 <= count <= 2 or rules.powers_multiply:
+    """Return ``A ** J``: the exact power truncated, or a chain of products as in 1962 (OPEN-QUESTIONS 8)."""
+    if mantissa == 0 or -1 <= count <= 2 or rules.as_1962:
         m, e, code = whole_power(mantissa, exponent, count, rules)
         return Value(m, e, f"E{code}" if code else "")
     size, times = abs(mantissa), abs(count)
@@ -101,7 +102,7 @@ def integer_power_steps(mantissa: int, exponent: int, count: int, rules: Rules) 
     """Return the estimated steps of :func:`integer_power` (:mod:`emulator.numbers.work`)."""
     if mantissa == 0 or -1 <= count <= 2:
         return 0
-    if rules.powers_multiply:
+    if rules.as_1962:
         return work.multiplied(count)
     if _out_of_range(abs(mantissa), exponent, count, rules):
         return 0

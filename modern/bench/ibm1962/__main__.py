@@ -14,7 +14,7 @@ from emulator.language.compiler import compile_deck
 from modern.bench.ibm1962 import arithmetic
 from modern.bench.ibm1962.chapter6 import FOLDER, results
 from modern.bench.ibm1962.emulated import emulate
-from modern.bench.ibm1962.measured import at_random, load, measure, same
+from modern.bench.ibm1962.measured import at_random, fields_at_random, load, measure, same
 from modern.bench.ibm1962.objectdecks import against_deck, compare, library, subjects
 from modern.bench.ibm1962.simulator import Failed, Unavailable, object_deck
 from modern.bench.ibm1962.statements import Statement, execute
@@ -52,7 +52,9 @@ def parser() -> argparse.ArgumentParser:
     chapter6.add_argument("--write", action="store_true", help="replace the committed results")
     commands.add_parser("programs", help="run the object decks of all programs, and compare them with the emulator")
     repeat = commands.add_parser("measure", help="repeat the measured statements; compare with the emulator")
-    repeat.add_argument("--random", type=int, default=0, metavar="N", help="compare N random statements and operations")
+    repeat.add_argument(
+        "--random", type=int, default=0, metavar="N", help="compare N random statements, fields and operations each"
+    )
     repeat.add_argument("--seed", type=int, default=1, help="the seed of the random statements (default: 1)")
     compiled = commands.add_parser("compile", help="compare the object code of a source with the program in the deck")
     compiled.add_argument("source", help="the source deck")
@@ -104,11 +106,11 @@ def run_programs() -> int:
 def run_measure(options: argparse.Namespace) -> int:
     """Repeat the measured statements.  Return 1 if the library or the emulator gives another result."""
     deck, vectors = object_deck(), load()
-    again = [measure(vector.statement, vector.cards, deck) for vector in vectors]
+    again = measure([(vector.statement, vector.cards) for vector in vectors], deck)
     changed = sum(not same(first.outcome, second.outcome) for first, second in zip(vectors, again, strict=True))
     print(f"{len(vectors)} measured statements: {changed} different on the library")
-    drawn = islice(at_random(options.seed), options.random)
-    again += [measure(statement, cards, deck) for statement, cards in drawn]
+    for draw in (at_random, fields_at_random):
+        again += measure(list(islice(draw(options.seed), options.random)), deck)
     wrong = [vector for vector in again if not same(emulate(vector.statement, cards=vector.cards), vector.outcome)]
     print(f"{len(again)} statements: {len(wrong)} different in the emulator")
     operations = arithmetic.at_random(options.seed, options.random)

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from functools import cache
 
+from emulator.language.cards import deck_from_lines
+from emulator.language.compiler import compile_deck
 from emulator.language.ibm1962 import (
     ALONE,
     FIXED,
@@ -16,13 +19,20 @@ from emulator.language.ibm1962 import (
     fixed_field,
     floating_field,
 )
+from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
 from emulator.numbers import accumulator, arithmetic
-from emulator.numbers.arithmetic import IBM1962, MINUS_ZERO, ZERO, wrap_integer
+from emulator.numbers.arithmetic import IBM1962, MINUS_ZERO, ZERO
+from modern.bench.ibm1962.emulated import OPTIONS
 from modern.bench.ibm1962.simulator import Job, run_jobs
 
 # The object program begins at CODE; its two operands and its result are below TOP.
 CODE, TOP = 9000, 15000
 HALT = [4, 8, *[0] * 10]
+
+# A negative fixed-point product leaves a flag here, and the library then gives the result of a division by zero a minus
+# sign.
+PRODUCT = 99
 
 _EMULATED = {
     "FAD": accumulator.add,
@@ -30,13 +40,9 @@ _EMULATED = {
     "FMP": accumulator.multiply,
     "FDV": accumulator.divide,
 }
-_FIXED: dict[str, Callable[[int, int], tuple[int, int]]] = {
-    "XAD": lambda first, second: (wrap_integer(first + second), 0),
-    "XSB": lambda first, second: (wrap_integer(first - second), 0),
-    "XMP": lambda first, second: (wrap_integer(first * second), 0),
-    "XDV": accumulator.divide_fixed,
-    "XDVR": lambda first, second: accumulator.divide_fixed(second, first),
-}
+
+# The fixed-point operations as expressions of the accumulator I and the operand J.
+_EXPRESSIONS = {"XAD": "I+J", "XSB": "I-J", "XMP": "I*J", "XDV": "I/J", "XDVR": "J/I", "FIX": "A"}
 
 # The operations of :func:`at_random`; sums are the most frequent.
 _DRAWN = ("FAD", "FAD", "FSB", "FSB", "FMP", "FDV", "FDVR", "RSGN", "FIX", "FLOAT", *FIXED, "POWERX", "POWERX")
@@ -59,7 +65,8 @@ def _job(case: Case) -> Job:
     operation, first, second = case
     entry = call(ALONE[operation]) if operation in ALONE else call((OPERATIONS | FIXED)[operation], TOP - 10)
     code = [*call(TO_FAC, TOP), *entry, *call(FROM_FAC, TOP - 20), *HALT]
-    return Job(CODE, {CODE: code, TOP - 9: _field(first), TOP - 19: _field(second)}, examine=[(TOP - 29, TOP)])
+    stored = {CODE: code, TOP - 9: _field(first), TOP - 19: _field(second), PRODUCT: [0]}
+    return Job(CODE, stored, examine=[(TOP - 29, TOP)])
 
 
 def _field(number: str) -> list[int]:
@@ -71,13 +78,11 @@ def emulated(case: Case) -> tuple[str, str]:
     operation, first, second = case
     rules = IBM1962.rules
     event = 0
-    if operation in FIXED or operation == "FIX":
-        value, event = (
-            (arithmetic.to_integer(*pair(first), rules), 0)
-            if operation == "FIX"
-            else _FIXED[operation](int(first), int(second))
-        )
-        return f"{'-' if value < 0 else ''}{abs(value):04}", f"E{event}" if event else ""
+    if operation in _EXPRESSIONS:
+        card = f"{first:>14}" if operation == "FIX" else f"{'':14}{first:>5}{second:>5}"
+        result = Machine(_program(_EXPRESSIONS[operation]), deck_from_lines("deck", [card]), OPTIONS).run()
+        value = result.punched[0][:5].strip()
+        return value.lstrip("-").zfill(4).rjust(4 + value.count("-"), "-"), "".join(result.typed).removeprefix("ERROR ")
     if operation == "FLOAT":
         m, e = arithmetic.from_integer(int(first), rules)
     elif operation == "RSGN":
@@ -85,10 +90,17 @@ def emulated(case: Case) -> tuple[str, str]:
     elif operation == "FDVR":
         m, e, event = accumulator.divide(*pair(second), *pair(first), rules)
     elif operation == "POWERX":
-        m, e, event = arithmetic.whole_power(*pair(first), int(second), rules)
+        m, e, event = accumulator.whole_power(*pair(first), int(second), rules)
     else:
         m, e, event = _EMULATED[operation](*pair(first), *pair(second), rules)
     return number_text(m, e), f"E{event}" if event else ""
+
+
+@cache
+def _program(expression: str) -> Program:
+    statements = ["READ 1,A,I,J", f"K={expression}", "PUNCH 2,K", "STOP"]
+    formats = ["    1 FORMAT(E14.8,2I5)", "    2 FORMAT(I5)"]
+    return compile_deck(deck_from_lines("operation", [*(f"      {s}" for s in statements), *formats, "      END"]))
 
 
 def pair(number: str) -> tuple[int, int]:
@@ -118,7 +130,7 @@ def at_random(seed: int, count: int) -> list[Case]:
         if operation == "FLOAT" or operation in FIXED:
             first = _integer(r)
         if operation == "POWERX" or operation in FIXED:
-            second = _integer(r)
+            second = _integer(r).replace("-0", "0" if operation == "POWERX" else "-0")
         cases.append((operation, first, "" if operation in ALONE else second))
     return cases
 

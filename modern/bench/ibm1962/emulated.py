@@ -10,7 +10,7 @@ from emulator.language.objectcode import Program
 from emulator.machine.result import Options
 from emulator.machine.session import Action, Session
 from emulator.numbers import numbers
-from emulator.numbers.arithmetic import MINUS_ZERO, ZERO
+from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, is_negative
 from modern.bench.ibm1962.statements import Outcome, Statement
 
 OPTIONS = Options(numbers=numbers("ibm1962"), core=60000)
@@ -60,7 +60,7 @@ def _texts(program: Program, session: Session, count: int) -> Iterator[str]:
     for k in range(count):
         fixed = f"K{k}" in entries
         value = session.state.values[entries[f"{'K' if fixed else 'A'}{k}"]]
-        yield f"{'-' if value < 0 else ''}{abs(value):04}" if fixed else floating_text(*value)
+        yield f"{'-' if is_negative(value) else ''}{abs(value):04}" if fixed else floating_text(*value)
 
 
 def floating_text(mantissa: int, exponent: int) -> str:

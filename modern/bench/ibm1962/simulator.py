@@ -20,7 +20,8 @@ BATCH, STEPS = 500, 5_000_000
 
 # Lines of the output that the simulator itself writes, not the simulated program.
 _SIMULATOR = re.compile(
-    r"IBM 1620 simulator|CD[PR]: |HALT instruction|Goodbye|\d{5}:\t|Invalid |No card in|Step expired|%SIM-INFO|/.*\.ini-\d"
+    r"IBM 1620 simulator|CD[PR]: |HALT instruction|Goodbye|\d{5}:\t|Invalid |No card in|Step expired|%SIM-INFO|"
+    r"/.*\.ini-\d"
 )
 # What it writes may follow a typed line at once, because the carriage returns only before the next line.
 _POSITION = re.compile(r"(\d{5}):\t([0-9A-F]{2})\n?")
@@ -154,9 +155,14 @@ def _deposits(stored: Mapping[int, Sequence[int]]) -> Iterator[str]:
 
 
 def _execute(
-    script: Sequence[str], files: Mapping[str, Sequence[str]], count: int, keys: Sequence[str], core: int, seconds: float
+    script: Sequence[str],
+    files: Mapping[str, Sequence[str]],
+    count: int,
+    keys: Sequence[str],
+    core: int,
+    seconds: float,
 ) -> tuple[str, list[list[str]]]:
-    """Run the simulator in a temporary folder with files of cards.  Return its log and ``count`` files of punched cards."""
+    """Run the simulator with files of cards.  Return its log and ``count`` files of punched cards."""
     first = [f"set cpu {core // 1000}K", "deposit arstop 0", "attach cdr deck"]
     with TemporaryDirectory(prefix="i1620-") as folder:
         here = Path(folder)

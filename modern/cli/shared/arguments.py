@@ -60,8 +60,8 @@ def machine_arguments(parser: ArgumentParser) -> None:
     switch = {"--switch N": "turn sense switch N (1 to 4) on (default: all are off)"}
     add(parser, switch, type=int, action="append", choices=(1, 2, 3, 4), default=[])
     arithmetic = (
-        "calculate with truncating, ibm1962, truncating:P, guarded:P, rounding:P, float64, float32, mp:BITS or "
-        "exact (default: %(default)s, the eight digits of the thesis)"
+        "calculate with truncating, ibm1962, truncating1962, truncating:P, guarded:P, rounding:P, float64, float32, "
+        "mp:BITS or exact (default: %(default)s, the eight digits of the thesis)"
     )
     add(parser, {"--arithmetic NAME": arithmetic}, default="truncating")
     core_argument(parser)

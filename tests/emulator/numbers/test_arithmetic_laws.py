@@ -121,8 +121,7 @@ def test_ibm1962_rounds_products_only(case: tuple[Profile, Number, Number]) -> N
     drawn, a, b = case
     p = drawn.digits
     rules = drawn.rules._replace(round_products=1)
-    zeros = {"keeps_left_zero": 1, "signed_underflow": 1, "signed_by_zero": 0, "fixes_mantissa": 1}
-    assert IBM1962.rules == TRUNCATING.rules._replace(round_products=1, powers_multiply=1, **zeros)
+    assert IBM1962.rules == TRUNCATING.rules._replace(round_products=1, as_1962=1)
     assert multiply(*a, *b, rules) == nearest(value(a, p) * value(b, p), p, half=True)
 
 

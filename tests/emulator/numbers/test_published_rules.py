@@ -83,7 +83,8 @@ def test_every_operation_profile_and_class_has_vectors() -> None:
 
 
 def test_every_set_of_rules_is_published() -> None:
-    assert set(OF_THE_TIME) <= set(PROFILES)
+    # The rules of ``truncating1962`` are those of ``truncating`` and ``ibm1962``.
+    assert set(OF_THE_TIME) - {"truncating1962"} <= set(PROFILES)
     assert {f"{name.partition(':')[0]}:P" for name in PROFILES if ":" in name} == set(FAMILIES)
     assert {MIN_DIGITS, MAX_DIGITS} <= {profile(name).digits for name in PROFILES}
 
@@ -154,7 +155,7 @@ def test_unchanged_rules_give_every_line(name: str) -> None:
 
 
 GUARD, STICKY, SUMS, PRODUCTS, QUOTIENTS = Rules._fields[3:8]
-KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW, SIGNED_BY_ZERO, POWERS_MULTIPLY = Rules._fields[8:-1]
+AS_1962 = Rules._fields[8]
 CHANGES = [
     *(
         (name, rule, 1)
@@ -171,10 +172,9 @@ CHANGES = [
         if (name, rule) != ("rounding:2", STICKY)
     ),
     *((name, GUARD, 1) for name in PROFILES if name.startswith("rounding")),
-    *(("ibm1962", rule, 0) for rule in (PRODUCTS, KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW, POWERS_MULTIPLY)),
-    *(("ibm1962", rule, 1) for rule in (GUARD, QUOTIENTS, SIGNED_BY_ZERO)),
-    *(("truncating", rule, 0) for rule in (SIGNED_UNDERFLOW, SIGNED_BY_ZERO)),
-    *(("truncating", rule, 1) for rule in (KEEPS_LEFT_ZERO, POWERS_MULTIPLY)),
+    *(("ibm1962", rule, 0) for rule in (PRODUCTS, AS_1962)),
+    *(("ibm1962", rule, 1) for rule in (GUARD, QUOTIENTS)),
+    ("truncating", AS_1962, 1),
 ]
 
 

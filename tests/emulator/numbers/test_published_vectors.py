@@ -42,8 +42,8 @@ STATEMENTS = {
 }
 BRANCHES = {"if": "A", "compare": "A-B", "fixcompare": "I-J"}
 WAYS = ("", "negative", "zero", "positive")
-DEFERRED = {"power", "read", "readfixed"}
-"""Operations with cases that the compiled engine leaves to the interpreter: some powers, and fields with a remark."""
+DEFERRED = {"power", "read", "readfixed", "fix"}
+"""Operations with cases that the compiled engine leaves to the interpreter: some powers, remarks, and -0."""
 FLOATING, FIXED = "E36.0", "I5"
 """The fields that read the operands, wide enough for 28 digits."""
 

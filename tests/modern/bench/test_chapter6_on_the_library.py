@@ -4,15 +4,18 @@ import csv
 import re
 import tomllib
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from emulator.numbers import numbers
 from modern.bench.ibm1962.chapter6 import FOLDER, NAMES, program_digest, verdicts
-from modern.bench.ibm1962.objectdecks import library
+from modern.bench.ibm1962.objectdecks import COLUMNS, OPTIONS, library
 from modern.bench.ibm1962.simulator import Unavailable
 from modern.edition import programs
-from modern.edition.chapter6 import EXAMPLES, prints
+from modern.edition.chapter6 import EXAMPLES, input_deck, prints
+from modern.thesis.job import run_hull
 
 PAGE = Path("docs/explanation/library-of-1962.md")
 
@@ -46,6 +49,20 @@ def test_the_page_quotes_the_counts() -> None:
     answers = Counter(row["answer"] for row in rows("apparatus.csv"))
     totals = list(map(int, re.findall(r"^\| the .* \| \d+ \| \d+ \| \d+ \| (\d+) \|$", text, re.MULTILINE)))
     assert totals == [answers[answer] for answer in ("compiler", "library", "no change", "nothing")]
+
+
+@pytest.mark.parametrize("arithmetic", ["ibm1962", "truncating1962"])
+def test_the_emulator_punches_the_printed_cards_by_the_rules_of_the_library(arithmetic: str) -> None:
+    compared = 0
+    for example in EXAMPLES:
+        options = replace(OPTIONS, numbers=numbers(arithmetic))
+        steps = run_hull(input_deck(example), programs.program, options, NAMES[0]).steps
+        for step, printed in zip(steps, (p for p in prints(example) if p.device == "punch"), strict=True):
+            assert [card[:COLUMNS].rstrip() for card in step.result.punched] == [
+                line.rstrip() for line in printed.lines
+            ]
+            compared += len(printed.lines)
+    assert compared == 312
 
 
 def test_the_library_repeats_an_example() -> None:

@@ -156,11 +156,17 @@ def divide(a: Number, b: Number, by: Arithmetic) -> Outcome:
         if not a.size and a.minus and not by.of_1962:
             raise Undecided("minus zero divided by zero")
         return Outcome(Number(a.minus and not by.of_1962, largest(by)), "E7")
-    return delivered(a.value / b.value, "quotient", ("E5", "E6"), by) if a.size else Outcome(ZERO)
+    if not a.size:
+        return Outcome(ZERO)
+    value = a.value / b.value
+    if by.of_1962 and decade(a.size) == LOWEST and decade(abs(value)) < LOWEST + 1 - decade(b.size):
+        # The library subtracts one from the exponent -99 of the dividend and gets +99 (executed).
+        value *= ten(199)
+    return delivered(value, "quotient", ("E5", "E6"), by)
 
 
 def power(a: Number, count: int, by: Arithmetic) -> Outcome:
-    """Return A ** J (OQ 8): the exact power shortened once, or under ``ibm1962`` a chain of rounded products."""
+    """Return A ** J (OQ 8): the exact power shortened once, or a chain of products as in the library of 1962."""
     if not count:
         return Outcome(Number(False, Fraction(1)))
     if not a.size:
@@ -174,17 +180,14 @@ def power(a: Number, count: int, by: Arithmetic) -> Outcome:
             far = ten(300 if (places > 0) == (count > 0) else -300)
             return delivered(-far if a.minus and count % 2 else far, "power", ("E3", "E4"), by)
         return delivered(a.value**count, "power", ("E3", "E4"), by)
-    product = Outcome(a)
+    # The library multiplies 1 by A, or by 1 / A if J is negative, and stops at the first error (executed).
+    one = Number(False, Fraction(1))
+    product = base = divide(one, a, by) if count < 0 else Outcome(a)
     for _ in range(abs(count) - 1):
-        product = multiply(product.number, a, by)
         if product.code:
             break
-    if count > 0:
-        # A product out of range stays out of range.  The sign is that of the complete power.
-        return Outcome(Number(a.minus and count % 2 == 1, product.number.size), product.code)
-    if product.code:
-        raise Undecided("1 divided by a power out of range")
-    return delivered(1 / product.number.value, "quotient", ("E3", "E4"), by)
+        product = multiply(product.number, base.number, by)
+    return product
 
 
 def square_root(a: Number, by: Arithmetic) -> Outcome:
