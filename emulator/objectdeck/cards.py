@@ -114,16 +114,16 @@ def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> l
     while end < len(library) and library[end][_NUMBER_COLUMN:].rstrip() == _number(end + 1):
         end += 1
     ends = [index for index, card in enumerate(library[:end]) if card.startswith(END_OF_CODE)]
-    if end <= LOADER_CARDS or len(ends) != 1 or len(library[ends[0] + 1]) < 70:
-        raise DeckError(
-            f"{source}: expected an object deck of IBM 1620 FORTRAN with its library, whose cards are numbered from 1 "
-            f"in columns 77 to 80; found {end} such cards"
-        )
-    lengths = library[ends[0] + 1]
-    top, end_of_table = (int(_plain(lengths[start : start + 5])) for start in (65, 10))
-    fields = (top - end_of_table) // FIELD
-    after = ends[0] + 2 + -(-fields // _FIELDS_A_CARD)
-    return numbered([*library[:LOADER_CARDS], *cards, *library[after:end]], 1)
+    lengths = library[ends[0] + 1] if len(ends) == 1 and ends[0] + 1 < end else ""
+    top, end_of_table = (_plain(lengths[start : start + 5]) for start in (65, 10))
+    if end > LOADER_CARDS and (top + end_of_table).isdecimal():
+        after = ends[0] + 2 - (int(end_of_table) - int(top)) // FIELD // _FIELDS_A_CARD
+        if ends[0] + 2 < after < end:
+            return numbered([*library[:LOADER_CARDS], *cards, *library[after:end]], 1)
+    raise DeckError(
+        f"{source}: expected an object deck of IBM 1620 FORTRAN with its library, whose cards are numbered from 1 "
+        f"in columns 77 to 80; found {end} such cards{' without a valid symbol table' if end > LOADER_CARDS else ''}"
+    )
 
 
 def numbered(cards: Sequence[str], first: int) -> list[str]:

@@ -92,8 +92,8 @@ def run_programs() -> int:
     """Compare all programs on the library and on the emulator.  Return 1 if a card or a line differs."""
     library()
     exit_code = 0
-    for name, program, deck in subjects():
-        comparison = compare(name, program, deck)
+    for name, program, deck, operator in subjects():
+        comparison = compare(name, program, deck, operator)
         differences = list(comparison.differences())
         cards, lines = map(len, comparison.emulator)
         print(f"{name}: {cards} cards, {lines} lines, {len(differences)} different {comparison.error}".rstrip())

@@ -1,6 +1,6 @@
 """Object decks of the project's programs, run on IBM's library and compared with the emulator."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -12,7 +12,9 @@ from emulator.language.objectcode import PAUSE, Program
 from emulator.language.statements import capitals
 from emulator.language.storage import OBJECT_PROGRAM
 from emulator.machine.machine import Machine
-from emulator.machine.result import Options
+from emulator.machine.operator import FromFile
+from emulator.machine.result import Options, Result
+from emulator.machine.words import read_action
 from emulator.numbers import numbers
 from emulator.objectdeck.cards import END_OF_CODE, object_cards, with_library
 from emulator.objectdeck.digits import card_text
@@ -81,31 +83,68 @@ def _complete(program: Program, cards: Sequence[str], core: int = 20_000) -> lis
     return with_library(object_cards(program, core), cards, "OBJECT_DECK")
 
 
-def execute(program: Program, cards: Sequence[str], starts: int = 0) -> Run:
+def execute(
+    program: Program, cards: Sequence[str], keys: Sequence[str] = (), starts: Sequence[Collection[int]] = ()
+) -> Run:
     """Run the object deck of a program with data cards.  Raise Failed, Unavailable or EmulatorError."""
-    return run(_complete(program, library(), CORE), core=CORE, cards=cards, starts=starts, seconds=SECONDS)
+    deck = _complete(program, library(), CORE)
+    return run(deck, core=CORE, cards=cards, keys=keys, starts=starts, seconds=SECONDS)
 
 
-def punched(result: Run) -> tuple[str, ...]:
+def punched(result: Run | Result) -> tuple[str, ...]:
     """Return the punched cards without their numbers."""
     return tuple(card[:COLUMNS].rstrip() for card in result.punched)
 
 
-def compare(name: str, program: Program, deck: Deck) -> Comparison:
-    """Run a program on IBM's library and on the emulator with the arithmetic ``ibm1962``."""
-    result = Machine(program, deck, OPTIONS).run()
-    pauses = sum(instruction.operation == PAUSE for instruction in program.code)
+def answers(operator: str) -> tuple[list[str], list[str], list[Collection[int]]]:
+    """Return the actions of an operator that are possible on the simulator, the typed lines, and the switches at START.
+
+    The simulator cannot be interrupted while it waits for a typed line, so that switches are set at a PAUSE only.
+    """
+    actions: list[str] = []
+    keys: list[str] = []
+    starts: list[Collection[int]] = []
+    on: set[int] = set()
+    settings: list[str] = []
+    for line in operator.splitlines():
+        if not line.strip() or line.startswith("*"):
+            continue
+        action = read_action(line)[1]
+        if action.word == "SWITCH":
+            settings.append(line)
+            continue
+        if action.word == "START":
+            for setting in settings:
+                switch = read_action(setting)[1]
+                on = on | {switch.number} if switch.on else on - {switch.number}
+            actions += settings
+            starts.append(on)
+        else:
+            keys.append(action.text)
+        actions.append(line)
+        settings = []
+    return actions, keys, starts
+
+
+def compare(name: str, program: Program, deck: Deck, operator: str = "") -> Comparison:
+    """Run a program on IBM's library and on the emulator with the arithmetic ``ibm1962``.
+
+    ``operator`` has the actions of the operator, whose typed lines are compared too.
+    """
+    actions, keys, starts = answers(operator)
+    starts = starts or [()] * sum(instruction.operation == PAUSE for instruction in program.code)
+    result = Machine(program, deck, OPTIONS).run(FromFile(name, "\n".join(actions)))
     try:
-        executed = execute(program, [card.text for card in deck.cards], pauses)
+        executed = execute(program, [card.text for card in deck.cards], keys, starts)
     except (DeckError, Failed) as error:
         return Comparison(name, error=str(error))
     lines = tuple(line.rstrip() for line in executed.typed)
-    typed = tuple(line.rstrip() for line in result.typed if line.strip())
-    return Comparison(name, (punched(executed), lines), (tuple(card.rstrip() for card in result.punched), typed))
+    typed = tuple(e.text.rstrip() for e in result.events if e.what in ("type", "accept") and e.text.strip())
+    return Comparison(name, (punched(executed), lines), (punched(result), typed))
 
 
-def subjects() -> Iterator[tuple[str, Program, Deck]]:
-    """Yield the programs of the repository that end without an operator, each with an input deck."""
+def subjects() -> Iterator[tuple[str, Program, Deck, str]]:
+    """Yield the programs of the repository, each with an input deck and the actions of its operator."""
     decks = {f"example {example}": input_deck(example) for example in EXAMPLES}
     decks |= {path.name: read_deck(str(path)) for path in sorted(Path(COUNTEREXAMPLES).glob("*.deck"))}
     for first in ("program1_examples", "program1"):
@@ -114,14 +153,14 @@ def subjects() -> Iterator[tuple[str, Program, Deck]]:
                 # Program 3 does not end if its table of planes is too short (KNOWN-FAULTS).
                 if step.result.ending.kind == "limit":
                     continue
-                yield f"{title}, {step.name} after {first}", step.program, step.deck
+                yield f"{title}, {step.name} after {first}", step.program, step.deck, ""
     for path in sorted(path for folder in FOLDERS for path in Path(folder).glob("*.f")):
         data = path.with_suffix(".deck")
         program = compile_deck(read_deck(str(path), capitals))
-        if path.with_suffix(".operator").exists():
-            continue
+        operator = path.with_suffix(".operator")
         if data.exists() or not program.uses("READ"):
-            yield path.name, program, read_deck(str(data)) if data.exists() else Deck("no deck", ())
+            actions = operator.read_text(encoding="ascii") if operator.exists() else ""
+            yield path.name, program, read_deck(str(data)) if data.exists() else Deck("no deck", ()), actions
 
 
 def against_deck(source: Program, cards: Sequence[str]) -> tuple[int, int, int]:

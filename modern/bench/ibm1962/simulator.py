@@ -8,7 +8,7 @@ import select
 import shutil
 import subprocess
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -92,9 +92,9 @@ def run(
     stored: Mapping[int, Sequence[int]] | None = None,
     cards: Sequence[str] = (),
     keys: Sequence[str] = (),
-    switches: Sequence[int] = (),
+    switches: Collection[int] = (),
     examine: Sequence[tuple[int, int]] = (),
-    starts: int = 0,
+    starts: Sequence[Collection[int]] = (),
     seconds: float = SECONDS,
 ) -> Run:
     """Load a deck, continue at ``start`` (default: where the loader halts), and return the output.
@@ -112,7 +112,7 @@ def run(
     examine
         Ranges of positions to return, first and last.
     starts
-        The number of times that START is pressed after a PAUSE.
+        The sense switches that are on whenever START is pressed after a PAUSE.
 
     Raises
     ------
@@ -121,10 +121,11 @@ def run(
     Failed
         If the run takes longer than ``seconds``.
     """
-    script = [f"deposit sw{number} 1" for number in switches]
+    script = list(_switches(switches))
     script += ["attach -n cdp punched-0", "boot cdr", *_deposits(stored or {})]
     script.append("continue" if start is None else f"go {start}")
-    script += ["continue"] * starts
+    for on in starts:
+        script += [*_switches(on), "continue"]
     script += [f"examine {first}-{last}" for first, last in examine]
     log, (punched,) = _execute(script, {"deck": [*deck, *cards]}, 1, keys, core, seconds)
     return _result(log.partition("LOAD DATA\n")[2], punched)
@@ -147,6 +148,10 @@ def run_jobs(deck: Sequence[str], jobs: Sequence[Job], *, core: int = 20000) -> 
         log, punched = _execute(script, files, len(batch), (), core, SECONDS + len(batch))
         results += map(_result, log.split("JOB\n")[1:], punched)
     return results
+
+
+def _switches(on: Collection[int]) -> Iterator[str]:
+    yield from (f"deposit sw{number} {int(number in on)}" for number in (1, 2, 3, 4))
 
 
 def _deposits(stored: Mapping[int, Sequence[int]]) -> Iterator[str]:
@@ -199,8 +204,7 @@ def _typewriter(command: list[str], folder: Path, keys: Sequence[str], seconds: 
     waiting = list(keys)
     log = b""
     # The simulator polls the keyboard while it runs, so that reading must not block and earlier keys would be lost.
-    keyboard, typing = os.pipe()
-    os.set_blocking(keyboard, False)
+    typing, keyboard = os.openpty()
     with (
         os.fdopen(typing, "wb", buffering=0) as hands,
         subprocess.Popen(

@@ -95,6 +95,12 @@ def test_a_deck_with_the_library_keeps_the_loader_and_the_library() -> None:
     assert complete[-1][76:] == "]" + f"{len(complete):03d}"
     with pytest.raises(DeckError, match=r"deck: expected an object deck .* found 0 such cards"):
         with_library(cards, ["data"], "deck")
+    lengths = next(k for k, card in enumerate(deck) if card.startswith(END_OF_CODE)) + 1
+    beyond = deck[lengths][:10] + "]]]00" + deck[lengths][15:]
+    for damaged in (deck[:lengths], [*deck[:lengths], deck[lengths].replace("9", "X")], [*deck[:lengths], beyond]):
+        rest = deck[len(damaged) :] if len(damaged) > lengths else []
+        with pytest.raises(DeckError, match=r"found \d+ such cards without a valid symbol table"):
+            with_library(cards, [*damaged, *rest], "deck")
 
 
 @pytest.mark.parametrize(
