@@ -85,14 +85,14 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> State
         if QUOTIENT_OVER <= event <= QUOTIENT_UNDER and not rules.as_1962:
             event += PRODUCT_OVER - QUOTIENT_OVER
     m, e = mantissa, exponent
-    times = -count if count < 0 else count
+    times = 0 if event else -count if count < 0 else count
     for done in range(1, times):
-        if event:
-            break
         before, e_before = m, e
-        m, e, event = multiply(m, e, mantissa, exponent, rules)
-        # The base is one or minus one, so that only the sign of the power still changes.
-        if not event and e == e_before and (m == before or m == -before):
+        m, e = multiply_digits(m, e, mantissa, exponent, rules)
+        if e > MAX_EXPONENT or e < MIN_EXPONENT:
+            return in_range(m, e, PRODUCT_OVER, rules)
+        # From here on only the sign of the power can change.
+        if e == e_before and (m == before or m == -before):
             return (before if (times - done) % 2 == 0 else m), e, 0
     return m, e, event
 

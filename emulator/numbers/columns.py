@@ -220,12 +220,17 @@ def write_e(
         else:
             columns[place] = DIGIT
     columns[first + left] = POINT
-    columns[end - 4] = LETTER_E
-    columns[end - 3] = MINUS if shown < 0 else PLUS
-    shown = -shown if shown < 0 else shown
-    columns[end - 2] = DIGIT + shown // 10
-    columns[end - 1] = DIGIT + shown % 10
+    write_exponent(columns, end, shown, shown < 0)
     return end
+
+
+def write_exponent(columns: MutableSequence[int], end: int, shown: int, minus: bool) -> None:
+    """Write an exponent into the last four columns of an E field."""
+    size = -shown if shown < 0 else shown
+    columns[end - 4] = LETTER_E
+    columns[end - 3] = MINUS if minus else PLUS
+    columns[end - 2] = DIGIT + size // 10
+    columns[end - 1] = DIGIT + size % 10
 
 
 def write_f(

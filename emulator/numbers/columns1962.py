@@ -9,14 +9,15 @@ from __future__ import annotations
 from collections.abc import MutableSequence
 
 from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules
+from emulator.numbers.columns import BLANK, DIGIT, FINE, LETTER_E, MINUS, PLUS, POINT, write_exponent
 
-BLANK, DOLLAR, CLOSE, STAR, PLUS, MINUS, POINT, DIGIT, LETTER_E = 32, 36, 41, 42, 43, 45, 46, 48, 69
+DOLLAR, CLOSE, STAR = 36, 41, 42
 
 # The letters of fields.
 E_FIELD, F_FIELD, I_FIELD = range(3)
 
-# The status of a field that was read: REJECTED if the library types ERROR F7 for it, otherwise FINE.
-FINE, REJECTED = 0, -3
+# The status of a field for which the library types ERROR F7.  That of any other field is FINE.
+REJECTED = -3
 
 # The part of a number that a scan of its characters has reached: leading zeros, the mantissa, the exponent.
 LEADING, MANTISSA, EXPONENT = range(3)
@@ -128,11 +129,7 @@ def write_e(
     point = end - 4 - decimals - 1
     fill(columns, at, end, mantissa, count, point, end - 4, rules)
     sign(columns, at, point, mantissa, exponent)
-    columns[end - 4] = LETTER_E
-    columns[end - 3] = MINUS if minus else PLUS
-    shown = -shown if shown < 0 else shown
-    columns[end - 2] = DIGIT + shown // 10
-    columns[end - 1] = DIGIT + shown % 10
+    write_exponent(columns, end, shown, minus)
     return end
 
 

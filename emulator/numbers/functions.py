@@ -130,7 +130,9 @@ def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules, width: 
             whole, scale = whole * size, scale + power_of_ten
         excess = decimal_length(whole) - width
         if excess > 0:
-            # Each truncation loses less than 10**(1 - width) of the number, and squaring doubles the relative loss.
+            # A truncation loses less than the factor 1 + 10**(1 - width).  The squarings that follow raise this factor
+            # to powers that add up to less than 2 * times.  The number, which is below 10**width, is therefore too
+            # small by less than 20 * times plus terms of the second order, which 21 covers.
             whole, scale, error = whole // 10**excess, scale + excess, 21 * times
     bounds = [whole, whole + error]
     if count < 0:
