@@ -367,19 +367,16 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
             return NOT_HERE
         if devices[AS_1962]:
             m, e, status = read_number(field, width, decimals, kind, rules)
-            if fixed:
-                # Only the interpreter has a fixed-point minus zero.
-                status = FINE if e == 0 else NOT_HERE
-                e = FIXED_POINT
         elif fixed:
             m, status = read_fixed(field, width)
-            e = FIXED_POINT
+            e = 0
         else:
             m, e, status = read_floating(field, width, decimals, rules)
-        if status != FINE:
+        # Only the interpreter has a fixed-point minus zero.
+        if status != FINE or (fixed and e != 0):
             return NOT_HERE
         core.mantissas[address] = m
-        core.exponents[address] = e
+        core.exponents[address] = FIXED_POINT if fixed else e
         return GO_ON
     desk.numbers[2 * kind + 1] += 1
     # A field that is too narrow is replaced by E14.8: the line needs 14 columns more.

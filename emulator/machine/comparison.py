@@ -197,7 +197,7 @@ class Comparison:
         return self.digits, None, False
 
     def _value(self, numbers: Numbers, value: Number) -> Fraction | int | None:
-        return value if value is None or type(value) is int else numbers.exact(value, self._exactly)
+        return value if value is None or isinstance(value, int) else numbers.exact(value, self._exactly)
 
     def _texts(self, studied: Number, reference: Number, tested: bool = False) -> tuple[str, str]:
         """Return both values as text, with all digits if they would otherwise look the same.
@@ -245,6 +245,6 @@ def _text(numbers: Numbers, value: Number, exact: Fraction | int | None) -> str:
     """Return ``exact`` as text if it is given, otherwise the value as its arithmetic prints it."""
     if value is None:
         return "undefined"
-    if type(value) is int:
+    if isinstance(value, int):
         return str(value)
     return numbers.text(value) if exact is None else ExactNumbers().text(exact)
