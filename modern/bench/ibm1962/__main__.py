@@ -63,9 +63,8 @@ def parser() -> argparse.ArgumentParser:
 
 def show(options: argparse.Namespace) -> int:
     """Execute one statement and print its outcome."""
-    outcome = execute(
-        Statement(options.verb, options.format, options.values.split()), object_deck(), cards=options.card
-    )
+    statement = Statement(options.verb, options.format, options.values.split())
+    (outcome,) = execute([(statement, options.card)], object_deck())
     for what, lines in (("typed", outcome.typed), ("punched", outcome.punched), ("number", outcome.numbers)):
         for line in lines:
             print(f"{what:7} [{line}]")

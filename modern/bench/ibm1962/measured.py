@@ -15,7 +15,7 @@ from pathlib import Path
 
 from emulator.language.formats import Literal, Slash
 from emulator.numbers.fields import Field
-from modern.bench.ibm1962.statements import BEFORE, Outcome, Statement, execute_all
+from modern.bench.ibm1962.statements import BEFORE, Outcome, Statement, execute
 
 FILE = Path(__file__).parents[3] / "tests" / "data" / "vectors" / "ibm1962.tsv"
 SEQUENCE = 77
@@ -42,7 +42,7 @@ class Measured:
 
 def measure(cases: Sequence[tuple[Statement, tuple[str, ...]]], deck: Sequence[str]) -> list[Measured]:
     """Execute statements with the library in ``deck``.  Raise what ``simulator.run_jobs`` raises."""
-    outcomes = execute_all(cases, deck)
+    outcomes = execute(cases, deck)
     return [Measured(*case, outcome) for case, outcome in zip(cases, outcomes, strict=True)]
 
 

@@ -19,7 +19,7 @@ from emulator.numbers import numbers
 from emulator.objectdeck.cards import END_OF_CODE, object_cards, with_library
 from emulator.objectdeck.digits import card_text
 from emulator.objectdeck.generator import generate
-from modern.bench.ibm1962.simulator import Failed, Run, Unavailable, object_deck, run
+from modern.bench.ibm1962.simulator import Failed, Job, Run, Unavailable, object_deck, run, run_jobs
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.thesis.job import run_hull
@@ -170,9 +170,8 @@ def against_deck(source: Program, cards: Sequence[str]) -> tuple[int, int, int]:
     """
     made = generate(source, 20_000)
     # The loader fills core storage, and the simulator then executes a halt.
-    core = run(
-        cards, start=_HALT_AT, stored={_HALT_AT: [4, 8, *[0] * 10]}, examine=[(OBJECT_PROGRAM, made.end - 1)]
-    ).core
+    job = Job(_HALT_AT, {_HALT_AT: [4, 8, *[0] * 10]}, examine=[(OBJECT_PROGRAM, made.end - 1)])
+    core = run_jobs(cards, [job])[0].core
     different = sum(
         card_text([core[unit.at + offset]]) != digit for unit in made.units for offset, digit in enumerate(unit.digits)
     )

@@ -20,11 +20,11 @@ BATCH, STEPS = 500, 5_000_000
 
 # Lines of the output that the simulator itself writes, not the simulated program.
 _SIMULATOR = re.compile(
-    r"IBM 1620 simulator|CD[PR]: |HALT instruction|Goodbye|\d{5}:\t|Invalid |No card in|Step expired|%SIM-INFO|"
+    r"IBM 1620 simulator|CD[PR]: |HALT instruction|Goodbye|\d{4,5}:\t|Invalid |No card in|Step expired|%SIM-INFO|"
     r"/.*\.ini-\d"
 )
 # What it writes may follow a typed line at once, because the carriage returns only before the next line.
-_POSITION = re.compile(r"(\d{5}):\t([0-9A-F]{2})\n?")
+_POSITION = re.compile(r"(\d{4,5}):\t([0-9A-F]{2})\n?")
 _TROUBLE = re.compile(r"^(?:Invalid|No card in|Step expired) ?[^\n]*$", re.MULTILINE)
 
 
@@ -87,30 +87,20 @@ def object_deck() -> list[str]:
 def run(
     deck: Sequence[str],
     *,
-    start: int | None = None,
     core: int = 20000,
-    stored: Mapping[int, Sequence[int]] | None = None,
     cards: Sequence[str] = (),
     keys: Sequence[str] = (),
-    switches: Collection[int] = (),
-    examine: Sequence[tuple[int, int]] = (),
     starts: Sequence[Collection[int]] = (),
     seconds: float = SECONDS,
 ) -> Run:
-    """Load a deck, continue at ``start`` (default: where the loader halts), and return the output.
+    """Load a deck and run it, and return the output.
 
     Parameters
     ----------
     deck, cards
         The cards to load, and the data cards behind them.
-    stored
-        Positions to set after loading: the digits and flags from each address on.
     keys
         The lines to type, one for each time that the program waits for the typewriter.
-    switches
-        The sense switches that are on.
-    examine
-        Ranges of positions to return, first and last.
     starts
         The sense switches that are on whenever START is pressed after a PAUSE.
 
@@ -121,17 +111,14 @@ def run(
     Failed
         If the run takes longer than ``seconds``.
     """
-    script = list(_switches(switches))
-    script += ["attach -n cdp punched-0", "boot cdr", *_deposits(stored or {})]
-    script.append("continue" if start is None else f"go {start}")
+    script = ["attach -n cdp punched-0", "boot cdr", "continue"]
     for on in starts:
-        script += [*_switches(on), "continue"]
-    script += [f"examine {first}-{last}" for first, last in examine]
+        script += [*(f"deposit sw{number} {int(number in on)}" for number in (1, 2, 3, 4)), "continue"]
     log, (punched,) = _execute(script, {"deck": [*deck, *cards]}, 1, keys, core, seconds)
     return _result(log.partition("LOAD DATA\n")[2], punched)
 
 
-def run_jobs(deck: Sequence[str], jobs: Sequence[Job], *, core: int = 20000) -> list[Run]:
+def run_jobs(deck: Sequence[str], jobs: Sequence[Job], keys: Sequence[str] = ()) -> list[Run]:
     """Load a deck once for many jobs, run them one after the other, and return their outputs.
 
     What a job leaves in the library's core storage remains there for the next job.  Raise Unavailable, or Failed.
@@ -142,21 +129,14 @@ def run_jobs(deck: Sequence[str], jobs: Sequence[Job], *, core: int = 20000) -> 
         script, files = ["attach -n cdp loading", "boot cdr"], {"deck": deck}
         for k, job in enumerate(batch):
             files[f"cards-{k}"] = job.cards
-            script += [f"attach -n cdp punched-{k}", f"attach cdr cards-{k}", *_deposits(job.stored)]
+            script += [f"attach -n cdp punched-{k}", f"attach cdr cards-{k}"]
+            for address, positions in job.stored.items():
+                script += [f"deposit {address + n} {position:X}" for n, position in enumerate(positions)]
             script += [f"deposit pc {job.start}", "echo JOB", f"step {STEPS}"]
             script += [f"examine {first}-{last}" for first, last in job.examine]
-        log, punched = _execute(script, files, len(batch), (), core, SECONDS + len(batch))
+        log, punched = _execute(script, files, len(batch), keys, 20000, SECONDS + len(batch))
         results += map(_result, log.split("JOB\n")[1:], punched)
     return results
-
-
-def _switches(on: Collection[int]) -> Iterator[str]:
-    yield from (f"deposit sw{number} {int(number in on)}" for number in (1, 2, 3, 4))
-
-
-def _deposits(stored: Mapping[int, Sequence[int]]) -> Iterator[str]:
-    for address, positions in stored.items():
-        yield from (f"deposit {address + k} {position:X}" for k, position in enumerate(positions))
 
 
 def _execute(

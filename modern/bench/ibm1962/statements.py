@@ -18,7 +18,7 @@ from emulator.language.ibm1962 import (
     format_positions,
 )
 from emulator.language.tree import Format, Place
-from modern.bench.ibm1962.simulator import Job, Run, run, run_jobs
+from modern.bench.ibm1962.simulator import Job, Run, run_jobs
 
 # The parts of the object program: the calls, the FORMAT, the field of its label, and the first number of the list.
 CALLS, WORDS, LABEL, NUMBERS = 9000, 10000, 15186, 14700
@@ -57,25 +57,10 @@ class Outcome:
     trouble: str = ""
 
 
-def execute(statement: Statement, deck: Sequence[str], *, cards: Sequence[str] = ()) -> Outcome:
-    """Execute a statement with the library in ``deck``.  ``cards`` are data cards, or lines that are typed."""
-    job = _job(statement, cards)
-    keyed = statement.verb == "ACCEPT"
-    output = run(
-        deck,
-        start=job.start,
-        stored=job.stored,
-        cards=() if keyed else cards,
-        keys=cards if keyed else (),
-        examine=job.examine,
-        seconds=5,
-    )
-    return _outcome(statement, output)
-
-
-def execute_all(cases: Sequence[tuple[Statement, Sequence[str]]], deck: Sequence[str]) -> list[Outcome]:
-    """Execute many statements with their data cards, each after the other.  ACCEPT is not among them."""
-    outputs = run_jobs(deck, [_job(statement, cards) for statement, cards in cases])
+def execute(cases: Sequence[tuple[Statement, Sequence[str]]], deck: Sequence[str]) -> list[Outcome]:
+    """Execute statements with the library in ``deck``, each with its data cards or the lines that are typed."""
+    keys = [line for statement, cards in cases if statement.verb == "ACCEPT" for line in cards]
+    outputs = run_jobs(deck, [_job(statement, cards) for statement, cards in cases], keys)
     return [_outcome(statement, output) for (statement, _), output in zip(cases, outputs, strict=True)]
 
 
