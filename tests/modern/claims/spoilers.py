@@ -112,10 +112,6 @@ def without_last_point(original: Original) -> object:
     return lambda points, *arguments, **named: original(points[:-1], *arguments, **named)
 
 
-def without_first_result(original: Original) -> object:
-    return lambda *arguments: original(*arguments)[1:]
-
-
 def changed_result(change: Callable[[Original], Original]) -> Spoiler:
     """Apply a change to whatever the original function returns."""
     return lambda original: lambda *arguments, **named: change(original(*arguments, **named))

@@ -88,16 +88,8 @@ def test_paths_of_parts_are_relative_to_the_folder_of_the_scene(
         ("hull = true\n", "hull = 1\n", "part 3: hull: expected true or false"),
         ("scale = 0.5", "scale = 0", "part 3: scale: expected a number greater than 0"),
         ('"ell"\n', '"ell"\nshape = "cuboid"\n', "part 3: file: expected a shape or a file, found both"),
-        (
-            "step = [0, 4, 0]\n",
-            "figures = [[[0, 0, 0]]]\nstep = [0, 4, 0]\n",
-            "figures: figures need one connected component",
-        ),
-        (
-            "count = [1, 2, 1]",
-            "count = [1, 10001, 1]",
-            "part 2: count: expected at least 1 copy along each axis and at most 20,000",
-        ),
+        ("step = [0, 4, 0]\n", "figures = [[[0, 0, 0]]]\nstep = [0, 4, 0]\n", "figures need one connected component"),
+        ("count = [1, 2, 1]", "count = [1, 10001, 1]", "at least 1 copy along each axis and at most 20,000"),
         ("at = [4, 0, 0]\n", "hul = true\n", "part 2: 'hul' is not a known field of this table"),
     ],
 )

@@ -166,12 +166,7 @@ def test_the_command_reports_clipped_and_omitted_parts(tmp_path: Path, monkeypat
     ("old", "new", "arguments", "message"),
     [
         ("near = 8", "near = 0", (), "s.toml: view: near: expected a distance greater than 0"),
-        (
-            'projection = "perspective"\n',
-            "",
-            (),
-            "towards: a parallel projection has only a direction, in the field eye",
-        ),
+        ('projection = "perspective"\n', "", (), "towards: a parallel projection has only a direction, in the field"),
         ('projection = "perspective"\neye', "eye", ("--towards", "1,2,3"), "towards: a parallel projection"),
         ("near = 8", "near = 99", (), "expected a polyhedron beyond the near plane, but all lie in front of it"),
         ("near = 8", "", ("--near", "0"), "--near: expected a distance greater than 0, found '0'"),

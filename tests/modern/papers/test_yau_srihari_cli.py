@@ -183,10 +183,7 @@ def test_components_and_a_hull_over_one_line_are_reported(stair: str, capsys: py
         (["stair.csv", "--printed", "angel"], "--printed: 'angel' is not one of angle, start"),
         (["stair.csv", "--printed", ""], "--printed: '' is not one of angle, start"),
         (["stair.csv", "--literal", "--printed", "angle"], "not allowed with argument"),
-        (
-            ["stair.csv", "-o", "hull.svg"],
-            "hull.svg: octree-hull expects a name that ends with .nrrd or .npy or .off or .obj",
-        ),
+        (["stair.csv", "-o", "hull.svg"], "hull.svg: octree-hull expects a name that ends with .nrrd or .npy or .off"),
         (["stair.csv", "-o", "no/hull.npy"], "no/hull.npy: no such file or directory"),
         (["none.csv"], "none.csv: no such file or directory"),
         (["."], "is a directory"),

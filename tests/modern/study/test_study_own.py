@@ -65,11 +65,7 @@ def test_worker_processes_find_the_module(module: str) -> None:
     [
         ("    return Drawn(", "    n / 0\n    return Drawn(", "line 5: ZeroDivisionError: division by zero"),
         ("def spread", "def spread(\ndef x", "line 8: '(' was never closed"),
-        (
-            "def spread",
-            "import nothing_there\ndef spread",
-            "line 8: ModuleNotFoundError: No module named 'nothing_there'",
-        ),
+        ("def spread", "import nothing_there\ndef spread", "ModuleNotFoundError: No module named 'nothing_there'"),
         ("def spread", "def other", "has no function 'spread'"),
         ('{"spread": 5}', '{"spread": 5 / sample.nothing}', "line 9: AttributeError: 'Sample' object has no"),
         ('{"spread": 5}', '{"spread": 0.5}', "the figure spread is not an integer or text"),

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from fractions import Fraction
 from types import SimpleNamespace
 
 import modern.claims.appel_will.convexity as convexity
@@ -75,17 +74,8 @@ def permutations_counted(_: Original) -> object:
     return SimpleNamespace(comb=math.perm, factorial=lambda n: n)
 
 
-def first_entry_negated(original: Original) -> object:
-    return lambda entries, edges: original([-entries[0], *entries[1:]], edges)
-
-
 def positive_entries(original: Original) -> object:
     return lambda entries, edges: original([*map(abs, entries)], edges)
-
-
-@changed_result
-def empty_line(projection: Original) -> object:
-    return replace(projection, line=())
 
 
 def rule_two(original: Original) -> object:
@@ -107,17 +97,6 @@ def surface_removed(solid: Original) -> object:
 
 def last_point_outside(original: Original) -> object:
     return lambda points: original([*points[:-1], (9, 9, 9)])
-
-
-def squared_length(_: Original) -> object:
-    """Divide the direction by the square of the length."""
-
-    def direction(p: Original, q: Original) -> tuple[Fraction, Fraction, Fraction, int]:
-        square = sum((b - a) ** 2 for a, b in zip(p, q, strict=True))
-        x, y, z = (Fraction(b - a, square) for a, b in zip(p, q, strict=True))
-        return x, y, z, square
-
-    return direction
 
 
 def coplanar_pits(_: Original) -> object:
@@ -149,11 +128,6 @@ def turned_if_changed(original: Original) -> object:
 
 def without_first_combination(original: Original) -> object:
     return lambda items, r: [*original(items, r)][1:]
-
-
-@changed_result
-def loop_lost(hull: Original) -> object:
-    return replace(hull, table=replace(hull.table, loops=hull.table.loops[1:]))
 
 
 @changed_result

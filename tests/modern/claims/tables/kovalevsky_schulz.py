@@ -51,30 +51,12 @@ def exchanged(original: Original) -> object:
     return lambda *cases: ((new, hidden, visible, *rest) for new, visible, hidden, *rest in original(*cases))
 
 
-def third_point_moved(original: Original) -> object:
-    return lambda p, q, r: original(p, q, (r[0] + 5, r[1] + 7, r[2] - 3))
-
-
 def sign_by_first_coordinate(_: Original) -> object:
     return lambda plane, point: 1 - 2 * (plane[0] % 2)
 
 
 def judges(change: Callable[[Original], Original]) -> Spoiler:
     return lambda original: lambda cases: tuple((points, change(judge)) for points, judge in original(cases))
-
-
-def without_two_vertices(judge: Original) -> object:
-    return replace(judge, vertices=judge.vertices[2:])
-
-
-def degenerate_facet(judge: Original) -> object:
-    first, *rest = judge.facets
-    return replace(judge, facets=(replace(first, polygon=first.polygon[:1]), *rest))
-
-
-def largest_product(_: Original) -> object:
-    """Return a value that is not linear."""
-    return lambda u, v: max(abs(a * b) for a, b in zip(u, v, strict=True))
 
 
 def plain_product(_: Original) -> object:
@@ -105,10 +87,6 @@ def without_last_face(cells: Original) -> object:
 def all_of_26(original: Original) -> object:
     """Return every voxel as a local corner by 26 neighbours."""
     return lambda solid, of=CENTRES, n=26: {*solid} if n == 26 else original(solid, of, n)
-
-
-def as_visible(original: Original) -> object:
-    return lambda solid, **named: original(solid, **{**named, "coplanar": "visible"})
 
 
 def all_points_inside(original: Original) -> object:

@@ -75,11 +75,6 @@ def line_repeated(hull: Hull) -> Hull:
 
 
 @changed_result
-def five_times_the_equations(hull: Hull) -> Hull:
-    return replace(hull, history=tuple(replace(stage, equations=stage.equations * 5) for stage in hull.history))
-
-
-@changed_result
 def third_point_first(hull: Hull) -> Hull:
     """Exchange the first points of H_1 in space."""
     if hull.dimension < 3:

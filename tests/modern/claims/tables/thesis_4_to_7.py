@@ -30,10 +30,6 @@ from tests.modern.claims.spoilers import (
 EQUAL_VERTICES = ({0, 1}, {0, 1})
 
 
-def three_dimensional(original: Original) -> object:
-    return lambda points: replace(original(points), dimension=3)
-
-
 def negated_planes(theorem: Original) -> object:
     planes = (replace(plane, coefficients=tuple(-c for c in plane.coefficients)) for plane in theorem.planes)
     return replace(theorem, planes=tuple(planes))

@@ -3,12 +3,10 @@
 from dataclasses import replace
 from fractions import Fraction
 from itertools import permutations
-from types import SimpleNamespace
 
 import numpy as np
 
 import modern.claims.yau_srihari.envelopes as envelopes
-from modern.digital.solids import ball
 from modern.papers.yau_srihari.octree import octree
 from tests.modern.claims.spoilers import (
     Original,
@@ -45,16 +43,6 @@ def half_integer_normals(hull: Original) -> object:
 
 def corrected_algorithm(original: Original) -> object:
     return lambda array, printed=None: original(array)
-
-
-@changed_result
-def four_points(sets: Original) -> object:
-    return tuple(SimpleNamespace(points=sampled.points[:4], judge=sampled.judge) for sampled in sets)
-
-
-def small_ball(_: Original) -> object:
-    """Use a small solid, in which the search computes more angles."""
-    return lambda diameter, centre: ball(8, centre)
 
 
 def extra_voxel(original: Original) -> object:
