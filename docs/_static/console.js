@@ -23,8 +23,8 @@
 
   if (location.protocol === "file:") {
     at("says").textContent =
-      "The emulator needs a web server. In a checkout, “make serve” shows this site on your own computer. " +
-      "Below is a recorded session.";
+      "The emulator needs a web server: run “python3 -m http.server” in the folder of this page, and open " +
+      "http://localhost:8000/console.html. Below is a recorded session.";
     return;
   }
   if (!bytes) {
