@@ -4,12 +4,11 @@ Series with equal values are drawn side by side, shifted by a few typographic po
 close for that, each in a separate panel.
 """
 
-import re
 from collections.abc import Sequence
 from itertools import combinations, pairwise
 from math import log
 
-from modern.study.report import Bars, Chart, Lines
+from modern.study.report import Bars, Chart, Lines, typeset
 
 # The approximate size of the axes of a chart without panels, in typographic points.
 WIDTH, HEIGHT = 430.0, 220.0
@@ -23,19 +22,6 @@ _FILLED = 0.8
 _HIDDEN = 1 / 3
 # The greatest number of bars side by side in one chart.
 _MANY_BARS = 48
-_RAISED = str.maketrans("0123456789-+k", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᵏ")
-
-
-def typeset(text: str) -> str:
-    """Return text with typographic characters: 10⁻³ for ``10^-3`` or ``1E-3``, and a minus sign before a number."""
-    text = re.sub(r"(?<![\w.])(\d+\.?\d*)E([+-]?\d+)\b", _power, text)
-    text = re.sub(r"(?<=\d)\^([+-]?\d+|k\b)", lambda match: match[1].translate(_RAISED), text)
-    return re.sub(r"(?<![\w.)-])-(?=\.?\d)", "\N{MINUS SIGN}", text)
-
-
-def _power(match: re.Match[str]) -> str:
-    factor = "" if match[1] == "1" else f"{match[1]} \N{MULTIPLICATION SIGN} "
-    return f"{factor}10^{match[2]}"
 
 
 def number(value: float, percent: bool = False, power: bool = False) -> str:

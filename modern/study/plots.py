@@ -1,30 +1,44 @@
-"""Draw charts with matplotlib as SVG and PNG, in one style that is legible in colour and in grey.
+"""Draw charts with matplotlib as SVG and PNG, in the type and the colours of the edition.
 
 Series differ in lightness, marker, line style and hatching, never in hue alone, and none hides another
-(:mod:`modern.study.layout`).  The legend is below the axes, never among the curves.  Equal charts give equal files,
-which contain no date and no random identifiers.
+(:mod:`modern.study.layout`).  Every series and mark is labelled where it is drawn, so that no legend is needed.  In a
+dark theme an SVG has dark colours.  Equal charts give equal files, which contain no date and no random identifiers.
 """
 
 import io
 import textwrap
+from collections.abc import Sequence
+from importlib.resources import as_file, files
 from math import ceil, isfinite
 from pathlib import Path
 from typing import Any
 
-from modern.study.layout import WIDTH, names, number, panels, steps, typeset, values
+from modern.study.layout import WIDTH, names, number, panels, steps, values
 from modern.study.plan import PlanError
-from modern.study.report import Bars, Chart, Lines, Series
+from modern.study.report import Bars, Chart, Lines, Series, typeset
 from modern.study.store import put
 
-# The colours of lines; each differs in lightness from all others, and most from its predecessor.
-COLOURS = ("#16164d", "#e8862e", "#1f6e43", "#8fbfe8", "#8c1c2b", "#4a7fc1")
+INK, QUIET, PAPER, RULE = "#211e19", "#5d564b", "#fdfcf8", "#d8d1c1"
+# The colours of lines; each differs in lightness from all others.
+COLOURS = (INK, "#c4553a", "#b9a982", "#5f4f8f", "#8fa85f", "#7d7567")
+# The colours in a dark theme of those that would not be legible on its ground.
+DARK = {
+    INK: "#e8e3d8",
+    QUIET: "#b3ab9c",
+    PAPER: "#17181a",
+    RULE: "#3f3c35",
+    "#5f4f8f": "#a493d6",
+    "#c4553a": "#ff9d80",
+    "#7d7567": "#9b9384",
+    "#cbc3b2": "#544b37",
+}
 MARKERS = ("o", "s", "^", "D", "v", "X")
 LINES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1.5)), (0, (8, 2)))
-# The colours of bars, light enough to show the error bars on them.
-FILLS = ("#6f8fc9", "#f6cf9a", "#ffffff", "#b9d8c2", "#dfe6f3", "#d98f86")
+# The colours of bars, those of cards and readings, light enough to show the error bars on them.
+FILLS = ("#b9a982", "#f7d8cd", "#fdfcf8", "#dbe7c8", "#e4dcf0", "#d9cba8")
 HATCHES = ("", "", "", "///", "...", "xxx")
-_PALE = "0.8"
-_MARK: Any = {"color": "0.2", "linewidth": 1, "linestyle": (0, (4, 2)), "zorder": 1.5}
+_PALE = "#cbc3b2"
+_MARK: Any = {"color": QUIET, "linewidth": 1, "linestyle": (0, (4, 2)), "zorder": 1.5}
 _MANY_DECADES = 1e4
 # The height of a horizontal bar, in inches.
 _ROW = 0.17
@@ -32,16 +46,24 @@ _ROW = 0.17
 _NOTE = 0.22
 # If the names below bars must be wrapped, their lines have at most this number of characters.
 _WRAPPED = 14
+# The labels of series: characters in a line, and the height of a line as a share of the axes.
+_LABEL, _LINE_HEIGHT = 20, 0.052
+# The width of a letter as a share of the height of the axes, for names of series that stand upright.
+_LETTER = 0.021
 _STYLE: Any = {
+    "font.family": ["IBM Plex Sans", "DejaVu Sans"],
     "font.size": 10,
+    **dict.fromkeys(("text.color", "axes.labelcolor", "axes.edgecolor", "xtick.color", "ytick.color"), INK),
+    "figure.facecolor": PAPER,
+    "savefig.facecolor": PAPER,
+    "axes.facecolor": "none",
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
     "axes.grid.axis": "y",
     "axes.axisbelow": True,
-    "grid.color": "0.88",
+    "grid.color": RULE,
     "grid.linewidth": 0.6,
-    "legend.frameon": False,
     "hatch.linewidth": 0.6,
     "svg.hashsalt": "hull1620",
     "svg.fonttype": "path",
@@ -64,14 +86,28 @@ def draw(chart: Chart, folder: Path) -> None:
     """Write ``NAME.svg`` and ``NAME.png``.  Raise StudyFileError if that fails, PlanError without matplotlib."""
     try:
         import matplotlib
+        from matplotlib.font_manager import fontManager
     except ImportError:
         raise PlanError(_NO_MATPLOTLIB) from None
+    with as_file(files("modern").joinpath("study", "fonts", "ibm-plex-sans-400.ttf")) as font:
+        fontManager.addfont(str(font))
     with matplotlib.rc_context(_STYLE):
         figure = drawn(chart)
         for kind, metadata in (("svg", {"Date": None}), ("png", {"Software": None})):
             file = io.BytesIO()
             figure.savefig(file, format=kind, metadata=metadata)
-            put(folder / f"{chart.name}.{kind}", file.getvalue())
+            put(folder / f"{chart.name}.{kind}", _themed(file.getvalue()) if kind == "svg" else file.getvalue())
+
+
+def _themed(svg: bytes) -> bytes:
+    """Return an SVG file with a style that replaces its colours in a dark theme."""
+    rules = "".join(
+        f'[style*="{kind}: {light}"]{{{kind}:{dark}!important}}'
+        for light, dark in DARK.items()
+        for kind in ("fill", "stroke")
+    )
+    style = f'<style type="text/css">@media (prefers-color-scheme: dark){{{rules}}}</style>'
+    return svg.replace(b"</defs>", f" {style}\n </defs>".encode(), 1)
 
 
 def drawn(chart: Chart) -> Any:
@@ -89,22 +125,12 @@ def drawn(chart: Chart) -> Any:
     note = chart.note
     if isinstance(chart, Lines) and any(steps(chart)) and not panels(chart):
         note = "; ".join(filter(None, (note, "markers at the same x are shifted sideways")))
+    if panels(chart):
+        note = "; ".join(filter(None, (note, *(f"dashed line: {mark.label}" for mark in chart.marks))))
     below = _NOTE / figure.get_figheight() if note else 0.0
-    handles, labels = figure.axes[0].get_legend_handles_labels()
-    marks = len(chart.marks)
-    # A single series is named by the title of the chart, a series in a panel by the title of the panel.
-    titled = len(chart.series) == 1 or panels(chart)
-    if marks or not titled:
-        # matplotlib lists marks before series; the legend shows them after series.
-        handles, labels = ((p[:marks] if titled else p[marks:] + p[:marks]) for p in (handles, labels))
-        has_long_labels = max(map(len, labels)) > 20
-        # The legend is placed above the note.
-        padding = 0.5 + below * figure.get_figheight() * 72 / 10
-        columns = min(3 if has_long_labels else 4, len(labels))
-        figure.legend(handles, labels, loc="outside lower center", ncols=columns, borderaxespad=padding)
     if note:
         engine.set(rect=(0, below, 1, 1 - below))
-        figure.text(0.01, below / 3, typeset(note), fontsize=8, color="0.3")
+        figure.text(0.01, below / 3, typeset(note), fontsize=8, color=QUIET)
     return figure
 
 
@@ -115,6 +141,7 @@ def _together(axes: Any, chart: Chart) -> None:
         for k, shift in enumerate(shifts):
             _line(axes, chart, k, shift)
         _scales(axes, chart, max(shifts, default=0.0) / WIDTH)
+        _name_lines(axes, chart)
     else:
         _standing(axes, chart)
     axes.set_xlabel(typeset(chart.x))
@@ -132,7 +159,7 @@ def _panels(figure: Any, chart: Chart) -> None:
         if k >= len(chart.series):
             axes.set_axis_off()
             continue
-        _marks(axes, chart, turned=isinstance(chart, Bars))
+        _marks(axes, chart, turned=isinstance(chart, Bars), named=False)
         axes.set_title(typeset(chart.series[k].name), loc="left", fontsize=9)
         if isinstance(chart, Lines):
             for series in chart.series[:k] + chart.series[k + 1 :]:
@@ -149,10 +176,60 @@ def _panels(figure: Any, chart: Chart) -> None:
     figure.supylabel(typeset(chart.x if isinstance(chart, Bars) else chart.y), fontsize=10)
 
 
-def _marks(axes: Any, chart: Chart, turned: bool = False) -> None:
+def _marks(axes: Any, chart: Chart, turned: bool = False, named: bool = True) -> None:
     for mark in chart.marks:
-        line = axes.axvline if mark.upright != turned else axes.axhline
-        line(mark.at, label=typeset(mark.label), **_MARK)
+        upright = mark.upright != turned
+        (axes.axvline if upright else axes.axhline)(mark.at, **_MARK)
+        if not named:
+            continue
+        where: Any = (
+            ((mark.at, 0.5), ("data", "axes fraction")) if upright else ((0.0, mark.at), ("axes fraction", "data"))
+        )
+        shift: Any = (
+            {"xytext": (-3, 0), "ha": "right", "va": "center"} if upright else {"xytext": (4, 3), "va": "bottom"}
+        )
+        axes.annotate(
+            typeset(mark.label),
+            where[0],
+            xycoords=where[1],
+            textcoords="offset points",
+            rotation=90 if upright else 0,
+            **shift,
+            **_SMALL,
+        )
+
+
+def _name_lines(axes: Any, chart: Lines) -> None:
+    """Write the name of each series to the right of its last point; names that would overlap are moved apart."""
+    if len(chart.series) < 2:
+        return
+    to_axes = axes.transData + axes.transAxes.inverted()
+    ends = []
+    for k, series in enumerate(chart.series):
+        if series.points:
+            x, estimate = series.points[-1]
+            ends.append((float(to_axes.transform((x, estimate.value))[1]), k))
+    names_of = [textwrap.fill(typeset(series.name), _LABEL) for series in chart.series]
+    heights = [(names_of[k].count("\n") + 1) * _LINE_HEIGHT for _, k in sorted(ends)]
+    places = _apart([height for height, _ in sorted(ends)], heights)
+    for (_, k), place in zip(sorted(ends), places, strict=True):
+        colour, marker = COLOURS[k % len(COLOURS)], MARKERS[k % len(MARKERS)]
+        sign = {"color": colour, "marker": marker, "edgecolors": INK, "linewidths": 0.6, "s": 24}
+        axes.scatter([1.035], [place], transform=axes.transAxes, clip_on=False, **sign)
+        axes.text(1.06, place, names_of[k], transform=axes.transAxes, va="center", fontsize=9)
+
+
+def _apart(preferred: Sequence[float], heights: Sequence[float]) -> list[float]:
+    """Return ascending positions near ``preferred`` at which labels of these heights do not overlap within the axes."""
+    places: list[float] = []
+    for k, place in enumerate(preferred):
+        least = places[-1] + (heights[k - 1] + heights[k]) / 2 if places else 0.0
+        places.append(max(place, least))
+    most = 1.0
+    for k in reversed(range(len(places))):
+        places[k] = min(places[k], most)
+        most = places[k] - (heights[k] + heights[k - 1]) / 2
+    return places
 
 
 def _errors(series: Series) -> list[list[float]]:
@@ -174,12 +251,11 @@ def _line(axes: Any, chart: Lines, k: int, shift: float) -> None:
         linestyle=LINES[k % len(LINES)],
         marker=MARKERS[k % len(MARKERS)],
         markersize=4.8,
-        markeredgecolor="0.1",
+        markeredgecolor=INK,
         markeredgewidth=0.6,
         linewidth=1.4,
         elinewidth=0.9,
         capsize=2,
-        label=typeset(series.name),
         transform=shifted,
     )
 
@@ -238,14 +314,32 @@ def _standing(axes: Any, chart: Chart) -> None:
     for k, series in enumerate(chart.series):
         middle = [groups.index(str(name)) - 0.4 + (k + 0.5) * width for name, _ in series.points]
         heights = [estimate.value for _, estimate in series.points]
-        axes.bar(middle, heights, width, label=typeset(series.name), **_fill(k))
+        axes.bar(middle, heights, width, **_fill(k))
         axes.errorbar(middle, heights, _errors(series), **_WHISKERS)
     labels = [typeset(name) for name in groups]
     if sum(map(len, labels)) > 70:
         labels = [textwrap.fill(label, _WRAPPED) for label in labels]
     axes.set_xticks(range(len(groups)), labels)
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: number(value, chart.percent)))
-    axes.set_ylim(bottom=0)
+    top = max((e.high for series in chart.series for _, e in series.points), default=1.0)
+    axes.set_ylim(0, top)
+    if len(chart.series) > 1:
+        _name_bars(axes, chart, width, top)
+
+
+def _name_bars(axes: Any, chart: Chart, width: float, top: float) -> None:
+    """Write the name of each series upright above its highest bar, in free space above the highest bar of all."""
+    groups = names(chart)
+    axes.set_yticks([tick for tick in axes.get_yticks() if tick <= top])
+    lines = [textwrap.fill(typeset(series.name), _LABEL) for series in chart.series]
+    longest = max(len(line) for name in lines for line in name.split("\n"))
+    axes.set_ylim(0, top / (1 - _LETTER * (longest + 2)))
+    for k, series in enumerate(chart.series):
+        if series.points:
+            name, highest = max(series.points, key=lambda point: point[1].high)
+            place = (groups.index(str(name)) - 0.4 + (k + 0.5) * width, highest.high)
+            above: Any = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center", "va": "bottom"}
+            axes.annotate(lines[k], place, rotation=90, **above, **_SMALL)
 
 
 def _lying(axes: Any, chart: Chart, k: int) -> None:
@@ -254,7 +348,7 @@ def _lying(axes: Any, chart: Chart, k: int) -> None:
     groups, series = names(chart), chart.series[k]
     middle = [groups.index(str(name)) for name, _ in series.points]
     lengths = [estimate.value for _, estimate in series.points]
-    axes.barh(middle, lengths, 0.7, label=typeset(series.name), **_fill(k))
+    axes.barh(middle, lengths, 0.7, **_fill(k))
     axes.errorbar(lengths, middle, xerr=_errors(series), **_WHISKERS)
     axes.set_yticks(range(len(groups)), [typeset(name) for name in groups], fontsize=8)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: number(value, chart.percent)))
@@ -266,8 +360,14 @@ def _lying(axes: Any, chart: Chart, k: int) -> None:
     axes.grid(visible=True, axis="x")
 
 
-_WHISKERS: Any = {"fmt": "none", "ecolor": "0.0", "elinewidth": 0.9, "capsize": 2}
+_SMALL: Any = {
+    "fontsize": 8.5,
+    "color": INK,
+    "bbox": {"facecolor": PAPER, "edgecolor": "none", "pad": 0.6},
+    "zorder": 3,
+}
+_WHISKERS: Any = {"fmt": "none", "ecolor": INK, "elinewidth": 0.9, "capsize": 2}
 
 
 def _fill(k: int) -> dict[str, Any]:
-    return {"color": FILLS[k % len(FILLS)], "edgecolor": "0.1", "linewidth": 0.6, "hatch": HATCHES[k % len(HATCHES)]}
+    return {"color": FILLS[k % len(FILLS)], "edgecolor": INK, "linewidth": 0.6, "hatch": HATCHES[k % len(HATCHES)]}

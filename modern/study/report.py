@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -14,6 +15,10 @@ from modern.study.statistics import Interval, exact
 from modern.study.store import Store, put
 from modern.study.summary import summary
 
+_RAISED = str.maketrans("0123456789-+k", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᵏ")
+_NUMBER = r"[\N{MINUS SIGN}\d.,]+"
+# An estimate with its interval, or an interval alone, in percent or not; a number of percent.
+_TOGETHER = re.compile(rf"(?:{_NUMBER} )?\({_NUMBER} to {_NUMBER}\)(?: %)?|{_NUMBER} %")
 _NUMERIC = frozenset("0123456789.+-%eE to(),")
 INTERVALS = ("In parentheses: exact 95 % intervals of proportions (Clopper and Pearson).",)
 
@@ -40,8 +45,10 @@ class Table:
 
     def markdown(self) -> str:
         rule = ["--:" if is_numeric else ":--" for is_numeric in self._numeric()]
-        lines = ["| " + " | ".join(c.replace("|", "\\|") for c in row) + " |" for row in (self.head, rule, *self.rows)]
-        return "\n".join([f"**{self.title}**", "", *lines, *(f"\n{note}" for note in self.notes)]) + "\n"
+        head, *rows = ([unbroken(cell).replace("|", "\\|") for cell in row] for row in (self.head, *self.rows))
+        lines = ["| " + " | ".join(row) + " |" for row in (head, rule, *rows)]
+        notes = [f"\n{unbroken(note)}" for note in self.notes]
+        return "\n".join([f"**{unbroken(self.title)}**", "", *lines, *notes]) + "\n"
 
     def _numeric(self) -> list[bool]:
         return [
@@ -71,6 +78,23 @@ def with_interval(estimate: Interval, digits: int = 2) -> str:
 Place = str | float
 
 
+def typeset(text: str) -> str:
+    """Return text with typographic characters: 10⁻³ for ``10^-3`` or ``1E-3``, and a minus sign before a number."""
+    text = re.sub(r"(?<![\w.])(\d+\.?\d*)E([+-]?\d+)\b", _power, text)
+    text = re.sub(r"(?<=\d)\^([+-]?\d+|k\b)", lambda match: match[1].translate(_RAISED), text)
+    return re.sub(r"(?<![\w.)-])-(?=\.?\d)", "\N{MINUS SIGN}", text)
+
+
+def _power(match: re.Match[str]) -> str:
+    factor = "" if match[1] == "1" else f"{match[1]} \N{MULTIPLICATION SIGN} "
+    return f"{factor}10^{match[2]}"
+
+
+def unbroken(text: str) -> str:
+    """Return a typeset text whose intervals are not broken into lines: their spaces are no-break spaces."""
+    return _TOGETHER.sub(lambda match: match[0].replace(" ", "\N{NO-BREAK SPACE}"), typeset(text))
+
+
 def share_of(hits: int, of: int) -> str:
     """Format a count, its total and the proportion: ``3 of 40, 7.5 (2.6 to 19.9) %``; ``0 of 0`` if the total is 0."""
     return f"{hits:,} of {of:,}" + (f", {percent(exact(hits, of))}" if of else "")
@@ -82,7 +106,7 @@ def listed(items: Iterable[object]) -> str:
 
 
 def powers(exponents: Iterable[int]) -> str:
-    """Format powers of ten with ascending exponents: ``10^-6 to 10^-3, 10^1``; ``none`` if there are none."""
+    """Format powers of ten with ascending exponents: ``10^-6 to 10^-3, 10^1``; otherwise ``none``."""
     runs: list[tuple[int, int]] = []
     for number in exponents:
         if runs and runs[-1][1] + 1 == number:
@@ -178,11 +202,17 @@ def write_report(folder: Path, plan: Plan, report: Report, plotted: bool) -> Non
     put(folder / "table.md", "\n".join(table.markdown() for table in report.tables))
     for table in report.tables:
         put(folder / f"{table.name}.csv", table.csv())
-    parts = [f"# {plan.title}", plan.question, *report.conclusions]
+    put(folder / "report.md", markdown(plan.title, plan.question, report, plotted))
+
+
+def markdown(title: str, question: str, report: Report, plotted: bool) -> str:
+    """Return a report: the main conclusion, the question, the other conclusions, the plots and the tables."""
+    finding, others = report.conclusions[:1], report.conclusions[1:]
+    parts = [*map(unbroken, (*finding, f"**The question.** {question}", *others))]
     if plotted:
         parts += [f"![{chart.title}]({chart.name}.svg)" for chart in report.charts]
     parts += [table.markdown().rstrip("\n") for table in report.tables]
-    put(folder / "report.md", "\n\n".join(parts) + "\n")
+    return "\n\n".join([f"# {title}", *parts]) + "\n"
 
 
 def terminal_text(report: Report) -> str:

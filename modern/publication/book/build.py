@@ -75,7 +75,7 @@ SUBJECTS: Final = (
 _MOST_PLACES = 40
 # Paragraphs of the home page that only lead to other pages of the site.
 _NAVIGATION = re.compile(r"^\*\*(?:\[|Next:).*?(?:\n\n|\Z)", re.MULTILINE | re.DOTALL)
-FONTS = Path(__file__).parent / "fonts"
+FONTS = (str(Path(__file__).parent / "fonts"), str(ROOT / "modern" / "study" / "fonts"))
 
 
 def documents() -> dict[str, str]:
@@ -193,7 +193,7 @@ def build(out: Path) -> int:
             pdf = compiler.compile(
                 str(main_file),
                 root=folder,
-                font_paths=[str(FONTS)],
+                font_paths=[*FONTS],
                 ignore_system_fonts=True,
                 pdf_standards=[STANDARD],
                 timestamp=datetime(2026, 1, 1, tzinfo=UTC),

@@ -22,10 +22,10 @@ _COMMENT = re.compile(r"<!--.*?-->\n?", re.DOTALL)
 _ROLE = re.compile(r"\{([a-z]+)\}\Z")
 _FIRST_UNSUPPORTED = 0x2E80  # the first code point of the East Asian scripts, which the fonts of Typst do not contain
 # A number with a sign, a unit, or an interval; such cells are aligned to the right.
-_NUMBER = re.compile(r"[-−+±]?[\d.,]+(?:[ %×·^/]|\([\d., to–-]*\)|[\d.,⁻⁰¹²³⁴-⁹-])*|-|–|")
+_NUMBER = re.compile(r"[-−+±]?[\d.,]+(?:[\s%×·^/]|\([−\d.,\sto–-]*\)|[\d.,⁻⁰¹²³⁴-⁹-])*|-|–|")
 # Widths in characters: of a table, the largest weight of a column, of a cell that is not a sentence, the default for
-# the longest word, and of the gap between columns.
-_LINE, _LONG, _CELL, _WORD, _GAP = 104, 90, 40, 12, 2
+# the longest word, of the gap between columns, and of a name that stays on one line.
+_LINE, _LONG, _CELL, _WORD, _GAP, _NAME = 104, 90, 40, 12, 2, 16
 # Font sizes of tables in points: the normal size, the smallest for cells on one line, and the smallest of all.
 _USUAL, _SMALL, _SMALLEST = 8.5, 6.5, 5.0
 
@@ -134,7 +134,8 @@ class Markdown:
     def typst(self, source: str) -> str:
         """Translate the whole document."""
         text = _MADE.sub(rf"~~~{_MADE_FENCE}\1\n~~~", _COMMENT.sub("", _HEAD.sub("", source)))
-        text = _DIRECTIVE.sub("", text)
+        # On paper an interval may stand below its estimate, but is not broken itself.
+        text = _DIRECTIVE.sub("", text).replace("\N{NO-BREAK SPACE}(", " (")
         tokens = MarkdownIt("commonmark").enable("table").use(deflist_plugin).parse(text)
         return "".join(self._blocks(tokens))
 
@@ -205,12 +206,14 @@ class Markdown:
             elif token.type == "inline":
                 rows[-1].append(token)
         columns = [[_plain(row[k]) for row in rows] for k in range(len(rows[0]))]
-        longest = [max(len(word) for cell in column for word in cell.split() or ("",)) for column in columns]
+        longest = [max(len(word) for cell in column for word in re.split(r"[ \n]+", cell)) for column in columns]
         # A heading may be broken into lines; the width depends on the cells.
         widths = [max(word, *map(len, column[1:])) for word, column in zip(longest, columns, strict=True)]
         head, *body = [[self._inline(cell) for cell in row] for row in rows]
         right = [k for k, column in enumerate(columns) if column[1:] and all(map(_NUMBER.fullmatch, column[1:]))]
-        return table(head, body, widths, longest, right)
+        # A name of a few words is not broken into one word a line.
+        least = [word if k in right else max(word, min(widths[k], _NAME)) for k, word in enumerate(longest)]
+        return table(head, body, widths, least, right)
 
     def _entry(self, subject: str) -> str:
         """Return a mark for the index if a label or a name is one of its subjects."""

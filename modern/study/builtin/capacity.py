@@ -172,8 +172,9 @@ def _conclusions(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> tuple[
     sufficient = max((n for n, _ in tried if all(most <= PLACES for m, most in tried if m <= n)), default=0)
     most = max((peak.most for peak in peaks.values()), default=0)
     conclusions = [
-        f"Largest number of entries in use at once: {most}. The table as listed has {PLACES} entries. Largest N up to "
-        f"which no set needed more than {PLACES}: {sufficient or 'none'}."
+        f"The plane table is {'too short for some' if most > PLACES else 'long enough for all'} sets: up to {most} "
+        f"entries were in use at once, and the table as listed has {PLACES}. Largest N up to which no set needed more "
+        f"than {PLACES}: {sufficient or 'none'}."
     ]
     if sufficient:
         number = sum(counts.of(k, LISTED) for k, cell in enumerate(plan.cells) if cell.key["n"] == sufficient)

@@ -178,8 +178,8 @@ def _conclusions(counts: Summary, cells: Cells) -> tuple[str, ...]:
     agree = [d for cell, d in cells if least(counts, cell) == exact_zeros(d)]
     sets = counts.of(0, LISTED)
     return (
-        "Corrected programs in eight-digit arithmetic: no set failed for coordinates with these numbers of digits d: "
-        f"{listed(without_failure)}. No hull was found for d: {listed(without_hull)}.",
+        "In eight-digit arithmetic the corrected programs failed for no set with coordinates of these numbers of "
+        f"digits: {listed(without_failure)}. They found no hull with: {listed(without_hull)}.",
         f"Plausible but wrong hulls among the failures: {share_of(wrong, failed)}.",
         f"The least P is 3d + 1, with which every test for zero is exact, for {len(agree)} of {len(cells)} numbers of "
         f"digits d. If none of {sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of such sets could fail "

@@ -162,5 +162,6 @@ def _conclusions(plan: Plan, times: dict[int, _Time]) -> tuple[str, ...]:
             share = sum(t.parts["processor"].value for t in there) / sum(t.total.value for t in there)
             shares.append(f"{100 * share:.0f} % at N = {number:.0f}")
     return (
-        f"Share of the processor in the time, over all kinds of sets: {listed(shares)}. The rest is cards and typing.",
+        f"The processor took this part of the time, over all kinds of sets: {listed(shares)}. Cards and typing took "
+        "the rest.",
     )

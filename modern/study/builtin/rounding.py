@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
-from modern.study.report import INTERVALS, Bars, Lines, Report, Series, Table, percent, powers, row
+from modern.study.report import INTERVALS, Bars, Lines, Report, Series, Table, listed, percent, powers, row
 from modern.study.statistics import exact
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary
@@ -286,13 +286,16 @@ def _silent(plan: Plan, counts: Summary) -> Table:
 
 def _conclusions(plan: Plan, counts: Summary) -> tuple[str, ...]:
     right, wrong, of = 0, 0, 0
+    failed = []
     for way in WAYS:
         hits, sets = _pooled(plan, counts, "exact", way, DETERMINED)
+        failed.append(f"{way}, {sets - hits:,} of {sets:,}")
         right, of = right + hits, of + sets
         wrong += _pooled(plan, counts, "exact", way, (WRONG,))[0]
     ((number, cell),) = cells(plan, sets=TENTHS)
     eight, binary = counts.share(number, TRUNCATING), counts.share(number, "float64")
     return (
+        f"Sets that failed with the exact test, by arithmetic: {listed(failed)}.",
         f"Failures with the exact test, all arithmetics together: {of - right:,}. Plausible but wrong hulls among "
         f"them: {wrong:,}. Rejected sets and runs that did not end: {of - right - wrong:,}.",
         f"Hulls found for the sets {cell.key['sets']}: {percent(eight)} by truncation to eight digits; "

@@ -245,7 +245,7 @@ def _conclusions(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...],
     )
     frequent = (f"{outcome} {where}, {share_of(n, as_listed.failed)}" for (outcome, where), n in causes.most_common(3))
     conclusions = [
-        f"Failures in seventy such sets with the programs as listed: {with_interval(as_listed.mean)}, "
+        f"Seventy such sets have {with_interval(as_listed.mean)} failures with the programs as listed, "
         f"{_compared_with_two(as_listed.mean)}. Groups of seventy with exactly two failures: "
         f"{percent(as_listed.groups(THESIS, THESIS))}; with two or more: {percent(as_listed.groups(THESIS))}. "
         f"Two failures in seventy are {_unusual(as_listed.groups(THESIS))}.",

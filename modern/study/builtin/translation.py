@@ -288,9 +288,9 @@ def _time_conclusion(pairs: list[_Pair]) -> str:
     savings = [pair.saved("seconds_processor") for pair in pairs]
     whole = mean((pair.saved_in_all for pair in pairs), most=1.0)
     return (
-        f"Sets timed both ways: {len(pairs)}. Processor time saved: at most {100 * max(savings):.1f} %, at least "
-        f"{100 * min(savings):.1f} %. Share of the total time saved, including cards and typing, on average: "
-        f"{_share(whole)}. Effect of moving the origin, by planes of the hull per point: "
+        f"Moving the origin saved {_share(whole)} of the total time on average, including cards and typing. Processor "
+        f"time saved: at most {100 * max(savings):.1f} %, at least {100 * min(savings):.1f} %. Sets timed both ways: "
+        f"{len(pairs)}. Effect of moving the origin, by planes of the hull per point: "
         f"{listed(f'{_verdict(_saved(here))} ({name})' for name, here in _classes(pairs))}."
     )
 

@@ -201,7 +201,7 @@ def test_the_book_is_pdf_a(tmp_path: Path, whole: tuple[str, Path]) -> None:
     made = compiler.compile(
         str(folder / "book.typ"),
         root=str(folder),
-        font_paths=[str(book.FONTS)],
+        font_paths=[*book.FONTS],
         ignore_system_fonts=True,
         pdf_standards=[book.STANDARD],
     )

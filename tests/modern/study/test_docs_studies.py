@@ -12,6 +12,7 @@ from modern.study.builtin import names, study
 from modern.study.families import FAMILIES
 from modern.study.measures import MEASURES
 from modern.study.plan import Port, Programs
+from modern.study.report import unbroken
 from modern.study.tomlplan import _CELL, _HEAD
 from tests.support.paths import ROOT
 
@@ -45,7 +46,10 @@ def test_report_contains_every_table(name: str) -> None:
     for path in (DOCS / name).glob("*.csv"):
         with open(path, encoding="utf-8", newline="") as file:
             for row in csv.reader(file):
-                assert "| " + " | ".join(row) + " |" in report, path
+                assert "| " + " | ".join(map(unbroken, row)) + " |" in report, path
+    finding = report.split("\n\n")[1]
+    assert len(re.findall(r"\d", finding)) > 1, "a report begins with its finding"
+    assert not re.search(r"\d\^|\(\S+ to ", report), "powers are raised, and intervals are not broken"
 
 
 HOW_TO = (ROOT / "docs" / "how-to" / "own-study.md").read_text(encoding="utf-8")

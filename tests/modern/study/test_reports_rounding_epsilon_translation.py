@@ -155,11 +155,11 @@ def test_rounding_names_the_better_arithmetic(tmp_path: Path) -> None:
     assert largest["truncating"] == "-"
     lost = (len(rounding.WAYS) - 1) * tested // 2
     assert (
-        f"all arithmetics together: {lost:,}. Plausible but wrong hulls among them: {lost:,}." in report.conclusions[0]
+        f"all arithmetics together: {lost:,}. Plausible but wrong hulls among them: {lost:,}." in report.conclusions[1]
     )
     assert {row[1:] for row in table_of(report, "widths").rows} == {("none", "none", "10^-6 to 10^-1", *["none"] * 3)}
     fair = report_of("rounding", plan, tmp_path / "b", all_right)
-    assert fair.conclusions[0].startswith("Failures with the exact test, all arithmetics together: 0.")
+    assert fair.conclusions[1].startswith("Failures with the exact test, all arithmetics together: 0.")
     assert {row[4] for row in table_of(fair, "pairs").rows} == {"no difference"}
 
 
@@ -170,7 +170,7 @@ def test_rounding_reports_the_hulls_of_decimal_sets(tmp_path: Path) -> None:
     def outcome(cell: int, route: str, index: int) -> tuple[str, str]:
         return ("DATA NOT ACCEPTABLE", "") if cell == tenths and route == "float64" else ("right", "")
 
-    conclusion = report_of("rounding", plan, tmp_path / "a", outcome).conclusions[1]
+    conclusion = report_of("rounding", plan, tmp_path / "a", outcome).conclusions[2]
     assert "100.0 (83.2 to 100.0) % by truncation to eight digits; 0.0 (0.0 to 16.8) % by float64" in conclusion
 
 

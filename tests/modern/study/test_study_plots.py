@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modern.cli.main import main
+from modern.publication.site.colours import ROLES
 from modern.study import layout, plots
 from modern.study.builtin import names as studies
 from modern.study.chartfile import read_charts, write_charts
@@ -62,22 +63,43 @@ def laid_out(chart: Chart) -> Any:
 
 @NEEDS_MATPLOTLIB
 @pytest.mark.parametrize("chart", CHARTS.values(), ids=CHARTS)
-def test_legends_and_notes_do_not_overlap_the_axes(chart: Chart) -> None:
+def test_labels_and_notes_do_not_overlap(chart: Chart) -> None:
     figure = laid_out(chart)
-    legends = [legend.get_window_extent() for legend in figure.legends]
     texts = [text.get_window_extent() for text in figure.texts]
     boxes = [axes.get_window_extent() for axes in figure.axes if axes.axison]
-    assert not any(box.overlaps(other) for box in boxes for other in (*legends, *texts))
-    assert not any(box.overlaps(other) for box, other in combinations((*legends, *texts), 2))
-    # The legend does not overlap the numbers and labels of an axis either.
-    around = [axes.get_tightbbox() for axes in figure.axes if axes.axison]
-    assert not any(box.overlaps(other) for box in around for other in legends)
-    assert not any(axes.texts or axes.get_legend() for axes in figure.axes)
+    assert not figure.legends
+    assert not any(box.overlaps(other) for box in boxes for other in texts)
+    names = [text.get_window_extent() for axes in figure.axes for text in axes.texts]
+    assert not any(box.overlaps(other) for box, other in combinations((*names, *texts), 2))
     page = figure.bbox
-    assert all(page.x0 <= box.x0 and box.x1 <= page.x1 for box in (*legends, *texts))
-    assert {text.get_text() for legend in figure.legends for text in legend.get_texts()} >= {
-        mark.label for mark in chart.marks
-    }
+    assert all(page.x0 <= box.x0 and box.x1 <= page.x1 for box in (*names, *texts))
+
+
+@NEEDS_MATPLOTLIB
+@pytest.mark.parametrize("chart", CHARTS.values(), ids=CHARTS)
+def test_every_series_and_mark_is_named_in_the_chart(chart: Chart) -> None:
+    figure = laid_out(chart)
+    shown = [text.get_text() for axes in figure.axes for text in (*axes.texts, axes.title, axes._left_title)]
+    notes = " ".join(text.get_text() for text in figure.texts)
+    assert len(chart.series) == 1 or {series.name for series in chart.series} <= set(shown)
+    assert all(mark.label in shown or f"dashed line: {mark.label}" in notes for mark in chart.marks)
+
+
+def test_names_of_lines_with_equal_ends_are_moved_apart() -> None:
+    assert plots._apart([0.0, 0.0, 0.5], [0.1, 0.1, 0.1]) == pytest.approx([0.0, 0.1, 0.5])
+    assert plots._apart([0.9, 1.0, 1.0], [0.1, 0.2, 0.1]) == pytest.approx([0.7, 0.85, 1.0])
+
+
+@NEEDS_MATPLOTLIB
+def test_an_svg_has_the_colours_of_both_themes_and_the_type_of_the_site(tmp_path: Path) -> None:
+    plots.draw(CHARTS["side by side"], tmp_path)
+    svg = (tmp_path / "lines.svg").read_text()
+    assert svg.count("@media (prefers-color-scheme: dark)") == 1
+    assert f"fill: {plots.INK}" in svg.partition("</defs>")[2]
+    assert f"fill: {plots.PAPER}" in svg
+    assert plots.DARK[plots.PAPER] == ROLES["paper"][1]
+    assert tuple(ROLES[role][0] for role in ("ink", "paper", "quiet")) == (plots.INK, plots.PAPER, plots.QUIET)
+    assert "IBMPlexSans" in svg
 
 
 @NEEDS_MATPLOTLIB
