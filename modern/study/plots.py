@@ -86,11 +86,8 @@ def draw(chart: Chart, folder: Path) -> None:
     """Write ``NAME.svg`` and ``NAME.png``.  Raise StudyFileError if that fails, PlanError without matplotlib."""
     try:
         import matplotlib
-        from matplotlib.font_manager import fontManager
     except ImportError:
         raise PlanError(_NO_MATPLOTLIB) from None
-    with as_file(files("modern").joinpath("study", "fonts", "ibm-plex-sans-400.ttf")) as font:
-        fontManager.addfont(str(font))
     with matplotlib.rc_context(_STYLE):
         figure = drawn(chart)
         for kind, metadata in (("svg", {"Date": None}), ("png", {"Software": None})):
@@ -113,8 +110,12 @@ def _themed(svg: bytes) -> bytes:
 def drawn(chart: Chart) -> Any:
     """Return the chart as a figure of matplotlib, which must be installed."""
     from matplotlib.figure import Figure
+    from matplotlib.font_manager import fontManager
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
+    if _STYLE["font.family"][0] not in fontManager.get_font_names():
+        with as_file(files("modern").joinpath("study", "fonts", "ibm-plex-sans-400.ttf")) as font:
+            fontManager.addfont(str(font))
     engine = ConstrainedLayoutEngine()
     figure: Any = Figure(figsize=(7.5, 4.7), layout=engine)
     figure.suptitle(typeset(chart.title), x=0.01, ha="left", fontsize=11)

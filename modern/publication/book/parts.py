@@ -223,7 +223,7 @@ def statements() -> Iterator[str]:
         rows = [_statement(judgement) for judgement in judged(name)]
         place = max(len(judgement.statement.page) for judgement in judged(name))
         head = [say(title) for title in ("", "page", "statement", "verdict")]
-        yield table(head, rows, (4, place, 90, 62), (4, min(place, 11), 12, 12))
+        yield table(head, rows, (4, place, 80, 90), (4, min(place, 11), 12, 12))
 
 
 def _statement(judgement: Judged) -> list[str]:
