@@ -1,6 +1,6 @@
 """Kovalevsky and Schulz: local corners, the incremental polyhedron and reconstruction compared with the exact hull."""
 
-from itertools import pairwise, permutations, product
+from itertools import pairwise, product
 from unittest.mock import patch
 
 import numpy as np
@@ -13,27 +13,14 @@ from numpy.typing import NDArray
 from modern.digital.hull import digital_hull
 from modern.digital.solids import Volume, VolumeError, ball, half_ball
 from modern.exact_hull import ExactHull, exact_hull
-from modern.papers.kovalevsky_schulz import (
-    CENTRES,
-    INVISIBLE,
-    VERTICES,
-    VISIBLE,
-    CellList,
-    Flat,
-    convex_polyhedron,
-    corners,
-    local_corners,
-    merged,
-    reconstructed,
-    straightened,
-    voxel_hull,
-)
+from modern.papers import kovalevsky_schulz as ks
+from modern.papers.kovalevsky_schulz import corners
 from modern.papers.kovalevsky_schulz.corners import Of, corners_by_neighbours, places
 from modern.papers.kovalevsky_schulz.polyhedron import CurrentPolyhedron, Waiting, independent
 
 FEW = settings(max_examples=40)
-PLACES = (CENTRES, VERTICES)
-WAYS = [(6, VISIBLE), (6, INVISIBLE), (26, VISIBLE), (26, INVISIBLE), (26, None)]
+PLACES = (ks.CENTRES, ks.VERTICES)
+WAYS = [(6, ks.VISIBLE), (6, ks.INVISIBLE), (26, ks.VISIBLE), (26, ks.INVISIBLE), (26, None)]
 SIZES = st.tuples(*[st.integers(1, 6)] * 3)
 VOLUMES = SIZES.flatmap(lambda shape: arrays.arrays(np.bool_, shape)).filter(lambda array: bool(array.any()))
 
@@ -41,7 +28,7 @@ VOLUMES = SIZES.flatmap(lambda shape: arrays.arrays(np.bool_, shape)).filter(lam
 def judged(volume: Volume, of: str) -> ExactHull:
     """Return the exact hull of all voxels, or of all their corners."""
     voxels = volume.coordinates()
-    if of == CENTRES:
+    if of == ks.CENTRES:
         return exact_hull(voxels)
     corners = {tuple(voxel + step) for voxel in voxels for step in np.array(list(product((0, 1), repeat=3)))}
     return exact_hull(np.array(sorted(corners)))
@@ -49,9 +36,9 @@ def judged(volume: Volume, of: str) -> ExactHull:
 
 def agrees(volume: Volume, of: str, neighbours: int, coplanar: str | None) -> bool:
     """Return True if the paper's method gives the dimension, vertices, planes and polygons of the exact hull."""
-    surface, judge = voxel_hull(volume, of, neighbours, coplanar).surface, judged(volume, of)
+    surface, judge = ks.voxel_hull(volume, of, neighbours, coplanar).surface, judged(volume, of)
     vertices = {judge.scaled[index] for index in judge.vertices}
-    if isinstance(surface, Flat):
+    if isinstance(surface, ks.Flat):
         return surface.dimension == judge.dimension and set(surface.vertices) == vertices
     hull = surface.straight
     faces = {
@@ -90,7 +77,7 @@ def is_corner(array: np.ndarray, at: tuple[int, ...], neighbours: int) -> bool:
 @FEW
 @given(VOLUMES, st.sampled_from([6, 26]))
 def test_local_corners_agree_with_the_definition(array: np.ndarray, neighbours: int) -> None:
-    mask = corner_mask(Volume(array, (2, -5, 0)), CENTRES, neighbours)
+    mask = corner_mask(Volume(array, (2, -5, 0)), ks.CENTRES, neighbours)
     for at in np.ndindex(array.shape):
         assert mask[at] == is_corner(array, at, neighbours)
 
@@ -98,7 +85,7 @@ def test_local_corners_agree_with_the_definition(array: np.ndarray, neighbours: 
 def corner_mask(volume: Volume, of: Of, neighbours: int) -> NDArray[np.bool_]:
     """Return which grid points of a volume are local corners."""
     mask = np.zeros_like(places(volume, of))
-    mask[tuple((local_corners(volume, of, neighbours) - volume.origin).T)] = True
+    mask[tuple((ks.local_corners(volume, of, neighbours) - volume.origin).T)] = True
     return mask
 
 
@@ -113,73 +100,32 @@ def test_local_corners_do_not_depend_on_slabs_and_memory_order(
     with patch.object(corners, "_SLAB", slab):
         by_neighbours = corners_by_neighbours(Volume(transposed, (0, 0, 0)), of)
     for neighbours, points in by_neighbours.items():
-        assert np.array_equal(points, local_corners(whole, CENTRES, neighbours))
-
-
-def single_voxel_corners(volume: Volume) -> NDArray[np.bool_]:
-    """Return which corners of voxels bound only one voxel: the paper's other form of the 6-neighbour test (Fig. 2).
-
-    Every local corner by 6 neighbours bounds only one voxel. The paper claims the converse too, which is wrong. All
-    vertices of the hull satisfy both.
-    """
-    low, high = slice(None, -1), slice(1, None)
-    padded = np.pad(volume.array, 1).astype(np.uint8)
-    count = sum(padded[tuple((low, high)[k] for k in corner)] for corner in product((0, 1), repeat=3))
-    return np.asarray(count == 1)
-
-
-@FEW
-@given(VOLUMES)
-def test_a_local_corner_by_6_neighbours_bounds_only_one_voxel(array: np.ndarray) -> None:
-    """Fig. 2, in the direction that holds."""
-    volume = Volume(array, (0, 0, 0))
-    assert not (corner_mask(volume, VERTICES, 6) & ~single_voxel_corners(volume)).any()
-
-
-@pytest.mark.parametrize("volume", [ball(32), ball(11), ball(12, "vertex"), half_ball(22)], ids=lambda v: v.source)
-def test_corners_of_only_one_voxel_of_a_ball_are_its_local_corners(volume: Volume) -> None:
-    assert np.array_equal(corner_mask(volume, VERTICES, 6), single_voxel_corners(volume))
-
-
-def test_a_corner_of_only_one_voxel_need_not_be_local() -> None:
-    """Against section 2: (1, 1, 1) bounds only (0, 0, 0) but is halfway between (1, 1, 0) and (1, 1, 2)."""
-    array = np.zeros((2, 2, 3), dtype=np.bool_)
-    array[0, 0, 0] = array[1, 1, 2] = True
-    volume = Volume(array, (0, 0, 0))
-    assert single_voxel_corners(volume)[1, 1, 1]
-    assert not corner_mask(volume, VERTICES, 6)[1, 1, 1]
-
-
-@FEW
-@given(VOLUMES)
-def test_more_neighbours_give_fewer_corners_and_keep_all_vertices(array: np.ndarray) -> None:
-    volume = Volume(array, (1, 2, 3))
-    six, all_ = (set(map(tuple, local_corners(volume, CENTRES, n).tolist())) for n in (6, 26))
-    judge = judged(volume, CENTRES)
-    assert {judge.scaled[index] for index in judge.vertices} <= all_ <= six
+        assert np.array_equal(points, ks.local_corners(whole, ks.CENTRES, neighbours))
 
 
 def test_local_corners_are_in_raster_order() -> None:
-    points = local_corners(half_ball(8), VERTICES, 6).tolist()
+    points = ks.local_corners(half_ball(8), ks.VERTICES, 6).tolist()
     assert points == sorted(points, key=lambda p: p[::-1])
     assert len(points) == 48
 
 
-def polyhedron(points: object, coplanar: str = VISIBLE) -> CellList:
-    cells = convex_polyhedron(points, coplanar)  # type: ignore[arg-type]
-    assert isinstance(cells, CellList)
+def polyhedron(points: object, coplanar: str = ks.VISIBLE) -> ks.CellList:
+    cells = ks.convex_polyhedron(points, coplanar)  # type: ignore[arg-type]
+    assert isinstance(cells, ks.CellList)
     return cells
 
 
-@given(st.lists(st.tuples(*[st.integers(-2, 2)] * 3), min_size=1, max_size=30), st.sampled_from([VISIBLE, INVISIBLE]))
+@given(
+    st.lists(st.tuples(*[st.integers(-2, 2)] * 3), min_size=1, max_size=30), st.sampled_from([ks.VISIBLE, ks.INVISIBLE])
+)
 def test_any_points_with_duplicates_have_the_exact_hull(points: list[tuple[int, int, int]], coplanar: str) -> None:
     judge = exact_hull(points)
-    cells = convex_polyhedron(points, coplanar)
-    if isinstance(cells, Flat):
+    cells = ks.convex_polyhedron(points, coplanar)
+    if isinstance(cells, ks.Flat):
         assert cells.dimension == judge.dimension < 3
         assert set(cells.vertices) == {judge.scaled[index] for index in judge.vertices}
     else:
-        assert set(merged(cells).planes()) == {facet.plane for facet in judge.facets}
+        assert set(ks.merged(cells).planes()) == {facet.plane for facet in judge.facets}
         assert all(len(face.pairs) == 3 for face in cells.faces)
 
 
@@ -190,9 +136,9 @@ def test_large_coordinates_are_exact() -> None:
     for height, count in ((far // 4, 4), (far // 4 + 1, 5)):
         points = [*corners, (far // 2, far // 4, height)]
         for order in (points, sorted(points, key=lambda p: p[::-1])):
-            cells = polyhedron(order, INVISIBLE)
-            assert set(straightened(merged(cells)).points) == set(points[:count])
-    assert len(polyhedron([*corners, (far // 2, far // 4, far // 4)], INVISIBLE).points) == 4
+            cells = polyhedron(order, ks.INVISIBLE)
+            assert set(ks.straightened(ks.merged(cells)).points) == set(points[:count])
+    assert len(polyhedron([*corners, (far // 2, far // 4, far // 4)], ks.INVISIBLE).points) == 4
 
 
 def test_values_fit_64_bits_at_the_bound() -> None:
@@ -201,7 +147,7 @@ def test_values_fit_64_bits_at_the_bound() -> None:
     many = [*corners, *((extent // 2 + k, extent // 3, extent // 5 + k) for k in range(100))]
     for excess, fits in ((0, True), (9, False)):
         points = [(x + excess * (x > 0), y, z) for x, y, z in many]
-        current = CurrentPolyhedron(points, independent(points), INVISIBLE)
+        current = CurrentPolyhedron(points, independent(points), ks.INVISIBLE)
         waiting = Waiting(current, range(4, len(points)))
         assert (waiting.array is not None) == fits
         for number, (x, y, z) in enumerate(points[4:], 4):
@@ -211,8 +157,8 @@ def test_values_fit_64_bits_at_the_bound() -> None:
 
 
 def test_the_vertices_of_a_flat_polygon_are_in_cyclic_order() -> None:
-    hull = voxel_hull(Volume(np.ones((3, 1, 3), dtype=np.bool_), (0, 0, 0)), CENTRES)
-    assert isinstance(hull.surface, Flat)
+    hull = ks.voxel_hull(Volume(np.ones((3, 1, 3), dtype=np.bool_), (0, 0, 0)), ks.CENTRES)
+    assert isinstance(hull.surface, ks.Flat)
     steps = [abs(p[0] - q[0]) + abs(p[2] - q[2]) for p, q in pairwise(hull.surface.vertices)]
     assert steps == [2, 2, 2]
 
@@ -225,11 +171,11 @@ def test_reconstruction_gives_the_filled_hull(array: np.ndarray) -> None:
     filled = digital_hull(volume)
     expected = Volume(filled.filled, volume.origin).coordinates().tolist()
     for of in PLACES:
-        hull = voxel_hull(volume, of)
-        if isinstance(hull.surface, Flat):
+        hull = ks.voxel_hull(volume, of)
+        if isinstance(hull.surface, ks.Flat):
             assert filled.dimension < 3
             continue
-        actual = reconstructed(hull.surface.straight.economical(), of)
+        actual = ks.reconstructed(hull.surface.straight.economical(), of)
         assert actual.coordinates().tolist() == expected
         assert (actual.count == volume.count) == bool((filled.filled == array).all())
 
@@ -237,57 +183,38 @@ def test_reconstruction_gives_the_filled_hull(array: np.ndarray) -> None:
 @pytest.mark.parametrize("of", PLACES)
 @pytest.mark.parametrize("volume", [ball(16), ball(9), ball(10, "vertex"), half_ball(12)], ids=lambda v: v.source)
 def test_a_convex_object_is_reconstructed_exactly(volume: Volume, of: str) -> None:
-    hull = voxel_hull(volume, of, 6, INVISIBLE).polyhedron
+    hull = ks.voxel_hull(volume, of, 6, ks.INVISIBLE).polyhedron
     for cells in (hull.triangles, hull.faces, hull.straight):
-        assert reconstructed(cells.economical(), of).coordinates().tolist() == volume.coordinates().tolist()
-
-
-def test_centres_in_a_hull_of_corners_would_include_too_many_voxels() -> None:
-    """Two diagonal voxels are digitally convex, but the hull of their corners contains the centre of (1, 0, 0)."""
-    pair = Volume(np.eye(2, dtype=np.bool_)[:, :, None], (0, 0, 0))
-    hull = voxel_hull(pair).polyhedron.straight
-    assert all(a * 3 + b * 1 + c * 1 + 2 * d <= 0 for a, b, c, d in hull.planes())
-    assert reconstructed(hull.economical()).coordinates().tolist() == [[0, 0, 0], [1, 1, 0]]
+        assert ks.reconstructed(cells.economical(), of).coordinates().tolist() == volume.coordinates().tolist()
 
 
 def test_a_hull_without_voxels_or_with_too_many_is_rejected() -> None:
     thin = polyhedron([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]).economical()
-    assert reconstructed(thin, CENTRES).count == 4
+    assert ks.reconstructed(thin, ks.CENTRES).count == 4
     with pytest.raises(VolumeError, match="contains no whole voxel"):
-        reconstructed(thin, VERTICES)
+        ks.reconstructed(thin, ks.VERTICES)
     wide = polyhedron([(0, 0, 0), (9999, 0, 0), (0, 9999, 0), (0, 0, 9999)]).economical()
     with pytest.raises(VolumeError, match="a box of 10000 x 10000 x 10000 voxels"):
-        reconstructed(wide, CENTRES)
-
-
-@pytest.mark.parametrize("centre", ["voxel", "vertex"])
-@pytest.mark.parametrize("of", PLACES)
-def test_the_hull_of_a_ball_keeps_its_48_symmetries(centre: str, of: str) -> None:
-    """Section 4: "the convex hull preserves the symmetry of digital objects"."""
-    hull = voxel_hull(ball(14, centre), of).polyhedron.straight
-    middle = (centre == "vertex") + (of == VERTICES)
-    centred = {tuple(2 * c - middle for c in point) for point in hull.points}
-    for order, signs in product(permutations(range(3)), product((-1, 1), repeat=3)):
-        assert {tuple(signs[k] * point[order[k]] for k in range(3)) for point in centred} == centred
+        ks.reconstructed(wide, ks.CENTRES)
 
 
 def test_a_flat_hull_has_no_polyhedron() -> None:
     with pytest.raises(VolumeError, match="rod: expected a hull in space, found a segment, which has no cell list"):
-        _ = voxel_hull(Volume(np.ones((1, 1, 5), dtype=np.bool_), (0, 0, 0), "rod"), CENTRES).polyhedron
+        _ = ks.voxel_hull(Volume(np.ones((1, 1, 5), dtype=np.bool_), (0, 0, 0), "rod"), ks.CENTRES).polyhedron
 
 
 def test_an_array_of_truth_values_is_a_volume() -> None:
     array = half_ball(8).array
-    assert voxel_hull(array).polyhedron.faces == voxel_hull(Volume(array, (0, 0, 0))).polyhedron.faces
+    assert ks.voxel_hull(array).polyhedron.faces == ks.voxel_hull(Volume(array, (0, 0, 0))).polyhedron.faces
     with pytest.raises(VolumeError, match="expected an array of truth values"):
-        voxel_hull(np.ones((2, 2, 2)))
+        ks.voxel_hull(np.ones((2, 2, 2)))
     with pytest.raises(VolumeError, match="volume: there are no voxels"):
-        voxel_hull(np.zeros((2, 2, 2), dtype=np.bool_))
+        ks.voxel_hull(np.zeros((2, 2, 2), dtype=np.bool_))
 
 
 def test_a_volume_of_two_dimensions_is_rejected() -> None:
     with pytest.raises(VolumeError, match="expected a volume of three dimensions, found two"):
-        voxel_hull(Volume(np.ones((2, 2), dtype=np.bool_), (0, 0)))
+        ks.voxel_hull(Volume(np.ones((2, 2), dtype=np.bool_), (0, 0)))
 
 
 @pytest.mark.parametrize(
@@ -295,9 +222,9 @@ def test_a_volume_of_two_dimensions_is_rejected() -> None:
 )
 def test_unknown_options_are_rejected(options: dict[str, object]) -> None:
     with pytest.raises((ValueError, KeyError)):
-        voxel_hull(ball(4), **options)  # type: ignore[arg-type]
+        ks.voxel_hull(ball(4), **options)  # type: ignore[arg-type]
 
 
 def test_no_points_have_no_hull() -> None:
     with pytest.raises(ValueError, match="no points"):
-        convex_polyhedron([])
+        ks.convex_polyhedron([])

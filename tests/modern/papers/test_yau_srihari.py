@@ -109,22 +109,6 @@ def test_every_correction_is_needed(name: str) -> None:
     assert (difference(printed, array) > 0) == (name == "truncation")
 
 
-def test_printed_triangles_overlap_if_four_points_lie_in_one_plane() -> None:
-    """The projections of the corrected faces cover H(A) exactly once."""
-
-    def doubled_area(polygon: Any) -> int:
-        return abs(sum(p[0] * q[1] - q[0] * p[1] for p, q in zip(polygon, [*polygon[1:], polygon[0]], strict=True)))
-
-    def covered(envelope: Envelope) -> tuple[int, int]:
-        return sum(doubled_area(face.vertices) for face in envelope.faces), doubled_area(envelope.outline)
-
-    square = np.ones((2, 2, 1), dtype=np.bool_)
-    faces, whole = covered(octree_hull(square).lower)
-    assert faces == whole == 2
-    faces, whole = covered(octree_hull(square, Printed(triangles=True)).lower)
-    assert faces > whole
-
-
 @FEW
 @given(SEEDS)
 def test_the_reduced_set_contains_every_vertex(seed: int) -> None:
@@ -193,13 +177,6 @@ def test_components_agree_with_a_flood_fill(array: np.ndarray) -> None:
                         remaining.remove(neighbour)
                         reached.append(neighbour)
     assert components(array) == count
-
-
-def test_an_array_of_two_dimensions_is_a_layer() -> None:
-    picture = np.array([[1, 0, 0, 0], [1, 1, 0, 0], [0, 1, 1, 1]], dtype=np.bool_)
-    hull = octree_hull(picture)
-    assert hull.filled.shape == picture.shape
-    assert np.array_equal(hull.filled, judged(picture)[1])
 
 
 @pytest.mark.parametrize("array", [np.zeros((3, 3, 3), dtype=np.bool_), np.ones((2, 2, 2)), np.ones(4, dtype=np.bool_)])
