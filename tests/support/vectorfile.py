@@ -1,7 +1,6 @@
 """The loader of ``vectors/*.tsv``: one vector per line, with id, profiles, operation, operands, result and source.
 
-The columns are separated by tabs.  A seventh column names an error of the emulator, so that the vector is expected to
-fail.  ``#`` begins a comment line, ``_`` is a blank, and ``|`` is the end of a card.
+The columns are separated by tabs.  ``#`` begins a comment line, ``_`` is a blank, and ``|`` is the end of a card.
 """
 
 from dataclasses import dataclass
@@ -42,12 +41,11 @@ def load(name: str) -> list[Any]:
         if not line or line.startswith("#"):
             continue
         columns = line.split("\t")
-        assert len(columns) in (6, 7), f"{name}.tsv:{row}: {len(columns)} columns"
+        assert len(columns) == 6, f"{name}.tsv:{row}: {len(columns)} columns"
         assert columns[0] not in ids, f"{name}.tsv:{row}: {columns[0]} occurs twice"
         assert columns[5].strip(), f"{name}.tsv:{row}: no source"
         ids.add(columns[0])
-        marks = [pytest.mark.xfail(strict=True, reason=f"BUG: {columns[6]}")] if columns[6:] else []
         for profile in columns[1].split(","):
-            vector = Vector(columns[0], profile, *columns[2:6])
-            parameters.append(pytest.param(vector, id=f"{vector.id}-{profile}", marks=marks))
+            vector = Vector(columns[0], profile, *columns[2:])
+            parameters.append(pytest.param(vector, id=f"{vector.id}-{profile}"))
     return parameters

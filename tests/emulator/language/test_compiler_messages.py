@@ -7,7 +7,6 @@ from emulator.language.compiler import compile_deck, translate
 from tests.support.deckwork import diagnostics, errors, source, within
 
 F = "90 FORMAT(5E14.8)"
-FI = "91 FORMAT(5I4)"
 
 MESSAGES = [
     ("undefined label", ["GO TO 5", "END"], 1, 0, "there is no statement number 5"),
