@@ -10,7 +10,7 @@ from modern.exact_hull import exact_hull
 from modern.papers.appel_will import RULES, MapError, Method, appel_will
 from modern.papers.appel_will.corners import corners, preprocess
 from modern.papers.appel_will.results import found_solid, printed_solid
-from modern.papers.appel_will.surfaces import Surface, fates, oriented
+from modern.papers.appel_will.surfaces import Surface, oriented
 
 Point = tuple[int, int, int]
 Solid = tuple[list[Point], list[Surface]]
@@ -183,12 +183,3 @@ def test_a_map_without_outside_is_rejected() -> None:
 def test_an_unknown_rule_is_rejected() -> None:
     with pytest.raises(ValueError, match="'all' is not a rule"):
         preprocess(*TETRAHEDRON, "all")
-
-
-def test_fates_of_the_surfaces_of_fig_4() -> None:
-    fig4 = printed_solid(printed_lines(PAPERS[0]))
-    hull = appel_will(fig4.points, fig4.surfaces)
-    result = fates(fig4.points, fig4.surfaces, hull.surfaces)
-    assert [k for k, face in enumerate(result.of) if face is None] == [0, 1]
-    assert result.unchanged == {2, 3, 4}
-    assert [set(hull.surfaces[k]) for k in result.added] == [{0, 1, 4, 5}]
