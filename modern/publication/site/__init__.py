@@ -28,5 +28,8 @@ to a file that is no page, such as ``[README](../fortran_src/README.md)``, becom
 file, or plain text.  ``:::{whole} FILE`` includes a file.  A result is quoted by its name between double braces
 (:mod:`modern.publication.figures`).
 
+The hub of a folder lists its pages with their first sentences (``:::{made} hub FOLDER/index``).  ``docs/subjects.csv``
+holds the subjects of the Index, which the search shows first.
+
 Addresses are permanent: derive an id from a name in the thesis or in the data, never from a running number.
 """

@@ -3,6 +3,7 @@
 Templates (``docs/_templates``) make the frame of a page accessible.  The writer does the same for elements of the text.
 """
 
+import json
 import posixpath
 import re
 from pathlib import Path
@@ -17,7 +18,8 @@ from sphinx.util.docutils import SphinxDirective
 from sphinx.writers.html5 import HTML5Translator
 
 from modern.publication.site.made import Made, Part, make
-from modern.publication.site.markup import relative, stacked
+from modern.publication.site.markup import element, relative, stacked, text
+from modern.publication.site.pages.addresses import places
 
 # Each role with the pattern of its labels: ``{name}`program3 KELEQ``` refers to ``name program3 keleq``.
 ROLES = {"card": "{}", "row": "{}", "name": "name {}", "error": "error {}"}
@@ -60,6 +62,8 @@ class MadeDirective(SphinxDirective):
                 stack.append((part.level, section))
             else:
                 stack[-1][1].extend(inner)
+        if jump := _jump_list(content):
+            top.append(nodes.raw("", jump, format="html"))
         return [*top.children]
 
     def _inner(self, part: Part) -> list[nodes.Node]:
@@ -72,16 +76,27 @@ class MadeDirective(SphinxDirective):
         return content
 
 
+_LONG = 8  # the number of sections from which a page gets a list of them that stays in the window
+_SECTION = re.compile(r"(?:Page |Sheet |Error )?(\d\S*?|E\d+)[.:]?(?= |$)")
+
+
+def _jump_list(content: Made) -> str:
+    """Return links to the sections of a long page, in a bar that stays at the lower edge of the window, or nothing."""
+    parts = [part for part in content.parts if part.heading and part.level == 1]
+    if len(parts) < _LONG:
+        return ""
+    names = ((match[1] if (match := _SECTION.match(part.heading)) else part.heading, part) for part in parts)
+    links = "".join(text("a", name, href=f"#{part.id}", title=part.heading) for name, part in names)
+    return element("nav", text("span", "Jump to") + links, cls="jump", aria_label="Sections of this page")
+
+
 def _register(env: BuildEnvironment, content: Made) -> None:
     standard = env.get_domain("std")
     assert isinstance(standard, StandardDomain)
-    entries = env.get_domain("index").data["entries"].setdefault(env.docname, [])
     for target in content.targets:
         label = target.label.lower()
         standard.anonlabels[label] = (env.docname, target.id)
         standard.labels[label] = (env.docname, target.id, target.title)
-        if target.index:
-            entries.append(("single", target.index, target.id, "", None))
 
 
 def _role(kind: str) -> Any:
@@ -152,6 +167,15 @@ def _stack_tables(app: Sphinx, name: str, template: str, context: dict[str, Any]
         context["body"] = stacked(context["body"])
 
 
+def _write_places(app: Sphinx, exception: Exception | None) -> None:
+    """Write the entries of the Index for the script of the search page, which cannot fetch them from a file."""
+    if exception is not None:
+        return
+    entries = [[p.name, f"{p.page}.html{'#' + p.id if p.id else ''}", p.description] for p in places()]
+    script = f"window.hull1620Places = {json.dumps(entries, separators=(',', ':'))};\n"
+    (Path(app.outdir) / "_static" / "places.js").write_text(script, encoding="utf-8")
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Register the directive, the roles and the HTML writer; Sphinx calls this function."""
     app.add_directive("made", MadeDirective)
@@ -159,6 +183,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
         app.add_role(kind, _role(kind))
     app.connect("source-read", _project_files)
     app.connect("html-page-context", _stack_tables)
+    app.connect("build-finished", _write_places)
     app.set_translator("html", AccessibleTranslator)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
 

@@ -14,13 +14,12 @@ class Target:
     """An address within a page.
 
     ``id`` is the id of the HTML element.  ``label`` names it in the whole site, in lower case (``program3 147+2``).
-    ``title`` is the text of a reference to it.  ``index`` is its entry in the general index, or empty.
+    ``title`` is the text of a reference to it.
     """
 
     id: str
     label: str
     title: str
-    index: str = ""
 
 
 @dataclass(frozen=True, slots=True)

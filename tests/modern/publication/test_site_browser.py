@@ -169,13 +169,54 @@ def test_the_index_filters_and_opens_the_first_match(chromium: Browser, site: Pa
         assert errors == []
 
 
-def test_search_works_on_a_site_opened_as_files(chromium: Browser, site: Path) -> None:
-    with opened(chromium, site, "search.html?q=KELEQ") as (tab, errors):
-        tab.locator("#search-results li a").first.wait_for()
-        assert "program3.html" in " ".join(
-            tab.eval_on_selector_all("#search-results a", "links => links.map(link => link.getAttribute('href'))")
-        )
+QUERIES = {
+    "147": "program3.html#147",
+    "statement 147 of program 2": "program2.html#147",
+    "error 5": "errors.html#error-5",
+    "E3": "errors.html#error-E3",
+    "P1-039": "program1.html#P1-039",
+    "C6-038": "example2.html#C6-038",
+    "game": "console.html",
+    "licence": "get.html#licences",
+    "PDF": "get.html",
+    "download": "get.html",
+    "TEI": "get.html",
+    "NETC": "program3.html#name-NETC",
+    "KELEQ": "program3.html#name-KELEQ",
+    "Butler": "explanation/context.html#the-author",
+    "quickhull": "explanation/method.html",
+    "data not acceptable": "known-faults.html#fault-6",
+    "sense switch": "reference/operator.html",
+    "cube": "known-faults.html#fault-2",
+}
+
+
+def test_a_search_shows_the_right_place_first(chromium: Browser, site: Path) -> None:
+    first: dict[str, str] = {}
+    with opened(chromium, site, "search.html") as (tab, errors):
+        for query in QUERIES:
+            tab.goto(f"{site.as_uri()}/search.html?q={query}")
+            links = tab.locator("#places a, #search-results a")
+            links.first.wait_for()
+            first[query] = str(links.first.get_attribute("href"))
         assert errors == []
+    assert first == QUERIES
+
+
+def test_the_navigation_has_at_most_eight_entries_and_long_pages_a_list_of_their_sections(
+    chromium: Browser, site: Path
+) -> None:
+    with opened(chromium, site, "program3.html", width=360, script=False) as (tab, _):
+        entries = tab.locator(".sidebar-tree > ul > li > a").all_text_contents()
+        assert entries == ["Story", "Programs", "Examples", "Machine", "Verdicts", "Learn", "Reference", "Get it"]
+        jump = tab.get_by_role("navigation", name="Sections of this page")
+        assert jump.bounding_box() is not None
+        jump.get_by_text("97", exact=True).click()
+        assert tab.url.endswith("#page-97")
+        assert 0 <= tab.evaluate("document.getElementById('page-97').getBoundingClientRect().top") < 200
+        box = jump.bounding_box()
+        assert box is not None
+        assert abs(box["y"] + box["height"] - 800) <= 1
 
 
 def test_a_printed_listing_is_stacked_with_open_rows(chromium: Browser, site: Path) -> None:

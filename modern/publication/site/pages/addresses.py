@@ -1,27 +1,48 @@
-"""The index of all addresses: error numbers, rows of the apparatus, names and cards.
+"""The Index: subjects, error numbers, rows of the apparatus, names and cards, each with its address.
 
 The lists are plain HTML and can be read, printed and searched without JavaScript.  With it, ``edition.js`` filters them
-by the text in the input field.
+by the text in the input field, and the search page shows the matching addresses before the pages (``find.js``).
 """
 
-from collections.abc import Iterable
+import csv
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 from emulator.errors import explanations
+from modern.claims.register import DOCUMENTS, judged
 from modern.edition import programs
+from modern.edition.chapter6_cards import load_chapter
+from modern.publication.building import ROOT
+from modern.publication.examples import homes
 from modern.publication.facing import facing
 from modern.publication.site.made import Made, Part
 from modern.publication.site.markup import element, link, text
+from modern.publication.site.pages.hub import summary
 from modern.publication.uses import uses
+
+# The program whose card or name comes first if several programs have it.
+_ORDER = sorted(programs.NAMES, key=("program3", "program2", "program1", "program1_examples").index)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """An entry of the Index: the name that readers look for, its page and the id on it, and a description."""
+
+    name: str
+    page: str
+    id: str
+    description: str
 
 
 def make(argument: str) -> Made:
     """Return the search field and the lists."""
-    field = text("label", "Name, statement number, row or error number: ", for_="find")
+    field = text("label", "Subject, name, statement number, row or error number: ", for_="find")
     field += element("input", type="search", id="find", autocomplete="off", spellcheck="false", disabled=True)
     field += text("button", "Go to the first match", type="submit")
     field += text("output", "", for_="find", id="found")
     form = element("form", field, cls="finder", role="search", aria_label="Find in the index")
     lists = (
+        Part("Subjects", "subjects", html=_list(_subjects())),
         Part("Error numbers", "error-numbers", html=_list(_errors())),
         Part("Rows of the apparatus", "rows", html=_list(_rows())),
         Part("Names", "names", html=_list(_names())),
@@ -30,31 +51,53 @@ def make(argument: str) -> Made:
     return Made((Part(html=form), *lists, *cards))
 
 
-def _list(items: Iterable[tuple[str, str]]) -> str:
-    inner = "".join(element("li", f"{address} {text('span', description)}") for address, description in items)
-    return element("ul", inner, cls="addresses")
+def places() -> Iterator[Place]:
+    """Yield all entries of the Index and the statements of the documents; of equal names, the first is preferred."""
+    for entries in (_subjects(), _errors(), _rows(), _names(), *map(_cards, _ORDER)):
+        yield from entries
+    for document in DOCUMENTS:
+        for judgement in judged(document):
+            row = judgement.statement
+            yield Place(row.id, f"statements/{document}", row.id, f"{row.verdict}: {row.says}"[:90])
 
 
-def _errors() -> Iterable[tuple[str, str]]:
+def _list(entries: Iterable[Place]) -> str:
+    inner = (link(entry.page, entry.id, entry.name) + " " + text("span", entry.description) for entry in entries)
+    return element("ul", "".join(element("li", item) for item in inner), cls="addresses")
+
+
+def _subjects() -> Iterator[Place]:
+    with (ROOT / "docs" / "subjects.csv").open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            title, _ = summary((ROOT / "docs" / f"{row['page']}.md").read_text(encoding="utf-8"))
+            section = f", {row['id'].replace('-', ' ')}" if row["id"] else ""
+            yield Place(row["subject"], row["page"], row["id"], title + section)
+
+
+def _errors() -> Iterator[Place]:
     for number, explanation in explanations().items():
-        yield link("errors", f"error-{number}", f"error {number}"), explanation.title
+        yield Place(f"error {number}", "errors", f"error-{number}", explanation.title)
 
 
-def _rows() -> Iterable[tuple[str, str]]:
+def _rows() -> Iterator[Place]:
     for name in programs.TEXTS:
         for row in programs.text(name).rows:
             # The page of program1_examples shows only the rows that the listing of program 1 does not have.
             page = name if row in facing(name).rows() else f"{name}_examples"
             description = f"{row.layer}, {row.kind}, {row.certainty}: {programs.cards_of(row)}"
-            yield link(page, row.id, row.id), description
+            yield Place(row.id, page, row.id, description)
+    for row in load_chapter().text.rows:
+        number = homes()[row.id][0] if row.id in homes() else None
+        page = "examples" if number is None else f"example{number}"
+        yield Place(row.id, page, row.id, f"{row.layer}, {row.kind}, {row.certainty}")
 
 
-def _names() -> Iterable[tuple[str, str]]:
-    names = [(entry.name, program) for program in programs.NAMES for entry in uses(program).names]
-    for name, program in sorted(names):
-        yield link(program, f"name-{name}", name), program
+def _names() -> Iterator[Place]:
+    names = [(entry.name, _ORDER.index(program)) for program in programs.NAMES for entry in uses(program).names]
+    for name, order in sorted(names):
+        yield Place(name, _ORDER[order], f"name-{name}", f"variable of {_ORDER[order]}")
 
 
-def _cards(name: str) -> Iterable[tuple[str, str]]:
+def _cards(name: str) -> Iterator[Place]:
     for card in facing(name).cards:
-        yield link(name, card.place, card.place), " ".join(card.text.split())
+        yield Place(card.place, name, card.place, f"{name}: {' '.join(card.text.split())}")

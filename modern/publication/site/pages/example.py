@@ -44,7 +44,7 @@ def make(argument: str) -> Made:
 
 
 def _target(row: str) -> Target:
-    return Target(row, row, row, f"rows of the apparatus; {row}")
+    return Target(row, row, row)
 
 
 def _verdicts(parts: tuple[Part, ...]) -> str:

@@ -82,7 +82,7 @@ def _targets(listing: Facing) -> Iterator[Target]:
         own -= {row.id for row in facing(listing.text.id).rows()}
     for row in listing.rows():
         if row.id in own:
-            yield Target(row.id, row.id, row.id, f"rows of the apparatus; {row.id}")
+            yield Target(row.id, row.id, row.id)
 
 
 def _controls(listing: Facing) -> str:
@@ -248,8 +248,7 @@ def _symbols(program: str) -> Made:
         code = text("code", name.name, id=f"name-{name.name}")
         meaning = _meaning(gloss_of[name.name]) if name.name in gloss_of else ""
         rows.append((code, meaning, _type_of(name), *map(places, (name.declared, name.set, name.used))))
-        index = f"{name.name}; {program}"
-        targets.append(Target(f"name-{name.name}", f"name {program} {name.name}", name.name, index))
+        targets.append(Target(f"name-{name.name}", f"name {program} {name.name}", name.name))
     names = table(("name", "meaning", "type", "declared", "set", "used"), rows, "Names")
     formats = []
     for card in cards.values():

@@ -47,7 +47,7 @@ def _errors() -> Made:
         facts = (("remedy", escape(explanation.remedy)), ("source", escape(explanation.source)))
         html = text("p", explanation.meaning) + example + definitions(facts, cls="facts")
         parts.append(Part(f"Error {number}: {explanation.title}", f"error-{number}", html=html))
-        targets.append(Target(f"error-{number}", f"error {number}", f"error {number}", f"error {number}"))
+        targets.append(Target(f"error-{number}", f"error {number}", f"error {number}"))
     return Made(tuple(parts), tuple(targets))
 
 
