@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
+from urllib.parse import unquote, urlsplit
 
 import pytest
 
@@ -77,6 +78,23 @@ def test_the_stepper_and_the_slider_of_the_home_page_move(chromium: Browser, sit
         assert errors == []
     with opened(chromium, site, "index.html", script=False) as (tab, _):
         assert all(stage.is_visible() for stage in tab.locator("ol.stepper > li").all())
+
+
+def test_the_home_page_is_light_and_does_not_move_while_it_loads(chromium: Browser, site: Path) -> None:
+    context = chromium.new_context(viewport={"width": 1280, "height": 800})
+    tab = context.new_page()
+    loaded: set[str] = set()
+    tab.on("requestfinished", lambda request: loaded.add(request.url))
+    tab.add_init_script(
+        "window.shift = 0; new PerformanceObserver(list => list.getEntries().forEach(e => { window.shift += e.value; }))"
+        ".observe({type: 'layout-shift', buffered: true})"
+    )
+    tab.goto(f"{site.as_uri()}/index.html")
+    tab.evaluate("document.fonts.ready.then(() => new Promise(done => setTimeout(done, 300)))")
+    sizes = [Path(unquote(urlsplit(url).path)).stat().st_size for url in loaded]
+    assert 100_000 < sum(sizes) <= 400_000
+    assert tab.evaluate("window.shift") < 0.05
+    context.close()
 
 
 def violations(tab: Tab, name: str, rules: list[str]) -> list[str]:

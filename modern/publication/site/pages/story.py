@@ -26,6 +26,7 @@ from modern.thesis.job import run_hull
 EXAMPLE = 6
 CORNERS = ((127, 418, 52), (231, 64, 377))
 FIRST = (213, 305)  # y and z of the first point; the reader chooses x
+EYE = (1, 1, 2)  # the hull of the example is broad from this direction
 XS = range(5, 1000, 5)
 
 
@@ -45,7 +46,7 @@ def _card() -> str:
 def _growth() -> str:
     """Return the stages of the example's hull in the order of the program, one picture for each."""
     points = parse_input(input_deck(EXAMPLE).text(), f"example{EXAMPLE}").points
-    stages = frames(convex_hull(points, "exact", history=True), width=380)
+    stages = frames(convex_hull(points, "exact", history=True), EYE, width=480)
     items = "".join(element("li", inline(strip([stage]), f"stage{stage.stage.number}")) for stage in stages)
     caption = f"The hull of {link(f'example{EXAMPLE}', '', f'example {EXAMPLE}')}, in the order of program 3."
     return element("figure", element("ol", items, cls="stepper") + element("figcaption", caption))
