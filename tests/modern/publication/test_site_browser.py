@@ -86,7 +86,8 @@ def test_the_home_page_is_light_and_does_not_move_while_it_loads(chromium: Brows
     loaded: set[str] = set()
     tab.on("requestfinished", lambda request: loaded.add(request.url))
     tab.add_init_script(
-        "window.shift = 0; new PerformanceObserver(list => list.getEntries().forEach(e => { window.shift += e.value; }))"
+        "window.shift = 0; new PerformanceObserver(list => list.getEntries().forEach("
+        "entry => { window.shift += entry.value; }))"
         ".observe({type: 'layout-shift', buffered: true})"
     )
     tab.goto(f"{site.as_uri()}/index.html")
