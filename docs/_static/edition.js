@@ -8,6 +8,8 @@
     for (var at = there; at; at = at.parentElement) {
       if (at.tagName === "DETAILS") { at.open = true; }
     }
+    var about = (there.classList.contains("also-at") ? there.parentElement : there).querySelector(":scope > .about");
+    if (about) { about.open = true; }
     if (there.classList.contains("row")) { there.scrollIntoView(); }
   }
 

@@ -211,7 +211,7 @@ def _facts(listing: Facing, card: Card) -> str:
     block = commentary(listing.program).block_of(card.number)
     first = listing.cards[block.cards.start - 1].place
     facts = (
-        ("purpose", link(listing.program, f"about-{first}", block.title)),
+        ("purpose", f"{link(listing.program, f'about-{first}', block.title)}: {escape(block.text)}"),
         ("card", f"{card.number} of {len(listing.cards)}; p. {card.page}"),
         ("reached from", come("jump")),
         ("goes to", go("jump")),
