@@ -57,6 +57,8 @@ def test_the_article_quotes_results_by_name_only() -> None:
 
 
 REFERENCES = (
+    r"^## References\n.*\Z",  # the bibliography
+    r"\[\d+\]|the level \d+ %",  # citations, the level of all intervals
     r"^```.*?^```",  # commands
     r"`[^`]*`",  # names
     r"\{\{.*?\}\}",  # figures
