@@ -23,8 +23,7 @@ from emulator.language.formats import MAX_RECORD, Literal
 from emulator.language.objectcode import Flat, Program, flatten
 from emulator.machine.interpreter import AT_LIMIT
 from emulator.machine.result import Options
-from emulator.machine.session import loaded, refuse_overlap
-from emulator.machine.state import FLOATING
+from emulator.machine.state import FLOATING, loaded, refuse_overlap
 from emulator.numbers.decimal import DecimalNumbers
 from emulator.numbers.fields import Field
 

@@ -10,6 +10,7 @@ quotient reserves a temporary field.
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -69,6 +70,24 @@ class Storage:
         if not 0 <= address < self.fields:
             raise KeyError(address)
         return self.entries[bisect_right(self.entries, address, key=attrgetter("first")) - 1]
+
+    def fields_of(self, text: str) -> range:
+        """Return the fields of a variable or element, as ``NE``, ``X``, ``X(3)`` or ``A(2,1)``; empty if unknown."""
+        parts = re.fullmatch(r"([A-Z][A-Z0-9]*)(?:\((\d{1,4})(?:,(\d{1,4}))?\))?", text)
+        named = (e for e in self.entries if parts and e.name == parts[1] and e.kind in ("variable", "array"))
+        entry = next(named, None)
+        if parts is None or entry is None:
+            return range(0)
+        subscripts = [int(number) for number in parts.groups()[1:] if number]
+        if not subscripts:
+            return range(entry.first, entry.first + entry.size)
+        if len(subscripts) != len(entry.shape) or any(
+            not 1 <= n <= most for n, most in zip(subscripts, entry.shape, strict=True)
+        ):
+            return range(0)
+        # Arrays are stored column by column.
+        field = entry.first + subscripts[0] - 1 + (entry.shape[0] * (subscripts[1] - 1) if len(subscripts) > 1 else 0)
+        return range(field, field + 1)
 
     def name_of(self, address: int) -> str:
         """Return the name of a field: ``NE``, ``X(3)``, ``constant 4.``."""

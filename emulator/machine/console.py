@@ -5,7 +5,6 @@ The output is plain lines of text, wrapped to a given width.
 
 from __future__ import annotations
 
-import re
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -23,8 +22,8 @@ COMMANDS = {
     "STEP": "STEP [N]: run one statement, or N statements",
     "STOP": "STOP: end the run and keep its output",
     "SWITCH": "SWITCH [N [ON or OFF]]: show, flip or set sense switches",
-    "BREAK": "BREAK [N or CARD N]: show or set breakpoints",
-    "CLEAR": "CLEAR [N or CARD N]: remove breakpoints",
+    "BREAK": "BREAK [N, CARD N or NAME]: show or set breakpoints",
+    "CLEAR": "CLEAR [N, CARD N or NAME]: remove breakpoints",
     "VARIABLES": "VARIABLES [NAME]: show all variables, or one",
     "CORE": "CORE NAME or ADDRESS: show the storage around it",
     "CARDS": "CARDS: show the last card read and the last punched",
@@ -85,8 +84,8 @@ def command(session: Session, text: str, cards: Cards, width: int) -> Action | l
         request = action(word, operands)
     except ValueError as error:
         return wrapped(str(error), width)
-    if request.word in ("BREAK", "CLEAR") and request.number and not session.places(request):
-        return wrapped(f"{session.program.source} has no statement of that number or card", width)
+    if misfit := session.misfit(request):
+        return wrapped(misfit, width)
     return request
 
 
@@ -155,7 +154,7 @@ def _core(session: Session, place: str, width: int) -> list[str]:
     if place.isascii() and place.isdigit() and len(place) < 6:
         field = (core - 1 - FUNCTION_NAMES - int(place)) // FIELD
     else:
-        field = _field(session, place)
+        field = next(iter(session.program.storage.fields_of(place)), -1)
     if not 0 <= field < session.program.storage.fields:
         first, last = core_address(session.program.storage.fields - 1, core), core_address(0, core)
         return wrapped(f"{place} is neither a variable nor an address of data ({first} to {last})", width)
@@ -167,27 +166,10 @@ def _core(session: Session, place: str, width: int) -> list[str]:
     ]
 
 
-def _field(session: Session, place: str) -> int:
-    """Return the field of ``NAME``, ``NAME(2)`` or ``NAME(2,1)``, or -1 if it does not exist."""
-    parts = re.fullmatch(r"([A-Z][A-Z0-9]*)(?:\((\d{1,4})(?:,(\d{1,4}))?\))?", place)
-    for entry in _entries(session) if parts else ():
-        if parts and entry.name == parts[1]:
-            subscripts = [int(text) for text in parts.groups()[1:] if text]
-            rows = entry.shape[0] if entry.shape else 0
-            if not subscripts:
-                return entry.first
-            # Arrays are stored column by column.
-            if len(subscripts) == len(entry.shape) and all(
-                1 <= n <= most for n, most in zip(subscripts, entry.shape, strict=True)
-            ):
-                return entry.first + subscripts[0] - 1 + (rows * (subscripts[1] - 1) if len(subscripts) > 1 else 0)
-    return -1
-
-
 def _switches(session: Session) -> str:
     return ", ".join(f"{n} {'ON' if on else 'OFF'}" for n, on in enumerate(session.switches, 1))
 
 
 def _breakpoints(session: Session) -> str:
     lines = [session.program.statements[index] for index in sorted(session.breakpoints)]
-    return ", ".join(place_of(line) for line in lines) or "no breakpoints"
+    return ", ".join([*(place_of(line) for line in lines), *session.watched]) or "no breakpoints"

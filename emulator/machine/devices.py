@@ -211,6 +211,14 @@ class Devices:
         self._lines += 1
         return read_line("typewriter", self._lines, line.rstrip("\r\n")[:COLUMNS], "line")
 
+    def expected_fields(self, begins: bool) -> list[tuple[str, int, int]]:
+        """Return code, first column and width of each field of the next line, which may begin the list."""
+        if begins or self.transfer is None:
+            return self.layouts[self.program.code[self.state.at].second].record_fields(0)
+        # The list continues on another line: after a slash, or where the FORMAT is repeated.
+        layout, at = self.transfer.layout, self.transfer.at
+        return layout.record_fields(at + 1 if at < len(layout.spec.specs) else layout.spec.again)
+
     def _check_mode(self, spec: Field, fixed: bool, address: int) -> None:
         # Fixed-point variables need I fields, floating-point variables E or F fields (C26-5619 p. 43).
         key = spec.kind + ("<" if isinstance(self.transfer, Input) else ">")

@@ -11,6 +11,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import takewhile
 
 from emulator.language.cards import Card
 from emulator.language.formats import FormatSpec, Literal, Slash
@@ -35,6 +36,15 @@ class Layout:
 
     def __post_init__(self) -> None:
         self.literals = [s.text if isinstance(s, Literal) else "" for s in self.spec.specs]
+
+    def record_fields(self, first: int) -> list[tuple[str, int, int]]:
+        """Return the FORMAT code, the first column and the width of each field, from a specification to the slash."""
+        column, record = 1, []
+        for spec in takewhile(lambda spec: not isinstance(spec, Slash), self.spec.specs[first:]):
+            if isinstance(spec, Field):
+                record.append((str(spec), column, spec.width))
+            column += spec.width if isinstance(spec, Field) else len(spec.text) if isinstance(spec, Literal) else 0
+        return record
 
 
 @dataclass

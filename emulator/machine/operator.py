@@ -71,13 +71,53 @@ class Operator:
         return Action("START", unasked=True)
 
 
-class FromFile(Operator):
-    """An operator whose actions are the lines of a file.
+@dataclass(frozen=True, slots=True)
+class Load:
+    """The lines of an operator's file for one machine, with the names of its program and its deck, or empty."""
 
-    After the last line, and at a PAUSE for which the file has no START, START is pressed automatically.  ``LOAD``
-    begins the lines for the next machine, if several run in sequence.  Raise FileError for a line that is not an action
-    and, during the run, OperatorError for an action that does not fit the state of the machine.  Both name file and
-    line.
+    program: str
+    deck: str
+    lines: deque[_Line]
+
+
+PUNCHED = "PUNCHED"
+"""The deck of a LOAD that consists of the cards that the machine before punched."""
+
+
+def read_loads(name: str, text: str) -> tuple[list[Load], dict[str, str]]:
+    """Return the machines of an operator's file, and the decks whose cards it contains.  Raise FileError.
+
+    ``LOAD`` with the names of a program and a deck begins the lines of a machine.  ``CARDS`` with a name begins a deck,
+    and each ``CARD`` line holds one of its cards.
+    """
+    loads = [Load("", "", deque())]
+    decks: dict[str, str] = {}
+    source = ""
+    for number, line in enumerate(text.splitlines(), 1):
+        word, _, rest = line.partition(" ")
+        if word == "LOAD":
+            program, _, deck = rest.strip().partition(" ")
+            if loads == [Load("", "", deque())]:
+                loads.clear()
+            loads.append(Load(program, deck.strip(), deque()))
+        elif word == "CARDS" and rest.strip():
+            source = rest.strip()
+            decks[source] = ""
+        elif word == "CARD" and source:
+            decks[source] += rest + "\n"
+        elif line.strip() and not line.startswith("*"):
+            try:
+                loads[-1].lines.append(_Line(number, *read_action(line)))
+            except ValueError as error:
+                raise FileError(f"{name}: line {number}: {error}") from None
+    return loads, decks
+
+
+class FromFile(Operator):
+    """An operator whose actions are the lines of a file, which :func:`read_loads` describes.
+
+    After the last line, and at a PAUSE for which the file has no START, START is pressed automatically.  During the
+    run, raise OperatorError for an action that does not fit the state of the machine, with file and line.
     """
 
     present = True
@@ -85,16 +125,8 @@ class FromFile(Operator):
     def __init__(self, name: str, text: str) -> None:
         super().__init__()
         self.name = name
-        self._parts: list[deque[_Line]] = [deque()]
-        for number, line in enumerate(text.splitlines(), 1):
-            if line.split(maxsplit=1)[:1] == ["LOAD"]:
-                if self._parts != [deque()]:
-                    self._parts.append(deque())
-            elif line.strip() and not line.startswith("*"):
-                try:
-                    self._parts[-1].append(_Line(number, *read_action(line)))
-                except ValueError as error:
-                    raise FileError(f"{name}: line {number}: {error}") from None
+        self.loads, self.decks = read_loads(name, text)
+        self._parts = [load.lines for load in self.loads]
         self._lines = self._parts.pop(0)
         self._heading = True
         self._session: Session | None = None
@@ -143,9 +175,8 @@ class FromFile(Operator):
 
     def _next_action(self, session: Session) -> Action:
         line = self._lines.popleft()
-        if line.action.word in ("BREAK", "CLEAR") and line.action.number and not session.places(line.action):
-            problem = f"{session.program.source} has no statement of that number or card"
-            raise OperatorError(f"{self.name}: line {line.number}: {problem}")
+        if misfit := session.misfit(line.action):
+            raise OperatorError(f"{self.name}: line {line.number}: {misfit}")
         return line.action
 
 
@@ -153,12 +184,13 @@ class Logged(Operator):
     """An operator whose actions are logged to a file, with the events of the machine as comments.
 
     With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.
+    LOAD records the name of the deck, ``deck_name`` or that of the session, if it is one word.
     """
 
-    def __init__(self, operator: Operator, file: TextIO) -> None:
+    def __init__(self, operator: Operator, file: TextIO, deck_name: str | None = None) -> None:
         super().__init__()
         self.present = operator.present
-        self._operator, self._file = operator, file
+        self._operator, self._file, self._deck_name = operator, file, deck_name
         self._session: Session | None = None
         self._halt: Halt | None = None
 
@@ -171,7 +203,8 @@ class Logged(Operator):
     def attend(self, session: Session) -> Iterator[Action]:
         if session is not self._session:
             self._session = session
-            self._write(f"LOAD {session.program.source}")
+            name = session.deck.source if self._deck_name is None else self._deck_name
+            self._write(f"LOAD {session.program.source} {name if session.deck.cards and ' ' not in name else ''}")
         for action in self._operator.attend(session):
             self._write(action_line(action, session.state.work))
             yield action

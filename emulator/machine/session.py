@@ -11,17 +11,15 @@ from copy import copy
 from dataclasses import dataclass, field, fields, replace
 from typing import Literal
 
-from emulator.errors import CardError, DeckError
+from emulator.errors import CardError
 from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program, flatten
 from emulator.machine import interpreter
 from emulator.machine.devices import Devices, Ended, LineNeeded
 from emulator.machine.endings import Ending, Notice, looped, out_of_bounds, stopped, too_costly, unfit
 from emulator.machine.result import LOOP_WINDOW, Event, Options, Result, Uncut, machine_errors, statements_begun
-from emulator.machine.state import FLOATING, Journal, State, recorded_instructions, subscript_table
-from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
-from emulator.numbers.base import Number, Numbers, Undecided
-from emulator.objectdeck.extent import extent
+from emulator.machine.state import Journal, State, loaded, recorded_instructions, refuse_overlap, subscript_table
+from emulator.numbers.base import Number, Undecided
 
 BAD_INPUT = Ending("input", trouble="bad input")
 
@@ -31,13 +29,15 @@ class Halt:
     """A machine that has stopped and waits for its operator.
 
     - accept: the ACCEPT statement ``line`` needs a typed line.  ``trouble`` says why the previous one was rejected.
-    - pause: ``line`` is a PAUSE with ``number``.  stop: the machine has stopped before ``line`` for the reason ``why``.
+    - pause: ``line`` is a PAUSE with ``number``.
+    - stop: the machine has stopped before ``line`` for the reason ``why``: attention, step, breakpoint, or the name of
+      a variable that has changed.
     """
 
     what: Literal["accept", "pause", "stop"]
     line: Line
     number: int = 0
-    why: Literal["", "attention", "step", "breakpoint"] = ""
+    why: str = ""
     trouble: str = ""
 
 
@@ -51,7 +51,8 @@ class Action:
     - STOP: end the run and keep its results.
     - ATTN: stop a running machine before its next statement; a second time, stop it at once, in the middle of a list.
     - SWITCH: set sense switch ``number`` to ``on``.
-    - BREAK, CLEAR: set or remove a breakpoint at statement ``number``, or at the statements on a ``card``.
+    - BREAK, CLEAR: set or remove a breakpoint at statement ``number``, at the statements on a ``card``, or at the first
+      statement after the variable or element ``name`` has changed.
     """
 
     word: Literal["ENTER", "START", "STEP", "STOP", "ATTN", "SWITCH", "BREAK", "CLEAR"]
@@ -59,6 +60,7 @@ class Action:
     text: str = ""
     on: bool = False
     card: bool = False
+    name: str = ""
     unasked: bool = False
 
 
@@ -96,6 +98,8 @@ class Session:
         self.devices = Devices(program, self.deck, self.options, self.state, self.uncut)
         self.switches = [int(n in self.options.switches) for n in (1, 2, 3, 4)]
         self.breakpoints: dict[int, Action] = {}
+        # The variables whose changes halt the machine, each with its contents at the last statement.
+        self.watched: dict[str, list[tuple[Number, int]]] = {}
         self.halt: Halt | None = None
         self.last: Line | None = None
         self._begun: Line | None = None
@@ -171,11 +175,17 @@ class Session:
                 self._steps, self._attention = 1, True
             case "SWITCH":
                 self.switches[action.number - 1] = int(action.on)
+            case "BREAK" if action.name:
+                self.watched[action.name] = self.held(action.name)
+            case "CLEAR" if action.name:
+                self.watched.pop(action.name, None)
             case "BREAK":
                 self.breakpoints.update((index, action) for index in self.places(action))
             case "CLEAR":
                 for index in self.places(action) if action.number else list(self.breakpoints):
                     self.breakpoints.pop(index, None)
+                if not action.number:
+                    self.watched.clear()
             case "STOP":
                 self._ending = Ending("operator", self.program.source, self.here, trouble="stopped by the operator")
 
@@ -186,6 +196,22 @@ class Session:
             for line in self.program.statements
             if (line.place.card if action.card else line.label) == action.number
         ]
+
+    def misfit(self, action: Action) -> str:
+        """Return why the program has no place for a breakpoint, or an empty string."""
+        if action.word in ("BREAK", "CLEAR") and action.name and not self.program.storage.fields_of(action.name):
+            return f"{self.program.source} has no variable {action.name}"
+        if action.word in ("BREAK", "CLEAR") and action.number and not self.places(action):
+            return f"{self.program.source} has no statement of that number or card"
+        return ""
+
+    def held(self, name: str) -> list[tuple[Number, int]]:
+        """Return value and kind of each field of a variable or element."""
+        return [(self.state.values[field], self.state.kinds[field]) for field in self.program.storage.fields_of(name)]
+
+    def expected_fields(self) -> list[tuple[str, int, int]]:
+        """Return the FORMAT code, the first column and the width of each field of the line that ACCEPT waits for."""
+        return self.devices.expected_fields(self._pending == interpreter.AT_BEGIN)
 
     def result(self, ending: Ending = BAD_INPUT) -> Result:
         """Return the result so far.  It can also be used after :meth:`advance` raised an error for a bad card."""
@@ -264,7 +290,7 @@ class Session:
             goal,
             self.options.limit,
             self.options.bounds == "strict",
-            self.tracer is not None or self._steps > 0 or bool(self.breakpoints),
+            self.tracer is not None or self._steps > 0 or bool(self.breakpoints or self.watched),
             self.journal,
             self._enters,
         )
@@ -310,6 +336,10 @@ class Session:
             self.halt = Halt("stop", line, why="attention" if self._attention else "step")
         elif line.index in self.breakpoints:
             self.halt = Halt("stop", line, why="breakpoint")
+        for name, before in self.watched.items():
+            self.watched[name] = self.held(name)
+            if self.watched[name] != before and self.halt is None:
+                self.halt = Halt("stop", line, why=f"{name} has changed")
 
     def _stopped(self, reason: int, address: int) -> Ending:
         """Return the ending for a reason that ends the run."""
@@ -366,23 +396,3 @@ class _Checkpoint:
         for layout, literals in zip(devices.layouts, self._literals, strict=True):
             layout.literals[:] = literals
         devices.listed[:], devices.fields, devices.notices = self._listed, dict(self._fields), dict(self._notices)
-
-
-def refuse_overlap(program: Program, core: int) -> None:
-    """Raise DeckError if a program and its data cannot fit a machine with ``core`` positions of storage."""
-    size = extent(program)
-    if size.is_certain(core):
-        raise DeckError(f"{program.source}: {size.overlap(core)}")
-
-
-def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]:
-    """Return the values and kinds of all fields before a run.  Only the constants are defined."""
-    values: list[Number] = [0] * program.storage.length
-    kinds = [UNDEFINED] * program.storage.length
-    for address, text in program.storage.constants + program.storage.immediates:
-        # A constant with a decimal point is floating point.
-        if "." in text:
-            values[address], kinds[address] = numbers.constant(text), FLOATING
-        else:
-            values[address], kinds[address] = int(text), FIXED_POINT
-    return values, kinds

@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from emulator.errors import DeckError
 from emulator.language.objectcode import BEGIN, FMFAC, FMFIX, ITEM, SUBSCRIPT, TRANSMIT, Flat, Program
-from emulator.numbers.arithmetic import UNDEFINED, ZERO
-from emulator.numbers.base import Number
+from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, ZERO
+from emulator.numbers.base import Number, Numbers
 from emulator.numbers.work import STEPS
+from emulator.objectdeck.extent import extent
 
 # The kind of a field that holds a floating-point number, in any arithmetic.
 FLOATING = ZERO
@@ -109,3 +111,23 @@ Table = dict[int, Sequence[int]]
 def subscript_table(code: Flat) -> Table:
     """Return the subscripts of a program by their index in :attr:`Flat.table`."""
     return {k: code.table[k : k + SUBSCRIPT] for k in range(0, len(code.table), SUBSCRIPT)}
+
+
+def refuse_overlap(program: Program, core: int) -> None:
+    """Raise DeckError if a program and its data cannot fit a machine with ``core`` positions of storage."""
+    size = extent(program)
+    if size.is_certain(core):
+        raise DeckError(f"{program.source}: {size.overlap(core)}")
+
+
+def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]:
+    """Return the values and kinds of all fields before a run.  Only the constants are defined."""
+    values: list[Number] = [0] * program.storage.length
+    kinds = [UNDEFINED] * program.storage.length
+    for address, text in program.storage.constants + program.storage.immediates:
+        # A constant with a decimal point is floating point.
+        if "." in text:
+            values[address], kinds[address] = numbers.constant(text), FLOATING
+        else:
+            values[address], kinds[address] = int(text), FIXED_POINT
+    return values, kinds

@@ -1,13 +1,14 @@
 """The language of the console: the operator's actions, halts, and warnings about a run, as lines of text.
 
 A file of actions has one action in capitals on each line: ``ENTER 5``, ``START``, ``STEP 3``, ``STOP``, ``ATTN``,
-``SWITCH 1 ON``, ``BREAK 40``, ``BREAK CARD 12``, ``CLEAR``.  ``AT n`` before an action other than ENTER and START
-performs it on the running machine when n units of work are done, as ``--limit`` counts them.  ENTER is followed by one
-blank and the text to type.
+``SWITCH 1 ON``, ``BREAK 40``, ``BREAK CARD 12``, ``BREAK NE``, ``CLEAR``.  ``AT n`` before an action other than ENTER
+and START performs it on the running machine when n units of work are done, as ``--limit`` counts them.  ENTER is
+followed by one blank and the text to type.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterator
 
 from emulator.errors import explanations, quoted
@@ -17,6 +18,7 @@ from emulator.machine.session import Action, Halt
 
 WORDS = ("ENTER", "START", "STEP", "STOP", "ATTN", "SWITCH", "BREAK", "CLEAR")
 
+_VARIABLE = re.compile(r"[A-Z][A-Z0-9]{0,4}(\(\d{1,4}(,\d{1,4})?\))?")
 _RUNNING = ("STEP", "STOP", "ATTN", "SWITCH", "BREAK", "CLEAR")
 _FORMS = {
     "START": "START",
@@ -24,8 +26,8 @@ _FORMS = {
     "STOP": "STOP",
     "ATTN": "AT, a number and ATTN",
     "SWITCH": "SWITCH, 1 to 4, ON or OFF",
-    "BREAK": "BREAK and a statement number, or BREAK CARD and a card number",
-    "CLEAR": "CLEAR alone, with a statement number, or CLEAR CARD and a card number",
+    "BREAK": "BREAK and a statement number, CARD and a card number, or a variable",
+    "CLEAR": "CLEAR alone, or with a statement number, CARD and a card number, or a variable",
     "AT": f"AT, a number and one of {', '.join(_RUNNING)}",
 }
 
@@ -61,6 +63,8 @@ def action(word: str, operands: list[str]) -> Action:
             return Action("SWITCH", number, on=following == ["ON"])
         case "BREAK" | "CLEAR" if number and not following:
             return Action(word, number, card=card)
+        case "BREAK" | "CLEAR" if len(operands) == 1 and not card and _VARIABLE.fullmatch(operands[0]):
+            return Action(word, name=operands[0])
         case "CLEAR" if not operands:
             return Action("CLEAR")
     if word in _FORMS:
@@ -85,7 +89,7 @@ def action_line(action: Action, at: int | None = None) -> str:
         case "SWITCH":
             text += f" {action.number} {'ON' if action.on else 'OFF'}"
         case "BREAK" | "CLEAR":
-            text += f"{' CARD' if action.card else ''} {action.number}" if action.number else ""
+            text += f"{' CARD' if action.card else ''} {action.number}" if action.number else f" {action.name}"
     return text.rstrip() if at is None else f"AT {at} {text}"
 
 

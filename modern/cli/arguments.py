@@ -38,7 +38,7 @@ def _reproduce(parser: ArgumentParser) -> None:
 
 
 def _run(parser: ArgumentParser) -> None:
-    program_argument(parser, "run")
+    program_argument(parser, "run; without it, --operator=FILE names a log whose loads are repeated", "?")
     deck_argument(parser, "a file of data cards, one card per line")
     result_arguments(parser)
     upcase_argument(parser)

@@ -81,7 +81,7 @@ def test_a_log_contains_actions_and_events() -> None:
     lines = ["READ 90,I", "3 ACCEPT 90,K", "PUNCH 90,K", "90 FORMAT(I4)", "END"]
     _, log = logged(lines, "ENTER    4\n", data=["  12"])
     assert log.splitlines() == [
-        "LOAD deck.f",
+        "LOAD deck.f data.cards",
         "* read    12",
         "* ACCEPT waits for a line, statement 3 (card 2)",
         "ENTER    4",
