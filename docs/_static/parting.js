@@ -2,19 +2,17 @@
 "use strict";
 (() => {
   const at = (id) => document.getElementById(`parting-${id}`);
-  const there = new URL("../console/", document.currentScript.src).href;
-  const bytes = window.hull1620Bytes ?? 0;
+  const { bytes } = hull1620;
   const sets = JSON.parse(at("sets-data").textContent);
   const picture = at("picture");
   const SVG = "http://www.w3.org/2000/svg";
   const LATEST = 60000; // the largest time for a set in milliseconds
   let answer = JSON.parse(at("first").textContent);
-  let worker = null;
+  let machine = null;
   let busy = false;
   let turn = 0.5;
   let tilt = 0.35;
   let held = -1;
-  let asked = "";
 
   for (const name of Object.keys(sets)) at("sets").add(new Option(name, name));
   at("sets").addEventListener("change", () => {
@@ -22,7 +20,7 @@
     at("answer").replaceChildren();
     answer = null;
     draw();
-    if (worker) go();
+    if (machine) go();
   });
 
   const typed = () =>
@@ -95,58 +93,50 @@
     lines("Eight digits and exact arithmetic", [answer.part]);
   }
 
-  function employ() {
-    worker = new Worker(there + "worker.mjs", { type: "module" });
-    worker.onmessage = ({ data }) => {
-      if (data.progress !== undefined) {
-        at("progress").value = data.progress;
-        return;
-      }
-      clearTimeout(worker.late);
-      busy = false;
-      at("go").disabled = false;
+  async function connect() {
+    try {
+      machine = await hull1620.connect((loaded) => (at("progress").value = loaded), () => {});
+    } catch (error) {
+      at("begin").hidden = at("begin").disabled = false;
+      at("says").textContent = `Loading failed: ${error.message}`;
+      return;
+    } finally {
       at("progress").hidden = true;
-      if (data.failed !== undefined) {
-        at("begin").hidden = false;
-        at("begin").disabled = false;
-        at("says").textContent = `Loading failed: ${data.failed}`;
-        worker = null;
-        return;
-      }
-      document.getElementById("parting").dataset.state = "on";
-      at("begin").hidden = true;
-      at("says").textContent = "";
-      if (data.id === 2 && asked === at("points").value) {
-        answer = data.answer;
-        tell();
-        draw();
-      } else go(); // the points have changed in the meantime
-    };
-    worker.postMessage({ id: 1, do: "begin" });
+    }
+    document.getElementById("parting").dataset.state = "on";
+    at("begin").hidden = true;
+    go();
   }
 
-  function go() {
-    if (busy || !worker) return;
+  async function go() {
+    if (busy || !machine) return;
     busy = true;
     at("go").disabled = true;
     at("says").textContent = "The programs are running …";
-    worker.late = setTimeout(() => {
-      worker.terminate();
-      worker = null;
+    const late = setTimeout(() => {
+      machine.stop();
+      machine = null;
       busy = false;
       at("says").textContent = "The run was stopped after a minute.";
-      at("begin").hidden = false;
-      at("begin").disabled = false;
+      at("begin").hidden = at("begin").disabled = false;
     }, LATEST);
-    asked = at("points").value;
-    worker.postMessage({ id: 2, do: "part", text: asked });
+    const text = at("points").value;
+    const result = await machine.ask("part", text);
+    clearTimeout(late);
+    busy = false;
+    at("go").disabled = false;
+    at("says").textContent = "";
+    if (text !== at("points").value) return go(); // the points have changed in the meantime
+    answer = result;
+    tell();
+    draw();
   }
 
   at("begin").addEventListener("click", () => {
     at("begin").disabled = true;
     at("progress").hidden = false;
     at("says").textContent = "Loading …";
-    employ();
+    connect();
   });
   at("form").addEventListener("submit", (event) => {
     event.preventDefault();
@@ -198,9 +188,7 @@
 
   draw();
   if (answer) tell();
-  if (location.protocol === "file:")
-    at("says").textContent = "To run your own points, this page needs a web server: run “make serve” in a checkout.";
-  else if (!bytes) at("says").textContent = "This site was built without the emulator. The answer shown is that of the first set.";
+  if (!bytes) at("says").textContent = "This site was built without the emulator. The answer shown is that of the first set.";
   else {
     at("says").textContent = `The page loads Python and this project (${(bytes / 1e6).toFixed(1)} MB). Nothing leaves your computer.`;
     at("progress").max = bytes;

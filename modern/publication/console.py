@@ -1,36 +1,57 @@
-"""The emulator in the browser: the HTML of its two pages, and the files that they load.
+"""The emulator in the browser: the HTML of its two pages, and the one file that both load.
 
 The HTML and the worker are in ``docs/console``, the scripts in ``docs/_static``.  Python for the browser is the npm
 package ``pyodide``, which ``docs/console/package-lock.json`` pins.  The project itself is loaded from its wheel, lark
-and mpmath from the installed packages.  Without the npm package or the wheel, the pages show recorded answers only.
+and mpmath from the installed packages.  Without the npm package or the wheel, the pages show recorded runs only.
 """
 
+import base64
 import gzip
+import hashlib
 import html
 import json
 import shutil
+import zipfile
 from collections.abc import Mapping
+from io import BytesIO
 from pathlib import Path
 
+from modern.edition import programs
 from modern.edition.chapter6 import input_deck
 from modern.edition.sources import read
 from modern.formats.points import parse_bytes
 from modern.publication.building import ROOT
-from modern.publication.desk import Desk
+from modern.publication.commentary import commentary
+from modern.publication.desk import Answer, Desk
 from modern.publication.parting import parted
-from modern.publication.pyz import packages
+from modern.publication.pyz import EPOCH, files_of
 
 SOURCE = ROOT / "docs" / "console"
 PERIOD = ROOT / "tests" / "data" / "period"
-# The files of the npm package that a page loads unchanged.
-PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "python_stdlib.zip", "pyodide-lock.json")
-# The file that a page loads compressed; it is two thirds of the total and servers do not compress it.
-PACKED = "pyodide.asm.wasm"
+# The files of the npm package that a page loads unchanged, and its standard library, of which it loads a part.
+PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm")
+_LIBRARY, _LOCK = "python_stdlib.zip", "pyodide-lock.json"
+# What no page imports: the first parts of the paths in the standard library and in the packages.
+_NOT_LOADED = (
+    *("tests", "__pyinstaller", "__pycache__", "email", "multiprocessing", "xml", "_pyrepl", "unittest", "http"),
+    *("pdb.py", "doctest.py", "tarfile.py", "pydoc.py", "ctypes", "html", "xmlrpc", "wsgiref", "imaplib.py"),
+    *("pickletools.py", "mailbox.py", "smtplib.py", "ftplib.py", "sqlite3", "difflib.py", "statistics.py"),
+    *("_pyio.py", "optparse.py", "configparser.py", "pydoc_data", "emulator/compiled", "emulator/jit", "hull1620"),
+    *("modern/claims", "modern/papers", "modern/study", "modern/cli", "modern/digital", "modern/port", "modern/bench"),
+    *("modern/exact_hull", "modern/drawing", "transcripts/statements", "transcripts/appel_will_1976", "lark/tools"),
+)
+_ENCODINGS = ("__init__", "aliases", "ascii", "cp437", "latin_1", "utf_8")
+# Seconds of the recorded run on a 1620 between two of its frames, and how much faster than in 1963 it is shown.
+_FRAME, _PACE = 1.0, 10
 
 
 def console_page() -> str:
-    """Return the HTML of the emulator: its controls, a recorded session, and programs in the style of the period."""
-    return _filled("console.html", RECORDED=html.escape(recorded()), PERIOD=_json(_period()))
+    """Return the HTML of the emulator: its desk, a recorded run, and programs in the style of the period."""
+    about = {
+        name: [[b.title, b.cards[0], b.cards[-1], b.text] for b in commentary(name).blocks] for name in programs.NAMES
+    }
+    data = {"period": _period(), "commentary": about, "recorded": recorded_run(), "pace": _PACE}
+    return _filled("console.html", RECORDED=html.escape(recorded()), DATA=_json(data))
 
 
 def parting_page() -> str:
@@ -59,7 +80,7 @@ def point_sets() -> dict[str, str]:
 def recorded() -> str:
     """Return the operator's log of example 4: a run of program1_examples, then of program 2 with the punched cards."""
     desk = Desk(clock=lambda: 0.0)
-    for program, deck in (("program1_examples", "example4"), ("program2", "stacker")):
+    for program, deck in (("program1_examples", "example4"), ("program2", "PUNCHED")):
         desk.load({"program": program, "deck": deck})
         desk.run(1e9)
         desk.act("START")
@@ -68,28 +89,74 @@ def recorded() -> str:
     return desk.log()
 
 
-def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> int:
-    """Write the files that the pages load into ``folder`` and return their size in bytes.
+def recorded_run() -> Answer:
+    """Return the load and the slices of example 5 in program 3, which the page shows while Python is loaded."""
+    desk = Desk(clock=lambda: 0.0, small=10)
+    load = desk.load({"program": "program3", "deck": "example5/punched"})
+    frames = [desk.run(1e9)]
+    desk.act("START")
+    picture: Answer = {}
+    while not frames[-1]["ended"]:
+        # The clock stands still, so that the pace alone ends a slice.
+        frame = desk.run(1000 * _FRAME, 1.0)
+        is_same, picture = frame["picture"] == picture, frame["picture"]
+        frames.append({key: value for key, value in frame.items() if key != "picture" or not is_same})
+    return {"load": load, "frames": frames}
 
-    Without a wheel or the npm package, the size is 0, and only ``size.js`` is written, from which the pages learn that
-    the emulator is missing.
+
+def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> int:
+    """Write the files that the pages load into ``folder`` and return the bytes that a browser loads.
+
+    ``machine.gzip`` holds all files that Python needs.  ``machine.js`` has the same bytes for a site that is opened
+    without a web server, because a page may then load scripts only.  Without a wheel or the npm package, the size is 0,
+    and only ``size.js`` is written, from which the pages learn that the emulator is missing.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    npm, size = source / "node_modules" / "pyodide", 0
+    npm, size, version = source / "node_modules" / "pyodide", 0, ""
     if npm.is_dir() and wheel is not None:
-        (folder / "pyodide").mkdir(exist_ok=True)
-        for name in PYODIDE:
-            shutil.copyfile(npm / name, folder / "pyodide" / name)
-        packed = folder / "pyodide" / f"{PACKED}.gzip"
-        packed.write_bytes(gzip.compress((npm / PACKED).read_bytes(), mtime=0))
-        shutil.copyfile(source / "worker.mjs", folder / "worker.mjs")
-        (folder / "packages.zip").write_bytes(packages(wheel))
-        # The progress bar cannot count the worker and pyodide.mjs: the browser loads them as modules.
-        fetched = [folder / "pyodide" / name for name in PYODIDE if name != "pyodide.mjs"]
-        counted = [*fetched, packed, folder / "packages.zip"]
-        size = sum(path.stat().st_size for path in counted)
-    (folder / "size.js").write_text(f"window.hull1620Bytes = {size};\n", encoding="ascii")
+        lock = json.loads((npm / _LOCK).read_text("utf-8"))
+        files = {name: (npm / name).read_bytes() for name in PYODIDE}
+        files |= {_LIBRARY: _library(npm / _LIBRARY), "packages.zip": _stored(files_of(wheel))}
+        files["lock.json"] = json.dumps(lock | {"packages": {}}).encode()
+        data = packed(files)
+        size, version = len(data), hashlib.sha256(data).hexdigest()[:16]
+        (folder / "machine.gzip").write_bytes(data)
+        worker = (source / "worker.js").read_text("utf-8")
+        local = f"window.hull1620Local = {_json({'worker': worker, 'machine': base64.b64encode(data).decode()})};\n"
+        (folder / "machine.js").write_text(local, encoding="utf-8")
+        for name in ("worker.js", "cache.js"):
+            shutil.copyfile(source / name, folder / name)
+    known = f'window.hull1620Bytes = {size};\nwindow.hull1620Version = "{version}";\n'
+    (folder / "size.js").write_text(known, encoding="ascii")
     return size
+
+
+def packed(files: Mapping[str, bytes]) -> bytes:
+    """Compress files into one: the length of an index in four bytes, the index with their sizes, and their bytes."""
+    index = json.dumps({name: len(content) for name, content in files.items()}).encode()
+    return gzip.compress(len(index).to_bytes(4, "little") + index + b"".join(files.values()), mtime=0)
+
+
+def _library(archive: Path) -> bytes:
+    """Return the standard library without the modules that no page imports."""
+    with zipfile.ZipFile(archive) as library:
+        return _stored({name: library.read(name) for name in library.namelist() if not name.endswith("/")})
+
+
+def _is_loaded(name: str) -> bool:
+    folder, _, module = name.rpartition("/")
+    if folder == "encodings" and module.removesuffix(".py") not in _ENCODINGS:
+        return False
+    return not any(f"/{name}".startswith(f"/{part}") or f"/{part}/" in f"/{name}" for part in _NOT_LOADED)
+
+
+def _stored(files: Mapping[str, bytes]) -> bytes:
+    """Return an archive of the files that a page imports, not compressed, because the whole download is."""
+    buffer = BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for name, data in sorted((name, data) for name, data in files.items() if _is_loaded(name)):
+            archive.writestr(zipfile.ZipInfo(name, EPOCH), data)
+    return buffer.getvalue()
 
 
 def _period() -> Mapping[str, str]:
@@ -106,4 +173,4 @@ def _filled(name: str, **placeholders: str) -> str:
 
 def _json(value: object) -> str:
     """Return JSON that is safe inside a script element."""
-    return json.dumps(value).replace("<", "\\u003c")
+    return json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")

@@ -3,60 +3,82 @@
 Requests and answers are plain data that JSON can represent; the page is ``docs/console``.  The machine runs in slices
 of some milliseconds.  The operator has the same questions, commands and log as on the command line
 (:mod:`emulator.machine.operator`, :mod:`emulator.machine.console`).  Python in the browser cannot wait for an answer.
-If the machine halts and the page has sent no answer, the slice ends, and the next slice continues there.  The module
-imports only the standard library, lark and mpmath, which are available in the browser, but not numpy.
+If the machine halts and the page has sent no answer, the slice ends, and the next slice continues there.  To go back, a
+new session repeats the log up to an earlier statement.  The module imports only the standard library, lark and mpmath.
 """
 
 import io
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
 from emulator.errors import EmulatorError, LowerCaseError
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Line, Program
 from emulator.language.statements import capitals
 from emulator.machine.console import Cards, command, done
+from emulator.machine.divergence import diverge
 from emulator.machine.machine import run_with_operator
-from emulator.machine.operator import Logged, Operator
+from emulator.machine.operator import PUNCHED, FromFile, Load, Logged, Operator
 from emulator.machine.result import DEFAULT_CORE, DEFAULT_LIMIT, Event, Options
 from emulator.machine.session import Action, Halt, Session
 from emulator.machine.timing import measure
-from emulator.machine.words import action_line, halt_line, notes
+from emulator.machine.words import action_line, halt_line, notes, place_of
 from emulator.numbers import numbers
 from modern.edition import programs
-from modern.edition.chapter6 import EXAMPLES, input_deck
+from modern.publication import panel
+from modern.publication.decks import named_deck, offered
+from modern.thesis.job import second_program
 
 # The answer to a request: keys and plain values, which the docstring of each method describes.
 Answer = dict[str, Any]
 
 _WIDTH = 72
 _WHILE_RUNNING = ("ATTN", "SWITCH", "BREAK", "CLEAR", "STOP", "STEP")
+_EMPTY = "nothing is loaded: choose a program and a deck, and press Load"
+_ENDED = "the run has ended: press Load to load the deck again"
 
 
 class _Unanswered(Exception):
     """The machine waits for the operator, and the page has not sent an action."""
 
 
-class _Visitor(Operator):
-    """An operator whose actions come from the page."""
+class _Visitor(FromFile):
+    """An operator whose actions come from a log, and after its last line from the page."""
 
-    present = True
-
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, log: str = "") -> None:
+        super().__init__("log", log)
         self.actions: deque[Action] = deque()
 
+    def forget(self) -> None:
+        """Drop the remaining lines of the log."""
+        self._lines.clear()
+
     def attend(self, session: Session) -> Iterator[Action]:
-        while self.actions and self.actions[0].word in _WHILE_RUNNING:
+        yield from super().attend(session)
+        while not self._lines and self.actions and self.actions[0].word in _WHILE_RUNNING:
             yield self.actions.popleft()
 
     def answer(self, session: Session, halt: Halt) -> Action:
+        if self._lines:
+            return super().answer(session, halt)
         if not self.actions:
             raise _Unanswered
         return self.actions.popleft()
+
+
+@dataclass(frozen=True, slots=True)
+class _Loaded:
+    """A program and a deck in the machine, with the name of the deck in the log."""
+
+    program: Program
+    deck: Deck
+    deck_name: str
+    options: Options
 
 
 @dataclass
@@ -68,37 +90,43 @@ class Desk:
 
     clock: Callable[[], float] = time.monotonic
     small: int = 2_000
+    _loaded: _Loaded | None = None
     _session: Session | None = None
     _visitor: _Visitor = field(default_factory=_Visitor)
+    _logged: Operator = field(default_factory=Operator)
+    # The log of the loads before this one, with the decks of the visitor, and the log of this load.
+    _earlier: str = ""
     _log: io.StringIO = field(default_factory=io.StringIO)
-    _logged: Operator | None = None
     _cards: Cards = field(default_factory=Cards)
     _ending: bool = False
     _stacker: list[str] = field(default_factory=list)
     _happened: list[Event] = field(default_factory=list)
+    # The loads of a log that remain to be repeated, and the decks in the log or from the page.
+    _queue: deque[Load] = field(default_factory=deque)
+    _texts: dict[str, str] = field(default_factory=dict)
+    _record: panel.Record = field(default_factory=panel.Record)
 
     def offers(self) -> Answer:
-        """Return the built-in ``programs`` and ``decks`` as pairs of name and title."""
-        return {
-            "programs": [[b.name, b.title] for b in programs.BUILT_INS],
-            "decks": [[f"example{n}", f"example {n} of chapter 6"] for n in EXAMPLES],
-        }
+        """Return the built-in ``programs`` and ``decks`` as lists of name, title and kind."""
+        return offered()
 
     def load(self, request: Answer) -> Answer:
         """Compile a program and load a deck; the machine then waits for START.
 
         In the request, ``program`` and ``deck`` are each a built-in name or a pair of name and text.  The deck ``""``
-        is empty, and ``"stacker"`` has the cards that were punched last.  ``switches`` lists the sense switches that
+        is empty, and ``"PUNCHED"`` has the cards that were punched last.  ``switches`` lists the sense switches that
         are on.  ``arithmetic``, ``core``, ``limit`` and ``upcase`` are those of the command line.
 
-        The answer has ``program``, ``listing`` (number and text of each card), ``deck`` and ``switches``.  If the
-        request is invalid, it has ``refused``, a list of messages, and the machine is unchanged.
+        The answer has ``program``, ``listing`` (number and text of each card), ``deck``, ``switches``, and from
+        :mod:`modern.publication.panel` ``core``, ``touched`` and ``formats``.  If the request is invalid, it has
+        ``refused``, a list of messages, and the machine is empty.
         """
+        self._earlier += self._log.getvalue()
+        self._log, self._session, self._loaded = io.StringIO(), None, None
         try:
             source = self._source(request["program"], bool(request.get("upcase")))
-            program = (
-                programs.program(request["program"]) if isinstance(request["program"], str) else compile_deck(source)
-            )
+            built_in = request["program"] in programs.NAMES if isinstance(request["program"], str) else False
+            program = programs.program(request["program"]) if built_in else compile_deck(source)
             deck = self._deck(request.get("deck", ""))
             options = Options(
                 numbers(str(request.get("arithmetic", "truncating"))),
@@ -107,32 +135,57 @@ class Desk:
                 limit=int(request.get("limit", DEFAULT_LIMIT)),
                 hopper="any",
             )
-            session = Session(program, deck, options)
+            name = request.get("deck", "")
+            self._loaded = _Loaded(program, deck, name if isinstance(name, str) else str(name[0]), options)
+            self._begin(self._loaded, str(request.get("log", "")))
         except LowerCaseError as error:
-            return {"refused": [f"{error}; choose “read lower case as capitals” to accept it"]}
+            return self._refused(f"{error}; choose “read lower case as capitals” to accept it")
         except (EmulatorError, ValueError) as error:
-            return {"refused": str(error).splitlines()}
-        self._session, self._ending = session, False
-        self._visitor, self._cards, self._stacker = _Visitor(), Cards(), []
-        self._logged = Logged(self._visitor, self._log)
-        self._visitor.actions.append(Action("ATTN"))
+            return self._refused(str(error))
+        if "log" not in request:
+            self._visitor.actions.append(Action("ATTN"))
         return {
             "program": program.source,
             "listing": [[card.number, card.text] for card in source.cards],
             "deck": [card.text for card in deck.cards],
-            "switches": [bool(on) for on in session.switches],
+            "switches": [n in options.switches for n in (1, 2, 3, 4)],
+            "core": panel.core(program, options.core),
+            "touched": panel.touched(program),
+            "formats": panel.formats(program),
         }
+
+    def replay(self, text: str) -> Answer:
+        """Begin to repeat a log with any number of loads.  The answer is that of :meth:`load` for the first."""
+        try:
+            log = FromFile("log", text)
+        except EmulatorError as error:
+            return self._refused(str(error))
+        for name, cards in log.decks.items():
+            self._keep(name, cards)
+        self._queue = deque(load for load in log.loads if load.program)
+        if not self._queue:
+            return self._refused("the log names no program: expected a line such as LOAD program1 example1")
+        return self.next_load()
+
+    def next_load(self) -> Answer:
+        """Load the next program and deck of the log that is being repeated."""
+        load = self._queue.popleft()
+        lines = "".join(f"{action_line(line.action, line.at)}\n" for line in load.lines)
+        return self.load({"program": load.program.removesuffix(".f"), "deck": load.deck, "log": lines})
 
     def run(self, milliseconds: float, pace: float = 0.0) -> Answer:
         """Run for about the given time, or until the machine waits or the run ends.
 
         ``pace`` is the largest speed relative to the 1620, or 0 for full speed.  The answer has ``events`` (kind and
-        text), ``card`` (the card that is executed next), ``work``, ``seconds`` on a 1620, ``stands`` (why the machine
-        waits, or empty), ``waits`` (``typed`` for a line, ``answer`` for an action, or empty), ``ended`` and
-        ``messages``.
+        text), ``card`` (the card that is executed next), ``statement`` (its number in the run), ``seconds`` on a 1620,
+        ``stands`` (why the machine waits, or empty), ``waits`` (``typed`` for a line with its ``fields``, ``answer``
+        for an action, or empty), ``ended`` and ``messages``.  ``registers`` are the floating
+        and the fixed-point accumulator.  ``picture``, ``stages`` and ``wrote`` are those of
+        :mod:`modern.publication.panel`.  After the end, ``next`` names the program that reads the punched cards, and
+        ``queued`` is true if a log has further loads.
         """
         session = self._session
-        if session is None or self._logged is None or self._ending:
+        if session is None or self._ending:
             return self._answer()
         end_of_slice = self.clock() + milliseconds / 1000
         furthest = self._seconds(session) + pace * milliseconds / 1000
@@ -149,21 +202,22 @@ class Desk:
                 break
             if ending is not None or self.clock() >= end_of_slice or (pace and self._seconds(session) >= furthest):
                 break
-        messages: list[str] = []
+        answer: Answer = {}
         if ending is not None or failure:
             self._ending = True
             result = session.result() if ending is None else session.result(ending)
-            if not failure:
-                messages = list(notes(session.program, result))
+            messages = [] if failure else list(notes(session.program, result))
             if failure or (ending is not None and not ending.normal):
                 messages.append(f"hull1620: {failure or result.ending.message}")
-        return self._answer(messages)
+            second = None if failure else second_program(result)
+            answer = {"messages": messages, "next": f"program{second}" if second else "", "queued": bool(self._queue)}
+        return self._answer() | answer
 
     def act(self, line: str) -> Answer:
         """Process a command of the operator, or ``ENTER`` and a line for ACCEPT. The answer has ``lines`` to show."""
         session = self._session
         if session is None or self._ending:
-            return {"lines": ["nothing is running: load a program first"]}
+            return {"lines": [_ENDED if session else _EMPTY]}
         if line.startswith("ENTER"):
             if not (session.halt and session.halt.what == "accept"):
                 return {"lines": ["the program does not ask for a line"]}
@@ -181,32 +235,132 @@ class Desk:
         if session.halt and session.halt.what == "accept" and action.word in ("START", "STEP"):
             return {"lines": [halt_line(session.halt)]}
         self._visitor.actions.append(action)
-        return {"lines": [action_line(action)] if action.word in ("SWITCH", "BREAK", "CLEAR", "STEP") else []}
+        return {"lines": [action_line(action)] if action.word in ("SWITCH", "BREAK", "CLEAR") else []}
+
+    def jump(self, statement: int) -> Answer:
+        """Go back to the beginning of a statement of this run, counted from 1, by repeating the run; see :meth:`run`.
+
+        The machine then stands before that statement, and everything after it is undone.  The answer also has
+        ``undone``: the numbers of lines ``typed`` and cards ``punched`` that remain.  To go forward, the machine steps.
+        """
+        if statement > len(self._record.times):
+            self.act(f"STEP {statement - len(self._record.times)}")
+        if self._loaded is None or not 1 <= statement <= len(self._record.times):
+            return self._answer()
+        work, log = self._record.times[statement - 1] - 1, self._log.getvalue()
+        self._log = io.StringIO()
+        session = self._begin(self._loaded, log)
+        # The log stops the machine at some statements; _Unanswered ends the repetition if it waited at the last one.
+        with suppress(_Unanswered):
+            run_with_operator(session, self._logged, work, self._see)
+        self._visitor.forget()
+        if session.halt is None:
+            self._visitor.actions.append(Action("ATTN"))
+        answer = self.run(0)
+        remaining = {"typed": len(session.result().typed), "punched": len(self._stacker)}
+        return answer | {"events": [], "undone": remaining}
+
+    def decide(self) -> Answer:
+        """Find the first decision of the loaded run that exact arithmetic takes otherwise, from the beginning.
+
+        The answer has ``lines``: the statement with the value and the target in both arithmetics.  ``statement`` is
+        its number in the run.  ``hull`` is the true hull of the points of the first stage.
+        """
+        if (loaded := self._loaded) is None:
+            return {"lines": [_EMPTY]}
+        try:
+            comparison = diverge(
+                loaded.program, loaded.deck, loaded.options.numbers, numbers("exact"), loaded.options, values=False
+            )
+        except EmulatorError as error:
+            return {"lines": [str(error)]}
+        decision = comparison.first_decision
+        hull = {"hull": panel.true_picture(self._record.stages)} if self._record.stages else {}
+        if decision is None:
+            return hull | {
+                "lines": [comparison.apart or "exact arithmetic takes every decision of this run in the same way"]
+            }
+        lines = [f"{place_of(decision.line)}: {decision.line.text}"]
+        for name, value, target in zip(("eight digits", "exact"), decision.values, decision.targets, strict=True):
+            lines.append(f"{name}: {value}, goes to {place_of(target) if target else 'the end'}")
+        return hull | {"lines": lines, "statement": self._execution(decision.line, decision.time)}
+
+    def field(self, address: int) -> Answer:
+        """Return the field at an address of core storage (:func:`modern.publication.panel.field_at`)."""
+        return panel.field_at(self._session, address, self._record.writers) if self._session else {}
+
+    def stages(self) -> list[Answer]:
+        """Return the successive hulls of the run, each as :func:`modern.publication.panel.picture` describes it."""
+        return self._record.stages
 
     def show(self, line: str) -> Answer:
         """Execute a command that only shows something, such as ``VARIABLES``; the answer has ``lines``."""
         session = self._session
-        lines = [] if session is None else command(session, line, self._cards, _WIDTH)
+        lines = command(session, line, self._cards, _WIDTH) if session else []
         return {"lines": lines if isinstance(lines, list) else []}
 
+    check = staticmethod(panel.compile_messages)
+
     def log(self) -> str:
-        """Return the operator's actions since the page was opened, as a log that ``--operator=FILE`` accepts."""
-        return self._log.getvalue()
+        """Return the loads and the operator's actions since the page was opened, as a log that can be repeated."""
+        return self._earlier + self._log.getvalue()
+
+    def _begin(self, loaded: _Loaded, log: str) -> Session:
+        """Put the loaded program and deck into a new machine, whose operator first repeats a log."""
+        self._record = panel.Record(loaded.program)
+        self._session = session = Session(loaded.program, loaded.deck, loaded.options, tracer=self._record)
+        self._visitor, self._cards, self._ending = _Visitor(log), Cards(), False
+        self._logged = Logged(self._visitor, self._log, loaded.deck_name)
+        self._happened, self._stacker = [], []
+        return session
+
+    def _execution(self, line: Line, time: int) -> int:
+        """Return the number in the run of an execution of a statement."""
+        loaded, passed, statement = self._loaded, 0, 0
+        assert loaded is not None
+
+        def count(begun: Line, session: Session) -> None:
+            nonlocal passed, statement
+            statement += passed < time
+            passed += begun.index == line.index
+
+        session = Session(loaded.program, loaded.deck, loaded.options, tracer=count)
+        run_with_operator(session, Operator())
+        return statement
+
+    def _refused(self, message: str) -> Answer:
+        self._session = self._loaded = None
+        return {"refused": message.splitlines()}
 
     def _source(self, program: Any, upcase: bool) -> Deck:
         if isinstance(program, str):
-            return programs.committed(program) if program in programs.NAMES else _unknown(program)
-        text = str(program[1])
-        return deck_from_text(str(program[0]), capitals(text) if upcase else text)
+            if program in programs.NAMES:
+                return programs.committed(program)
+            name = next((name for name in (program, f"{program}.f") if name in self._texts), "")
+            if not name:
+                raise ValueError(f"unknown program {program!r}")
+            return deck_from_text(name, self._texts[name])
+        text = capitals(str(program[1])) if upcase else str(program[1])
+        source = deck_from_text(str(program[0]), text)
+        self._keep(str(program[0]), text)
+        return source
 
     def _deck(self, deck: Any) -> Deck:
         if deck == "":
             return Deck("no deck", ())
-        if deck == "stacker":
+        if deck == PUNCHED:
             return deck_from_text("the cards punched", "".join(card + "\n" for card in self._stacker))
         if isinstance(deck, str):
-            return next((input_deck(n) for n in EXAMPLES if deck == f"example{n}"), None) or _unknown(deck)
+            return deck_from_text(deck, self._texts[deck]) if deck in self._texts else named_deck(deck)
+        self._keep(str(deck[0]), str(deck[1]))
         return deck_from_text(str(deck[0]), str(deck[1]))
+
+    def _keep(self, name: str, text: str) -> None:
+        """Write the cards of a visitor's program or deck into the log."""
+        if self._texts.get(name) == text:
+            return
+        self._texts[name] = text
+        self._earlier += f"CARDS {name}\n" + "".join(f"CARD {card}\n" for card in text.splitlines())
 
     def _see(self, events: Sequence[Event]) -> None:
         self._happened += events
@@ -216,27 +370,31 @@ class Desk:
     def _seconds(self, session: Session) -> float:
         return measure(session.program, session.result()).seconds
 
-    def _answer(self, messages: Sequence[str] = ()) -> Answer:
+    def _answer(self) -> Answer:
         session, events = self._session, self._happened
         self._happened = []
         if session is None:
             return {"events": [], "card": 0, "work": 0, "seconds": 0.0, "stands": "", "waits": "", "ended": False}
         halt = None if self._ending else session.halt
-        did = done(session, session.last, _WIDTH) if halt and halt.why == "step" and session.last else []
+        accepts = halt is not None and halt.what == "accept"
         return {
             "events": [[event.what, event.text] for event in events if event.what != "begin"],
             "card": session.here.place.card,
+            "statement": len(self._record.times),
             "work": session.state.work,
             "read": session.devices.position,
             "seconds": round(self._seconds(session), 1),
             "switches": [bool(on) for on in session.switches],
-            "did": did,
+            "breaks": [session.program.statements[index].place.card for index in session.breakpoints],
+            "watched": list(session.watched),
+            "did": done(session, session.last, _WIDTH) if halt and halt.why == "step" and session.last else [],
             "stands": halt_line(halt) if halt else "",
-            "waits": "" if halt is None else "typed" if halt.what == "accept" else "answer",
+            "waits": "typed" if accepts else "answer" if halt else "",
+            "fields": session.expected_fields() if accepts else [],
+            "picture": self._record.picture(session),
+            "stages": len(self._record.stages),
+            "wrote": self._record.take(),
+            "registers": [session.options.numbers.traced(session.state.fac), str(session.state.fixed)],
             "ended": self._ending,
-            "messages": list(messages),
+            "messages": [],
         }
-
-
-def _unknown(name: str) -> Any:
-    raise ValueError(f"unknown name {name!r}")

@@ -17,7 +17,7 @@ from modern.publication.building import DIST, BuildError, newest_wheel, run
 NAME = "hull1620.pyz"
 _PACKAGES = ("lark", "mpmath")
 _LEFT_OUT = ("/tests/", "/__pyinstaller/", "__pycache__")
-_EPOCH = (1980, 1, 1, 0, 0, 0)
+EPOCH = (1980, 1, 1, 0, 0, 0)
 # Python compiles only this file before it checks the version, so every Python 3 must be able to read it.
 _MAIN = """import sys
 
@@ -31,14 +31,9 @@ if __name__ == "__main__":
 """
 
 
-def packages(wheel: Path) -> bytes:
-    """Pack the wheel, lark and mpmath into one archive.  The same files always give the same bytes."""
-    return _zipped(_files(wheel))
-
-
 def pyz(wheel: Path) -> bytes:
     """Return the program as one executable archive.  The same wheel and packages always give the same bytes."""
-    return _zipped({**_files(wheel), "__main__.py": _MAIN.encode()}, b"#!/usr/bin/env python3\n")
+    return _zipped({**files_of(wheel), "__main__.py": _MAIN.encode()}, b"#!/usr/bin/env python3\n")
 
 
 def _zipped(files: Mapping[str, bytes], first_line: bytes = b"") -> bytes:
@@ -46,11 +41,12 @@ def _zipped(files: Mapping[str, bytes], first_line: bytes = b"") -> bytes:
     buffer.write(first_line)
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name, data in sorted(files.items()):
-            archive.writestr(zipfile.ZipInfo(name, _EPOCH), data, zipfile.ZIP_DEFLATED)
+            archive.writestr(zipfile.ZipInfo(name, EPOCH), data, zipfile.ZIP_DEFLATED)
     return buffer.getvalue()
 
 
-def _files(wheel: Path) -> dict[str, bytes]:
+def files_of(wheel: Path) -> dict[str, bytes]:
+    """Return the files of the wheel, lark and mpmath by name."""
     with zipfile.ZipFile(wheel) as archive:
         files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
     for package in _PACKAGES:

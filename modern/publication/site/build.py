@@ -76,7 +76,7 @@ def main(arguments: Sequence[str]) -> int:
         build(out, quiet=not sys.stdout.isatty(), wheel=newest_wheel())
         size = sum(file.stat().st_size for file in out.rglob("*") if file.is_file())
         summary = f"{out / 'index.html'}: {len(list(out.rglob('*.html')))} pages, {size / 1e6:.1f} MB"
-        if not (out / "console" / "worker.mjs").exists():
+        if not (out / "console" / "machine.gzip").exists():
             summary += "\nwithout the emulator in the browser, which needs make wheel and npm ci --prefix docs/console"
         return summary
 

@@ -7,6 +7,7 @@ distinguish things by shape and shades of grey, so the dark theme can invert the
 import re
 from collections.abc import Iterable
 from html import escape as escape
+from urllib.parse import urlencode
 
 # The prefix of addresses within the site; :func:`relative` replaces it when the depth of the page is known.
 HERE = "@/"
@@ -59,6 +60,12 @@ def address(page: str, id: str = "") -> str:
 def link(page: str, id: str, content: str, **attributes: str | bool) -> str:
     """Return a link to a page, or to an element of it if ``id`` is not empty."""
     return text("a", content, href=address(page, id), **attributes)
+
+
+def run_link(program: str, deck: str, content: str, **moment: str) -> str:
+    """Return a link that opens the emulator's page and runs a program with a deck, for example up to ``stop``."""
+    query = urlencode({"program": program, "deck": deck, **moment}, safe="/")
+    return text("a", content, href=f"{HERE}console.html?{query}", cls="run-this")
 
 
 def definitions(pairs: Iterable[tuple[str, str]], **attributes: str | bool) -> str:

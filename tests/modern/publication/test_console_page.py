@@ -6,7 +6,6 @@ skipped with a message.
 
 from __future__ import annotations
 
-import random
 import threading
 from collections.abc import Iterator
 from functools import partial
@@ -17,10 +16,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from modern.edition.chapter6 import prints
-from modern.formats.deck import data_deck
 from modern.publication.console import SOURCE, install_machine
 from modern.publication.desk import Desk
-from tests.support.desks import PAIRS, Pair, Played, played
+from tests.support.desks import PAIRS, Pair, played
 from tests.support.editions import packed
 
 if TYPE_CHECKING:
@@ -30,7 +28,7 @@ pytestmark = pytest.mark.skipif(
     not (SOURCE / "node_modules" / "pyodide").is_dir(),
     reason="pyodide is missing (npm ci --ignore-scripts --prefix docs/console)",
 )
-LONG = 60_000
+LONG = 30_000
 """The longest time to wait for the page, in milliseconds."""
 
 
@@ -42,15 +40,21 @@ class Quiet(SimpleHTTPRequestHandler):
 
 
 @pytest.fixture(scope="module")
-def served(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Serve the site with the emulator on the loopback interface and yield its address."""
+def folder(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a copy of the site with the emulator."""
     room = tmp_path_factory.mktemp("console")
     folder = room / "site"
     folder.mkdir()
     for entry in site.iterdir():
         if entry.name != "console":
             (folder / entry.name).symlink_to(entry)
-    assert install_machine(folder / "console", packed(room)) > 0
+    assert 0 < install_machine(folder / "console", packed(room)) < 7_000_000
+    return folder
+
+
+@pytest.fixture(scope="module")
+def served(folder: Path) -> Iterator[str]:
+    """Serve the site with the emulator on the loopback interface and yield its address."""
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=str(folder)))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield f"http://127.0.0.1:{server.server_port}"
@@ -60,188 +64,178 @@ def served(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str
 
 @pytest.fixture(scope="module")
 def tab(chromium: Browser, served: str) -> Iterator[Page]:
-    """Return the emulator page, switched on."""
-    page = chromium.new_page(viewport={"width": 1280, "height": 1000})
+    """Return the emulator page with the machine on, at full speed."""
+    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(f"{served}/console.html")
-    switch_on(page)
+    assert page.inner_text("#desk-listing li:nth-child(1)") == "C     CONVEX HULL-PROGRAM 3-NOT COPLANAR"
+    page.wait_for_function("parseInt(document.getElementById('desk-read').textContent) > 2", timeout=LONG)
+    page.wait_for_selector("#desk[data-state=on]", timeout=4 * LONG)
+    page.check("[name=desk-speed][value='0']")
     yield page
+    assert errors == []
     page.close()
 
 
-def switch_on(page: Page) -> None:
-    page.click("#desk-begin")
-    page.wait_for_selector(".desk-parts:not([hidden])", timeout=2 * LONG)
-
-
-def stands(page: Page, *states: str) -> str:
-    """Wait until the machine waits or the run has ended, and return the state."""
-    selector = ", ".join(f"#desk[data-state={state}]" for state in states or ("waits", "ended"))
-    page.wait_for_selector(selector, timeout=LONG)
-    return str(page.get_attribute("#desk", "data-state"))
+def state(page: Page, *states: str) -> str:
+    """Wait until the machine is in one of the states, and return it with the message of the page."""
+    page.wait_for_selector(", ".join(f"#desk[data-state={name}]" for name in states), timeout=LONG)
+    return page.inner_text("#desk-state")
 
 
 def give(page: Page, name: str, text: str) -> None:
     page.set_input_files("#desk-files", [{"name": name, "mimeType": "text/plain", "buffer": text.encode("ascii")}])
 
 
-def load(page: Page, pair: Pair) -> bool:
-    """Choose and load a program and a deck; return True if the emulator accepts them."""
-    if pair.source:
-        give(page, pair.program, pair.source)
-    if pair.cards:
-        give(page, pair.deck, pair.cards)
-    page.wait_for_function(
-        "([p, d]) => [...document.querySelectorAll('option')].filter(o => o.value === p || o.value === d).length > 1",
-        arg=[pair.program, pair.deck],
-    )
-    page.select_option("#desk-program", pair.program)
-    page.select_option("#desk-deck", pair.deck)
-    page.set_checked("#desk-upcase", pair.upcase)
-    page.evaluate(
-        """() => {
-          document.getElementById('desk').dataset.state = 'loading';
-          document.getElementById('desk-paper').replaceChildren();
-          for (const one of document.querySelectorAll('[data-switch]')) one.ariaChecked = 'false';
-        }"""
-    )
+def load(page: Page, program: str, deck: str | None = None) -> str:
+    """Choose a program and a deck, load them, and return the message of the page."""
+    page.select_option("#desk-program", program)
+    if deck is not None:
+        page.select_option("#desk-deck", deck)
     page.click("#desk-load")
-    page.wait_for_function(
-        "document.querySelector('.desk-note') || document.getElementById('desk').dataset.state !== 'loading'",
-        timeout=LONG,
+    return state(page, "waits", "refused")
+
+
+def press(page: Page, key: str = "START") -> str:
+    """Press a key and return the message when the machine halts or ends."""
+    page.evaluate("document.getElementById('desk').dataset.state = 'pressed'")
+    page.click(f"[data-words={key}]")
+    return state(page, "waits", "ended")
+
+
+def cards(page: Page) -> list[str]:
+    texts: list[str] = page.eval_on_selector_all("#desk-stacker li", "all => all.map(one => one.textContent.trimEnd())")
+    return texts
+
+
+def paper(page: Page) -> list[str]:
+    lines: list[str] = page.eval_on_selector_all(
+        "#desk-paper .desk-typed", "all => all.map(one => one.textContent.trimEnd())"
     )
-    return page.get_attribute("#desk", "data-state") != "loading"
+    return lines
 
 
-def gave(page: Page, taken: bool) -> Played:
-    """Return the lines on the typewriter and the cards in the stacker."""
-    lines = page.eval_on_selector_all("#desk-stacker li", "all => all.map(one => one.textContent)")
-    typed = page.eval_on_selector_all("#desk-paper .desk-typed", "all => all.map(one => one.textContent.slice(0, -1))")
-    notes = page.eval_on_selector_all("#desk-paper .desk-note", "all => all.map(one => one.textContent.slice(0, -1))")
-    said = [note for note in notes if not taken or note.startswith(("hull1620:", "warning:", "note:"))]
-    if not taken and said:
-        said[0] = f"hull1620: {said[0]}"
-    return Played(taken, [line if line != " " else "" for line in lines] if taken else [], typed, said)
-
-
-def play(page: Page, pair: Pair) -> Played:
-    """Load and run a pair on the page; the operator's actions follow whenever the machine waits."""
-    if not load(page, pair):
-        return gave(page, False)
-    assert stands(page) == "waits"
-    actions = [line for line in pair.operator if not line.startswith("*")]
-    typed_by_hand: list[str] = []
-    while actions and actions[0].startswith("SWITCH"):
-        page.click(f"[data-switch='{actions.pop(0).split()[1]}']")
-    action = "START"
-    while True:
-        page.evaluate("document.getElementById('desk').dataset.state = 'asked'")
-        if action.startswith("ENTER"):
-            page.fill("#desk-line", action[6:])
-            page.press("#desk-line", "Enter")
-            typed_by_hand.append(action[6:].upper())
-        elif action.startswith("SWITCH"):
-            page.click(f"[data-switch='{action.split()[1]}']")
-        else:
-            page.click(f"[data-words='{action}']")
-        if stands(page) == "ended":
-            break
-        action = actions.pop(0) if actions else "START"
-    output = gave(page, True)
-    for line in typed_by_hand:
-        output.typed.remove(line)
-    return output
-
-
-@pytest.mark.parametrize("pair", [p for p in PAIRS if p.shows != "endless"], ids=lambda pair: pair.name)
-def test_cards_lines_and_messages_equal_those_of_the_desk(tab: Page, pair: Pair) -> None:
-    assert play(tab, pair) == played(Desk(), pair)
-
-
-def test_example_4_is_reproduced_from_deck_to_last_card(tab: Page) -> None:
-    first = play(tab, Pair("one", "program1_examples", "example4"))
-    assert first.typed == ["POINTS ARE COPLANAR"]
-    tab.click("#desk-again")
-    second = play(tab, Pair("two", "program2", "stacker"))
-    printed = {(p.program, p.device): list(p.lines) for p in prints(4)}
-    assert first.punched == printed[1, "punch"]
-    assert second.punched == printed[2, "punch"]
-
-
-def test_a_rejection_with_switch_1_off_and_on(tab: Page) -> None:
-    draw = random.Random(1)
-    points = [[str(draw.randint(-999, 999) / 10) for _ in range(3)] for _ in range(20)]
-    cards = data_deck(points, "decimals.deck").text()
-    outputs = []
-    for switch in ((), ("SWITCH 1 ON",)):
-        first = play(tab, Pair("one", "program1", "decimals.deck", cards=cards))
-        assert first.typed == ["POINTS ARE NOT COPLANAR"]
-        tab.click("#desk-again")
-        pair = Pair("two", "program3", "stacker", operator=switch)
-        on_page = play(tab, pair)
-        desk = Desk()
-        played(desk, Pair("one", "program1", "decimals.deck", cards=cards))
-        assert on_page == played(desk, pair)
-        assert "DATA NOT ACCEPTABLE" in on_page.typed
-        outputs.append((on_page.typed, on_page.punched))
-    assert outputs[0] != outputs[1], "switch 1 makes the program type more"
-
-
-def test_an_endless_loop_can_be_stopped(tab: Page) -> None:
-    loop = Pair("loop", "loop.f", "", source="    1 GO TO 1\n      END\n")
-    assert load(tab, loop)
-    stands(tab)
-    tab.click("[data-words='START']")
-    stands(tab, "runs")
-    tab.wait_for_timeout(300)
-    tab.evaluate(
-        """async () => {
-          document.querySelector("[data-words='ATTN']").click();
-          const state = document.getElementById('desk').dataset;
-          while (state.state !== 'waits') await new Promise((next) => setTimeout(next, 5));
-        }"""
+def test_example_5_runs_from_the_first_deck_to_the_last_card_and_goes_back(tab: Page) -> None:
+    printed = {(p.program, p.device): list(p.lines) for p in prints(5)}
+    assert load(tab, "program1_examples", "example5").endswith("is loaded. Press START.")
+    press(tab)
+    assert paper(tab) == ["POINTS ARE NOT COPLANAR"]
+    assert cards(tab) == printed[1, "punch"]
+    tab.click("#desk-next")
+    state(tab, "ended")
+    final = cards(tab)
+    assert final == printed[3, "punch"]
+    assert tab.inner_text("#desk-caption").startswith("Hull 3: 6 equations through 5 vertices.")
+    tab.fill("#desk-statement", "400")
+    tab.click("#desk-jump button")
+    assert "before" in state(tab, "waits")
+    assert cards(tab) == final[: len(cards(tab))] != final
+    tab.click("#desk-back")
+    tab.wait_for_function("document.getElementById('desk-statements').textContent === 'of 399'")
+    press(tab)
+    assert cards(tab) == final
+    tab.click("[data-look=core]")
+    tab.focus("#desk-core")
+    tab.evaluate("document.getElementById('desk-core').scrollIntoView()")
+    for _ in range(159):
+        tab.keyboard.press("ArrowDown")
+    tab.keyboard.press("Enter")
+    tab.wait_for_function(
+        "/^X\\(.*Digits .*Written last by card/.test(document.getElementById('desk-field').textContent)"
     )
-    assert "stopped (attention) before statement 1" in tab.inner_text("#desk-state")
-    tab.click("[data-words='STOP']")
-    assert stands(tab, "ended") == "ended"
+    tab.click("[data-look=points]")
 
 
-def test_console_commands_are_answered(tab: Page) -> None:
-    assert load(tab, Pair("x", "program1", "example1"))
-    stands(tab)
+def test_tic_tac_toe_is_won_by_typing_the_number_of_a_square(tab: Page) -> None:
+    assert load(tab, "tictac.f").startswith("tictac.f")
+    assert tab.input_value("#desk-deck") == "tictac.deck"
+    press(tab)
+    for move in "1974":
+        tab.wait_for_selector("#desk-ruler:not([hidden])")
+        tab.fill("#desk-line", move)
+        assert f"I2 in columns 1 to 2\n         1         2\n12345678901234567890\nI2                  \n {move}" in (
+            tab.inner_text("#desk-ruler")
+        )
+        tab.press("#desk-line", "Enter")
+        tab.wait_for_function("m => document.getElementById('desk-paper').textContent.includes(' ' + m)", arg=move)
+        state(tab, "waits")
+    tab.wait_for_function("document.getElementById('desk-paper').textContent.includes('YOU WIN')")
+
+
+def test_a_refused_load_empties_the_machine(tab: Page) -> None:
+    load(tab, "program1", "example1")
+    give(tab, "bad.f", "      I=\n      END\n")
+    tab.wait_for_function("document.getElementById('desk-program').value === 'bad.f'")
+    message = load(tab, "bad.f")
+    assert message.startswith("Refused: bad.f: card 1, column 8: error: the statement ends too soon")
+    assert tab.locator("#desk-listing li").count() == 0
+
+
+def test_the_keypunch_shows_errors_next_to_their_cards_and_loads_three_cards(tab: Page) -> None:
+    tab.select_option("#desk-program", "program1")
+    tab.click("#desk-punch-open")
+    tab.fill("#punch-text", "      TYPE 5\n    5 FORMAT(2HHI\n      END\n")
+    tab.wait_for_function("document.querySelector('#punch-messages li:nth-child(2)')?.textContent")
+    tab.fill("#punch-text", "      TYPE 5\n    5 FORMAT(2HHI)\n      END\n")
+    tab.wait_for_function("document.getElementById('punch-state').textContent === 'No errors.'")
+    tab.click("#punch-use")
+    load(tab, "mine.f", "")
+    press(tab)
+    assert paper(tab) == ["HI"]
+
+
+def test_a_link_opens_a_moment_and_a_log_of_several_loads_is_repeated(tab: Page) -> None:
+    address = "#program=program3&deck=example5/punched&speed=0&stop=125"
+    tab.evaluate("document.getElementById('desk').dataset.state = 'linked'")
+    tab.evaluate("hash => { location.hash = hash; }", address)
+    tab.wait_for_function("document.getElementById('desk-state').textContent.includes('statement 125')", timeout=LONG)
+    desk = Desk()
+    sessions = [played(desk, Pair(p, p, d)) for p, d in (("program1_examples", "example4"), ("program2", "PUNCHED"))]
+    tab.evaluate("document.getElementById('desk').dataset.state = 'replaying'")
+    give(tab, "session.operator", desk.log())
+    tab.wait_for_function("document.querySelectorAll('#desk-stacker li').length > 40", timeout=LONG)
+    state(tab, "ended")
+    assert cards(tab) == [card.rstrip() for card in sessions[1].punched]
+
+
+def test_switches_and_console_commands_of_period_programs(tab: Page) -> None:
+    pair = next(pair for pair in PAIRS if pair.name == "table")
+    load(tab, "table.f")
+    tab.click("[data-switch='1']")
+    press(tab)
+    assert tab.get_attribute("[data-switch='1']", "aria-checked") == "true"
+    tab.click("[data-switch='1']")
+    load(tab, "table.f")
+    press(tab)
+    assert cards(tab) == [card.rstrip() for card in played(Desk(), pair).punched]
+    load(tab, "program1", "example1")
     for command, answer in (("BREAK 131", "BREAK 131"), ("SWITCH", "1 OFF, 2 OFF"), ("NONSENSE", "is not a command")):
         tab.fill("#desk-line", command)
         tab.press("#desk-line", "Enter")
         tab.wait_for_function("w => document.getElementById('desk-paper').textContent.includes(w)", arg=answer)
-    assert tab.locator("#desk-variables").inner_text().startswith("X(51): 0 of 51 defined")
 
 
-def test_9999_bad_cards_are_reported_and_the_page_stays_responsive(tab: Page) -> None:
-    source = "".join(f"      GO TO {n}\n" for n in range(1, 9999)) + "      END\n"
-    give(tab, "bad.f", source)
-    tab.wait_for_function("[...document.querySelectorAll('#desk-program option')].some(o => o.value === 'bad.f')")
-    tab.select_option("#desk-program", "bad.f")
-    tab.select_option("#desk-deck", "")
-    tab.click("#desk-load")
-    assert tab.evaluate("1 + 1") == 2
-    tab.wait_for_function(
-        "/bad.f: card|stopped after 10 seconds/.test(document.getElementById('desk-state').textContent)", timeout=20_000
-    )
-    tab.wait_for_function("!/Loading/.test(document.getElementById('desk-state').textContent)", timeout=2 * LONG)
+def test_an_endless_loop_can_be_stopped(tab: Page) -> None:
+    give(tab, "loop.f", "    1 GO TO 1\n      END\n")
+    tab.wait_for_function("document.getElementById('desk-program').value === 'loop.f'")
+    load(tab, "loop.f", "")
+    tab.click("[data-words=START]")
+    state(tab, "runs")
+    tab.click("[data-words=ATTN]")
+    assert "stopped (attention) before statement 1" in state(tab, "waits")
+    assert press(tab, "STOP").startswith("The run has stopped")
 
 
-def test_a_page_reloaded_during_a_run_starts_again(tab: Page) -> None:
-    assert load(tab, Pair("loop", "loop.f", "", source="    1 GO TO 1\n      END\n"))
-    stands(tab)
-    tab.click("[data-words='START']")
-    stands(tab, "runs")
-    errors: list[str] = []
-    tab.on("pageerror", lambda error: errors.append(str(error)))
-    tab.reload()
-    assert tab.is_visible(".desk-recorded")
-    switch_on(tab)
-    pair = next(pair for pair in PAIRS if pair.name == "program1 example1")
-    assert play(tab, pair) == played(Desk(), pair)
-    assert errors == []
+def test_the_desk_runs_example_6_from_a_folder_without_a_server(chromium: Browser, folder: Path) -> None:
+    page = chromium.new_page(viewport={"width": 360, "height": 740}, reduced_motion="reduce")
+    page.goto(f"{folder.as_uri()}/console.html#program=program1_examples&deck=example6&speed=0&next=1")
+    page.wait_for_function("/3 with/.test(document.getElementById('desk-next').textContent)", timeout=4 * LONG)
+    page.wait_for_function("document.getElementById('desk-card').textContent === 'card 11'", timeout=LONG)
+    state(page, "ended")
+    assert cards(page) == {(p.program, p.device): list(p.lines) for p in prints(6)}[3, "punch"]
+    assert page.evaluate("document.documentElement.scrollWidth") == 360
+    page.close()
 
 
 def test_the_comparison_in_the_page_equals_that_in_python(chromium: Browser, served: str) -> None:

@@ -1,5 +1,6 @@
 """The desk behind the emulator page gives the same cards, lines and messages as the command."""
 
+import random
 import subprocess
 import sys
 from pathlib import Path
@@ -7,9 +8,11 @@ from typing import Any
 
 import pytest
 
+from modern.formats.deck import data_deck
+from modern.port import convex_hull
 from modern.publication.desk import Desk
 from tests.support.commands import call
-from tests.support.desks import PAIRS, Pair, operator_lines, played
+from tests.support.desks import PAIRS, Pair, played
 from tests.support.paths import ROOT
 
 
@@ -74,7 +77,7 @@ def test_single_steps_report_what_they_did() -> None:
 
 def test_inappropriate_commands_are_explained() -> None:
     desk = Desk()
-    assert desk.act("START") == {"lines": ["nothing is running: load a program first"]}
+    assert desk.act("START") == {"lines": ["nothing is loaded: choose a program and a deck, and press Load"]}
     assert desk.run(1)["card"] == 0
     desk.load({"program": "program1", "deck": "example1"})
     desk.run(1)
@@ -86,8 +89,8 @@ def test_inappropriate_commands_are_explained() -> None:
 @pytest.mark.parametrize(
     ("request_", "message"),
     [
-        ({"program": "program9", "deck": ""}, "unknown name 'program9'"),
-        ({"program": "program1", "deck": "example9"}, "unknown name 'example9'"),
+        ({"program": "program9", "deck": ""}, "unknown program 'program9'"),
+        ({"program": "program1", "deck": "example9"}, "unknown deck 'example9'"),
         ({"program": ["x.f", ""], "deck": ""}, "x.f"),
         ({"program": ["x.f", "      STOP 1\n      END\n"], "deck": ["x", "é"]}, "x: card 1, column 1"),
         ({"program": ["x.f", "      i=1\n"], "deck": ""}, "choose “read lower case as capitals” to accept it"),
@@ -100,7 +103,8 @@ def test_invalid_programs_and_decks_are_rejected_with_a_message(request_: dict[s
     desk.load({"program": "program1", "deck": "example1"})
     refused = desk.load(request_)["refused"]
     assert message in refused[0]
-    assert desk.run(1)["waits"] == "answer", "the machine is as it was"
+    desk.act("START")
+    assert desk.run(1)["card"] == 0, "nothing old runs"
 
 
 def test_lower_case_is_accepted_on_request() -> None:
@@ -108,20 +112,128 @@ def test_lower_case_is_accepted_on_request() -> None:
     assert answer["listing"][0] == [1, "      I=1"]
 
 
-def test_the_command_repeats_a_session_from_the_log(
+def finished(desk: Desk) -> None:
+    """Run to the end of all loads, pressing START at every halt."""
+    while True:
+        answer = desk.run(1e9)
+        if answer["ended"] and not answer.get("queued"):
+            return
+        if answer["ended"]:
+            desk.next_load()
+        elif answer["waits"]:
+            desk.act("START")
+
+
+def test_a_log_of_several_loads_is_repeated_by_the_page_and_by_the_command(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    pair = next(pair for pair in PAIRS if pair.shows == "game")
     desk = Desk()
-    session = played(desk, pair)
-    log = tmp_path / "log"
-    log.write_text(desk.log())
-    again = tmp_path / "again"
-    arguments = [word for word in pair.command(tmp_path) if not word.startswith("--operator")]
-    _, out, _ = call(capsys, *arguments, f"--operator={log}", "--log", str(again))
-    assert out.splitlines() == session.punched
-    assert operator_lines(again.read_text()) == operator_lines(desk.log())
+    sessions = [played(desk, pair) for pair in PAIRS if pair.shows == "game"]
+    for program, deck in (("program1_examples", "example5"), ("program3", "PUNCHED")):
+        sessions.append(played(desk, Pair(program, program, deck)))
+    again = Desk()
+    assert "refused" not in again.replay(desk.log())
+    finished(again)
+    assert [line for line in again.log().splitlines() if not line.startswith("CARD")] == [
+        line for line in desk.log().splitlines() if not line.startswith("CARD")
+    ]
+    (tmp_path / "log").write_text(desk.log())
+    _, out, _ = call(capsys, "run", "--operator=log", "--typewriter", "typed")
+    assert out.splitlines() == [card for session in sessions for card in session.punched]
+    assert (tmp_path / "typed").read_text().splitlines() == [line for session in sessions for line in session.typed]
+    assert again.replay("START\n")["refused"][0].startswith("the log names no program")
+
+
+def test_a_run_goes_back_to_any_statement() -> None:
+    """The state equals that of a machine that steps forward to the statement, at ten random points of example 5."""
+    back, forth = Desk(), Desk()
+    for desk in (back, forth):
+        desk.load({"program": "program3", "deck": "example5/punched"})
+        desk.run(0)
+    back.act("START")
+    ended = back.run(1e9)
+    now = 1
+    for statement in sorted(random.Random(1).sample(range(2, ended["statement"]), 10)):
+        forth.act(f"STEP {statement - now}")
+        forth.run(1e9)
+        now = statement
+        assert back.jump(statement)["waits"] == "answer"
+        assert back._session.state == forth._session.state  # type: ignore[union-attr]
+        assert back._session.devices.events == forth._session.devices.events  # type: ignore[union-attr]
+        assert back._record == forth._record
+        back.act("START")
+        repeated = back.run(1e9)
+        assert (repeated["ended"], repeated["statement"], repeated["picture"]) == (
+            True,
+            ended["statement"],
+            ended["picture"],
+        )
+
+
+def test_the_hulls_in_the_variables_are_the_stages_of_the_port() -> None:
+    for seed in range(4):
+        draw = random.Random(seed)
+        deep = 20 * (seed % 2)
+        points = sorted({tuple(draw.randint(-n, n) for n in (20, 20, deep)) for _ in range(14)})
+        texts = [tuple(map(str, point)) for point in points]
+        hull = convex_hull(texts, "truncating", history=True, on_refusal="return")
+        desk = Desk()
+        played(desk, Pair("one", "program1", "set", cards=data_deck(texts, "set").text()))
+        played(desk, Pair("two", "program3" if deep else "program2", "PUNCHED"))
+        stages = [stage for stage in desk.stages() if not stage.get("final")]
+        pictures = [{frozenset(tuple(stage["points"][n]) for n in face) for face in stage["faces"]} for stage in stages]
+        assert pictures == [{frozenset(points[n] for n in face) for face in stage.equations} for stage in hull.history]
+
+
+def test_a_change_of_a_variable_halts_the_machine() -> None:
+    desk = Desk()
+    desk.load({"program": ["one.f", "      I=2\n      J=I*I\n      I=3\n      STOP\n      END\n"], "deck": ""})
+    desk.run(0)
+    assert desk.act("BREAK K")["lines"] == ["one.f has no variable K"]
+    assert desk.act("BREAK I")["lines"] == ["BREAK I"]
+    halts = []
+    for _ in range(2):
+        desk.act("START")
+        halts.append(desk.run(1e9)["stands"])
+    assert halts == ["stopped (I has changed) before card 2: J=I*I", "stopped (I has changed) before card 4: STOP"]
+
+
+def test_the_first_decision_that_exact_arithmetic_takes_otherwise() -> None:
+    desk = Desk()
+    desk.load({"program": "program1", "deck": "counterexamples/silent"})
+    desk.run(0)
+    desk.act("START")
+    desk.load({"program": desk.run(1e9)["next"], "deck": "PUNCHED"})
+    desk.run(0)
+    desk.act("START")
+    desk.run(1e9)
+    answer = desk.decide()
+    assert answer["lines"][0] == "card 185: IF (EZ) 170, 167, 170"
+    assert desk.jump(answer["statement"])["stands"].endswith("before card 185: IF (EZ) 170, 167, 170")
+    assert len(answer["hull"]["vertices"]) == 4, "the programs lose three of the four vertices"
+
+
+def test_core_storage_holds_the_digits_and_their_writer() -> None:
+    desk = Desk()
+    desk.load({"program": ["one.f", "      X=-2.5\n      STOP\n      END\n"], "deck": ""})
+    desk.run(0)
+    desk.act("STEP")
+    desk.run(0)
+    field = desk.field(39879)
+    assert (field["name"], field["digits"], field["writer"]) == ("X", "K500000]]1", [1, 1])
+    assert desk.field(5) == {}
+
+
+def test_accept_expects_the_fields_of_its_format() -> None:
+    desk = Desk()
+    source = "      ACCEPT 1,I,A,J,B\n      STOP\n    1 FORMAT(I2,2X,E14.8/I3,F5.1)\n      END\n"
+    desk.load({"program": ["one.f", source], "deck": ""})
+    desk.run(0)
+    desk.act("START")
+    assert desk.run(1e9)["fields"] == [("I2", 1, 2), ("E14.8", 5, 14)]
+    desk.act("ENTER 12  .10000000E+01")
+    assert desk.run(1e9)["fields"] == [("I3", 1, 3), ("F5.1", 4, 5)]
 
 
 def test_the_module_imports_only_what_the_page_provides() -> None:

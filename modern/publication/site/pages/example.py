@@ -18,7 +18,18 @@ from modern.publication.measured import runs
 from modern.publication.site.entries import entry
 from modern.publication.site.made import Made, Target, one_of
 from modern.publication.site.made import Part as Section
-from modern.publication.site.markup import definitions, details, element, escape, figure, link, marked, table, text
+from modern.publication.site.markup import (
+    definitions,
+    details,
+    element,
+    escape,
+    figure,
+    link,
+    marked,
+    run_link,
+    table,
+    text,
+)
 
 _EXPONENT = re.compile(r"E[+-]\d\d")
 STATES = {"examples": "program 1 in the state that ran the examples", "listing": "program 1 as listed"}
@@ -55,7 +66,8 @@ def _verdicts(parts: tuple[Part, ...]) -> str:
             rows.append((name, *map(_verdict, part.reports)))
     head = ("printed or stated result", *(STATES[state] for state in sorted(STATES)))
     command = text("code", f"hull1620 reproduce {parts[0].example} --show")
-    return table(head, rows, name="Verdicts") + element("p", f"To reproduce this comparison: {command}.")
+    run = run_link("program1_examples", f"example{parts[0].example}", "Run it in the emulator", next="1") + "."
+    return table(head, rows, name="Verdicts") + element("p", f"To reproduce this comparison: {command}. {run}")
 
 
 def _verdict(report: Report) -> str:

@@ -23,6 +23,7 @@ from modern.publication.site.markup import (
     escape,
     link,
     preformatted,
+    run_link,
     table,
     text,
 )
@@ -220,9 +221,20 @@ def _facts(listing: Facing, card: Card) -> str:
         ("FORMAT", go("format")),
         ("used by", come("format")),
         ("names", names),
+        ("emulator", _run(listing, card)),
         ("altered readings", _weight(weight.detected, weight.formula) if weight else ""),
     )
     return definitions(facts, cls="facts")
+
+
+def _run(listing: Facing, card: Card) -> str:
+    """Return a link that runs an example up to a card, or an empty string if no example executes the card."""
+    name = listing.program
+    for run in runs(name):
+        if run.executions.get(card.number):
+            deck = f"example{run.example}" + ("" if programs.built_in(name).number == 1 else "/punched")
+            return run_link(name, deck, f"run example {run.example} and stop here", stop=f"CARD {card.number}")
+    return ""
 
 
 def _weight(detected: tuple[int, ...], formula: str) -> str:

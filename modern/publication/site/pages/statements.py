@@ -7,7 +7,7 @@ from modern.claims.full import FullSearch, recorded_for
 from modern.claims.register import COLUMNS, DOCUMENTS, UNTESTABLE, USED, Judged, Statement, column, counts, judged
 from modern.claims.sampled_sets import counterexample
 from modern.publication.site.made import Made, Part, Target, one_of, slug
-from modern.publication.site.markup import definitions, details, element, escape, preformatted, text
+from modern.publication.site.markup import definitions, details, element, escape, preformatted, run_link, text
 
 # The sign and the CSS class of each column of the counts.
 SIGNS = dict(zip(COLUMNS, ("\u2713", "(\u2713)", "\u2717", "\u2248", "=", "\u2013", "\u2191"), strict=True))
@@ -81,4 +81,7 @@ def _counterexample(row: Statement) -> str:
     excerpt = "\n".join([*lines[:12], f"... {len(lines) - 12} more lines"]) if len(lines) > 14 else content.rstrip("\n")
     name = text("code", f"transcripts/counterexamples/{row.file}")
     run = element("p", "Command: " + text("code", row.run)) if row.run else ""
+    if row.file.endswith(".deck"):
+        deck = f"counterexamples/{row.file.removesuffix('.deck')}"
+        run += element("p", run_link("program1", deck, "Run it in the emulator", next="1"))
     return name + preformatted(excerpt, f"the counterexample {row.file}") + run

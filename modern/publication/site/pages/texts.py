@@ -6,7 +6,7 @@ from emulator.errors import explanations
 from modern.edition.sources import Document, read, sources
 from modern.publication.numbered import Item, numbered
 from modern.publication.site.made import Made, Part, Target, one_of, slug
-from modern.publication.site.markup import definitions, details, element, escape, preformatted, table, text
+from modern.publication.site.markup import definitions, details, element, escape, preformatted, run_link, table, text
 
 _FILE = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]+\)")
 # The files of numbered items, with the prefix of their ids.
@@ -64,7 +64,8 @@ def _deck(name: str) -> str:
     cards = read(f"fortran_src/grounds/{name}.deck").rstrip("\n")
     count = cards.count("\n") + 1
     run = element("p", "Command: " + text("code", f"hull1620 hull fortran_src/grounds/{name}.deck"))
-    content = preformatted(cards, f"the deck {name}") + run
+    link = run_link("program1", f"grounds/{name}", "Run it in the emulator", next="1")
+    content = preformatted(cards, f"the deck {name}") + run + element("p", link)
     return details(f"the deck grounds/{name}: {count} cards", content, cls="deck-shown")
 
 

@@ -1,0 +1,138 @@
+// The emulator in a worker: Python with this project's package, run in slices between the messages of the page.
+// In: {id, name, parameters}, a method of the Desk or a handler below. Out: {id, answer} for each, {slice} after each
+// slice of a run, {progress} while loading.
+"use strict";
+
+const SLICE = 40; // milliseconds between two checks for messages
+/** @type {(name: string, ...parameters: any[]) => any} */
+let desk;
+let pace = 10; // speed relative to the 1620; 0 means at once
+let turn = 0; // counts loads and jumps, so that a slice planned before does nothing
+let planned = false;
+let isDue = false; // the first slice follows the answer at once, so that no action can come before it
+let before = 0; // seconds on the 1620 at the end of the previous slice
+
+/** Read the file of all files: from the page if it has no server, or from the address with the version. */
+async function unpack({ bytes, address }) {
+  let loaded = 0;
+  const source = bytes ? new Blob([bytes]).stream() : (await answered(address)).body;
+  const counted = new TransformStream({
+    transform(chunk, out) {
+      loaded += chunk.byteLength;
+      postMessage({ progress: loaded });
+      out.enqueue(chunk);
+    },
+  });
+  const data = await new Response(source.pipeThrough(counted).pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  const length = new DataView(data).getUint32(0, true);
+  const index = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
+  const files = {};
+  let at = 4 + length;
+  for (const [name, size] of Object.entries(index)) {
+    files[name] = new Uint8Array(data, at, size);
+    at += size;
+  }
+  return files;
+}
+
+async function answered(address) {
+  const response = await fetch(address);
+  if (!response.ok) throw new Error(`${address}: ${response.status} ${response.statusText}`);
+  return response;
+}
+
+async function begin(where) {
+  const files = await unpack(where);
+  const script = (name) => import(URL.createObjectURL(new Blob([files[name]], { type: "text/javascript" })));
+  // Pyodide fetches its other files by name.
+  const types = { wasm: "application/wasm", zip: "application/zip" };
+  self.fetch = async (request) => {
+    const name = String(request.url ?? request).split("/").at(-1);
+    return new Response(files[name], { headers: { "content-type": types[name.split(".").at(-1)] } });
+  };
+  const { loadPyodide } = await script("pyodide.mjs");
+  const python = await loadPyodide({
+    indexURL: "https://files/",
+    lockFileContents: new TextDecoder().decode(files["lock.json"]),
+    packageBaseUrl: "https://files/",
+    createPyodideModule: (await script("pyodide.asm.mjs")).default,
+  });
+  python.unpackArchive(files["packages.zip"], "zip", { extractDir: "/packages" });
+  python.runPython(`
+import sys, json
+sys.path.insert(0, "/packages")
+from modern.publication.desk import Desk
+desk = Desk()
+def ask(name, arguments):
+    if name == "part":
+        from modern.publication.parting import parted as function
+    else:
+        function = getattr(desk, name)
+    return json.dumps(function(*json.loads(arguments)))
+`);
+  const ask = python.globals.get("ask");
+  desk = (name, ...parameters) => JSON.parse(ask(name, JSON.stringify(parameters)));
+  return desk("offers");
+}
+
+function plan(delay = 0) {
+  if (planned) return;
+  planned = true;
+  const current = turn;
+  setTimeout(() => {
+    if (current !== turn) return;
+    planned = false;
+    slice();
+  }, delay);
+}
+
+function slice() {
+  const began = performance.now();
+  const answer = desk("run", SLICE, pace);
+  postMessage({ slice: answer });
+  if (answer.ended || answer.waits) return;
+  const delay = pace ? ((answer.seconds - before) / pace) * 1000 - (performance.now() - began) : 0;
+  before = answer.seconds;
+  plan(Math.min(Math.max(delay, 0), 500));
+}
+
+/** Call a method that puts the machine into another state, and run it from there. */
+function restart(name, ...parameters) {
+  turn += 1;
+  planned = false;
+  before = 0;
+  const answer = desk(name, ...parameters);
+  isDue = !answer.refused && name !== "jump";
+  return answer;
+}
+
+const handlers = {
+  begin,
+  load: (request) => restart("load", request),
+  replay: (text) => restart("replay", text),
+  next_load: () => restart("next_load"),
+  jump(statement) {
+    const answer = restart("jump", statement);
+    if (!answer.undone) plan();
+    return answer;
+  },
+  act(line) {
+    const answer = desk("act", line);
+    plan();
+    return answer;
+  },
+  pace(value) {
+    pace = value;
+  },
+};
+
+self.onmessage = async ({ data: { id, name, parameters } }) => {
+  try {
+    const handler = handlers[name] ?? ((...all) => desk(name, ...all));
+    postMessage({ id, answer: (await handler(...parameters)) ?? null });
+    if (isDue) slice();
+    isDue = false;
+  } catch (error) {
+    postMessage({ id, failed: String(error.message ?? error).trim().split("\n").at(-1) });
+  }
+};

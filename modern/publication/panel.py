@@ -1,0 +1,226 @@
+"""A session as the emulator's page shows it, as plain data: the points with their hull, and core storage.
+
+All numbers come from the variables of the running program.  The page draws them and computes nothing about the hull.
+"""
+
+from array import array
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from emulator.errors import CompileError, EmulatorError
+from emulator.language import objectcode as op
+from emulator.language.cards import deck_from_text
+from emulator.language.compiler import compile_deck
+from emulator.language.ibm1962 import fixed_field, floating_field
+from emulator.language.objectcode import Line, Program
+from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM, core_address
+from emulator.machine.forms import Layout
+from emulator.machine.session import Session
+from emulator.machine.trace import contents
+from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
+from emulator.objectdeck.digits import card_text
+from emulator.objectdeck.extent import code_positions
+from modern.publication.parting import scaled, true_hull
+
+# The arrays of coordinates in programs 1 and 3, and those in program 2 by the projection KPROJ.
+_SPACE = ("X", "Y", "Z")
+_FLAT = {1: ("T", "R", "S"), 2: ("R", "T", "S"), 3: ("R", "S", "T")}
+# The arrays with the numbers of the points that define each equation.
+_DEFINING = ("MM", "NN", "KK")
+# For program 2 and program 3: the statements that begin a data set, a stage of the hull, and the output.
+_STAGES = {"R": (100, 106, 170), "KK": (100, 103, 174)}
+
+
+def stage_labels(program: Program) -> tuple[int, int, int]:
+    """Return the statements that begin a data set, a new hull, and its output; zeros if the program grows no hull."""
+    storage = program.storage
+    if all(storage.fields_of(name) for name in ("NE", "NV", "MM", "NN")):
+        for name, labels in _STAGES.items():
+            if storage.fields_of(name):
+                return labels
+    return 0, 0, 0
+
+
+def picture(session: Session) -> dict[str, Any]:
+    """Return ``points``, the number of ``vertices`` among the first of them, and ``faces`` as indices of points.
+
+    These are the variables X, Y, Z (R, S, T in program 2), NV, and MM, NN, KK up to NE.  The result is empty for a
+    program without such variables.
+    """
+    storage = session.program.storage
+
+    def whole(name: str) -> int:
+        fields = storage.fields_of(name)
+        value = number(session, fields.start) if fields else None
+        return int(value) if value is not None else 0
+
+    names = _SPACE if storage.fields_of("X") else _FLAT.get(whole("KPROJ"), ())
+    axes = [storage.fields_of(name) for name in names]
+    if not axes or not all(axes):
+        return {}
+    count = min(whole("N"), *map(len, axes))
+    rows = [[number(session, axis[n]) for axis in axes] for n in range(count)]
+    points = [row for row in rows if None not in row]
+    tables = [table for name in _DEFINING if len(table := storage.fields_of(name)) > 1]
+    faces: list[list[int]] = []
+    if len(tables) > 1 and stage_labels(session.program)[0]:
+        for k in range(min(whole("NE"), *map(len, tables))):
+            corners = [number(session, table[k]) for table in tables]
+            # A table that is being filled or shifted may hold an entry without three points.
+            if all(corner is not None and 1 <= corner <= len(points) for corner in corners):
+                faces.append([int(corner or 0) - 1 for corner in corners])
+    return {"points": points, "vertices": whole("NV") if faces else 0, "faces": faces}
+
+
+def number(session: Session, field: int) -> float | None:
+    """Return the contents of a field as a float for drawing, or None if it is undefined."""
+    value, kind = session.state.values[field], session.state.kinds[field]
+    if kind == UNDEFINED:
+        return None
+    return float(value) if kind == FIXED_POINT else float(session.options.numbers.traced(value))
+
+
+def core(program: Program, size: int) -> dict[str, Any]:
+    """Return the map of core storage: ``regions`` as name, kind, first and last address, in the order of addresses."""
+    code = OBJECT_PROGRAM + code_positions(program)
+    lowest = core_address(program.storage.fields, size) + 1
+    regions = [
+        ["IBM’s subroutines and tables", "system", 0, OBJECT_PROGRAM - 1],
+        [f"object program of {program.source}", "program", OBJECT_PROGRAM, code - 1],
+        ["free", "free", code, lowest - 1],
+    ]
+    for entry in reversed(program.storage.entries):
+        first, last = core_address(entry.first + entry.size - 1, size), core_address(entry.first, size)
+        regions.append([entry.name, entry.kind, first - FIELD + 1, last])
+    regions.append(["names of the library functions", "system", size - FUNCTION_NAMES, size - 1])
+    return {"size": size, "regions": regions}
+
+
+def field_at(session: Session, address: int, writers: dict[int, tuple[int, int]]) -> dict[str, Any]:
+    """Return the field that contains an address: ``name``, ``value``, ``digits`` as the 1620 held them, and ``writer``.
+
+    ``writers`` maps a field to the card that wrote it last and the number of that statement in the run.  The answer is
+    empty for an address outside the data.  ``digits`` is empty if the arithmetic is not that of the 1620.
+    """
+    field = (session.options.core - 1 - FUNCTION_NAMES - address) // FIELD
+    storage = session.program.storage
+    if not 0 <= field < storage.fields:
+        return {}
+    right = core_address(field, session.options.core)
+    return {
+        "name": storage.name_of(field),
+        "addresses": [right - FIELD + 1, right],
+        "value": contents(session, field),
+        "digits": _digits(session, field),
+        "floating": session.state.kinds[field] not in (FIXED_POINT, UNDEFINED),
+        "writer": list(writers.get(field, ())),
+    }
+
+
+def _digits(session: Session, field: int) -> str:
+    """Return the ten positions of a field in the code of the cards, in which a letter is a digit with a flag."""
+    kind, text = session.state.kinds[field], contents(session, field)
+    if kind == UNDEFINED or session.options.numbers.digits != 8:
+        return ""
+    return card_text(fixed_field(text) if kind == FIXED_POINT else floating_field(text))
+
+
+def compile_messages(text: str) -> list[list[Any]]:
+    """Compile a program and return the messages of the compiler as card, column and text."""
+    try:
+        compile_deck(deck_from_text("program", text))
+    except CompileError as error:
+        return [[d.card, d.column, d.message] for d in error.diagnostics]
+    except EmulatorError as error:
+        return [[getattr(error, "card", 0), getattr(error, "column", 0), str(error)]]
+    return []
+
+
+def formats(program: Program) -> list[list[Any]]:
+    """Return the FORMATs by which a program reads cards, each as a title and the fields of its first record."""
+    numbers = {i.second: None for i in program.code if i.operation == op.BEGIN and program.verbs[i.address] == "READ"}
+    read = (program.formats[number] for number in numbers)
+    return [[f"FORMAT {label}", Layout(spec).record_fields(0)] for label, spec in read]
+
+
+def touched(program: Program) -> list[list[list[str]]]:
+    """Return for each card the names that its statement writes, and those that it reads, from the object code."""
+    cards = max(line.place.card for line in program.statements)
+    names: list[tuple[dict[str, None], dict[str, None]]] = [({}, {}) for _ in range(cards)]
+    reading = False
+    for instruction, statement in zip(program.code, program.statement_numbers, strict=True):
+        if instruction.operation == op.BEGIN:
+            reading = program.verbs[instruction.address] in ("READ", "ACCEPT")
+        if instruction.operation > op.ITEM or not 0 <= instruction.address < program.storage.fields:
+            continue
+        entry = program.storage.entry_of(instruction.address)
+        writes = instruction.operation in (op.FMFAC, op.FMFIX, op.TRANSMIT) or (
+            instruction.operation == op.ITEM and reading
+        )
+        if entry.kind in ("variable", "array"):
+            names[program.statements[statement].place.card - 1][0 if writes else 1][entry.name] = None
+    return [[list(written), list(read)] for written, read in names]
+
+
+def written(session: Session, line: Line) -> Iterator[int]:
+    """Yield the fields that the statement just completed wrote."""
+    if line.effect == "store":
+        yield session.state.stored
+    elif line.effect == "list" and session.devices.verb in ("READ", "ACCEPT"):
+        yield from session.devices.listed
+
+
+@dataclass
+class Record:
+    """The record of a run, a tracer of :class:`emulator.machine.session.Session`.
+
+    ``times`` has the work at the beginning of each statement.  ``writers`` maps a field to the card that wrote it last
+    and the number of that statement in the run.  ``stages`` has the successive hulls as :func:`picture` returns them.
+    """
+
+    program: Program | None = None
+    times: "array[int]" = field(default_factory=lambda: array("L"))
+    writers: dict[int, tuple[int, int]] = field(default_factory=dict)
+    stages: list[dict[str, Any]] = field(default_factory=list)
+    _fields: set[int] = field(default_factory=set)
+    _is_final: bool = False
+    _is_new: bool = True
+
+    def __post_init__(self) -> None:
+        self._labels = stage_labels(self.program) if self.program else (0, 0, 0)
+
+    def __call__(self, line: Line, session: Session) -> None:
+        if session.last is not None:
+            for address in written(session, session.last):
+                self.writers[address] = session.last.place.card, len(self.times)
+                self._fields.add(address)
+        self.times.append(session.state.work)
+        if line.label and line.label in self._labels:
+            begins, _, ends = self._labels
+            if line.label == begins:
+                self._is_new = True
+                return
+            if self._is_new:
+                self.stages.clear()
+            # After the last stage the program uses the tables for its output.
+            self._is_new, self._is_final = False, line.label == ends
+            self.stages.append(picture(session) | {"final": self._is_final})
+
+    def take(self) -> list[int]:
+        """Return the fields written since the last call."""
+        fields, self._fields = sorted(self._fields), set()
+        return fields
+
+    def picture(self, session: Session) -> dict[str, Any]:
+        """Return the picture of the present variables, or of the last stage if the hull is complete."""
+        return self.stages[-1] if self._is_final else picture(session)
+
+
+def true_picture(stages: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Return the true hull of the points of the first stage, in exact arithmetic, as a picture."""
+    points = stages[0]["points"]
+    faces = true_hull(scaled([(Fraction(str(x)), Fraction(str(y)), Fraction(str(z))) for x, y, z in points]))[1]
+    vertices = sorted({n for face in faces for n in face})
+    return {"points": points, "vertices": vertices, "faces": [list(face) for face in faces]}
