@@ -1,8 +1,24 @@
 """Proofs of equations and tests of Appel and Will; :mod:`modern.claims.algebra` checks the steps."""
 
 from collections.abc import Callable
+from math import comb
 
-from modern.claims.algebra import Proof, Step, bracket, dot, minus, point, term, total, variables, zero
+from modern.claims.algebra import (
+    Proof,
+    Step,
+    Term,
+    bracket,
+    cross,
+    dot,
+    minus,
+    point,
+    polynomial,
+    positive,
+    term,
+    total,
+    variables,
+    zero,
+)
 from modern.claims.evidence import Check, claim
 
 
@@ -69,8 +85,33 @@ def lines_and_planes() -> Proof:
     )
 
 
+def product_of_lines() -> Proof:
+    """Prove that the vector product of two lines is perpendicular to both."""
+    u, v = point("u", 3), point("v", 3)
+    steps = [Step("the product is perpendicular", {}, zero(dot(cross(u, v), line))) for line in (u, v)]
+    return Proof("the product of two lines of a surface is normal to it", "The lines span the surface.", tuple(steps))
+
+
+def fewer_pairs() -> Proof:
+    """Prove that six or more objects have fewer pairs than triples."""
+    (n,) = variables("n")
+    factors = {"n": positive(n), "n - 1": positive(n - 1), "n - 5": positive(n - 5)}
+    difference = n * (n - 1) * (n - 2) - 3 * n * (n - 1)
+    return Proof(
+        "there are fewer pairs than triples",
+        "Six times the number of triples minus that of pairs is n (n - 1) (n - 5).",
+        (Step("the difference is positive", factors, positive(difference), (Term((*factors,), polynomial(1)),)),),
+    )
+
+
 @claim("appel-will.49", "appel-will.50", "appel-will.51", proof=triangle_area)
 @claim("appel-will.52", proof=inside_triangle)
 @claim("appel-will.81", "appel-will.82", "appel-will.139", proof=lines_and_planes)
 def proof_of_equation(proof: Callable[[], Proof]) -> Check:
     return proof().check()
+
+
+@claim("appel-will.38")
+def pairs_and_triples() -> Check:
+    """Check that six or more objects have fewer pairs than triples; five objects have equally many."""
+    return fewer_pairs().check().unless(comb(5, 2) >= comb(5, 3), "five objects, with 10 pairs and 10 triples")

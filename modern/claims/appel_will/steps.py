@@ -1,10 +1,11 @@
 """Checks of single steps of Appel and Will: new and collinear lines, the star test, loops, and inside corners."""
 
 from collections.abc import Sequence
-from itertools import combinations, pairwise, permutations, product
+from itertools import combinations, pairwise, permutations
+from random import Random
 
 from modern.claims.appel_will.convexity import Flat
-from modern.claims.evidence import Check, claim, exhausted, exhibited, slip
+from modern.claims.evidence import Check, Generator, claim, exhibited, search, searched, slip
 from modern.claims.sampled_sets import Point, counterexample_points
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import Method, appel_will, printed
@@ -31,50 +32,59 @@ def new_lines() -> Check:
     return exhibited(len(polygon) < len(ring) and len(new) == 1, f"the new line is {message}")
 
 
-@claim("appel-will.131")
-@claim("appel-will.58", test="change")
-def star_test(test: str = "") -> Check:
-    """Check that the senses of turn around the star polygon tell which grid points are in the hull of five points.
+def _draw_images(random: Random) -> tuple[Flat, ...]:
+    return tuple((random.randint(-4, 4), random.randint(-4, 4)) for _ in range(random.randint(3, 5)))
 
-    The test as printed is right if no two projections are in line with the point. test: ``change`` only asks whether
-    two sides turn differently. A point on the border counts as inside (Fig. 12).
-    """
-    five = [(0, 0), (6, 0), (7, 5), (0, 6), (3, 3)]
-    border = 0
-    checks: list[bool] = []
+
+IMAGES: Generator[tuple[Flat, ...]] = Generator(
+    "3 to 5 images around the origin", 12, _draw_images, lambda i: len({*i}) == len(i) > 2 and (0, 0) not in i
+)
+
+
+def _holds_origin(images: Sequence[Flat]) -> bool:
+    return len(images) not in exact_hull([*((a, b, 0) for a, b in images), (0, 0, 0)]).vertices
+
+
+@claim("appel-will.131", full=5_000)
+def star_test(cases: int = 40) -> Check:
+    """Check that the star test as printed is right if no two images are in line with the point."""
+    general: list[bool] = []
     in_line: list[bool] = []
-    for x, y in product(range(-1, 9), range(0, 8, 2)):
-        images = [(a - x, b - y) for a, b in five]
-        if (0, 0) in images:
-            continue
-        hull = exact_hull([*((a, b, 0) for a, b in five), (x, y, 0)])
-        held = 5 not in hull.vertices
-        border += 5 in hull.boundary
+    for images in IMAGES.cases(cases):
+        right = as_printed(images) != _holds_origin(images)
+        (general if all(vorticity(a, b) for a, b in combinations(images, 2)) else in_line).append(right)
+    check = searched(IMAGES, cases, general, f"right for {len(general)} sets of images")
+    return check.unless(not all(in_line), f"{in_line.count(False)} sets with two images in line with the point")
+
+
+@claim("appel-will.58", full=5_000)
+def change_of_sense(cases: int = 40) -> Check:
+    """Check that the point is outside if two sides of the star turn differently; the border counts as inside."""
+
+    def is_right(images: tuple[Flat, ...]) -> bool:
         star = star_polygon(images)
-        senses = {turn > 0 for a, b in zip(star, (*star[1:], star[0]), strict=True) if (turn := vorticity(a, b))}
-        if test:
-            checks.append(len(senses) == 1 or not held)
-        else:
-            general = all(vorticity(a, b) for a, b in combinations(images, 2))
-            (checks if general else in_line).append(as_printed(images) != held)
-    check = exhausted("grid points about five points", [*checks, border], f"right for {len(checks)} points")
-    return check.unless(in_line and not all(in_line), "grid points in line with two of the five points")
+        turns = [vorticity(a, b) for a, b in zip(star, (*star[1:], star[0]), strict=True)]
+        return min(turns) >= 0 or max(turns) <= 0 or not _holds_origin(images)
+
+    return search(IMAGES, is_right, cases, "a change of sense is seen only from outside")
 
 
-@claim("appel-will.119")
-def images_on_one_ray() -> Check:
-    """Check that the star test gives the same result for each order of the projections, two of which are on one ray."""
-    outcomes = []
-    for images in ([(1, 1), (2, 2), (-1, 0), (0, -1)], [(1, 0), (2, 0), (1, 2), (0, 1)]):
-        outcomes += [as_corrected([*order]) == as_corrected(images) for order in permutations(images)]
-    return exhausted("orders of two sets of four images", outcomes, f"{len(outcomes)} orders give the same results")
+@claim("appel-will.119", relation="ray", full=1_000)
+@claim("appel-will.60", relation="opposite", full=1_000)
+def images_in_line(relation: str, cases: int = 10) -> Check:
+    """Check the star test with two images in line with the point.
 
+    relation: ``ray``, any order of two images on one ray gives the same result; ``opposite``, a point between two
+    images is not outside.
+    """
 
-@claim("appel-will.60")
-def between_opposite_images() -> Check:
-    """Check that a point between two opposite projections is not outside, but is outside without one of them."""
-    passed = not as_corrected([(1, 0), (-1, 0), (0, 1), (0, -1)]) and as_corrected([(1, 0), (0, 1)])
-    return exhibited(passed, "the origin is inside the star of four images around it, and outside that of two")
+    def is_right(images: tuple[Flat, ...]) -> bool:
+        factor = 2 if relation == "ray" else -1
+        a, b = images[0]
+        results = {as_corrected([*order]) for order in permutations((*images[:3], (factor * a, factor * b)))}
+        return len(results) == 1 and (relation == "ray" or not results.pop())
+
+    return search(IMAGES, is_right, cases, "all orders of the images give the same result")
 
 
 @claim("appel-will.101")

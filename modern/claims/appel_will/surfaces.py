@@ -5,8 +5,10 @@ from functools import cache
 from itertools import combinations
 
 from modern.claims.appel_will.convexity import CUBE, RINGS, Flat
-from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, search, slip
+from modern.claims.appel_will.proofs import product_of_lines
+from modern.claims.evidence import Check, claim, exhibited, refuted, search, slip
 from modern.claims.invariants import is_sphere
+from modern.claims.kovalevsky_schulz.proofs import vertex_is_no_combination
 from modern.claims.published import PAPERS, findings, printed_lines
 from modern.claims.sampled_sets import (
     Point,
@@ -119,12 +121,14 @@ def inside_corners_deleted(cases: int = 5) -> Check:
 
 @claim("appel-will.84")
 def sense_of_surfaces() -> Check:
-    """Check that the corners of Fig. 4 are the same if its surfaces are listed in the opposite sense."""
-    solid = fig_4()
-    turned = tuple(surface[::-1] if k % 2 else surface for k, surface in enumerate(solid.surfaces))
-    both = [corners(solid.points, oriented(solid.points, surfaces)) for surfaces in (solid.surfaces, turned)]
-    kinds = [{frozenset(c.line.ends): c.product < 0 for c in found} for found in both]
-    return exhibited(kinds[0] == kinds[1], "the corners of Fig. 4 do not depend on the sense of its surfaces")
+    """Check that the corners of four objects are the same if surfaces are listed in the opposite sense."""
+    same = []
+    for solid in objects():
+        turned = tuple(surface[::-1] if k % 2 else surface for k, surface in enumerate(solid.surfaces))
+        both = [corners(solid.points, oriented(solid.points, surfaces)) for surfaces in (solid.surfaces, turned)]
+        kinds = [{frozenset(c.line.ends): c.product < 0 for c in of_solid} for of_solid in both]
+        same.append(kinds[0] == kinds[1])
+    return exhibited(all(same), "the corners of four objects do not depend on the sense of their surfaces")
 
 
 @claim("appel-will.73")
@@ -193,29 +197,20 @@ def minimum_data() -> Check:
 
 @claim("appel-will.77")
 def points_on_three_surfaces() -> Check:
-    """Check that each point of four objects is on three or more surfaces."""
+    """Check that points of four objects are on three or more surfaces."""
     counts = [sum(k in surface for surface in s.surfaces) for s in objects() for k in range(len(s.points))]
-    message = f"each of {len(counts)} points is on three or more surfaces"
-    return exhausted("points of four kinds of objects", [count >= 3 for count in counts], message)
+    return exhibited(min(counts) >= 3, f"each of {len(counts)} points of four objects is on three or more surfaces")
 
 
 @claim("appel-will.78")
 def hulls_of_surfaces() -> Check:
-    """Check that vertices of the hull are vertices of the hulls of all their surfaces; the converse fails."""
-    checks, exceptions = [], 0
-    for solid in objects():
-        vertices = exact_hull(solid.points).vertices
-        of_surfaces = [
-            {surface[k] for k in exact_hull([solid.points[k] for k in surface]).vertices} for surface in solid.surfaces
-        ]
-        for point in range(len(solid.points)):
-            surfaces_at = [k for k, surface in enumerate(solid.surfaces) if point in surface]
-            own = all(point in of_surfaces[k] for k in surfaces_at)
-            checks.append(own or point not in vertices)
-            exceptions += own and point not in vertices
-    message = "a vertex of the hull is a vertex of its surfaces' hulls"
-    check = exhausted("points of four kinds of objects", checks, message)
-    return check.unless(exceptions, f"the converse, which fails for {exceptions} of {len(checks)} points")
+    """Check that vertices of the hull are vertices of the hulls of their surfaces; the apex of a pit is not."""
+    solid = pitted()
+    apex = max(range(len(solid.points)), key=lambda k: k not in exact_hull(solid.points).vertices)
+    surfaces_at = [surface for surface in solid.surfaces if apex in surface]
+    own = all(s.index(apex) in exact_hull([solid.points[k] for k in s]).vertices for s in surfaces_at)
+    refutes = own and apex not in exact_hull(solid.points).vertices
+    return vertex_is_no_combination().check().unless(refutes, "the converse, which fails for the apex of a pit")
 
 
 @claim("appel-will.138", "appel-will.76")
@@ -239,25 +234,19 @@ def vertex_without_supporting_surface() -> Check:
 
 @claim("appel-will.157")
 def normal_from_two_lines() -> Check:
-    """Check that the cross product of the two lines at a corner of a surface is perpendicular to the surface."""
-    checks, turned, shorter = [], 0, 0
-    for solid in (fig_4(), crown(), bent()):
-        for ring in oriented(solid.points, solid.surfaces):
-            normal = area_vector(solid.points, ring)
-            for k, corner in enumerate(ring):
-                u, v = (
-                    minus(solid.points[b], solid.points[a])
-                    for a, b in ((ring[k - 1], corner), (corner, ring[k - len(ring) + 1]))
-                )
-                product_ = cross(u, v)
-                checks.append(lowest(product_) in (lowest(normal), minus((0, 0, 0), lowest(normal))))
-                # At a concave corner the product is reversed; for unit directions its length is the sine.
-                turned += dot(product_, normal) < 0
-                shorter += dot(product_, product_) < dot(u, u) * dot(v, v)
-    check = exhausted("corners of three objects", checks, f"{len(checks)} products are perpendicular to their surface")
-    return check.unless(
-        turned and shorter, f"corners where the product is reversed ({turned}) or shorter than 1 ({shorter})"
-    )
+    """Check that the product of two lines is perpendicular to them; at a concave corner of an L it is reversed."""
+    solid, turned, shorter = bent(), 0, 0
+    for ring in oriented(solid.points, solid.surfaces):
+        normal = area_vector(solid.points, ring)
+        for a, corner, b in zip(ring, (*ring[1:], ring[0]), (*ring[2:], *ring[:2]), strict=True):
+            u, v = (minus(solid.points[q], solid.points[p]) for p, q in ((a, corner), (corner, b)))
+            turned += dot(cross(u, v), normal) < 0
+    for ring in oriented(crown().points, crown().surfaces):
+        u, v = (minus(crown().points[k], crown().points[ring[1]]) for k in (ring[0], ring[2]))
+        # For unit directions the length of the product is the sine of the angle.
+        shorter += dot(cross(u, v), cross(u, v)) < dot(u, u) * dot(v, v)
+    case = f"corners where the product is reversed ({turned}) or shorter than 1 ({shorter})"
+    return product_of_lines().check().unless(turned and shorter, case)
 
 
 @claim("appel-will.83")

@@ -5,7 +5,7 @@ from itertools import product
 
 import numpy as np
 
-from modern.claims.evidence import Check, claim, exhibited, search, searched
+from modern.claims.evidence import Check, claim, exhausted, exhibited, search, searched
 from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels, triangles_of_ball
 from modern.claims.sampled_sets import CASES, SETS, Point, plane_value, sampled_sets
 from modern.digital.hull import digital_hull
@@ -210,14 +210,13 @@ def economical_encoding(cases: int = 4) -> Check:
 
 @claim("kovalevsky-schulz.46")
 def reconstruction_by_corners() -> Check:
-    """Check that a ball of diameter 9 is restored; testing centres of voxels would fill in a diagonal of two voxels."""
-    solid, pair = ball(9), Volume(np.eye(2, dtype=np.bool_)[:, :, None], (0, 0, 0))
-    again = reconstructed(voxel_hull(solid).polyhedron.straight.economical())
+    """Check that balls are restored; testing centres of voxels would fill in a diagonal of two voxels."""
+    balls, pair = [ball(d) for d in range(2, 9)], Volume(np.eye(2, dtype=np.bool_)[:, :, None], (0, 0, 0))
+    again = [reconstructed(voxel_hull(solid).polyhedron.straight.economical()) for solid in balls]
+    same = [a.coordinates().tolist() == b.coordinates().tolist() for a, b in zip(again, balls, strict=True)]
     planes = voxel_hull(pair).polyhedron.straight.planes()
     added = all(3 * a + b + c + 2 * d <= 0 for a, b, c, d in planes)
-    check = exhibited(
-        again.coordinates().tolist() == solid.coordinates().tolist(), "the ball of diameter 9 is restored"
-    )
+    check = exhausted("balls with diameters from 2 to 8", same, "the balls are restored")
     return check.unless(added, "a test of centres: (1, 0, 0) has its centre in the hull of (0, 0, 0) and (1, 1, 0)")
 
 

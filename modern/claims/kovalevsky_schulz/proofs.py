@@ -148,7 +148,7 @@ def lemma_be() -> Proof:
 @claim("kovalevsky-schulz.69", proof=lemma_ch)
 @claim("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17", proof=vertex_is_no_combination)
 @claim("kovalevsky-schulz.121", "kovalevsky-schulz.167", proof=vertex_is_no_combination)
-@claim("appel-will.16", "appel-will.19", "appel-will.133", proof=vertex_is_no_combination)
+@claim("appel-will.16", "appel-will.19", "appel-will.41", "appel-will.133", proof=vertex_is_no_combination)
 @claim("kovalevsky-schulz.49", "kovalevsky-schulz.173", proof=choice_of_q)
 @claim("kovalevsky-schulz.95", proof=symmetry)
 @claim("kovalevsky-schulz.168", proof=lemma_be)

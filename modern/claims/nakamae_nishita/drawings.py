@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from itertools import combinations
 from random import Random
 
@@ -68,8 +69,14 @@ def _samples(drawing: Drawing) -> Iterator[tuple[bool, list[Fraction]]]:
         )
 
 
+@cache
+def _drawn(boxes: tuple[Box, ...]) -> Drawing:
+    return draw(_polyhedra(boxes), parallel(EYE), hidden=True)
+
+
+@cache
 def _agrees(boxes: tuple[Box, ...]) -> bool:
-    drawing = draw(_polyhedra(boxes), parallel(EYE), hidden=True)
+    drawing = _drawn(boxes)
     return all(visible != any(_behind(at, box) for box in boxes) for visible, at in _samples(drawing))
 
 
@@ -84,7 +91,7 @@ def unrelated_polyhedra(cases: int = 3) -> Check:
     """Check that boxes whose contours do not overlap hide nothing of each other, so that no comparison is needed."""
 
     def hide_nothing(boxes: tuple[Box, ...]) -> bool:
-        drawing = draw(_polyhedra(boxes), parallel(EYE), hidden=True)
+        drawing = _drawn(boxes)
         related = {(r.v, r.w) for r in drawing.relations}
         return not any(
             _behind(at, box)

@@ -9,11 +9,12 @@ from functools import cache
 from itertools import combinations, product
 from random import Random
 
-from modern.claims.evidence import Check, Generator, claim, exhibited, identity, searched
+from modern.claims import algebra
+from modern.claims.evidence import Check, Generator, claim, exhibited, identity, proved, searched
 from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
 from modern.exact_hull import ExactHull, exact_hull
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import dot
 from modern.papers.nakamae_nishita.contours import Tables
 from modern.papers.nakamae_nishita.results import contour_tables
 from modern.papers.nakamae_nishita.solids import height, plane_through
@@ -158,13 +159,14 @@ def formula_1() -> Check:
     return identity(difference, (2, 2, 2, 2, 1, 1), "the value is proportional to the distance to the right")
 
 
-@claim("nakamae-nishita.22")
-def formula_2() -> Check:
-    """Check that the program's tables PL and LP of two squares are those of formula (2)."""
-    return exhibited(
-        contour_tables(SQUARE, ACROSS) == tables_by_2(SQUARE, ACROSS),
-        "the tables of two squares follow (2)",
-    )
+@claim("nakamae-nishita.22", full=25)
+def formula_2(cases: int = CASES) -> Check:
+    """Check that the program's tables PL and LP of polygons that overlap are those of formula (2)."""
+    overlapping = [
+        (v, w) for v, w in pairs(cases) if any(crosses(v, i, w, j) for i in range(len(v)) for j in range(len(w)))
+    ]
+    outcomes = [contour_tables(v, w) == tables_by_2(v, w) for v, w in overlapping]
+    return searched(POLYGONS, 2 * cases, outcomes, f"the tables of {len(outcomes)} pairs of polygons follow (2)")
 
 
 @claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", full=25)
@@ -185,16 +187,16 @@ def formula_3_in_line(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.60", "nakamae-nishita.37")
 def formula_5() -> Check:
-    """Check that the determinant of (5), and the program, tell on which side of a face a vertex lies."""
-    corners = [(0, 0, 0), (0, 4, 0), (4, 4, 0)]
-    plane, signs = plane_through(*((*corner, 1) for corner in corners)), {}
-    for z in (-2, 0, 3):
-        rows = [(1, 2, z), *corners]
-        (a, b, c) = (minus(row, rows[0]) for row in rows[1:])
-        signs[z] = (sign(dot(a, cross(b, c))), sign(height(plane, (1, 2, z, 1))))
-    passed = signs[3] == (1, 1) and signs[-2] == (-1, -1)
-    check = exhibited(passed, "the value is positive outside the face, and negative on its other side")
-    return check.unless(signs[0] == (0, 0), "a vertex in the face, for which the value is 0")
+    """Prove that the program's value of (5) is the determinant, whose sign tells the side of a face; it may be 0."""
+    x, *corners = (algebra.point(name, 3) for name in "xpqr")
+    one = algebra.polynomial(1)
+    a, b, c = (algebra.minus(corner, x) for corner in corners)
+    computed = height(plane_through(*((*corner, one) for corner in corners)), (*x, one))  # type: ignore[arg-type]
+    step = algebra.Step("both are equal", {}, algebra.zero(algebra.dot(a, algebra.cross(b, c)) - computed))
+    argument = "The value is the determinant of (5): six times the signed volume of the tetrahedron on the face"
+    check = proved(argument, [step.is_valid()], "the value is positive outside the face, negative on its other side")
+    face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))
+    return check.unless(height(face, (1, 2, 0, 1)) == 0, "a vertex in the face, for which the value is 0")
 
 
 @cache

@@ -5,6 +5,7 @@ from functools import cache
 from itertools import combinations, permutations, product
 
 from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
+from modern.claims.nakamae_nishita.drawings import pieces_against_rays
 from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, crosses, inside, lines_of, pairs, side, tables_of
 from modern.claims.sampled_sets import CASES, counterexample, counterexample_points
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
@@ -25,12 +26,20 @@ def _cuboid(way: tuple[int, int, int] = (3, -5, 2)) -> Drawing:
 
 @claim("nakamae-nishita.20")
 def faces_and_edges() -> Check:
-    """Check that a cuboid seen obliquely has three front faces, three inner edges and six contour edges."""
-    (solid,) = _cuboid().solids
-    kinds = [edge.kind for edge in solid.edges]
-    passed = (sum(s > 0 for s in solid.signs), kinds.count(INNER), kinds.count(CONTOUR)) == (3, 3, 6)
-    message = f"a cuboid has {kinds.count(INNER)} inner and {kinds.count(CONTOUR)} contour edges"
-    return exhibited(passed, message)
+    """Check the kinds of a cuboid's edges by the front faces that contain them, for 26 directions of view."""
+    outcomes = []
+    for way in product((-1, 0, 1), repeat=3):
+        if any(way):
+            (solid,) = _cuboid(way).solids
+            front = [{*face} for face, sign_ in zip(solid.polyhedron.faces, solid.signs, strict=True) if sign_ > 0]
+            kinds = {frozenset((edge.start, edge.end)): edge.kind for edge in solid.edges}
+            counts = {ends: sum(ends <= face for face in front) for ends in kinds}
+            outcomes.append(
+                all((kinds[e] == INNER, kinds[e] == CONTOUR) == (n == 2, n == 1) for e, n in counts.items())
+            )
+            outcomes.append(len(front) == sum(map(abs, way)))
+    message = "edges of two front faces are inner edges, and edges of one front face are contour edges"
+    return exhausted("a cuboid seen from 26 directions", outcomes, message)
 
 
 @claim("nakamae-nishita.10")
@@ -44,12 +53,13 @@ def face_seen_edge_on() -> Check:
     return faces_and_edges().unless(along.signs.count(0) == 4 == contour and not as_printed, case)
 
 
-@claim("nakamae-nishita.16")
-def hidden_contour_edges() -> Check:
+@claim("nakamae-nishita.16", full=600)
+def hidden_contour_edges(cases: int = 3) -> Check:
     """Check that the nearer of two boxes hides not only inner edges of the other box but also contour edges."""
     drawing = _two_boxes((1, 3, -1))
-    check = exhibited(_hidden(drawing, INNER), "the contour of the nearer box hides inner edges of the other box")
-    return check.unless(_hidden(drawing, CONTOUR), "the contour edges of that box, which are hidden as well")
+    check = pieces_against_rays(cases)
+    both = _hidden(drawing, INNER) and _hidden(drawing, CONTOUR)
+    return check.unless(both, "the contour edges of the farther box, which are hidden as well")
 
 
 def _two_boxes(at: tuple[int, int, int]) -> Drawing:
@@ -122,8 +132,8 @@ def indices(index: int = 0) -> Check:
     return exhausted(domain, [*checks, ways == expected, not index or alone == {1}], message)
 
 
-@claim("nakamae-nishita.35")
-def touching_solids() -> Check:
+@claim("nakamae-nishita.35", full=600)
+def touching_solids(cases: int = 3) -> Check:
     """Check that the sign of (5) tells which of two boxes is nearer unless they touch and need a separating plane."""
     (relation,) = _scene("stacked.toml").relations
     without = _scene("stacked.toml", "touching")
@@ -132,8 +142,9 @@ def touching_solids() -> Check:
     )
     passed = relation.by == "plane" and less
     crossing = _two_boxes((1, 3, 0)).relations[0]
-    check = exhibited((crossing.by, crossing.nearer) == ("(4)", 1), "the sign tells which of two boxes apart is nearer")
-    return check.unless(passed, "two boxes that touch: the value is 0, and only a separating plane decides")
+    passed &= (crossing.by, crossing.nearer) == ("(4)", 1)
+    case = "two boxes that touch: the value is 0, and only a separating plane decides"
+    return pieces_against_rays(cases).unless(passed, case)
 
 
 @claim("nakamae-nishita.43", "nakamae-nishita.42")

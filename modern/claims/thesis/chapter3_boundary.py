@@ -5,6 +5,8 @@ end. *Eliminated* points lie inside that hull.
 """
 
 from collections.abc import Sequence
+from functools import partial
+from random import Random
 
 from modern.claims.evidence import Check, Generator, claim, exhibited, searched
 from modern.claims.sampled_sets import (
@@ -27,26 +29,6 @@ PYRAMID: list[Point] = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 
 _TWO_PLANES: list[Point] = [(2, 1, 1), (1, 1, 3), (0, 1, 3), (0, 0, 0), (0, 2, 3), (0, 0, 2), (0, 1, 2)]
 
 
-@claim("thesis.80", dimension="2")
-@claim("thesis.102", dimension="3")
-def remaining_points(dimension: str) -> Check:
-    """Check that the points of a grid that are neither eliminated nor used lie on the boundary."""
-    sizes = (5, 5, 1) if dimension == "2" else (3, 3, 3)
-    points = [(x, y, z) for x in range(sizes[0]) for y in range(sizes[1]) for z in range(sizes[2])]
-    hull, judge = convex_hull(points, history=True), exact_hull(points)
-    used = {k for stage in hull.history for k in stage.added}
-    eliminated = {k for stage in hull.history for k in stage.struck}
-    remaining = set(range(len(points))) - used - eliminated
-    passed = (
-        bool(remaining)
-        and remaining <= {*judge.boundary}
-        and eliminated == {*judge.inside}
-        and {*judge.vertices} <= used
-    )
-    message = f"{len(remaining)} of {len(points)} points remain; all of them are on the boundary and none is a vertex"
-    return exhibited(passed, message)
-
-
 @claim("thesis.81")
 def used_boundary_point() -> Check:
     """Check that the procedure may use a point that lies between two others: one of four points shows this."""
@@ -58,40 +40,57 @@ def used_boundary_point() -> Check:
     return exhibited(bool(boundary_used), message)
 
 
-# Sets with many points on the same lines.
-LATTICE_SETS: Generator[tuple[Point, ...]] = Generator(
-    "subsets of a lattice of 4 by 4 points",
-    85,
-    lambda r: tuple(r.sample([(x, y, 0) for x in range(4) for y in range(4)], r.randint(5, 12))),
-)
+def _draw_lattice(random: Random, depth: int) -> tuple[Point, ...]:
+    lattice = [(x, y, z) for x in range(4) for y in range(4 - (depth > 1)) for z in range(depth)]
+    return tuple(random.sample(lattice, random.randint(6, 14)))
+
+
+def _is_spatial(points: tuple[Point, ...]) -> bool:
+    return exact_hull(points).dimension == 3
+
+
+# Sets with many points on the same lines and planes, by dimension.
+LATTICE_SETS: dict[int, Generator[tuple[Point, ...]]] = {
+    2: Generator("subsets of a lattice of 4 x 4 points", 85, partial(_draw_lattice, depth=1)),
+    3: Generator("subsets of a lattice of 4 x 3 x 3 points", 34, partial(_draw_lattice, depth=3), _is_spatial),
+}
+
+
+@claim("thesis.80", "thesis.223", dimension=2, full=400)
+@claim("thesis.102", "thesis.103", "thesis.256", dimension=3, full=400)
+def end_of_the_procedure(dimension: int, cases: int = 5) -> Check:
+    """Check that remaining points are boundary points, and that used points and equations are reduced to the hull's."""
+    outcomes, removed = [], [0, 0, 0]
+    for points in (*LATTICE_SETS[dimension].cases(cases), _POINT_ON_A_SIDE if dimension == 2 else _TWO_PLANES):
+        hull, judge = convex_hull(points, history=True), exact_hull(points)
+        used = {k for stage in hull.history for k in stage.added}
+        remaining = {*range(len(points))} - used - {k for stage in hull.history for k in stage.struck}
+        outcomes.append(remaining <= {*judge.boundary} and {*hull.vertices} == {*judge.vertices} <= used)
+        outcomes.append(len({face.lowest for face in hull.faces}) == len(hull.faces) == len(judge.facets))
+        removed[0] += len(remaining)
+        removed[1] += len(used) - len(hull.vertices)
+        removed[2] += len(hull.history[-1].equations) - len(hull.faces)
+    message = "{} points remain; {} used points and {} duplicate equations are removed".format(*removed)
+    return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 
 @claim("thesis.85", full=400)
 def duplicate_lines(cases: int = 3 * CASES) -> Check:
     """Check that a side with three used points has at least two equations before duplicates are removed."""
     outcomes = []
-    for points in (*LATTICE_SETS.cases(cases), _POINT_ON_A_SIDE):
+    for points in (*LATTICE_SETS[2].cases(cases), _POINT_ON_A_SIDE):
         hull = convex_hull(points, history=True)
         last = hull.history[-1].equations
         used = {k for stage in hull.history for k in stage.added}
         for face in hull.faces:
             side = {k for k in used if _on_side(points, face.polygon, k)}
             outcomes += [sum({*ends} <= side for ends in last) >= 2] if len(side) > 2 else []
-    return searched(LATTICE_SETS, cases, outcomes, f"{len(outcomes)} sides with three used points have two equations")
+    return searched(LATTICE_SETS[2], cases, outcomes, f"{len(outcomes)} sides have two equations")
 
 
 def _on_side(points: Sequence[Point], ends: tuple[int, ...], k: int) -> bool:
     p, q = points[ends[0]], points[ends[1]]
     return not any(cross(minus(q, p), minus(points[k], p)))
-
-
-@claim("thesis.103")
-def duplicate_planes() -> Check:
-    """Check that one equation of each plane is left for a pyramid whose square base contains nine points."""
-    hull = convex_hull(PYRAMID, history=True)
-    equation_count = len(hull.history[-1].equations)
-    message = f"of {equation_count} equations, {len(hull.faces)} are left, one for each plane"
-    return exhibited(len(hull.faces) == 5 < equation_count, message)
 
 
 @claim("thesis.104", full=300)
@@ -119,21 +118,7 @@ def planes_without_duplicates(cases: int = CASES) -> Check:
     return check.unless(most > 2, f"duplicate equations, {most} of which hold at a point that is not a vertex")
 
 
-@claim("thesis.223")
-def duplicates_removed() -> Check:
-    """Check a triangle with a used point on a side: the removal of duplicates leaves three vertices and equations."""
-    hull = convex_hull(_POINT_ON_A_SIDE, history=True)
-    used = [k for stage in hull.history for k in stage.added]
-    equation_count, kept_equations = len(hull.history[-1].equations), [face.lowest for face in hull.faces]
-    passed = len(used) > len(hull.vertices) == 3 == len(set(kept_equations)) == len(kept_equations) < equation_count
-    return exhibited(
-        passed,
-        f"{len(hull.vertices)} of {len(used)} used points remain, "
-        f"and {len(kept_equations)} of {equation_count} equations",
-    )
-
-
-@claim("thesis.231", "thesis.256")
+@claim("thesis.231")
 def used_points_in_planes() -> Check:
     """Count, for each used point that is not a vertex, the planes of the last hull that contain it: one or two."""
     hull, judge = convex_hull(_TWO_PLANES, history=True), exact_hull(_TWO_PLANES)
@@ -143,18 +128,18 @@ def used_points_in_planes() -> Check:
     return exhibited(passed, ", ".join(f"{point} is in {n} planes of the last hull" for point, n in planes.items()))
 
 
-@claim("thesis.230")
-def boundary_points_on_edges() -> Check:
-    """Check that a surface point of a pyramid that is in two planes lies between the ends of their common edge."""
-    points = [(x, y, 0) for x in (0, 2, 4) for y in (0, 2, 4)] + [(2, 2, 4), (1, 1, 2)]
-    judge = exact_hull(points)
+@claim("thesis.230", full=400)
+def boundary_points_on_edges(cases: int = 5) -> Check:
+    """Check that a point in two planes is between the ends of their common edge; a point in one plane is not."""
     checks, in_one_plane = [], 0
-    for k, point in enumerate(points):
-        on = [f for f in judge.facets if not plane_value(f.plane, point)]
-        in_one_plane += len(on) == 1
-        if len(on) == 2:
-            p, q = (points[j] for j in {*on[0].polygon} & {*on[1].polygon})
-            checks.append(not any(cross(minus(point, p), minus(q, p))) and dot(minus(point, p), minus(point, q)) < 0)
-            checks.append(k not in judge.vertices)
-    check = exhibited(checks and all(checks), f"{len(checks) // 2} points of a pyramid agree")
+    for points in LATTICE_SETS[3].cases(cases):
+        judge = exact_hull(points)
+        for k, point in enumerate(points):
+            on = [f for f in judge.facets if not plane_value(f.plane, point)]
+            in_one_plane += len(on) == 1
+            if len(on) == 2:
+                p, q = (points[j] for j in {*on[0].polygon} & {*on[1].polygon})
+                between = not any(cross(minus(point, p), minus(q, p))) and dot(minus(point, p), minus(point, q)) < 0
+                checks.append(between and k not in judge.vertices)
+    check = searched(LATTICE_SETS[3], cases, checks, f"{len(checks)} points in two planes agree")
     return check.unless(in_one_plane, "a point in one plane only, which is between no two ends of an edge")

@@ -3,10 +3,11 @@
 The equations are transcribed as printed and compared with independent formulas over integers.
 """
 
-from modern.claims.evidence import Check, claim, exhibited, identity, searched
-from modern.claims.sampled_sets import BOTH, CASES, Plane, Point, flat_and_spatial_sets, plane_through
+from random import Random
+
+from modern.claims.evidence import Check, Generator, claim, exhibited, identity, search, searched
+from modern.claims.sampled_sets import BOTH, CASES, Plane, Point, flat_and_spatial_sets, plane_through, plane_value
 from modern.exact_hull import exact_hull
-from modern.geometry.vectors import dot
 from modern.port import convex_hull
 
 Line = tuple[int, int, int]
@@ -44,17 +45,27 @@ def reversed_order(cases: int = CASES) -> Check:
     return searched(BOTH, 2 * cases, same, f"{sum(same)} of {len(same)} sets have the same vertices in reverse order")
 
 
-@claim("thesis.7", "thesis.48")
-def collinear_points() -> Check:
-    """Check that the procedure finds the two ends and two equations for the points of each of five lines."""
-    passed = 0
-    lines: tuple[Point, ...] = ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2))
-    for x, y, z in lines:
-        points = [(1 + k * x, 2 + k * y, 3 + k * z) for k in (2, 0, -3, 5, 1)]
+def _draw_line(random: Random) -> tuple[Point, ...]:
+    x, y, z, a, b, c = (random.randint(-3, 3) for _ in range(6))
+    return tuple((x + k * a, y + k * b, z + k * c) for k in random.sample(range(-6, 7), random.randint(2, 7)))
+
+
+LINES: Generator[tuple[Point, ...]] = Generator(
+    "2 to 7 points of a line with a direction from -3 to 3", 1620, _draw_line, lambda p: len({*p}) == len(p) > 1
+)
+
+
+@claim("thesis.7", "thesis.48", full=2_000)
+def collinear_points(cases: int = 8) -> Check:
+    """Check that the procedure finds the two ends and two equations for the points of a line."""
+
+    def ends_and_equations(points: tuple[Point, ...]) -> bool:
         hull = convex_hull(points)
-        passed += hull.dimension == 1 and {*hull.vertices} == {2, 3}
-        passed += all(not dot(tuple(map(int, e[:3])), p) + int(e[3]) for e in hull.lines for p in points)  # type: ignore[arg-type]
-    return exhibited(passed == 2 * len(lines), f"{passed // 2} of {len(lines)} lines have the right ends and equations")
+        equations = [tuple(map(int, line)) for line in hull.lines]
+        on = all(not plane_value((a, b, c, d), p) for a, b, c, d in equations for p in points)
+        return on and len(equations) == 2 and {points[k] for k in hull.vertices} == {min(points), max(points)}
+
+    return search(LINES, ends_and_equations, cases, "the points of all lines have the right ends and equations")
 
 
 @claim("thesis.32", "thesis.270")
@@ -65,24 +76,21 @@ def few_points() -> Check:
     return exhibited(outcomes == [("determined", k, k + 1) for k in range(3)], message)
 
 
-@claim("thesis.211", "thesis.46")
-def first_two_points() -> Check:
+@claim("thesis.211", "thesis.46", full=400)
+def first_two_points(cases: int = CASES) -> Check:
     """Check that the first two points have the largest and smallest x; if all x are equal, y; if all y are too, z."""
-    base = [(3, 1), (-2, 5), (4, 0), (0, 2), (4, 4)]
-    sets = {
-        0: [(a, b, (3 * a + b) % 5) for a, b in base],
-        1: [(7, b, (2 * a + b) % 7) for a, b in base],
-        2: [(7, -1, a + 5 * b) for a, b in base],
-    }
     checks = []
-    for axis, points in sets.items():
-        hull = convex_hull(points, history=True)
-        first, second, *_ = hull.history[0].added if hull.history else hull.vertices
-        values = [point[axis] for point in points]
-        checks.append((points[first][axis], points[second][axis]) == (max(values), min(values)))
-        checks.append(max(values) > min(values))
+    for sampled in flat_and_spatial_sets(cases):
+        for axis in range(3):
+            # The coordinates before the axis are made equal.
+            points = [*dict.fromkeys((*(0,) * axis, *point[axis:]) for point in sampled.points)]
+            values = [point[axis] for point in points]
+            if min(values) < max(values):
+                hull = convex_hull(points, history=True)
+                first, second, *_ = hull.history[0].added if hull.history else hull.vertices
+                checks.append((values[first], values[second]) == (max(values), min(values)))
     message = "the first two points are extreme in x, in y if all x are equal, or in z if all y are equal too"
-    return exhibited(all(checks), message)
+    return searched(BOTH, 2 * cases, checks, message)
 
 
 @claim("thesis.40", "thesis.41", "thesis.43")

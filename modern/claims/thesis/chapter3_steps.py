@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from itertools import combinations, permutations
 from typing import Any
 
-from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, searched, slip
+from modern.claims.evidence import Check, Generator, claim, exhausted, refuted, searched, slip
 from modern.claims.sampled_sets import (
     BOTH,
     CASES,
@@ -34,17 +34,26 @@ def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], 
     return searched(generator, cases, checks, f"{sum(map(bool, checks))} of {len(checks)} {message}")
 
 
-@claim("thesis.42", which="1")
-@claim("thesis.44", which="2")
-@claim("thesis.45", which="3")
-def line_pairs(which: str) -> Check:
-    """Check that both equations that define a line in space hold at its points and have independent normals."""
-    ends = {"1": ((1, 2, 3), (4, 0, 5)), "2": ((1, 2, 3), (1, 0, 5)), "3": ((1, 2, 3), (1, 2, 5))}[which]
-    lines = convex_hull(ends).lines
-    planes = [(int(a), int(b), int(c), int(d)) for a, b, c, d in lines]
-    on = all(plane_value(plane, p) == 0 for plane in planes for p in ends)
-    independent = any(cross(planes[0][:3], planes[1][:3]))
-    return exhibited(on and independent, "both equations hold at the two points, and their normals are independent")
+@claim("thesis.42", equal=0)
+@claim("thesis.44", equal=1)
+@claim("thesis.45", equal=2)
+@claim("thesis.47", equal=None)
+def pairs_of_equations(equal: int | None) -> Check:
+    """Check that both equations of a line through two lattice points hold at exactly the lattice points of the line.
+
+    equal: the number of coordinates, beginning with x, that are equal in both points; None checks all pairs.
+    """
+    lattice: list[Point] = [(x, y, z) for x in (0, 1) for y in (0, 1, 2) for z in (0, 2)]
+    outcomes = []
+    for p, q in combinations(lattice, 2):
+        if equal is not None and next(k for k in range(3) if p[k] != q[k]) != equal:
+            continue
+        planes = [tuple(map(int, line)) for line in convex_hull([p, q]).lines]
+        for x in lattice:
+            satisfies_both = not any(plane_value((a, b, c, d), x) for a, b, c, d in planes)
+            outcomes.append(satisfies_both == (not any(cross(minus(q, p), minus(x, p)))))
+    domain = "pairs of points of a 2 x 3 x 2 lattice, and its points"
+    return exhausted(domain, outcomes, "both equations hold only at the points of the line")
 
 
 @claim("thesis.49", full=400)
@@ -189,11 +198,14 @@ def _visible(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximat
 
 @claim("thesis.199")
 def planes_i_and_m() -> Check:
-    """Check that planes i and m have two common points; the printed j is the index of a point and names no plane."""
-    pairs = [edge for _, before, _, visible in _visible(CASES) for _, _, edge in _shared(before, visible)]
-    right = bool(pairs) and all(len(edge) == 2 for edge in pairs)
-    right &= visible_planes("pairs").holds
-    return slip(False, right, "i and m", f"{len(pairs)} pairs of planes i and m have two common points")
+    """Check that planes i and m have two common points, but not plane j, where j is the number of the hull H_j."""
+    pairs, with_j = [], []
+    for sampled, before, _, visible in _visible(CASES):
+        j = sampled.stages().index(before)
+        pairs += [edge for *_, edge in _shared(before, visible)]
+        with_j += [len({*before.defining[i]} & {*before.defining[j]}) == 2 for i, *_ in _shared(before, visible)]
+    right = bool(pairs) and all(len(edge) == 2 for edge in pairs) and visible_planes("pairs").holds
+    return slip(all(with_j), right, "i and m", f"{len(pairs)} pairs of planes i and m have two common points")
 
 
 @claim("thesis.98", full=300)

@@ -48,8 +48,10 @@ def outside_of_two_lines() -> Check:
 
 @claim("thesis.243")
 def third_equation() -> Check:
-    """Check that the third equation of H_1 has no z and therefore is the equation of a line in the plane."""
-    return slip(False, lines_of_figure_3().holds, "a line", "the third equation has x and y only, as the other two")
+    """Check that the third equation of H_1 is not 0 at P_1, so that it is not that of the plane of the triangle."""
+    at_first_point = _values(X1, Y1)[2]
+    message = "the third equation is 0 on the line of P_2 and P_3 but not at P_1"
+    return slip(not at_first_point.terms, lines_of_figure_3().holds, "a line", message)
 
 
 def _printed_lines(x1: Polynomial, y1: Polynomial, y2: Polynomial) -> tuple[Point, ...]:

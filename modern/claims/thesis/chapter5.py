@@ -28,7 +28,6 @@ from modern.edition.chapter6 import EXAMPLES, Print, input_deck, prints
 from modern.exact_hull import exact_hull
 from modern.formats.deck import data_deck, exact_points
 from modern.port import convex_hull
-from modern.port.points import take
 from modern.thesis.cards import read_hull
 from modern.thesis.job import COPLANAR, HullRun, run_hull
 
@@ -84,15 +83,6 @@ def underflow() -> Check:
     names = [run.final.name for run in hulls]
     check = two_kinds_of_error()
     return check.unless(names == ["program3", "program2"], "underflow: points times 1E-18 lead to program 2, not 3")
-
-
-@claim("thesis.158")
-def ninth_digit_of_product() -> Check:
-    """Check that a product that needs more than eight digits loses its ninth digit."""
-    arithmetic, (coordinates, *_) = take([("99999999", "0", "0"), ("11", "0", "0")], "truncating")
-    product = Fraction(arithmetic.exact(coordinates[0] * coordinates[1], 2))
-    passed = product == 1_099_999_900 == 99_999_999 * 11 - 89
-    return exhibited(passed, f"99999999 times 11 is {product} instead of 1099999989")
 
 
 @claim("thesis.284")
@@ -176,31 +166,6 @@ def first_card() -> Check:
     listing = programs.deck("program1").text()
     passed = cards[0] in (" 8", "08") and len(cards) == 9 and "READ 1,N" in listing and "1 FORMAT (I2)" in listing
     return exhibited(passed, f"a deck of 8 points has {len(cards)} cards, and its first card is {cards[0]!r}")
-
-
-# The number of pages of each work of the bibliography (p. 121), except work 10, pages 51 to 73 of a volume.
-_WORKS = {1: 73, 2: 180, 3: 38, 4: 136, 5: 297, 6: 290, 7: 94, 8: 302, 9: 329, 11: 306, 12: 301}
-# The pages that the text cites (p. 2 to 50), by the number of the work.
-_CITED = {
-    2: (38,),
-    3: (),
-    5: (22, 82, 85, 96, 111, 208),
-    6: (195, 201, 218, 219),
-    8: (262,),
-    9: (29, 33),
-    10: (),
-    11: (43, 110, 234),
-}
-
-
-@claim("thesis.252")
-def cited_pages() -> Check:
-    """Check that each page that the text cites exists in the cited work, and that four works are never cited so."""
-    within = [page <= _WORKS[work] for work, pages in _CITED.items() for page in pages]
-    uncited = sorted({*_WORKS, 10} - {*_CITED})
-    works = ", ".join(map(str, uncited))
-    check = exhibited(all(within), f"{sum(within)} of {len(within)} cited pages exist")
-    return check.unless(uncited == [1, 4, 7, 12], f"works {works}, which are not cited by number and page")
 
 
 @claim("thesis.1", "thesis.8", "thesis.86", "thesis.106", full=300)

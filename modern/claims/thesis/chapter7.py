@@ -3,12 +3,13 @@
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, pairwise
+from random import Random
 
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
 from emulator.objectdeck.extent import code_positions
-from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
+from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, search, searched, slip
 from modern.claims.sampled_sets import CASES, SETS, Point, SampledSet, counterexample, plane_through, sampled_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
 from modern.comparison.outcome import from_cards
@@ -167,11 +168,34 @@ def eight_digits() -> Check:
     return exhibited(False, "a ninth digit fits in a card field")
 
 
-@claim("thesis.182")
-def quotient_truncated() -> Check:
-    arithmetic, row = take([("2", "3", "1")], "truncating")
-    quotient = arithmetic.text(arithmetic.quotient(row[0][0], 3), 1)
-    return exhibited(Fraction(quotient) == Fraction(66666666, 10**8), f"2 / 3 is {quotient}")
+def _draw_operands(random: Random) -> tuple[int, int]:
+    return random.randint(1, 10 ** random.randint(1, 8) - 1), random.randint(1, 99_999_999)
+
+
+OPERANDS: Generator[tuple[int, int]] = Generator("pairs of integers of up to eight digits", 8, _draw_operands)
+
+
+@claim("thesis.158", "thesis.182", full=5_000)
+def eight_digits_truncated(cases: int = 20) -> Check:
+    """Check that products and quotients of eight-digit numbers have the first eight digits of the exact result."""
+
+    def is_truncated(pair: tuple[int, int]) -> bool:
+        a, b = pair
+        arithmetic, ((x,), (y,), _) = take([(str(a), str(b), "0")], "truncating")
+        product = Fraction(arithmetic.exact(x * y, 2)), Fraction(a * b)
+        quotient = Fraction(arithmetic.exact(arithmetic.quotient(x, b), 1)), Fraction(a, b)
+        # A truncated result is smaller by less than one unit of its last digit and has at most eight digits.
+        return all(
+            computed <= exact < computed * (1 + Fraction(1, 10**7)) and _digits(computed) <= 8
+            for computed, exact in (product, quotient)
+        )
+
+    return search(OPERANDS, is_truncated, cases, "all products and quotients have the first eight digits")
+
+
+def _digits(number: Fraction) -> int:
+    """Return the number of significant digits of a decimal fraction."""
+    return len(str((number * 10**20).numerator).rstrip("0"))
 
 
 @claim("thesis.180", "thesis.249")

@@ -199,12 +199,11 @@ def floor_and_ceiling() -> Check:
     return slip(as_printed, as_corrected, "the floor and the ceiling", message)
 
 
-@claim("yau-srihari.103")
-def ceiling_by_negation() -> Check:
-    """Check that the envelope of -beta, with its sign changed, is the upper hull of the solid."""
+@claim("yau-srihari.103", full=500)
+def ceiling_by_negation(cases: int = 5) -> Check:
+    """Check that the envelope of -beta, with its sign changed, is the upper hull; without the change it is not."""
     envelope, upper = _upper_heights()
-    check = exhibited({(x, y, -z) for x, y, z in envelope} == upper, f"{len(upper)} vertices agree with the upper hull")
-    return check.unless(envelope != upper, "the heights without the change of sign")
+    return envelopes_against_judge(cases).unless(envelope != upper, "the heights without the change of sign")
 
 
 @claim("yau-srihari.52")
@@ -235,19 +234,20 @@ def extreme_points(cases: int = 5) -> Check:
     return search(SOLIDS, among, cases, "all vertices are points of the floor that are extreme in their row and column")
 
 
-@claim("yau-srihari.84")
-def integer_normals() -> Check:
+@claim("yau-srihari.84", full=500)
+def integer_normals(cases: int = 5) -> Check:
     """Check that all normals of faces and in the queue are integers and perpendicular to their edges."""
-    checks, upright = [], 0
-    for side in (_hull().lower, _hull().upper):
-        normals = [(face.normal, face.vertices) for face in side.faces]
-        normals += [(step.normal, step.edge) for step in side.steps]
-        upright += sum(normal[2] == 0 for normal, _ in normals)
-        for normal, (first, *others) in normals:
-            checks.append(any(normal) and all(type(n) is int for n in normal))
-            checks += [dot(normal, minus(vertex, first)) == 0 for vertex in others]
-    message = f"{len(checks)} conditions hold; {upright} normals belong to starting faces"
-    return exhibited(upright > 0 and all(checks), message)
+
+    def are_integers(voxels: tuple[Point, ...]) -> bool:
+        sides = hull_of(voxels).lower, hull_of(voxels).upper
+        normals = [(face.normal, face.vertices) for side in sides for face in side.faces]
+        normals += [(step.normal, step.edge) for side in sides for step in side.steps]
+        return all(
+            any(normal) and all(type(n) is int for n in normal) and not any(dot(normal, minus(v, first)) for v in rest)
+            for normal, (first, *rest) in normals
+        )
+
+    return search(SOLIDS, are_integers, cases, "all normals of faces and of starting faces are integers")
 
 
 @claim("yau-srihari.58", "yau-srihari.100", full=400)

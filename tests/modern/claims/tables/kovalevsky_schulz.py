@@ -1,6 +1,5 @@
 """Spoilers of the checks of Kovalevsky and Schulz."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
@@ -46,17 +45,8 @@ def centres_only(original: Original) -> object:
     return lambda solid, of: original(solid, CENTRES)
 
 
-def exchanged(original: Original) -> object:
-    """Exchange the visible and the invisible face."""
-    return lambda *cases: ((new, hidden, visible, *rest) for new, visible, hidden, *rest in original(*cases))
-
-
 def sign_by_first_coordinate(_: Original) -> object:
     return lambda plane, point: 1 - 2 * (plane[0] % 2)
-
-
-def judges(change: Callable[[Original], Original]) -> Spoiler:
-    return lambda original: lambda cases: tuple((points, change(judge)) for points, judge in original(cases))
 
 
 def plain_product(_: Original) -> object:

@@ -146,8 +146,6 @@ TABLE: Table = [
     (D + "148", "ADDED", lambda original: (*original[:-1], "Q9")),
     (D + "148", "ADDED", lambda original: original[:-1]),
     (D + "137", "largest_value", invalid_step),
-    (D + "252", "_WORKS", lambda original: {**original, 6: 200}),
-    (D + "252", "_CITED", lambda original: {**original, 12: (3,)}),
     (D + "280", "run_of", run_of_example_4),
     (D + "280", "convex_hull", lambda original: lambda points: replace(original(points), corrected=())),
     (D + "279", "data_deck", extra_card),
