@@ -7,6 +7,7 @@ conditions of theorem 4.2 must be printed in full; ``result``, a published resul
 emendation.
 """
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
@@ -103,16 +104,19 @@ def _sibling(row: Row, lines: tuple[Line, ...]) -> bool:
     return all(solid(phrase) in own_lines and solid(phrase) in sibling_lines for phrase in row.ground["words"])
 
 
+# A condition of theorem 4.2, without blanks and braces: one plane and one point in all four terms.
+_CONDITION = re.compile(r"A_(\d)x_(\w)\+B_\1y_\2\+C_\1z_\2\+D_\1[<>]0")
+
+
 def _arithmetic(row: Row, lines: tuple[Line, ...]) -> bool:
-    """Return True if each condition prints z and D, and if leaving z and D out would falsify one at the named point."""
+    """Return True if each condition has four terms, and if leaving z and D out would falsify one at the named point."""
     theorem = next(t for t in chapter4.load_theorems() if t.id == row.ground["theorem"])
     plane, point = theorem.plane(row.ground["equation"]), theorem.point(row.ground["point"])
     assert point is not None
     a, b, c, _ = plane.coefficients
     needed = a * point.at[0] + b * point.at[1] + c > 0 > plane.at(point)
-    return needed and all(
-        mark in line.text for line in lines if line.id in row.ground["lines"] for mark in ("z_", "D_")
-    )
+    conditions = [re.sub(r"[ {}]", "", line.text) for line in lines if line.id in row.ground["lines"]]
+    return needed and all(map(_CONDITION.search, conditions))
 
 
 @cache

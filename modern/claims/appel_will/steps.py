@@ -106,18 +106,6 @@ def step_3_as_printed() -> Check:
     )
 
 
-@claim("appel-will.90")
-def points_inside() -> Check:
-    """Check that points inside a box add no edges or loops, but cost projections of further pairs."""
-    corners = [(x, y, z) for x in (0, 9) for y in (0, 8) for z in (0, 7)]
-    few, many = appel_will(corners), appel_will([*corners, *((x, x + 1, x) for x in (2, 3, 4, 5))])
-    check = exhibited((few.edges, few.surfaces) == (many.edges, many.surfaces), "edges and loops are those of the box")
-    return check.unless(
-        many.projections > few.projections,
-        f"points inside: {many.projections} projections instead of {few.projections}",
-    )
-
-
 @claim("appel-will.111")
 def fourth_loop() -> Check:
     """Check that the last entry of the fourth loop of Fig. 22 must have its minus sign."""

@@ -103,16 +103,29 @@ def unrelated_polyhedra(cases: int = 3) -> Check:
     return search(SCENES, hide_nothing, cases, "boxes whose contours do not overlap hide nothing of each other")
 
 
-@claim("nakamae-nishita.39", "nakamae-nishita.40")
-def divided_box() -> Check:
-    """Check that a box divided into two parts of one thing has the same length of visible lines as the whole box."""
-    halves: tuple[Box, ...] = (((0, 0, 0), (2, 3, 4)), ((2, 0, 0), (5, 3, 4)))
-    together, apart, whole = (
-        _visible_length(draw(_polyhedra(boxes, thing), parallel(EYE)))
-        for boxes, thing in ((halves, "box"), (halves, ""), ((((0, 0, 0), (5, 3, 4)),), ""))
-    )
-    message = f"visible lines have the length {together} as for the whole box, and {apart} if none is removed"
-    return exhibited(together == whole < apart, message)
+# The sizes of a box, and the place where it is divided along x.
+DIVISIONS: Generator[tuple[int, ...]] = Generator(
+    "boxes with sides from 2 to 6, divided along x",
+    39,
+    lambda r: (*(r.randint(2, 6) for _ in range(3)), r.randint(1, 5)),
+    lambda d: len(d) == 4 and min(d) > 0 and d[3] < d[0],
+)
+
+
+@claim("nakamae-nishita.39", "nakamae-nishita.40", full=300)
+def divided_box(cases: int = 2) -> Check:
+    """Check that a box divided into two parts of one thing has the visible lines of the whole box, by their length."""
+
+    def restores(division: tuple[int, ...]) -> bool:
+        x, y, z, cut = division
+        halves: tuple[Box, ...] = (((0, 0, 0), (cut, y, z)), ((cut, 0, 0), (x, y, z)))
+        scenes = (halves, "box"), (halves, ""), ((((0, 0, 0), (x, y, z)),), "")
+        together, apart, whole = (
+            _visible_length(draw(_polyhedra(boxes, thing), parallel(EYE))) for boxes, thing in scenes
+        )
+        return together == whole < apart
+
+    return search(DIVISIONS, restores, cases, "the visible lines are those of the whole box if ghost lines are removed")
 
 
 def _visible_length(drawing: Drawing) -> Fraction:

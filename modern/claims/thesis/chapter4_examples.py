@@ -90,9 +90,10 @@ def number_of_extremes(claim: str) -> Check:
 
 
 def _equations(theorem: Theorem) -> Check:
-    """Check that each printed equation is 0 at the points that its plane contains according to the text."""
+    """Check that each equation is 0 at the points named in its row, and that the points have the stated extremes."""
     faults = theorem_faults(theorem, load_text())
-    return exhibited(not faults, faults[0] if faults else "each printed equation is 0 at the points named in its row")
+    message = "each printed equation is 0 at the points named in its row, and all stated extremes are right"
+    return exhibited(not faults, faults[0] if faults else message)
 
 
 def _signs(theorem: Theorem) -> Check:

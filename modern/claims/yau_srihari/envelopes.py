@@ -130,7 +130,8 @@ def digital_hull_by_envelopes(cases: int = 5) -> Check:
     return envelopes_against_judge(cases).unless(not disconnected.holds, disconnected.message)
 
 
-@claim("yau-srihari.121", "yau-srihari.68", "yau-srihari.70", name="bound", full=400)
+@claim("yau-srihari.121", "yau-srihari.70", name="angle", full=400)
+@claim("yau-srihari.68", name="bound", full=400)
 @claim("yau-srihari.67", name="start", full=400)
 @claim("yau-srihari.125", "yau-srihari.106", name="marks", full=400)
 def corrected_step(name: str, cases: int = 2) -> Check:

@@ -20,7 +20,6 @@ from tests.modern.claims.spoilers import (
     counterexample,
     negated,
     sum_instead_of_product,
-    without_last_point,
 )
 
 
@@ -183,7 +182,6 @@ TABLE: Table = [
     (D + "119", "as_corrected", lambda _: lambda images: images[0] == (1, 1)),
     (D + "60", "as_corrected", always(True)),
     (D + "101", "printed", corrected_method),
-    (D + "90", "appel_will", without_last_point),
     (D + "155", "preprocess", rule_two),
     (D + "72", "preprocess", rule_all),
     (D + "74", "preprocess", rule_all),
