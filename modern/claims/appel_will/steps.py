@@ -46,7 +46,7 @@ def _holds_origin(images: Sequence[Flat]) -> bool:
 
 
 @claim("appel-will.131", full=5_000)
-def star_test(cases: int = 40) -> Check:
+def star_test(cases: int = 20) -> Check:
     """Check that the star test as printed is right if no two images are in line with the point."""
     general: list[bool] = []
     in_line: list[bool] = []
@@ -58,7 +58,7 @@ def star_test(cases: int = 40) -> Check:
 
 
 @claim("appel-will.58", full=5_000)
-def change_of_sense(cases: int = 40) -> Check:
+def change_of_sense(cases: int = 20) -> Check:
     """Check that the point is outside if two sides of the star turn differently; the border counts as inside."""
 
     def is_right(images: tuple[Flat, ...]) -> bool:

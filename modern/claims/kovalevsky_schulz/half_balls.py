@@ -82,9 +82,9 @@ def row_of_table_5(diameter: int) -> Check:
 def diameter_12() -> Check:
     """Check that some digitisation has the printed faces and integers of diameter 12, but not that of other rows."""
     row = _row(12)
-    hulls = [hull for _, hull in map(_hull, digitisations(12))]
-    sizes = [(len(hull.facets), cell_list_size(len(hull.vertices), len(hull.facets))) for hull in hulls]
-    check = exhibited((row.faces, row.integers) in sizes, f"{len(sizes)} digitisations have {sorted(set(sizes))}")
+    hulls = (hull for _, hull in map(_hull, digitisations(12)))
+    sizes = ((len(hull.facets), cell_list_size(len(hull.vertices), len(hull.facets))) for hull in hulls)
+    check = exhibited((row.faces, row.integers) in sizes, f"a digitisation has {row.faces} faces")
     faces = len(half_ball_cells(12).faces)
     return check.unless(faces != row.faces, f"the half-ball centred on a corner of voxels, which has {faces} faces")
 

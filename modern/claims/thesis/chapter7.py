@@ -10,7 +10,7 @@ from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
 from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, search, searched, slip
-from modern.claims.sampled_sets import CASES, SETS, Point, SampledSet, counterexample, plane_through, sampled_sets
+from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_through, sampled_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
 from modern.comparison.outcome import from_cards
 from modern.edition import programs
@@ -343,41 +343,6 @@ def orientation_by_constant_term(cases: int = CASES) -> Check:
             checks.append((constant > 0, constant < 0) == (there > 0, there < 0))
     check = searched(SETS[3], cases, checks, f"{len(checks)} constant terms have the sign of the value at C")
     return check.unless(not plane_through_c().holds, "a plane through C, for which both are 0")
-
-
-def _equations_made(sampled: SampledSet) -> int:
-    stages = sampled.hull.history
-    first = len(stages[0].equations)
-    return first + sum(3 * stage.outside for stage in stages[1:])
-
-
-@claim("thesis.195")
-def cost_of_orientation() -> Check:
-    """Count the operations to evaluate an equation at the inside point C; none are needed if C is the origin."""
-    operations: list[str] = []
-
-    class Counted(int):
-        def __mul__(self, factor: int) -> "Counted":
-            operations.append("product")
-            return Counted(int(self) * int(factor))
-
-        def __add__(self, addend: int) -> "Counted":
-            operations.append("sum")
-            return Counted(int(self) + int(addend))
-
-    at(tuple(map(Counted, (1, -2, 3, -4))), tuple(map(Counted, (5, 6, 7))))
-    products, sums = operations.count("product"), operations.count("sum")
-    message = f"{products} products and {sums} sums for each equation at C, and none if C is the origin"
-    return exhibited(products > 0 < sums, message)
-
-
-@claim("thesis.251", "thesis.196", full=300)
-def cost_of_translation(cases: int = CASES) -> Check:
-    """Compare the sums that the translation saves, three for each equation, with the six that each point costs."""
-    few = [3 * _equations_made(sampled) - 6 * len(sampled.points) for sampled in sampled_sets(3, cases)]
-    many = 3 * 4 - 6 * 51
-    message = f"sums saved: {', '.join(map(str, few))}; {many} for 51 points whose hull is a tetrahedron"
-    return searched(SETS[3], cases, [max(few) > 0, many < 0], message)
 
 
 @claim("thesis.160", part="values")

@@ -60,9 +60,9 @@ def coplanar_extremes() -> Iterator[bool]:
     for division in coincidences():
         possible = [plane for plane in on_planes if {*division} <= {*plane}]
         points = [plane[block] for plane in possible[:1] for block in division]
+        largest = {(k, s): max(s * q[k] for q in (*points, *cube)) for k, s in EXTREMES}
         attained = {
-            (k, sign): [p for p in (*points, *cube) if sign * p[k] == max(sign * q[k] for q in (*points, *cube))]
-            for k, sign in EXTREMES
+            (k, sign): [p for p in (*points, *cube) if sign * p[k] == most] for (k, sign), most in largest.items()
         }
         alone = [attained[e] == [p] for block, p in zip(division, points, strict=False) for e in block]
         yield len(alone) == len(EXTREMES) and all(alone)

@@ -161,8 +161,6 @@ TABLE: Table = [
     (D + "285", "exact_hull", flattened),
     (D + "285", "prints", misread_eight),
     (D + "178", "_first_run", large_exponent),
-    (D + "195", "at", always(0)),
-    (D + "196", "_equations_made", always(0)),
     (D + "161", "deck_of", correct_z),
     (D + "160", "coordinate_field", always("+.3000000E+01")),
     (D + "181", "coordinate_field", always("+.12345678E+01")),
