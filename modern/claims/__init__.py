@@ -7,7 +7,8 @@ package that names the row, or a published *result* (:mod:`modern.claims.publish
 To add a verdict on a statement:
 
 1. Add a row to ``transcripts/statements/DOCUMENT.toml`` at its place in the order of the document, with the next unused
-   number.  ``words`` quotes at most eight words of our text of the document.
+   number.  ``words`` quotes at most eight words of our text of the document.  A row without ``kind`` is a claim, and a
+   row without ``verdict`` holds.
 2. Write a check in the module of ``modern/claims/DOCUMENT/`` that deals with the subject: a function with the decorator
    ``claim`` that returns a :class:`~modern.claims.evidence.Check`.  Choose the constructor by what is computed:
    ``proved``, ``exhausted``, ``searched`` or ``search``, ``exhibited``, ``refuted``, ``slip``.  Sampled sets and
@@ -16,8 +17,8 @@ To add a verdict on a statement:
    ``.unless(refutes, "the case")``.
 4. If the verdict is "does not hold", put the smallest counterexample into ``transcripts/counterexamples/`` and name it
    in ``file``, and in ``run`` the command that shows it.
-5. Add a line to the table of the document in ``tests/modern/claims/`` that breaks what the check relies on; the verdict
-   must then change.
+5. Add a line to the table of the document in ``tests/modern/claims/tables/`` that breaks what the check relies on; the
+   verdict must then change.
 6. Run ``hull1620 reproduce DOCUMENT.NUMBER``.
 
 A row without a check has the verdict "used", with the name of the code that follows it in ``code``, or "not

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, pairwise
 
-from modern.claims.evidence import Check, claim, exhibited
+from modern.claims.evidence import Check, claim, exhibited, refuted
 from modern.claims.published import PAPERS, printed_lines
 from modern.edition.chapter4 import load_theorems
 from modern.edition.chapter6 import input_deck, prints
@@ -101,6 +101,45 @@ def table_5() -> Check:
         rounded = int(hundredths + Fraction(1, 2)) == int(row.per_face.replace(".", ""))
         outcomes.append((f"quotient at {row.diameter}", rounded))
     return satisfied("Table 5", outcomes)
+
+
+@claim("kovalevsky-schulz.89")
+def points_at_diameter_14() -> Check:
+    """Check that the row of diameter 14 counts more points than a convex polyhedron with its faces has vertices."""
+    row = next(row for row in half_balls() if row.diameter == 14)
+    message = f"{row.corners} points and {row.faces} faces, which allow {2 * row.faces - 4} vertices"
+    return exhibited(not may_be_convex(int(row.corners), row.faces), message)
+
+
+def _numbers_of_ball() -> list[int]:
+    """Return the printed numbers of the ball: voxels, corners by 6 and by 26 neighbours, triangles, and faces."""
+    printed = _printed("kovalevsky-schulz")
+    names = ("ball-voxels", "ball-corners-6", "ball-corners-26", "ball-triangles", "ball-faces")
+    return [
+        _numbers(printed[name][0])[0 if name != "ball-voxels" and name != "ball-triangles" else 1] for name in names
+    ]
+
+
+@claim("kovalevsky-schulz.20", "kovalevsky-schulz.21", "kovalevsky-schulz.64")
+def ball_of_diameter_32() -> Check:
+    """Check the printed numbers of the ball by its symmetries and by the numbers of vertices of closed surfaces."""
+    voxels, corners, near_corners, triangles, faces = _numbers_of_ball()
+    outcomes = [
+        ("the centre is a voxel", voxels % 2 == 1),
+        # The corners lie on no plane of symmetry, and the reflections in three planes move them in groups of 8.
+        ("multiples of 8", corners % 8 == near_corners % 8 == 0 and (triangles + 4) % 16 == 0),
+        ("at most 776 corners are used", triangles <= 2 * corners - 4),
+        ("faces", may_be_convex(near_corners, faces) and faces % 2 == 0),
+    ]
+    return satisfied("ball of diameter 32", outcomes)
+
+
+@claim("kovalevsky-schulz.22")
+def triangles_of_360_corners() -> Check:
+    """Check that the corners left by a test of 26 neighbours are too few for the printed triangles."""
+    _, _, near_corners, triangles, _ = _numbers_of_ball()
+    most = 2 * near_corners - 4
+    return refuted(triangles > most, f"{near_corners} corners make at most {most} triangles; printed: {triangles}")
 
 
 @claim("kovalevsky-schulz.39", "kovalevsky-schulz.40", "kovalevsky-schulz.41")

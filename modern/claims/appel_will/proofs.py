@@ -41,16 +41,16 @@ def inside_triangle() -> Proof:
 def triangle_area() -> Proof:
     """Prove that the determinant with the rows x, y, 1 is twice the signed area of a triangle."""
     p, u = point("p", 2), point("u", 2)
-    along, left = variables("along left")
+    along, height = variables("along height")
     q = tuple(a + b for a, b in zip(p, u, strict=True))
     # A point r at a multiple of the side u, to the left of it.
-    r = (p[0] + along * u[0] - left * u[1], p[1] + along * u[1] + left * u[0])
+    r = (p[0] + along * u[0] - height * u[1], p[1] + along * u[1] + height * u[0])
     determinant = p[0] * (q[1] - r[1]) - p[1] * (q[0] - r[0]) + (q[0] * r[1] - q[1] * r[0])
     return Proof(
         "the determinant is positive counterclockwise, negative clockwise, and 0 for collinear points",
         "The third corner is at a multiple of the first side, to the left of it. The determinant is this multiple "
         "times the square of the side, which is the base times the signed height.",
-        (Step("the determinant is base times height", {}, zero(determinant - left * dot(u, u))),),
+        (Step("the determinant is base times height", {}, zero(determinant - height * dot(u, u))),),
     )
 
 

@@ -189,9 +189,9 @@ def formula_3_in_line(cases: int = CASES) -> Check:
 def formula_5() -> Check:
     """Prove that the program's value of (5) is the determinant, whose sign tells the side of a face; it may be 0."""
     x, *corners = (algebra.point(name, 3) for name in "xpqr")
-    one = algebra.polynomial(1)
+    unit = algebra.polynomial(1)
     a, b, c = (algebra.minus(corner, x) for corner in corners)
-    computed = height(plane_through(*((*corner, one) for corner in corners)), (*x, one))  # type: ignore[arg-type]
+    computed = height(plane_through(*((*corner, unit) for corner in corners)), (*x, unit))  # type: ignore[arg-type]
     step = algebra.Step("both are equal", {}, algebra.zero(algebra.dot(a, algebra.cross(b, c)) - computed))
     argument = "The value is the determinant of (5): six times the signed volume of the tetrahedron on the face"
     check = proved(argument, [step.is_valid()], "the value is positive outside the face, negative on its other side")

@@ -25,6 +25,11 @@ def _checks(statement: str) -> list[Check]:
     [
         ("table5-10", "3420", "3421", "kovalevsky-schulz.171"),
         ("table5-16", "1010", "1011", "kovalevsky-schulz.171"),
+        ("table5-14", "426", "318", "kovalevsky-schulz.89"),
+        ("ball-voxels", "17077", "17078", "kovalevsky-schulz.20"),
+        ("ball-corners-6", "776", "778", "kovalevsky-schulz.21"),
+        ("ball-triangles", "1404", "1406", "kovalevsky-schulz.64"),
+        ("ball-faces", "266", "267", "kovalevsky-schulz.64"),
         ("table1", "-1, 3, -5", "1, 3, -5", "kovalevsky-schulz.39"),
         ("table2", "2 3 1 3", "2 3 1 4", "kovalevsky-schulz.40"),
         ("table3", "(4, -5)", "(4, 5)", "kovalevsky-schulz.41"),
@@ -55,6 +60,12 @@ def test_an_altered_print_violates_an_invariant(
     assert all(check.holds for check in _checks(statement))
     monkeypatch.setattr(invariants, "printed_lines", printed_lines)
     assert [check.holds for check in _checks(statement)] == [False]
+
+
+def test_enough_corners_for_the_printed_triangles_refute_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert [check.holds for check in _checks("kovalevsky-schulz.22")] == [False]
+    monkeypatch.setattr(invariants, "_numbers_of_ball", lambda: [17077, 776, 704, 1404, 266])
+    assert [check.holds for check in _checks("kovalevsky-schulz.22")] == [True]
 
 
 @pytest.mark.parametrize("statement", ["thesis.115", "thesis.150"])
