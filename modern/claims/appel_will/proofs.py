@@ -6,13 +6,12 @@ from math import comb
 from modern.claims.algebra import (
     Proof,
     Step,
-    Term,
     bracket,
     cross,
     dot,
     minus,
+    not_negative,
     point,
-    polynomial,
     positive,
     term,
     total,
@@ -94,13 +93,16 @@ def product_of_lines() -> Proof:
 
 def fewer_pairs() -> Proof:
     """Prove that six or more objects have fewer pairs than triples."""
-    (n,) = variables("n")
-    factors = {"n": positive(n), "n - 1": positive(n - 1), "n - 5": positive(n - 5)}
+    (m,) = variables("m")
+    n = m + 6
     difference = n * (n - 1) * (n - 2) - 3 * n * (n - 1)
+    # The difference is m^3 + 12 m^2 + 41 m + 30.
+    squares = (term("", 3 * m), term("", m), term("", m), term("", m), term("", 5), term("", 2), term(""))
+    terms = (term("m m m"), term("m", 6), term("m", 2), term("m"), *squares)
     return Proof(
         "there are fewer pairs than triples",
-        "Six times the number of triples minus that of pairs is n (n - 1) (n - 5).",
-        (Step("the difference is positive", factors, positive(difference), (Term((*factors,), polynomial(1)),)),),
+        "Six times the number of triples minus that of pairs is n (n - 1) (n - 5), where n = 6 + m.",
+        (Step("the difference is positive", {"m": not_negative(m)}, positive(difference), terms),),
     )
 
 
