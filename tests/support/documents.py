@@ -190,7 +190,7 @@ def links(path: Path) -> set[str]:
 
 def listed(path: Path) -> list[str]:
     """Return the pages that the ``{toctree}`` blocks of an index name, in their order."""
-    blocks = re.findall(r"^```{toctree}\n(.*?)^```", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    blocks = re.findall(r"^:::{toctree}\n(.*?)^:::", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
     lines = [line.strip() for block in blocks for line in block.splitlines()]
     return [line for line in lines if line and not line.startswith((":", "<"))]
 
