@@ -211,8 +211,8 @@ class Markdown:
         widths = [max(word, *map(len, column[1:])) for word, column in zip(longest, columns, strict=True)]
         head, *body = [[self._inline(cell) for cell in row] for row in rows]
         right = [k for k, column in enumerate(columns) if column[1:] and all(map(_NUMBER.fullmatch, column[1:]))]
-        # A name of a few words is not broken into one word a line.
-        least = [word if k in right else max(word, min(widths[k], _NAME)) for k, word in enumerate(longest)]
+        # A name of a few words, or a few numbers, are not broken into one word a line.
+        least = [max(word, min(width, _NAME)) for word, width in zip(longest, widths, strict=True)]
         return table(head, body, widths, least, right)
 
     def _entry(self, subject: str) -> str:
