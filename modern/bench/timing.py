@@ -39,12 +39,15 @@ def timed(what: str, work: Callable[[], object], note: str = "") -> Figure:
 
 
 def side_by_side(
-    works: Mapping[str, Callable[[], object]], note: str = "", clock: Clock = time.perf_counter
+    works: Mapping[str, Callable[[], object]], note: str = "", clock: Clock = time.perf_counter, runs: int | None = None
 ) -> list[Figure]:
-    """Time several works in turn, in five rounds, so that other activity on the machine affects all of them equally."""
+    """Time several works in turn, in five rounds or the given number of them.
+
+    Other activity on the machine then affects all works equally.
+    """
     for work in works.values():
         work()
-    rounds = [[_seconds(work, clock) for work in works.values()] for _ in range(RUNS)]
+    rounds = [[_seconds(work, clock) for work in works.values()] for _ in range(runs or RUNS)]
     return [Figure(what, tuple(seconds), note) for what, seconds in zip(works, zip(*rounds, strict=True), strict=True)]
 
 
@@ -87,7 +90,7 @@ def plot(curves: Sequence[Curve], path: str, what: str) -> None:
         if curve.points:
             axes.loglog(*zip(*curve.points, strict=True), label=curve.name, **curve.style)
     axes.set_xlabel(what)
-    axes.set_ylabel("seconds, median of five")
+    axes.set_ylabel("median seconds")
     axes.grid(True, which="major", color="0.9")
     axes.legend()
     figure.tight_layout()

@@ -19,6 +19,7 @@ from modern.exact_hull.facets import (
     planes_of,
     polygon,
     segment,
+    value,
 )
 from modern.exact_hull.planes import facet_planes
 from modern.exact_hull.proposal import propose
@@ -29,7 +30,7 @@ from modern.geometry.points import Points
 SEED = 1963
 # The number of points from which the hull is first proposed in rounded numbers, which is faster, and then proved.
 MANY = 500
-# The number of first points among which four are sought that do not lie in a plane.
+# The number of first points among which four are sought that do not lie in a plane, and of signs computed singly.
 _FEW = 64
 
 
@@ -52,8 +53,9 @@ def _on_facets(
         is_other = np.ones(len(points), np.bool_)
         is_other[[index for facet in facets for index in facet.polygon]] = False
         others = np.flatnonzero(is_other)
-    if not len(others):
-        return others
+    if len(others) * len(facets) < _FEW:
+        on_any = [any(value(facet.plane, points[index]) == 0 for facet in facets) for index in others.tolist()]
+        return others[np.array(on_any, np.bool_)]
     planes, on = facet_planes(points, facets), np.zeros(len(others), np.bool_)
     if likely is not None:
         rows = np.flatnonzero(likely >= 0)

@@ -26,6 +26,8 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
+import numpy as np
+
 from modern.exact_hull.convexity import Undecided, prove
 from modern.exact_hull.coordinates import Coordinates, IntPoint, read_points
 from modern.exact_hull.incidences import Incidences, incidences
@@ -90,10 +92,9 @@ def _check_classes(points: Coordinates, hull: ExactHull) -> None:
         members = getattr(hull, name)
         require(list(members) == sorted(members), f"{name} is not sorted")
     members = [*hull.vertices, *hull.boundary, *hull.inside, *(index for index, _ in hull.duplicates)]
-    require(
-        sorted(members) == list(range(len(points))),
-        "a point is in no class or in two classes, or an index is invalid",
-    )
+    complete = len(members) == len(points) and set(map(type, members)) == {int} and min(members) >= 0
+    complete = complete and max(members) < len(points) and bool(np.bincount(members).all())
+    require(complete, "a point is in no class or in two classes, or an index is invalid")
     # A point must be listed as a duplicate of the first point with its coordinates, unless it is that first point.
     stated, true = dict(hull.duplicates), dict(points.duplicates)
     for index in sorted(stated.keys() | true.keys()):
@@ -140,7 +141,9 @@ def _check_planes(hull: ExactHull) -> None:
 def _check_points(hull: ExactHull) -> Incidences:
     """Check conditions 2 and 3 of the module's docstring by evaluating every plane at every point."""
     unique = [*hull.vertices, *hull.boundary, *hull.inside]
-    pairs = incidences([facet.plane for facet in hull.facets], [hull.scaled[index] for index in unique])
+    points = read_points(hull.scaled)
+    chosen = points.numbers[unique] if points.kind == "i" else points.integers(unique)
+    pairs = incidences([facet.plane for facet in hull.facets], chosen)
     if pairs.outside is not None:
         facet, column = pairs.outside
         raise CertificateError(f"point {unique[column]} is outside of facet {facet}")
@@ -227,7 +230,8 @@ def _proved(hull: ExactHull) -> tuple[int, Incidences]:
     if hull.dimension == 3 and len(hull.scaled) * len(hull.facets) >= MANY:
         with suppress(Undecided):  # in that case every plane is evaluated at every point, below
             return prove(hull)
-    hull = replace(hull, scaled=tuple(hull.scaled))
+    if hull.dimension < 3 or len(hull.scaled) < _FEW**2:
+        read_points(hull.scaled).all()  # many accesses to few points are faster if all points are made at once
     _check_planes(hull)
     pairs = _check_points(hull)
     close: Callable[[ExactHull], int] = (_check_segment, _check_polygon, _check_polyhedron)[hull.dimension - 1]

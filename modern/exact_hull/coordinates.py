@@ -114,8 +114,10 @@ class Coordinates(LazyMembers[IntPoint]):
     @cached_property
     def duplicates(self) -> tuple[tuple[int, int], ...]:
         """Pairs of a point and the first point equal to it, sorted."""
-        if self.kind == "O":
+        if self._make is None or self.kind == "O":
             suspects, rows = list(range(len(self))), list(self.all())
+            if len(set(rows)) == len(rows):
+                return ()
         else:
             # Points can be equal only if their hashes are.  Most sets have no equal hashes.
             hashes = (self.numbers.view(np.uint64) * _HASH).sum(axis=1, dtype=np.uint64)

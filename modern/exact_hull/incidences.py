@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.exact_hull.coordinates import IntPoint
+from modern.exact_hull.coordinates import IntPoint, Ints, Objects
 from modern.exact_hull.result import Plane
 
 # The number of values computed at a time. So few values stay in the cache. Their matrix product is also too small for
@@ -30,10 +30,10 @@ class Incidences:
     in_integers: int
 
 
-def _in_int64(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidences:
+def _in_int64(planes: Sequence[Plane], points: Ints) -> Incidences:
     # Evaluate a block of planes at a time at all points, and stop at the first positive value: a point outside a plane.
     normals = np.array(planes, dtype=np.int64)
-    columns = np.array(points, dtype=np.int64).T
+    columns = points.T
     step = max(1, _BLOCK // len(points))
     touching: list[tuple[int, int]] = []
     for start in range(0, len(planes), step):
@@ -93,14 +93,14 @@ def _in_floats(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidence
     return Incidences(touching, None, "float64 and integers", len(planes) * len(points), in_integers)
 
 
-def incidences(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidences:
-    """Evaluate every plane at every point exactly, until the first point outside a plane.
+def incidences(planes: Sequence[Plane], points: Ints | Objects) -> Incidences:
+    """Evaluate every plane at every point (n, 3) exactly, until the first point outside a plane.
 
     For the bound on D, every plane must contain one of the points, which are not all equal.
     """
     # int64 suffices if no value can reach 2**62.
-    reach = [max(1, *(abs(number) for number in column)) for column in zip(*points, strict=True)]
+    reach = [max(1, int(column.max()), -int(column.min())) for column in points.T]
     sizes = [max(1, *(abs(number) for number in column)) for column in zip(*planes, strict=True)]
     if sum(size * most for size, most in zip(sizes, [*reach, 1], strict=True)) < 2**62:
-        return _in_int64(planes, points)
-    return _in_floats(planes, points)
+        return _in_int64(planes, points.astype(np.int64))
+    return _in_floats(planes, list(map(tuple, points.tolist())))

@@ -22,6 +22,7 @@ bound has the true sign.  All others, and NaN, are computed in integers.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 
@@ -126,6 +127,18 @@ class Planes:
             signs[rows] = (value > 0).astype(np.int64) - (value < 0)
         return signs
 
+    def outside(self, facets: Ints, indices: Ints) -> Ints:
+        """Return the pairs of a facet and a point of which the facet's plane does not contain the point.
+
+        These pairs must include the facets' bases.
+        """
+        self.evaluations += len(facets)
+        if not self._small:
+            self.in_integers += len(facets)
+            return np.flatnonzero(self.values(facets, indices))
+        at_bases = self.values(np.arange(len(self.table)), self.bases) != 0
+        return np.flatnonzero(self.exact(facets, indices).astype(np.bool_) | at_bases[facets])
+
     def values(self, facets: Ints, indices: Ints) -> Objects:
         """Return the value of each facet's plane at one point."""
         distinct, positions = np.unique(indices, return_inverse=True)
@@ -177,5 +190,6 @@ class Planes:
 
 def facet_planes(points: Coordinates, facets: Sequence[Facet]) -> Planes:
     """Return the planes of facets, which contain the points of their polygons."""
-    table: Objects = np.array([facet.plane for facet in facets], object)
+    numbers = chain.from_iterable(facet.plane for facet in facets)
+    table: Objects = np.fromiter(numbers, object, 4 * len(facets)).reshape(-1, 4)
     return Planes(points, table, np.array([facet.polygon[0] for facet in facets]))

@@ -1,14 +1,15 @@
 """The polygons of a surface as arrays, and checks of the polygons and their planes (see ``convexity``)."""
 
 import math
+import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import chain, pairwise
+from itertools import chain, starmap
 
 import numpy as np
 
-from modern.exact_hull.coordinates import IntPoint, Ints, Objects, read_points
-from modern.exact_hull.planes import Planes
+from modern.exact_hull.coordinates import IntPoint, Ints, read_points
+from modern.exact_hull.planes import Planes, facet_planes
 from modern.exact_hull.result import CertificateError, ExactHull, require
 
 
@@ -104,17 +105,15 @@ def check_planes(hull: ExactHull, sides: Polygons) -> Planes:
         set(map(len, planes)) == {4} and set(map(type, chain.from_iterable(planes))) == {int},
         "a facet's plane is not four integers",
     )
-    require(
-        all(plane < following for plane, following in pairwise(planes)),
-        "the facets are not sorted by plane, or a plane occurs twice",
-    )
-    table: Objects = np.array(planes, object)
-    for number in np.flatnonzero((table[:, :3] == 0).all(axis=1)):
+    ordered = all(map(operator.lt, planes, planes[1:]))
+    require(ordered, "the facets are not sorted by plane, or a plane occurs twice")
+    exact = facet_planes(read_points(hull.scaled), hull.facets)
+    for number in np.flatnonzero((exact.table[:, :3] == 0).all(axis=1)):
         raise CertificateError(f"facet {number}: the normal is 0")
-    for order, plane in enumerate(planes):
-        require(math.gcd(*plane) == 1, f"facet {order}: the plane is not in lowest terms")
-    exact = Planes(read_points(hull.scaled), table, sides.corner[sides.first], len(sides.corner), len(sides.corner))
-    for side in np.flatnonzero(exact.values(sides.facet, sides.corner) != 0):
+    divisors = list(starmap(math.gcd, planes))
+    if max(divisors) > 1:
+        raise CertificateError(f"facet {divisors.index(max(divisors))}: the plane is not in lowest terms")
+    for side in exact.outside(sides.facet, sides.corner):
         raise CertificateError(f"facet {sides.facet[side]}: vertex {sides.corner[side]} is not in its plane")
     many = np.flatnonzero(sides.count > 3)
     members = np.unique(sides.corner[np.isin(sides.facet, many)])

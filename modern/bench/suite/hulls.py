@@ -18,10 +18,14 @@ import numpy as np
 
 from modern.bench.suite.peers import Peers, Work
 from modern.bench.timing import Curve, Figure, plotted, side_by_side, timed, timed_once
+from modern.comparison.outcome import as_hull
 from modern.exact_hull import exact_hull
 from modern.geometry.hull import as_tuple
+from modern.geometry.mesh import mesh
 from modern.port import convex_hull
 
+# Each median is that of this number of runs.
+RUNS = 7
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000)
 # The slope of a curve is fitted from this number of points on; smaller sets measure the cost of a call.
 SLOPES_FROM = 1_000
@@ -55,6 +59,19 @@ def cube(count: int) -> Any:
     return np.random.default_rng(2).uniform(-1, 1, size=(count, 3))
 
 
+def box(count: int) -> Any:
+    """Return points uniform on the surface of the cube from -1 to 1, shape (count, 3), float64."""
+    source = np.random.default_rng(3)
+    points = source.uniform(-1, 1, size=(count, 3))
+    points[np.arange(count), source.integers(0, 3, count)] = source.choice([-1.0, 1.0], count)
+    return points
+
+
+def lattice(side: int) -> Any:
+    """Return all integer points of a cube with this number of points on a side, shape (side**3, 3), int64."""
+    return np.indices((side, side, side)).reshape(3, -1).T.copy()
+
+
 def exact_in_doubles(points: Any) -> Any:
     """Scale coordinates in [-1, 1] to integers up to 80,000, because the port needs determinants exact in float64."""
     return np.rint(points * 80_000)
@@ -65,10 +82,13 @@ def eight_digits(points: Any) -> Any:
 
 
 def judge(points: Any) -> dict[str, Work]:
-    """Return ways to run the exact hull: with numpy alone and, if numba is installed, with compiled proposals."""
-    works: dict[str, Work] = {"judge, numpy": lambda: exact_hull(points, fast=False)}
+    """Return ways to run the exact hull: with numpy alone and, if numba is installed, with compiled proposals.
+
+    The result has vertices, triangles and the certificate.
+    """
+    works: dict[str, Work] = {"judge, numpy": lambda: mesh(as_hull(exact_hull(points, fast=False))).triangles()}
     if find_spec("numba"):
-        works["judge, fast"] = lambda: exact_hull(points, fast=True)
+        works["judge, fast"] = lambda: mesh(as_hull(exact_hull(points, fast=True))).triangles()
     return works
 
 
@@ -107,24 +127,28 @@ class Table:
 
 def table(name: str, points: Any, works: Mapping[str, Work], peers: Peers) -> Table:
     peer_works = {peer: of(points) for peer, of in peers.installed.items()}
-    return Table(name, tuple(side_by_side({**works, **peer_works}, clock=time.process_time)), tuple(peer_works))
+    figures = side_by_side({**works, **peer_works}, clock=time.process_time, runs=RUNS)
+    return Table(name, tuple(figures), tuple(peer_works))
 
 
-def tables(peers: Peers, largest: int = 100_000) -> Iterator[Table]:
-    counts = [count for count in COUNTS if count <= min(largest, 100_000)]
+def tables(peers: Peers, largest: int = 1_000_000) -> Iterator[Table]:
+    counts = [count for count in COUNTS if count <= largest]
     for count in counts:
         points = exact_in_doubles(ball(count))
         yield table(f"{count:,} integer points in a ball", points, port(points), peers)
+    sets: list[tuple[str, Any]] = []
     for count in counts:
-        points = eight_digits(ball(count))
-        yield table(f"{count:,} of 8 digits in a ball", points, judge(points), peers)
+        points = ball(count)
+        sets += [(f"{count:,} floats in a ball", points), (f"{count:,} of 8 digits in a ball", eight_digits(points))]
+    count = min(largest, 10_000)
     for name, family in (("in a cube", cube), ("on a sphere", sphere)):
-        count = min(largest, 10_000)
-        points = eight_digits(family(count))
-        yield table(f"{count:,} of 8 digits {name}", points, judge(points), peers)
+        sets.append((f"{count:,} floats {name}", family(count)))
+    sets += [(f"{10 * count:,} floats on a box", box(10 * count)), ("a lattice of 20 x 20 x 20", lattice(20))]
+    for name, points in sets:
+        yield table(name, points, judge(points), peers)
 
 
-def lines(largest: int = 100_000) -> Iterator[str]:
+def lines(largest: int = 1_000_000) -> Iterator[str]:
     with Peers() as peers:
         for measured_table in tables(peers, largest):
             yield from measured_table.lines()
@@ -152,13 +176,13 @@ def small_hull(fast: bool, cache: str = "") -> Callable[[], object]:
 
 
 def growth(peers: Peers, counts: Sequence[int] = COUNTS) -> list[Curve]:
-    """Return median seconds by method and number of points in a ball. The exact hull and the peers get eight digits."""
+    """Return median seconds by method and number of points in a ball.  The exact hull and the peers get floats."""
     points_by_route: dict[str, list[tuple[int, float]]] = {}
     for count in counts:
-        integer_points, eight_digit_points = exact_in_doubles(ball(count)), eight_digits(ball(count))
-        works = {**judge(eight_digit_points), **port(integer_points)}
+        points = ball(count)
+        works = {**judge(points), **port(exact_in_doubles(points))}
         works.pop(WITH_FACES, None)
-        for figure in table("", eight_digit_points, works, peers).rows:
+        for figure in table("", points, works, peers).rows:
             points_by_route.setdefault(figure.what, []).append((count, figure.median))
     return [Curve(name, points, style) for (name, points), style in zip(points_by_route.items(), STYLES, strict=False)]
 

@@ -204,9 +204,9 @@ def test_a_point_one_unit_outside_is_detected(size: int) -> None:
     """The value is 1, the smallest positive integer, for coefficients of any size."""
     plane = (size, size + 1, 1, 0)
     on, above, below = (size + 1, -size, 0), (size + 1, -size, 1), (size + 1, -size, -1)
-    found = incidences([plane], [on, below])
+    found = incidences([plane], np.array([on, below], object))
     assert (found.touching, found.outside) == ([(0, 0)], None)
-    assert incidences([plane], [on, below, above]).outside == (0, 2)
+    assert incidences([plane], np.array([on, below, above], object)).outside == (0, 2)
     assert found.arithmetic == ("int64" if size < 10**9 else "float64 and integers")
 
 
@@ -235,9 +235,9 @@ def test_both_arithmetics_of_the_certificate_agree(points) -> None:
         if any(plane[:3]) and (max(heights) <= 0 or min(heights) >= 0):
             planes.append(plane if max(heights) <= 0 else tuple(-number for number in plane))
     if planes:
-        first, second = pairs._in_int64(planes, points), pairs._in_floats(planes, points)
+        first, second = pairs._in_int64(planes, np.array(points)), pairs._in_floats(planes, points)
         assert first.touching == second.touching
         assert first.outside is second.outside is None
         turned = [tuple(-number for number in planes[0])]
-        seen = {way(turned, points).outside is None for way in (pairs._in_int64, pairs._in_floats)}
+        seen = {way(turned, np.array(points)).outside is None for way in (pairs._in_int64, pairs._in_floats)}
         assert seen == {all(value(planes[0], point) == 0 for point in points)}
