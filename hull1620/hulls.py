@@ -153,7 +153,7 @@ def save(points: Points | Hull, path: Path, digits: int | None = None) -> None:
     _hull(points).save(path, digits)
 
 
-def read_points(path: Path) -> tuple[tuple[str, str, str], ...]:
+def read_points(path: Path) -> Sequence[tuple[str, str, str]]:
     """Return the points of a file in any format that the commands accept.
 
     Parameters
@@ -163,8 +163,9 @@ def read_points(path: Path) -> tuple[tuple[str, str, str], ...]:
 
     Returns
     -------
-    tuple of (x, y, z)
-        Each coordinate is the decimal text of the file, or the exact decimal of a binary float.
+    sequence of (x, y, z)
+        Each coordinate is the decimal text of the file, or the exact decimal of a binary float.  The texts of an NPY
+        file are made on access; ``exact_hull`` uses its array directly.
 
     Raises
     ------

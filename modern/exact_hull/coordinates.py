@@ -13,7 +13,7 @@ from typing import Any, TypeGuard
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.geometry.hull import LazyMembers
+from modern.geometry.hull import LazyMembers, PointTexts
 from modern.geometry.numbers import Exact, PointsError, real
 from modern.geometry.points import Points, check_array, point_rows
 
@@ -205,6 +205,8 @@ def read_points(points: Points) -> Coordinates:
     """Return the exact coordinates of every point, in input order.  Raise PointsError for an invalid point."""
     if isinstance(points, Coordinates):
         return points
+    if isinstance(points, PointTexts) and points.numbers is not None:
+        points = points.numbers
     if isinstance(points, np.ndarray):
         check_array(points)
         kind = points.dtype.kind

@@ -8,6 +8,7 @@ from emulator.errors import FileError, quoted
 from modern.geometry.numbers import Point, number
 
 _NAME = re.compile(r"[^\W\d_].*", re.DOTALL)
+_SHORT, _SIMPLE = 100, re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
 _NOT_FINITE = ("nan", "inf", "infinity")
 
 
@@ -70,6 +71,8 @@ def _point(row: Sequence[str], source: str, line: int) -> Point:
     if len(row) != 3:
         raise FileError(f"{source}: line {line}, column 1: expected a point x,y,z, found {len(row)} fields")
     for column, field in enumerate(row, 1):
+        if len(field) < _SHORT and _SIMPLE.fullmatch(field):
+            continue  # a valid decimal, whose value is not needed here
         try:
             if "/" in field:
                 raise ValueError(f"{quoted(field)} is not a decimal number")

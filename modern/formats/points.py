@@ -6,7 +6,7 @@ recognised by its first bytes or its first line, and by the file's extension onl
 """
 
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from emulator.errors import FileError, quoted
@@ -15,6 +15,7 @@ from emulator.language.cards import deck_from_text
 from modern.formats import POINTS, csv, json, obj, ply, stl
 from modern.formats.deck import exact_points
 from modern.formats.off import parse_off
+from modern.geometry.hull import PointTexts
 from modern.geometry.numbers import Point, decimal, float_text, integer_text, real
 
 _NPY, _DOUBLE = b"\x93NUMPY", 8
@@ -22,11 +23,14 @@ _NPY, _DOUBLE = b"\x93NUMPY", 8
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """The points of a file as decimal text, their ``places`` (such as ``card 3``), and warnings for the user."""
+    """The points of a file as decimal text, their ``places`` (such as ``card 3``), and warnings for the user.
+
+    The texts of an array are made on access.
+    """
 
     source: str
     kind: str
-    points: tuple[Point, ...]
+    points: Sequence[Point]
     places: tuple[str, ...]
     notes: tuple[str, ...] = ()
 
@@ -130,7 +134,7 @@ def recognise(text: str, source: str) -> str:
 def _input(
     source: str,
     kind: str,
-    points: tuple[Point, ...],
+    points: Sequence[Point],
     numbers: Iterable[int],
     unit: str = "line",
     notes: tuple[str, ...] = (),
@@ -140,7 +144,7 @@ def _input(
     return Input(source, kind, points, tuple(f"{unit} {number}" for number in numbers), notes)
 
 
-def _npy(data: bytes, source: str) -> tuple[Point, ...]:
+def _npy(data: bytes, source: str) -> Sequence[Point]:
     import numpy as np  # not at the top, because text formats do not need it
 
     try:
@@ -153,6 +157,13 @@ def _npy(data: bytes, source: str) -> tuple[Point, ...]:
         raise FileError(
             f"{source}: expected an array of numbers of shape (n, 3), found {array.dtype} of shape {array.shape}"
         )
+    if array.dtype.itemsize <= _DOUBLE and np.isfinite(array).all():
+
+        def member(row: int) -> Point:
+            x, y, z = (integer_text(n) if isinstance(n, int) else float_text(n) for n in array[row].tolist())
+            return x, y, z
+
+        return PointTexts(len(array), member, lambda: np.array(array, np.float64), array)
     points: list[Point] = []
     for row_number, row in enumerate(array.tolist(), 1):
         texts = []

@@ -84,11 +84,21 @@ class LazyMembers(LazyTuple[T]):
 
 
 class PointTexts(LazyMembers[tuple[str, str, str]]):
-    """Points as exact text, which is made on access.  ``floats`` returns a new array of the nearest doubles (n, 3)."""
+    """Points as exact text, which is made on access.
 
-    def __init__(self, count: int, member: Callable[[int], tuple[str, str, str]], floats: Callable[[], Any]) -> None:
+    ``floats`` returns a new array of the nearest doubles (n, 3).  ``numbers`` is an array of them, or None.
+    """
+
+    def __init__(
+        self,
+        count: int,
+        member: Callable[[int], tuple[str, str, str]],
+        floats: Callable[[], Any],
+        numbers: Any = None,
+    ) -> None:
         super().__init__(count, member)
         self.floats = floats
+        self.numbers = numbers
 
 
 class LazyFaces(LazyTuple["Face"]):

@@ -16,7 +16,7 @@ def published_sets() -> dict[str, tuple[Point, ...]]:
     """Return the sets of chapter 6 and of the theorems of chapter 4, by name (thesis p. 37-57, 103-115)."""
     sets = {}
     for number in chapter6.EXAMPLES:
-        sets[f"example {number}"] = parse_input(chapter6.input_deck(number).text(), f"example {number}").points
+        sets[f"example {number}"] = tuple(parse_input(chapter6.input_deck(number).text(), f"example {number}").points)
     for theorem in load_theorems():
         texts = [
             (finite_decimal(x), finite_decimal(y), finite_decimal(z)) for x, y, z in (p.at for p in theorem.points)

@@ -49,7 +49,7 @@ def _wrong() -> Made:
         Part("The picture", "picture", html=drawn),
         Part("Differences", "found", html=element("ul", differences) + statement + command),
         Part("The cards punched", "cards", html=cards),
-        Part("The exact calculation", "exact", html=_worked(points)),
+        Part("The exact calculation", "exact", html=_worked(tuple(points))),
     )
     return Made(parts)
 
