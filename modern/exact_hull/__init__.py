@@ -4,10 +4,11 @@
 from the points alone, with code that takes no part in constructing it.  ``exact_hull`` never returns an unproved
 result.
 
-coordinates                 input to integers with a common scale
+coordinates                 input as arrays, and as integers with a common scale
 facets, surface             construction by random incremental insertion
-proposal, kernels           faster construction in rounded numbers, for many points
-certificate, incidences     proof by evaluating every plane at every point
+proposal, kernels           faster construction for many points
+planes                      exact signs of planes at points, from a floating-point filter and integers
+certificate                 proof by evaluating every plane at every point
 convexity, polygons         proof by local convexity, for many points and facets
 build                       ``exact_hull``: construct, classify, prove
 """

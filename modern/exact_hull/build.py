@@ -2,6 +2,7 @@
 
 import random
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from operator import attrgetter
 
@@ -65,18 +66,10 @@ def _on_facets(
     return others[on]
 
 
-def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Sequence[int] = ()) -> list[Facet]:
-    """Return the faces of the hull of distinct points, starting from the four points in ``simplex``.
-
-    The points in ``first`` are inserted first.  Any other point that is inside the hull of these is then discarded at
-    once.
-    """
+def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int]) -> list[Facet]:
+    """Return the faces of the hull of distinct points, starting from the four points in ``simplex``."""
     space = frame(points)
-    order = insertion_order(len(points), simplex)
-    if first:
-        likely = set(first)
-        order.sort(key=lambda index: index not in likely)
-    triangles = convex_surface(space, simplex, order)
+    triangles = convex_surface(space, simplex, insertion_order(len(points), simplex))
     # The frame has moved the points, so the constant terms are computed again.
     return [
         Facet(lowest_terms(plane_at(facet.plane[:3], points[facet.polygon[0]])), facet.polygon)
@@ -162,17 +155,12 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     elif len(basis) == 3:
         plane, cycle, facets = polygon(distinct.all(), basis)
     elif len(basis) == 4:
-        likely: set[int] = set()
         proposed = _proposed(distinct, basis, fast) if len(distinct) >= MANY else None
         if proposed:
             hull = classified(3, *proposed)
-            try:
+            with suppress(CertificateError):
                 return replace(hull, certificate=certify(scaled, hull))
-            except CertificateError:
-                # The proof refused the proposed hull, but its vertices are probably vertices of the true hull, so
-                # insert them first.
-                likely = {index for facet in proposed[0] for index in facet.polygon}
-        facets = _polyhedron(distinct.all(), basis, sorted(likely))
+        facets = _polyhedron(distinct.all(), basis)
     boundary = _on_facets(distinct, facets) if len(basis) > 2 else np.empty(0, np.int64)
     hull = replace(classified(len(basis) - 1, facets, boundary), plane=plane)
     hull = replace(hull, polygon=tuple(indices[list(cycle)].tolist()))

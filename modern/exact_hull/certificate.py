@@ -30,7 +30,7 @@ import numpy as np
 
 from modern.exact_hull.convexity import Undecided, prove
 from modern.exact_hull.coordinates import Coordinates, IntPoint, read_points
-from modern.exact_hull.incidences import Incidences, incidences
+from modern.exact_hull.planes import Planes, facet_planes
 from modern.exact_hull.polygons import check_convex, difference, dot, product
 from modern.exact_hull.result import Certificate, CertificateError, ExactHull, require
 from modern.geometry.points import Points
@@ -44,7 +44,7 @@ from modern.geometry.points import Points
 # needed; it is an additional check of the counts.
 # The number of points times facets from which a polyhedron is proved by its convexity.
 MANY = 1 << 18
-_FEW = 64
+_FEW, _FILTERED = 64, "float64 and integers"
 
 
 def _is_plane(plane: Sequence[int]) -> bool:
@@ -138,25 +138,21 @@ def _check_planes(hull: ExactHull) -> None:
             require(a * x + b * y + c * z + d == 0, f"facet {number}: vertex {index} is not in its plane")
 
 
-def _check_points(hull: ExactHull) -> Incidences:
+def _check_points(hull: ExactHull) -> Planes:
     """Check conditions 2 and 3 of the module's docstring by evaluating every plane at every point."""
     unique = [*hull.vertices, *hull.boundary, *hull.inside]
-    points = read_points(hull.scaled)
-    chosen = points.numbers[unique] if points.kind == "i" else points.integers(unique)
-    pairs = incidences([facet.plane for facet in hull.facets], chosen)
-    if pairs.outside is not None:
-        facet, column = pairs.outside
-        raise CertificateError(f"point {unique[column]} is outside of facet {facet}")
     corners: list[set[int]] = [set() for _ in hull.facets]
     normals: dict[int, list[IntPoint]] = {index: [] for index in hull.vertices}
     on_facets = set()
-    for facet, column in pairs.touching:
-        index = unique[column]
-        if column < len(hull.vertices):  # the vertices come first in ``unique``
-            corners[facet].add(index)
-            normals[index].append(hull.facets[facet].plane[:3])
-        else:
-            on_facets.add(index)
+    planes = facet_planes(read_points(hull.scaled), hull.facets)
+    for block in planes.near(np.array(unique)):
+        for row, facet, sign in zip(*(column.tolist() for column in block), strict=True):
+            require(sign <= 0, f"point {unique[row]} is outside of facet {facet}")
+            if sign == 0 and row < len(hull.vertices):  # the vertices come first in ``unique``
+                corners[facet].add(unique[row])
+                normals[unique[row]].append(hull.facets[facet].plane[:3])
+            elif sign == 0:
+                on_facets.add(unique[row])
     for number, (facet_corners, stated) in enumerate(zip(corners, hull.facets, strict=True)):
         require(
             facet_corners == set(stated.polygon), f"facet {number}: its plane contains other vertices than its polygon"
@@ -166,7 +162,7 @@ def _check_points(hull: ExactHull) -> Incidences:
         raise CertificateError(f"point {index} is {where} a facet, which contradicts its class")
     for index, around in normals.items():
         require(rank(around) == hull.dimension, f"point {index} is called a vertex, but its planes do not determine it")
-    return pairs
+    return planes
 
 
 def _check_polyhedron(hull: ExactHull) -> int:
@@ -224,18 +220,18 @@ def _check_segment(hull: ExactHull) -> int:
     return 1
 
 
-def _proved(hull: ExactHull) -> tuple[int, Incidences]:
-    """Check the facets and classes of a hull of dimension 1 to 3.  Return the number of edges and the incidences."""
+def _proved(hull: ExactHull) -> tuple[int, Planes, str]:
+    """Check facets and classes of a hull of dimension 1 to 3.  Return the number of edges, the planes, the arithmetic."""
     # For many points and facets, prove convexity from the edges, unless the surface is too thin for float64.
     if hull.dimension == 3 and len(hull.scaled) * len(hull.facets) >= MANY:
         with suppress(Undecided):  # in that case every plane is evaluated at every point, below
-            return prove(hull)
+            return *prove(hull), _FILTERED
     if hull.dimension < 3 or len(hull.scaled) < _FEW**2:
         read_points(hull.scaled).all()  # many accesses to few points are faster if all points are made at once
     _check_planes(hull)
-    pairs = _check_points(hull)
+    planes = _check_points(hull)
     close: Callable[[ExactHull], int] = (_check_segment, _check_polygon, _check_polyhedron)[hull.dimension - 1]
-    return close(hull), pairs
+    return close(hull), planes, _FILTERED if planes.whole is None else "int64"
 
 
 def certify(points: Points, hull: ExactHull) -> Certificate:
@@ -248,14 +244,14 @@ def certify(points: Points, hull: ExactHull) -> Certificate:
     if hull.dimension == 0:
         require(not hull.facets and len(hull.vertices) == 1, "a point has one vertex and no facets")
         return Certificate(0, len(hull.scaled), 1, 0, 0, "none", 0, 0)
-    edges, pairs = _proved(hull)
+    edges, planes, arithmetic = _proved(hull)
     return Certificate(
         hull.dimension,
         len(hull.scaled),
         len(hull.vertices),
         edges,
         len(hull.facets),
-        pairs.arithmetic,
-        pairs.evaluations,
-        pairs.in_integers,
+        arithmetic,
+        planes.evaluations,
+        planes.in_integers,
     )

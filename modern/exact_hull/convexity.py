@@ -21,7 +21,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modern.exact_hull.coordinates import Floats, Images, IntPoint, Ints
-from modern.exact_hull.incidences import Incidences
 from modern.exact_hull.planes import BOUND, Planes
 from modern.exact_hull.polygons import Polygons, check_planes, polygons
 from modern.exact_hull.result import CertificateError, ExactHull
@@ -261,8 +260,8 @@ class _Proof:
         return -1
 
 
-def prove(hull: ExactHull) -> tuple[int, Incidences]:
-    """Prove that a three-dimensional hull is convex (conditions a to f), and count edges and incidences.
+def prove(hull: ExactHull) -> tuple[int, Planes]:
+    """Prove that a three-dimensional hull is convex (conditions a to f).  Return the number of edges and the planes.
 
     Raise CertificateError if a condition fails, and Undecided if no suitable inner point or ray is found.
     """
@@ -277,5 +276,4 @@ def prove(hull: ExactHull) -> tuple[int, Incidences]:
     proof.check_edges()
     proof.check_cones()
     proof.check_points(r)
-    counts = Incidences([], None, "float64 and integers", planes.evaluations, planes.in_integers)
-    return len(sides.corner) // 2, counts
+    return len(sides.corner) // 2, planes

@@ -85,6 +85,16 @@ class Planes:
         return normal_images(self.table, self.points.images.shifts)
 
     @cached_property
+    def whole(self) -> Ints | None:
+        """The planes as int64, if no value at a point can reach 2**62."""
+        if self.points.kind != "i":
+            return None
+        reach = [max(1, int(column.max()), -int(column.min())) for column in self.points.numbers.T]
+        sizes = [max(map(abs, column)) for column in self.table.T.tolist()]
+        fits = sum(size * most for size, most in zip(sizes, [*reach, 1], strict=True)) < 2**62
+        return self.table.astype(np.int64) if fits else None
+
+    @cached_property
     def _axes(self) -> Ints:
         """The axis to which each plane is perpendicular, or -1."""
         zeros = self.table[:, :3] == 0
@@ -163,19 +173,26 @@ class Planes:
 
         Each block of them has the rows, the planes, and their signs, 0 or 1, or -1 if only integers showed that.
         """
-        places, count = self.points.images.places, len(self.table)
-        offsets = (self.normals * places[self.bases]).sum(axis=1)
+        count, whole = len(self.table), self.whole
+        if whole is None:
+            places = self.points.images.places
+            offsets = (self.normals * places[self.bases]).sum(axis=1)
         height = max(1, _BLOCK // count)
         for start in range(0, len(indices), height):
             block = indices[start : start + height]
+            if whole is not None:
+                exact = self.points.numbers[block] @ whole[:, :3].T + whole[:, 3]
+                rows, facets = np.nonzero(exact >= 0)
+                yield rows + start, facets, np.sign(exact[rows, facets])
+                continue
             approximate = places[block] @ self.normals.T - offsets
             rows, facets = np.nonzero(~(approximate < -BOUND))
-            if rows.size:
-                values = approximate[rows, facets]
-                signs = np.sign(values).astype(np.int64)
-                doubtful = np.flatnonzero(~(abs(values) > BOUND))
+            values = approximate[rows, facets]
+            signs = np.sign(values).astype(np.int64)
+            doubtful = np.flatnonzero(~(abs(values) > BOUND))
+            if doubtful.size:
                 signs[doubtful] = self.exact(facets[doubtful], block[rows[doubtful]])
-                yield rows + start, facets, signs
+            yield rows + start, facets, signs
         self.evaluations += len(indices) * count
 
     def largest(self, indices: Ints) -> tuple[Ints, Ints]:

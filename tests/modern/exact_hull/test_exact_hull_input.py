@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modern.exact_hull import PointsError, certify, exact_hull
-from modern.exact_hull import incidences as pairs
+from modern.exact_hull.coordinates import read_points
 from modern.exact_hull.facets import lowest_terms, plane_at, plane_through, value
-from modern.exact_hull.incidences import incidences
+from modern.exact_hull.planes import Planes
 from modern.exact_hull.surface import BOUND, frame, plane_image
 from modern.geometry.numbers import decimal
 
@@ -199,45 +199,31 @@ def test_the_bound_is_zero_only_if_floats_are_exact() -> None:
         assert frame([(0, 0, 0), (2 * half, 0, 0), (0, 2 * half, 0), (0, 0, 2 * half)]).bound == bound
 
 
+def signs(planes, points, filtered: bool = False) -> dict[tuple[int, int], int]:
+    """Return the signs, 0 or 1, by plane and point.  The first point is in every plane."""
+    table = np.array(planes, object)
+    evaluated = Planes(read_points(points), table, np.zeros(len(planes), int))
+    if filtered:
+        evaluated.whole = evaluated._small = None
+    blocks = [zip(*block, strict=True) for block in evaluated.near(np.arange(len(points)))]
+    return {(int(plane), int(row)): int(sign) for block in blocks for row, plane, sign in block if sign >= 0}
+
+
 @pytest.mark.parametrize("size", [1, 10**5, 10**12, 10**40])
 def test_a_point_one_unit_outside_is_detected(size: int) -> None:
     """The value is 1, the smallest positive integer, for coefficients of any size."""
     plane = (size, size + 1, 1, 0)
     on, above, below = (size + 1, -size, 0), (size + 1, -size, 1), (size + 1, -size, -1)
-    found = incidences([plane], np.array([on, below], object))
-    assert (found.touching, found.outside) == ([(0, 0)], None)
-    assert incidences([plane], np.array([on, below, above], object)).outside == (0, 2)
-    assert found.arithmetic == ("int64" if size < 10**9 else "float64 and integers")
+    assert signs([plane], [on, below]) == {(0, 0): 0}
+    assert signs([plane], [on, below, above]) == {(0, 0): 0, (0, 2): 1}
 
 
 @LAW
-@given(st.lists(triples, min_size=4, max_size=8, unique=True), triples)
-def test_errors_in_the_certificate_are_within_the_bound(points, normal) -> None:
-    if not any(normal):
-        return
-    plane = lowest_terms(plane_at(normal, points[0]))
-    image, place = pairs._images([plane], points)
-    side = max(max(column) - min(column) for column in zip(*points, strict=True))
-    width = side * max(map(abs, plane[:3]))
-    for column, point in enumerate(points):
-        true = Fraction(value(plane, point), width)
-        assert abs(Fraction(float(image[0] @ place[:, column])) - true) < pairs.BOUND / 2
-
-
-@LAW
-@given(st.lists(st.tuples(*[st.integers(-9, 9)] * 3), min_size=4, max_size=12, unique=True))
-def test_both_arithmetics_of_the_certificate_agree(points) -> None:
-    """int64, and float64 with integers, find the same incidences for all supporting planes."""
-    planes = []
-    for k in range(len(points) - 2):
-        plane = plane_through(*points[k : k + 3])
-        heights = [value(plane, point) for point in points]
-        if any(plane[:3]) and (max(heights) <= 0 or min(heights) >= 0):
-            planes.append(plane if max(heights) <= 0 else tuple(-number for number in plane))
+@given(st.lists(triples, min_size=4, max_size=8, unique=True), st.lists(triples, min_size=1, max_size=3))
+def test_signs_of_planes_at_points_are_exact(points, normals) -> None:
+    """All signs are computed from floats, and if possible in int64."""
+    planes = [lowest_terms(plane_at(normal, points[0])) for normal in normals if any(normal)]
+    values = {(k, n): value(plane, point) for k, plane in enumerate(planes) for n, point in enumerate(points)}
+    expected = {pair: int(number > 0) for pair, number in values.items() if number >= 0}
     if planes:
-        first, second = pairs._in_int64(planes, np.array(points)), pairs._in_floats(planes, points)
-        assert first.touching == second.touching
-        assert first.outside is second.outside is None
-        turned = [tuple(-number for number in planes[0])]
-        seen = {way(turned, np.array(points)).outside is None for way in (pairs._in_int64, pairs._in_floats)}
-        assert seen == {all(value(planes[0], point) == 0 for point in points)}
+        assert signs(planes, points) == signs(planes, points, filtered=True) == expected
