@@ -93,7 +93,7 @@ def _check_classes(points: Coordinates, hull: ExactHull) -> None:
         require(list(members) == sorted(members), f"{name} is not sorted")
     members = [*hull.vertices, *hull.boundary, *hull.inside, *(index for index, _ in hull.duplicates)]
     complete = len(members) == len(points) and set(map(type, members)) == {int} and min(members) >= 0
-    complete = complete and max(members) < len(points) and bool(np.bincount(members).all())
+    complete = complete and max(members) < len(points) and bool(np.bincount(members, minlength=len(points)).all())
     require(complete, "a point is in no class or in two classes, or an index is invalid")
     # A point must be listed as a duplicate of the first point with its coordinates, unless it is that first point.
     stated, true = dict(hull.duplicates), dict(points.duplicates)

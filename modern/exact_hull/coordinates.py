@@ -145,12 +145,11 @@ class Coordinates(LazyMembers[IntPoint]):
         """The images of the points."""
         places = np.empty((len(self), 3))
         lows, shifts = [], []
-        numbers, power = self.numbers, 1 - self.scale.bit_length()
-        if self.kind == "f" and abs(numbers).max() >= 2.0**_HUGE:
-            # Differences of different numbers of this size are so large that the lost bits are below the error bound.
-            numbers, power = np.ldexp(numbers, -_HALVINGS), power - _HALVINGS
-        for axis, column in enumerate(numbers.T):
-            at_low, at_high = int(column.argmin()), int(column.argmax())
+        for axis, column in enumerate(self.numbers.T):
+            power, at_low, at_high = 1 - self.scale.bit_length(), int(column.argmin()), int(column.argmax())
+            if self.kind == "f" and abs(column).max() >= 2.0**_HUGE:
+                # Different numbers of this size differ so much that the lost bits are below the error bound.
+                column, power = np.ldexp(column, -_HALVINGS), power - _HALVINGS
             (low,), (high,) = self.integers(([at_low], axis)).tolist(), self.integers(([at_high], axis)).tolist()
             shift = (high - low).bit_length()
             # Division by a power of two is exact, so only the difference is rounded.

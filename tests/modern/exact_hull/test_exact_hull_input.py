@@ -167,6 +167,13 @@ def test_coordinates_beyond_the_range_of_floats_are_exact(exponent: int) -> None
     assert hull.vertices == (0, 1, 2, 3, 5, 6)
 
 
+def test_tiny_floats_on_one_axis_and_huge_floats_on_others_have_the_hull_of_fractions() -> None:
+    most = 1.7976931348623157e308
+    floats = [(5e-324, 1e-300, 1e-300), (0.0, most, 1e300), (0.0, 0.0, 1e300), (1e-300, -most, 5e-324)]
+    floats += [(0.0, -most, -most), (0.0, 1.0, 0.0), (5e-324, 0.0, 0.0)]
+    assert exact_hull(floats) == exact_hull([tuple(map(Fraction, point)) for point in floats])
+
+
 coordinate = st.one_of(
     st.integers(-5, 5), st.integers(-57250, 57250), st.integers(-(10**8), 10**8), st.integers(-(10**40), 10**40)
 )
