@@ -38,7 +38,9 @@ class Layout:
 
 
 def lay_out(picture: Scene, width: int) -> Layout:
-    """Fit a scene, true to scale, into the width and a height of at most 460 pixels or about 0.7 times the width."""
+    """Fit a scene, true to scale, into a picture of ``width`` pixels.
+
+    The height is at most 460 pixels or 0.72 times the width, whichever is larger."""
     marks = (*picture.boundary, *picture.inside)
     pixel, height = fit(
         [*picture.images, *(mark.image for mark in marks)], width, max(_HIGHEST, width * _HIGHEST // 640)

@@ -157,7 +157,9 @@ def positive(plane: Plane) -> Plane:
 
 
 def polygon(points: Sequence[IntPoint], three: Sequence[int]) -> tuple[Plane, tuple[int, ...], list[Facet]]:
-    """Return plane, vertices in cyclic order and edges of coplanar points; ``three`` are not collinear.
+    """Return the plane of coplanar points, their vertices in cyclic order, and their edges.
+
+    ``three`` holds the indices of three points that are not collinear.
 
     Monotone chains (Andrew, Information Processing Letters 9 (1979), 216-219) are applied to two coordinates.
     """

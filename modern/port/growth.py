@@ -105,7 +105,7 @@ class Growing(Protocol):
     to_check: int
 
     def outside_point(self) -> int | None:
-        """Return the index of the next vertex, a point outside an equation, or None if no point is outside any."""
+        """Return the index of the next vertex: a point that is outside some plane. Return None without such a point."""
 
     def expand(self, index: int) -> int:
         """Make the point at ``index`` a vertex, and return the number of equations that it was outside of."""

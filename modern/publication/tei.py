@@ -1,12 +1,12 @@
-"""Write a text of the edition as TEI P5: its witness with every emendation, and the commentary on a program.
+"""Write a text of the edition as TEI P5: its witness with all emendations, and a program's commentary.
 
 Every line of the witness is an ``ab`` element, and parallel segmentation holds the readings of a passage in ``app``.
-What is no reading of a source stays outside ``app``: ``choice`` holds a modern patch, ``space`` and ``surplus`` hold
-blanks that the edition adds and removes, and ``seg`` holds a displaced piece.  A ``transpose`` of the header puts the
-piece before an ``anchor``.  Each row of the apparatus has one ``app`` with its reasons; a row that has no reading of
-its own is documented by an ``app`` of ``standOff``.  ``tei_schema`` describes every element, ``tei_header`` writes the
-header, ``tei_register`` writes the verdicts on the statements, and ``tei_reading`` restores witness, corrected text
-and cards.
+Elements outside ``app`` hold what no source has: ``choice`` holds a modern patch, ``space`` and ``surplus`` hold
+blanks that the edition adds and removes, and ``seg`` holds a displaced piece. A ``transpose`` element in the header
+names the ``anchor`` before which the piece belongs. Each row of the apparatus has one ``app`` with its reasons; a row
+that has no reading of its own is documented by an ``app`` of ``standOff``. ``tei_schema`` describes every element,
+``tei_header`` writes the header, ``tei_register`` writes the verdicts on the statements, and ``tei_reading`` restores
+witness, corrected text and cards.
 
 Source: TEI P5 Guidelines, chapter 2 (header), 11.3.4.5 (transposition), 12.1 (apparatus entries), 12.2.3 (parallel
 segmentation), 16.10 (stand-off markup), 18 (feature structures).

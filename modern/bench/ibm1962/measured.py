@@ -73,7 +73,7 @@ def _comparable(outcome: Outcome) -> tuple[object, ...]:
 
 
 def fields_at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
-    """Yield random statements that write one number by a FORMAT of one field, without end."""
+    """Yield random statements endlessly; each writes one number by a FORMAT of one field."""
     r = random.Random(seed)
     while True:
         kind = r.choice("EEFFI")
