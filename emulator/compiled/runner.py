@@ -90,7 +90,7 @@ def packed(deck: Deck) -> bytes | None:
 def packed_text(text: str) -> bytes | None:
     """Return 80 codes for each card of a deck's text, or None if the text is not a deck.
 
-    If the interpreter then reads the text, it raises an error.
+    For None the caller gives the text to the interpreter, which raises the error.
     """
     lines = text.replace("\r\n", "\n").split("\n")
     if lines[-1] == "":

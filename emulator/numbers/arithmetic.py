@@ -155,7 +155,9 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, 
 
 
 def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
-    """Return the product of two numbers that are not zero: all 2P digits, truncated or rounded half up in magnitude."""
+    """Return the product of two numbers that are not zero.
+
+    All its 2P digits are formed, and then truncated to P digits or rounded half up in magnitude."""
     base, low = rules.limit, rules.least
     product = ma * mb
     size = product if product > 0 else -product

@@ -101,7 +101,9 @@ def _scaling(slope: float, intercept: float, path: str) -> str:
     # A slope of 0 means that values are not scaled, and so does nan, which nibabel writes.
     if slope == 0 or math.isnan(slope):
         if intercept != 0 and not math.isnan(intercept):
-            raise VolumeError(f"{path}: scl_inter is {intercept:g}, but scl_slope is {slope:g} (values not scaled)")
+            raise VolumeError(
+                f"{path}: scl_inter is {intercept:g}, but scl_slope is {slope:g}, so values are not scaled"
+            )
         return ""
     if not (math.isfinite(slope) and math.isfinite(intercept)):
         raise VolumeError(f"{path}: scl_slope and scl_inter: expected finite numbers, found {slope:g}, {intercept:g}")

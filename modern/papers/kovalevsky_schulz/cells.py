@@ -191,7 +191,7 @@ def expanded(encoding: Economical) -> CellList:
     try:
         sizes, start = _flat(faces)
     except OverflowError:
-        raise CellListError("expected numbers of vertices below 2^63, found a larger one") from None
+        raise CellListError("expected vertex numbers below 2^63, found a larger one") from None
     face = np.repeat(np.arange(len(faces)), sizes)
     _check_cycles(sizes, start, face, len(points))
     # Each entry of a cycle is a half-edge from its vertex to that of the next entry, cyclically.

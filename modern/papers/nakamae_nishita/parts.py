@@ -162,7 +162,7 @@ def _column(fields: Fields) -> Callable[[str], Polyhedron]:
 def _polyhedron(fields: Fields) -> Callable[[str], Polyhedron]:
     vertices, faces = fields.vectors("vertices") or (), fields.counts("faces")
     if not all(1 <= place <= len(vertices) for face in faces for place in face):
-        raise fields.wrong("faces", f"expected numbers of vertices from 1 to {len(vertices)}")
+        raise fields.wrong("faces", f"expected vertex numbers from 1 to {len(vertices)}")
     from_zero = tuple(tuple(place - 1 for place in face) for face in faces)
     return lambda name: checked(Polyhedron(name, vertices, from_zero))
 

@@ -157,8 +157,8 @@ def _main(plan: Plan, rows: _Rows) -> Table:
     head = ("sets", "of each", "hull found, e = 0", *by_way)
     notes = (
         *INTERVALS,
-        "Swallows from: the least e from which on every e tried lost a true vertex of some set, or counted a body as "
-        "flat.",
+        "Swallows from: the smallest tried e such that it and every larger one lost a true vertex of some set or "
+        "counted a body as flat.",
     )
     return Table("table", "Which e works", head, tuple(lines), notes)
 

@@ -126,7 +126,7 @@ BOX = HEAD + "'cuboid'\nsize = [1, 1, 1]\n"
         (HEAD + "'column'\nsides = 5\nradius = 1", "s: part 1: height: a column needs either a height, or"),
         (
             HEAD + "'polyhedron'\nvertices = [[0, 0, 0]]\nfaces = [[0]]",
-            "faces: expected numbers of vertices from 1 to 1",
+            "faces: expected vertex numbers from 1 to 1",
         ),
         ("view = 3\n" + BOX, "s: view: expected a table"),
         ("[view]\nprojection = 'flat'\n" + BOX, "'flat' is neither parallel nor"),

@@ -64,6 +64,7 @@ def test_the_one_file_reproduces_every_card_of_chapter_6(program: Path, empty: P
 def test_the_one_file_prints_what_the_installed_program_prints(
     words: str, program: Path, empty: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setenv("COLUMNS", "100")  # the width without a terminal, whatever an earlier test has set
     Path("chapter4.xml").write_text(tei("chapter4", "0.1.0"))
     assert run(program, *words.split()) == call(capsys, *words.split())
 
