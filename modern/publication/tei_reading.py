@@ -134,7 +134,10 @@ class _State:
 
 
 def _is_ours(reading: Element) -> bool | None:
-    """Return True for a reading of the edition or of a lost state of a program, False for one of the OCR text."""
+    """Return True for a reading of the edition or of a lost state of a program, False for one of the OCR text.
+
+    Return None for a rejected reading and for an element that is no reading.
+    """
     if reading.tag not in (_TEI + "lem", _TEI + "rdg") or reading.get("type") == "rejected":
         return None
     return "#ocr" not in reading.get("wit", "").split()
