@@ -1,10 +1,13 @@
 """The desk behind the emulator page gives the same cards, lines and messages as the command."""
 
 import random
+import re
 import subprocess
 import sys
+from html import unescape
 from pathlib import Path
 from typing import Any
+from urllib.parse import parse_qs
 
 import pytest
 
@@ -30,6 +33,24 @@ def test_cards_lines_and_messages_equal_those_of_the_command(
         else not (tmp_path / "typed").exists()
     )
     assert desk.messages == err.splitlines()
+
+
+def test_the_page_links_every_failing_deck_and_period_program_and_each_link_loads() -> None:
+    queries = re.findall(r'href="console\.html\?([^"]+)"', (ROOT / "docs/console.md").read_text())
+    links = [{key: values[0] for key, values in parse_qs(unescape(query)).items()} for query in queries]
+    decks = {f"counterexamples/{path.stem}" for path in (ROOT / "transcripts/counterexamples").glob("*.deck")}
+    programs = {path.name for path in (ROOT / "tests/data/period").glob("*.f")}
+    assert {link["deck"] for link in links if link["program"] == "program1"} == decks
+    assert {link["program"] for link in links} == programs | {"program1"}
+    for link in links:
+        # The page sends the files of the period programs with the request.
+        files = [ROOT / "tests/data/period" / link[part] for part in ("program", "deck")]
+        names = [
+            [path.name, path.read_text()] if path.exists() else link[part]
+            for path, part in zip(files, link, strict=False)
+        ]
+        answer = Desk().load({"program": names[0], "deck": names[1], "upcase": "upcase" in link})
+        assert "listing" in answer, (link, answer)
 
 
 def test_an_endless_loop_stops_within_a_slice() -> None:
