@@ -1,11 +1,14 @@
-"""Profiles of hypothesis and the settings of the garbage collector for all tests.
+"""Profiles of hypothesis, the locale, and the settings of the garbage collector for all tests.
 
 The profile ``ci`` always draws the same examples, ``dev`` new ones each time; the variable ``CI`` selects it.
 """
 
 import gc
+import locale
 import os
+from collections.abc import Iterator
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 _CALM = (HealthCheck.too_slow, HealthCheck.function_scoped_fixture)
@@ -23,3 +26,12 @@ def pytest_collection_finish() -> None:
     """Exclude all objects that exist after the collection from the garbage collector."""
     gc.collect()
     gc.freeze()
+
+
+@pytest.fixture(autouse=True)
+def _locale() -> Iterator[None]:
+    """Restore the locale, because SimpleITK sets that of the process to C when it writes DICOM."""
+    previous = locale.setlocale(locale.LC_ALL)
+    yield
+    if locale.setlocale(locale.LC_ALL) != previous:
+        locale.setlocale(locale.LC_ALL, previous)

@@ -98,11 +98,11 @@ def metaimage(name: str, damaged_file: str, compressor: str = "") -> Sample:
 def slices(data_file: str, damaged_file: str) -> Sample:
     """Write a header whose data are in one file for each slice."""
     image("a.mhd")
-    head = Path("a.mhd").read_text().replace("= a.raw", f"= {data_file}")
+    head = Path("a.mhd").read_text(encoding="utf-8").replace("= a.raw", f"= {data_file}")
     names = [f"s{number}.raw" for number in range(1, 7)]
     for number, name in enumerate(names):
         saved(name, VALUES[:, :, number].tobytes("F"))
-    Path("a.mhd").write_text(head + ("\n".join(names) + "\n" if data_file.startswith("LIST") else ""))
+    Path("a.mhd").write_text(head + ("\n".join(names) + "\n" if data_file.startswith("LIST") else ""), encoding="utf-8")
     return Sample("a.mhd", damaged_file)
 
 
@@ -205,8 +205,8 @@ def test_a_slice_truncated_at_any_byte_is_damaged_also_between_two_elements() ->
 @needs_itk
 def test_files_of_a_series_that_are_not_dicom_are_named_as_left_out() -> None:
     sample = series()
-    Path("ct/readme").write_text("no image")
-    Path("ct/.hidden").write_text("")
+    Path("ct/readme").write_text("no image", encoding="utf-8")
+    Path("ct/.hidden").write_text("", encoding="utf-8")
     assert read_scan(sample.path).notes[-1] == "ct: files that are not DICOM are left out (1): readme"
 
 
@@ -306,8 +306,8 @@ def test_invalid_fields_of_a_metaimage_header_are_reported(pattern: str, replace
 @needs_itk
 def test_a_list_with_too_few_files_is_rejected() -> None:
     slices("LIST", "a.mhd")
-    head, _, names = Path("a.mhd").read_text().partition("LIST\n")
-    Path("a.mhd").write_text(f"{head}LIST\n{names.partition('s3')[0]}")
+    head, _, names = Path("a.mhd").read_text(encoding="utf-8").partition("LIST\n")
+    Path("a.mhd").write_text(f"{head}LIST\n{names.partition('s3')[0]}", encoding="utf-8")
     assert rejection("a.mhd") == "expected a list of 6 files, found 2"
 
 

@@ -1,12 +1,11 @@
 """NIfTI, MetaImage, TIFF and DICOM read by SimpleITK, which also writes the samples. Every failure is one line."""
 
-import locale
 import math
 import os
 import struct
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -35,14 +34,6 @@ TURNED = (math.cos(0.3), -math.sin(0.3), 0, math.sin(0.3), math.cos(0.3), 0, 0, 
 def separate_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """Read each file in a new process, as the commands do."""
     monkeypatch.setattr(itk, "_run", REAL_RUN)
-
-
-@pytest.fixture(autouse=True)
-def _locale() -> Iterator[None]:
-    """Restore the locale, because writing DICOM sets that of the process to C."""
-    previous = locale.setlocale(locale.LC_ALL)
-    yield
-    locale.setlocale(locale.LC_ALL, previous)
 
 
 def written(name: str, direction: Any = (1, 0, 0, 0, -1, 0, 0, 0, 1), values: np.ndarray = VALUES) -> str:

@@ -65,13 +65,15 @@ def test_the_one_file_prints_what_the_installed_program_prints(
     words: str, program: Path, empty: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("COLUMNS", "100")  # the width without a terminal, whatever an earlier test has set
-    Path("chapter4.xml").write_text(tei("chapter4", "0.1.0"))
+    Path("chapter4.xml").write_text(tei("chapter4", "0.1.0"), encoding="utf-8")
     assert run(program, *words.split()) == call(capsys, *words.split())
 
 
 def test_the_operator_of_the_one_file_answers_from_a_file(program: Path, empty: Path) -> None:
-    Path("a.f").write_text("      ACCEPT 1,I\n      PUNCH 1,I\n      STOP\n    1 FORMAT (I5)\n      END\n")
-    Path("answers").write_text("ENTER    77\n")
+    Path("a.f").write_text(
+        "      ACCEPT 1,I\n      PUNCH 1,I\n      STOP\n    1 FORMAT (I5)\n      END\n", encoding="utf-8"
+    )
+    Path("answers").write_text("ENTER    77\n", encoding="utf-8")
     assert run(program, "run", "a.f", "--operator=answers")[:2] == (0, "   77\n")
 
 
@@ -81,7 +83,7 @@ def test_reproduce_without_numpy_names_what_it_leaves_out(program: Path, empty: 
     lines = " ".join(out.split())
     left_out = "Left out, because numpy is not installed: theorems, appel-will, kovalevsky-schulz, statements."
     assert f"{left_out} Every other printed result is reproduced" in lines
-    document = json.loads(Path("all.json").read_text())
+    document = json.loads(Path("all.json").read_text(encoding="utf-8"))
     assert document["left_out"] == ["theorems", "appel-will", "kovalevsky-schulz", "statements"]
     assert (document["reproduced"], document["statements"]) == (True, [])
     assert {finding["paper"] for finding in document["papers"]} == {"nakamae-nishita"}
