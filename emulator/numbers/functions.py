@@ -9,14 +9,18 @@ of a negative number.
 
 from __future__ import annotations
 
+import decimal
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache, reduce
+from itertools import repeat
+from operator import mul
 from typing import Any
 
+from emulator.jit.functions import Compiled, NotInstalled
 from emulator.numbers import work
-from emulator.numbers.accumulator import whole_power
+from emulator.numbers.accumulator import PRODUCT_OVER, State, in_range, whole_power
 from emulator.numbers.arithmetic import (
     MAX_EXPONENT,
     MIN_EXPONENT,
@@ -31,6 +35,9 @@ from emulator.numbers.base import cut_decimal, decimal_length
 # The number of digits that intermediate products of an integer power keep beyond those of the result, and a number of
 # digits so large that the products keep all digits.
 GUARD, _ALL = 20, 10**9
+
+# The number of products from which a chain is long, and the number of long chains after which numba compiles them.
+LONG, MANY = 24, 500
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +86,8 @@ def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Val
 def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Value:
     """Return ``A ** J``: the exact power truncated, or a chain of products as in 1962 (OPEN-QUESTIONS 8)."""
     if mantissa == 0 or -1 <= count <= 2 or rules.as_1962:
-        m, e, code = whole_power(mantissa, exponent, count, rules)
+        by = whole_power if mantissa == 0 or abs(count) < LONG else _long_chain
+        m, e, code = by(mantissa, exponent, count, rules)
         return Value(m, e, f"E{code}" if code else "")
     size, times = abs(mantissa), abs(count)
     minus = mantissa < 0 and times % 2 == 1
@@ -96,6 +104,49 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
         m, e = _exact_power(size // 10**zeros, exponent - rules.digits + zeros, count, rules)
     value = _in_range(-m if minus else m, e, rules, "E3", "E4")
     return Value(0, MINUS_ZERO, "E4") if value.code == "E4" and minus else value
+
+
+@lru_cache(maxsize=1024)
+def _long_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> State:
+    """Return :func:`whole_power` of a number that is not zero, by machine code if a run has computed many powers."""
+    many = _long_chain.cache_info().misses > MANY
+    chain: Callable[..., State] = _compiled_chain(rules) if many else decimal_chain
+    return chain(mantissa, exponent, count, rules)
+
+
+@cache
+def _compiled_chain(rules: Rules) -> Callable[..., State]:
+    try:
+        return Compiled(whole_power, error_model="numpy", _nrt=False).ready(1, 1, 1, rules)
+    except NotInstalled:
+        return decimal_chain
+
+
+def decimal_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> State:
+    """Return :func:`whole_power` of a number that is not zero, with the products of the module :mod:`decimal`.
+
+    That module also forms all digits of a product before it rounds them, so that its results are the same.
+    """
+    m, e, event = whole_power(mantissa, exponent, -1 if count < 0 else 1, rules)
+    if event:
+        return m, e, event
+    rounding = decimal.ROUND_HALF_UP if rules.round_products else decimal.ROUND_DOWN
+    traps = [decimal.Overflow, decimal.Subnormal]
+    # Decimal has one digit before the point.  A product may be too small before rounding but not after it, so that the
+    # least exponent is one below the machine's.
+    with decimal.localcontext(decimal.Context(rules.digits, rounding, MIN_EXPONENT - 2, MAX_EXPONENT - 1, traps=traps)):
+        factor = decimal.Decimal(abs(m)).scaleb(e - rules.digits)
+        try:
+            power = reduce(mul, repeat(factor, abs(count) - 1), factor)
+            size, e = int(power.scaleb(rules.digits - 1 - power.adjusted())), power.adjusted() + 1
+        except decimal.Overflow:
+            size, e = 1, MAX_EXPONENT + 1
+        except decimal.Subnormal:
+            size, e = 1, MIN_EXPONENT - 1
+    # The sign of a result out of range depends on the number of products before it.
+    if m < 0 and not MIN_EXPONENT <= e <= MAX_EXPONENT:
+        return whole_power(mantissa, exponent, count, rules)
+    return in_range(-size if m < 0 and count % 2 else size, e, PRODUCT_OVER, rules)
 
 
 def integer_power_steps(mantissa: int, exponent: int, count: int, rules: Rules) -> int:

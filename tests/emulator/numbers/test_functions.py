@@ -5,11 +5,21 @@ from fractions import Fraction
 from math import isqrt
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
-from emulator.numbers.arithmetic import IBM1962, TRUNCATING, ZERO, from_integer, multiply, profile
-from emulator.numbers.functions import Value, _exact_power, function, integer_power, power
+from emulator.numbers.accumulator import whole_power
+from emulator.numbers.arithmetic import (
+    IBM1962,
+    TRUNCATING,
+    TRUNCATING1962,
+    ZERO,
+    Profile,
+    from_integer,
+    multiply,
+    profile,
+)
+from emulator.numbers.functions import Value, _exact_power, decimal_chain, function, integer_power, power
 from tests.support.deckwork import machine, number
 
 RULES = TRUNCATING.rules
@@ -128,6 +138,23 @@ def test_ibm1962_computes_integer_powers_by_multiplication(mantissa: int, expone
     for _ in range(count - 1):
         m, e = multiply(m, e, mantissa, exponent, rules)
     assert integer_power(mantissa, exponent, count, rules) == Value(m, e)
+
+
+@given(
+    st.tuples(mantissas, st.integers(-99, 99)) | st.tuples(st.integers(10**7, 10_200_000), st.integers(0, 1)),
+    st.booleans(),
+    st.integers(-9999, 9999).filter(bool),
+    st.sampled_from([IBM1962, TRUNCATING1962]),
+)
+@example((99999999, 0), False, 9999, IBM1962)
+@example((97999999, 0), True, 9999, IBM1962)
+@example((10300000, 1), True, 8000, TRUNCATING1962)
+def test_long_chains_of_products_equal_products_of_integers(
+    base: tuple[int, int], minus: bool, count: int, arithmetic: Profile
+) -> None:
+    mantissa, exponent = base
+    case = (-mantissa if minus else mantissa, exponent, count, arithmetic.rules)
+    assert decimal_chain(*case) == whole_power(*case)
 
 
 @pytest.mark.parametrize(
