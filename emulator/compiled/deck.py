@@ -1,9 +1,10 @@
 """The run of a deck from its first card to its end, on integers only: the kernel together with the devices.
 
-Supported are READ, PUNCH, PRINT and TYPE with any FORMAT, SQRT, integer powers, error codes, PAUSE and the normal
-endings.  A deck that needs anything else ends with NOT_HERE, and the caller runs it again on a
-:class:`emulator.machine.machine.Machine`: other functions, ACCEPT, a field without a number or with a remark, a record
-that is too long, a list that does not fit its FORMAT, an empty hopper within a data set.
+The engine supports READ, PUNCH, PRINT and TYPE with any FORMAT, SQRT, integer powers, error codes, PAUSE and the
+normal endings. A deck that needs anything else ends with NOT_HERE, and the caller runs it again on a
+:class:`emulator.machine.machine.Machine`. Such decks need another function or ACCEPT, have a field without a number or
+with a remark, a record that is too long, a list that does not fit its FORMAT, or leave the hopper empty within a data
+set.
 
 The functions use only the part of Python that numba compiles.
 """
@@ -44,10 +45,8 @@ def run_decks(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run the decks in order, and return the number of decks run.
-
-    If the log becomes full, it is smaller than the number of decks given.  The caller must then run the next deck again
-    with an empty log.
+    """Run the decks in order, and return the number of decks run. If the log becomes full during a deck, the function
+    stops before the remaining decks. The caller must then run that deck again with an empty log.
     """
     used = 0
     for d in range(len(cards.first) - 1):

@@ -71,7 +71,9 @@ class Marks(NamedTuple):
 
 
 class Code(NamedTuple):
-    """The object code, the parts that devices use, and for each library function 1 if it is SQRT, else 0."""
+    """The object code, its parts that the devices use, and a number for each library function, 1 for SQRT and 0 for
+    others.
+    """
 
     flat: Flat
     marks: Marks
@@ -81,9 +83,9 @@ class Code(NamedTuple):
 class Forms(NamedTuple):
     """All FORMATs.
 
-    A FORMAT has FORM numbers: the bounds of its specifications, the one where a longer list continues, whether it has
-    fields, and the work of processing it once.  A specification has PART numbers.  For an H or X field, PLACE is the
-    position of its text in ``texts`` and WIDTH its length.
+    A FORMAT has FORM numbers: the bounds of its specifications, the specification at which a longer list continues,
+    whether it has fields, and the work of processing it once. A specification has PART numbers. For an H or X field,
+    PLACE is the position of its text in ``texts``, and WIDTH is the length of the text.
     """
 
     formats: Row
@@ -165,7 +167,9 @@ def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
 
 
 def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool) -> int:
-    """Advance to the next field of the FORMAT.  With ``repeat`` repeat a FORMAT that has ended, on a new record."""
+    """Advance to the next field of the FORMAT. If ``repeat`` is set, a FORMAT that has ended begins again on a new
+    record.
+    """
     devices = desk.devices
     while True:
         spec = devices[SPEC]

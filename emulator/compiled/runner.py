@@ -45,9 +45,8 @@ _CARD_CODES = "".join(sorted(CHARACTERS.difference(RECORD_MARKS))).encode("ascii
 
 
 def why_plain(options: Options) -> str:
-    """Return the reason, in one line, why these options need the interpreter, or "" if they do not.
-
-    Only :class:`Runner` finds out whether the machine code can be compiled or loaded.
+    """Return one line that says why these options need the interpreter, or "" if they do not. This function does not
+    test whether the machine code can be compiled or loaded, which only :class:`Runner` finds out.
     """
     if not isinstance(options.numbers, DecimalNumbers):
         return f"the compiled engine does not support {options.numbers.name} arithmetic: {INSTEAD}"

@@ -118,9 +118,8 @@ def _shown(line: str) -> Iterator[None]:
 
 @contextmanager
 def _without_collecting() -> Iterator[None]:
-    """Turn off the garbage collector.
-
-    The collector makes compiling a sixth slower, because the compiler creates millions of objects.
+    """Turn off the garbage collector during the block. The collector would make compiling a sixth slower, because the
+    compiler creates millions of objects.
     """
     on = gc.isenabled()
     gc.disable()

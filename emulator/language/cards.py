@@ -116,7 +116,7 @@ def deck_from_bytes(name: str, data: bytes, change: Callable[[str], str] | None 
 def read_line(source: str, number: int, line: str, unit: str = "card") -> Card:
     """Make a card from a line without its end.  Raise CardError for an invalid character or a line over 80 columns.
 
-    A card with C in column 1 may be a comment, and a comment may contain any character.
+    A card with C in column 1 is not checked, because it may be a comment, and a comment may contain any character.
     """
     # A comment of a source deck may hold any character, so it is not checked here.
     if not line.startswith("C"):

@@ -1,9 +1,10 @@
 """Input and output by FORMAT: the layout of a list of numbers on records.
 
 The rules are those of C26-5619 p. 35-43.  At the beginning or end of a FORMAT, n slashes produce n blank records.
-Between two fields, n+1 slashes do.  A list longer than the FORMAT repeats it on a new record.  A shorter list stops at
-the first unused field, after writing the literals before it.  On input an H field stores the card's columns as its new
-text, and an X field stores the columns it skips, until the same FORMAT is used again (p. 37, 41).
+Between two fields, n+1 slashes produce n blank records. A list longer than the FORMAT uses the FORMAT again on a new
+record. A shorter list stops at the first unused field, after writing the literals before it.  On input an H field
+stores the card's columns as its new text, and an X field stores the columns it skips, until the same FORMAT is used
+again (p. 37, 41).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Post-dominators: the first instruction that every path from either of two instructions passes.
+"""Post-dominators, which give the first instruction that every path from either of two instructions passes.
 
 An instruction is post-dominated by those that lie on all its paths to the end of the program; the nearest of them is
 its parent in the tree of post-dominators.  Two branches of a program join at the nearest common ancestor of their first
@@ -69,7 +69,9 @@ def _joined(parent: Sequence[int], place: dict[int, int], first: int, second: in
 
 
 def meeting(parents: Sequence[int], first: int, second: int) -> int:
-    """Return the first instruction on every path from either of two, or -1 if the paths join only at the end."""
+    """Return the first instruction that lies on every path from both of two instructions, or -1 if the paths join only
+    at the end.
+    """
     end = len(parents) - 1
     path = set()
     while first >= 0 and first not in path:

@@ -198,7 +198,7 @@ class Session:
         ]
 
     def misfit(self, action: Action) -> str:
-        """Return why the program has no place for a breakpoint, or an empty string."""
+        """Return the reason why a breakpoint cannot be set in the program, or an empty string."""
         if action.word in ("BREAK", "CLEAR") and action.name and not self.program.storage.fields_of(action.name):
             return f"{self.program.source} has no variable {action.name}"
         if action.word in ("BREAK", "CLEAR") and action.number and not self.places(action):
@@ -206,7 +206,7 @@ class Session:
         return ""
 
     def held(self, name: str) -> list[tuple[Number, int]]:
-        """Return value and kind of each field of a variable or element."""
+        """Return the value and the kind of each field of a variable or element."""
         return [(self.state.values[field], self.state.kinds[field]) for field in self.program.storage.fields_of(name)]
 
     def expected_fields(self) -> list[tuple[str, int, int]]:

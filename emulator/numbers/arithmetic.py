@@ -217,7 +217,9 @@ def from_integer(value: int, rules: Rules) -> tuple[int, int]:
 
 
 def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
-    """Convert a number to fixed point: keep the four digits just left of the point, and the sign (C26-5619 p. 21)."""
+    """Convert a number to fixed point: keep the four digits immediately left of the decimal point, and the sign
+    (C26-5619 p. 21).
+    """
     if exponent <= 0:
         return 0
     size: int = mantissa if mantissa > 0 else -mantissa

@@ -99,12 +99,14 @@ class Numbers(ABC):
         return value
 
     def from_integer(self, value: int) -> Number:
-        """FLOAT: convert a fixed-point number to floating point."""
+        """Convert a fixed-point number to floating point, as FLOAT does."""
         return self.decimal(value, 0)
 
     @abstractmethod
     def to_integer(self, value: Number) -> int:
-        """FIX: return the four digits just left of the point, with the sign (C26-5619 p. 21).  May raise Undecided."""
+        """Return the four digits immediately left of the decimal point with the sign, as FIX does (C26-5619 p. 21).
+        May raise Undecided.
+        """
 
     @abstractmethod
     def function(self, name: str, value: Number) -> tuple[Number, str]:
@@ -141,7 +143,7 @@ class Numbers(ABC):
         return decimal_text(mantissa, exponent - SHOWN) + ("..." if is_shortened else "")
 
     def traced(self, value: Number) -> str:
-        """Return the number as a trace shows it."""
+        """Return the number as text in the form that a trace shows."""
         return self.text(value)
 
     @property

@@ -26,11 +26,11 @@ E_COLUMNS, E_DECIMALS = 14, 8
 def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
     """Move a number to the left end of its field and resolve its blanks.  Return its length, and FINE or a warning.
 
-    Leading blanks are ignored.  If the field has a point or an exponent, trailing blanks are ignored too: as zeros they
-    would change nothing after the point, but would multiply an exponent by ten.  Blanks inside such a number count as
-    zeros, except that blanks which may belong to an exponent are dropped.  A sign after the first character begins an
-    exponent as an E does.  In a number without point and exponent, blanks after the first digit count as zeros
-    (OPEN-QUESTIONS 6).
+    Leading blanks are ignored.  If the field has a point or an exponent, trailing blanks are ignored too. If they
+    counted as zeros, they would change nothing after the point but would multiply an exponent by ten. Blanks inside
+    such a number count as zeros, except that blanks which may belong to an exponent are dropped.  A sign after the
+    first character begins an exponent as an E does.  In a number without point and exponent, blanks after the first
+    digit count as zeros (OPEN-QUESTIONS 6).
     """
     first = 0
     while first < width and columns[first] == BLANK:

@@ -167,7 +167,9 @@ class ExactNumbers(Numbers):
 
 
 def _too_long(base: Exact, count: int) -> bool:
-    """Return True if a power of a rational number is certainly too long: a part of n bits is at least 2**(n - 1)."""
+    """Return True if a power of a rational number is certainly too long. The test uses that an integer of n bits is at
+    least 2**(n - 1).
+    """
     return not isinstance(base, RootSum) and (_longest(base) - 1) * abs(count) > MAX_BITS
 
 
@@ -186,7 +188,8 @@ def _longest(value: Exact) -> int:
 
 
 def _root_steps(operation: str, first: Exact, second: Exact) -> int:
-    """Return the steps of an operation with a sum of roots, which compares each pair of terms with each root."""
+    """Return the steps of an operation with a sum of roots. The operation compares each pair of terms with each root.
+    """
     a, b, terms_first, terms_second = _longest(first), _longest(second), len(_parts(first)), len(_parts(second))
     radicands = [n.bit_length() for n, _ in (*_parts(first), *_parts(second))]
     # To find the kind of a term, one integer square root is computed for each root that the sum already contains.

@@ -84,7 +84,7 @@ def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Val
 
 @lru_cache(maxsize=4096)
 def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Value:
-    """Return ``A ** J``: the exact power truncated, or a chain of products as in 1962 (OPEN-QUESTIONS 8)."""
+    """Return ``A ** J`` as the exact power, truncated, or as a chain of products as in 1962 (OPEN-QUESTIONS 8)."""
     if mantissa == 0 or -1 <= count <= 2 or rules.as_1962:
         by = whole_power if mantissa == 0 or abs(count) < LONG else _long_chain
         m, e, code = by(mantissa, exponent, count, rules)

@@ -4,8 +4,8 @@ One character stands for one position of core storage: ``0`` to ``9``, ``]`` for
 1 to 9 with a flag, and ``|`` for a record mark.  An instruction has twelve digits: two of operation code, five of
 address P and five of address Q.  An immediate instruction takes the digits of Q themselves as its second operand.
 
-A call transmits the address of its operand to the position before the entry.  Arithmetic works with the accumulator in
-positions 51 to 60: a floating-point number fills it, a fixed-point number takes its last four digits.
+A call transmits the address of its operand to the position before the entry. Arithmetic works with the accumulator in
+positions 51 to 60. A floating-point number fills the accumulator, and a fixed-point number takes its last four digits.
 """
 
 from collections.abc import Iterable

@@ -26,7 +26,9 @@ class Extent:
     inferred: int
 
     def excess(self, core: int) -> int:
-        """Return by how many positions program and data exceed a machine, negative if positions remain free."""
+        """Return the number of positions by which program and data exceed a machine; it is negative if positions
+        remain free.
+        """
         return self.data + self.code - _room(core)
 
     def overlap(self, core: int) -> str:

@@ -1,8 +1,8 @@
 """The translation of a program into the code of IBM's compiler, as the object deck of 1962 shows it.
 
 Every statement begins at an even position; a record mark fills the odd position before it, if any.  A branch to a
-statement goes to the field of the statement's number, which holds a second branch, to the statement.  The object
-program begins at 08300.
+statement goes first to the field of the statement's number. This field holds a second branch, which goes to the
+statement itself.  The object program begins at 08300.
 """
 
 from dataclasses import dataclass, field
@@ -290,7 +290,7 @@ def _function_entry(name: str, core: int) -> int:
 
 
 def _loops_closed_by_lists(program: Program) -> dict[int, tuple[int, ...]]:
-    """Return for the last item of each list, by its instruction, the loops within the list that end after this item."""
+    """Map the instruction of the last item of each list to the loops within the list that end after this item."""
     closing: dict[int, tuple[int, ...]] = {}
     for pc, instruction in enumerate(program.code):
         if instruction.operation != op.FINISH:

@@ -29,7 +29,7 @@ class Figure:
 
 
 def timed_once(what: str, work: Callable[[], object], note: str = "") -> Figure:
-    """Time ``work`` once, because it cannot be repeated or takes too long for five runs."""
+    """Time ``work`` once. Use this function for work that cannot be repeated or takes too long for five runs."""
     return Figure(what, (_seconds(work),), note)
 
 

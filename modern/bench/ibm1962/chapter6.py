@@ -1,7 +1,7 @@
 """Chapter 6 on IBM's library: every card that the programs punch is compared with the print.
 
 The programs are those that produced the examples.  Programs 2 and 3 read the cards that program 1 has punched on the
-library.  The verdicts are kept in ``docs/ibm1962``, with the means to verify them.
+library.  The verdicts are in ``docs/ibm1962``, together with the hashes with which they can be verified.
 """
 
 import csv

@@ -1,8 +1,8 @@
 """Input and output statements with the results that IBM's library of 1962 was measured to give.
 
-``tests/data/vectors/ibm1962.tsv`` has a line for each statement: verb, FORMAT, the numbers before it, its cards, the
-lines that it typed, the cards that it punched (without sequence numbers) and the numbers after it.  A bar follows each
-entry of a column.  The file holds facts, and no code of IBM's.
+``tests/data/vectors/ibm1962.tsv`` has a line for each statement: its verb, its FORMAT, the numbers of its list before
+it was executed, its cards, the lines that it typed, the cards that it punched (without sequence numbers), and the
+numbers of its list afterwards.  A bar follows each entry of a column.  The file holds facts, and no code of IBM's.
 """
 
 from __future__ import annotations

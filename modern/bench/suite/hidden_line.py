@@ -34,7 +34,7 @@ def field(count: int) -> list[Polyhedron]:
 
 
 def block(count: int) -> list[Polyhedron]:
-    """Return cuboids in a three-dimensional grid, in which deeper cuboids overlap more."""
+    """Return cuboids in a three-dimensional grid. The deeper the grid, the more cuboids overlap in the picture."""
     side = next(n for n in range(1, count + 1) if n**3 >= count)
     return array(side, side, side, Fraction(7, 4))[:count]
 

@@ -1,7 +1,8 @@
 """Benchmarks of the later papers: Appel and Will's convex edges compared with the exact hull, hidden lines, cell lists.
 
-Appel and Will's 60 points are computed exactly, with the star polygon and with its short form. The figures of
-Kovalevsky and Schulz's cell list are seconds, and microseconds for each inserted local corner.
+The hull of 60 points by Appel and Will's method is computed exactly, with sorted star polygons and with the test in
+one pass. For Kovalevsky and Schulz's cell list, the table gives seconds, and microseconds for each inserted local
+corner.
 """
 
 import random

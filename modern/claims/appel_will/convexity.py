@@ -41,7 +41,7 @@ def _area(p: Flat, q: Flat, r: Flat) -> int:
 
 @claim("appel-will.1", "appel-will.64", "appel-will.55", full=300)
 def corrected_method(cases: int = CASES) -> Check:
-    """Check that the corrected method finds the exact hull; with the star test of the caption it does not."""
+    """Check that the corrected method finds the exact hull, and that it does not with the star test of the caption."""
     check = method_against_judge(cases)
     return check.unless(not star_as_captioned().holds, "the star test as in the caption of Fig. 12")
 
@@ -148,14 +148,15 @@ def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
 
 
 def _inside_of_all(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """The mean of the vertices of a hull is inside each of its planes."""
+    """Return, for each plane of a hull, whether the mean of the vertices is inside the plane."""
     count = len(judge.vertices)
     x, y, z = (sum(points[k][axis] for k in judge.vertices) for axis in range(3))
     return [dot(f.plane[:3], (x, y, z)) + count * f.plane[3] < 0 for f in judge.facets]
 
 
 def _cones(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """All points lie in the cone of the planes at a vertex, and only the vertex lies on all of these planes."""
+    """Return, for each vertex, whether all points lie in the cone of its planes, and only the vertex lies on them all.
+    """
     checks = []
     for k in judge.vertices:
         planes = [f.plane for f in judge.facets if k in f.polygon]
@@ -186,7 +187,7 @@ def _faces(points: Sequence[Point], judge: ExactHull) -> list[bool]:
 
 
 def _projections(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """The projection of a hull is the hull of the projected points; only vertices are projected to its corners."""
+    """Return, for each coordinate plane, whether all corners of the projected points are images of vertices."""
     checks = []
     for u, v in ((0, 1), (1, 2), (0, 2)):
         images = [(p[u], p[v], 0) for p in points]

@@ -133,7 +133,7 @@ def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fractio
 
 @claim("kovalevsky-schulz.122")
 def coefficients_by_cosines() -> Check:
-    """Check the counterexample: a : b, of an edge of a tetrahedron, is no ratio of cosines but a ratio of sines.
+    """Check the counterexample, an edge of a tetrahedron, for which a : b is a ratio of sines and not of cosines.
 
     For unit normals a : b is sin(beta_n) : sin(beta_v); the squares are compared.
     """

@@ -49,7 +49,8 @@ from modern.port import convex_hull
 @claim("thesis.241", "thesis.240", kind="added_triangle", full=300)
 @claim("thesis.278", kind="two_new_lines", full=300)
 def stage_property(kind: str, cases: int = CASES) -> Check:
-    """Check one property (a key of ``_PROPERTIES``) of all stages H_1, H_2, ... in the construction of sampled sets."""
+    """Check one property, a key of ``_PROPERTIES``, of all stages H_1, H_2, ... in the construction of sampled sets.
+    """
     sets = (
         sampled_sets(2, cases)
         if kind in _FLAT
@@ -115,7 +116,7 @@ def _steps(sampled: SampledSet) -> Iterator[tuple[Approximation, Approximation, 
 
 
 def _nested(sampled: SampledSet) -> Iterator[bool]:
-    """H_j+1 contains H_j and is larger, because the added point is not in H_j."""
+    """Yield, for each step, whether H_j+1 contains H_j, and whether the added point is not in H_j."""
     for before, after, _, added in _steps(sampled):
         yield all(plane_value(plane, sampled.points[k]) <= 0 for plane in after.equations for k in before.vertices)
         yield any(plane_value(plane, sampled.points[added]) > 0 for plane in before.equations)
@@ -128,7 +129,9 @@ def _equations(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _last_hull(sampled: SampledSet) -> Iterator[bool]:
-    """All equations of a stage support the set if and only if they are the equations of the hull of all points."""
+    """Yield, for each stage, whether its equations all support the set only if they are those of the hull of all
+    points.
+    """
     hull_planes = {facet.plane for facet in sampled.judge.facets}
     stages = sampled.stages()
     for stage in stages:
@@ -142,7 +145,7 @@ def _struck_points(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _struck_inside(sampled: SampledSet) -> Iterator[bool]:
-    """Each stage eliminates exactly those remaining points that are inside it; points on its boundary remain."""
+    """Yield, for each stage, whether it eliminates exactly those remaining points that are inside it."""
     eliminated_points: set[int] = set()
     for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
         remaining = set(range(len(sampled.points))) - eliminated_points - {*stage.vertices}
@@ -152,7 +155,7 @@ def _struck_inside(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _contained_points(sampled: SampledSet) -> Iterator[bool]:
-    """A point of H_j, inside or on its boundary, that is not a vertex of H_j is not a vertex of the last hull."""
+    """Yield, for each point in H_j that is not a vertex of H_j, whether it is not a vertex of the last hull."""
     for stage in sampled.stages():
         for k, point in enumerate(sampled.points):
             if k not in stage.vertices and all(plane_value(plane, point) <= 0 for plane in stage.equations):
@@ -160,7 +163,8 @@ def _contained_points(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _decreasing(sampled: SampledSet) -> Iterator[bool]:
-    """N_j, the number of remaining points, never grows, and an eliminated point is never used again."""
+    """Yield whether N_j, the number of remaining points, never grows, and whether no eliminated point is used again.
+    """
     remaining = len(sampled.points)
     eliminated_so_far: set[int] = set()
     for stage in sampled.hull.history:
@@ -190,14 +194,16 @@ def _farthest_outside(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _largest_of_all(sampled: SampledSet) -> Iterator[bool]:
-    """The remaining point that is largest in an equation is the largest of all: eliminated points are negative."""
+    """Yield, for each step, whether no point, eliminated or not, has a larger value than the added point."""
     for before, _, record, added in _steps(sampled):
         plane = before.equations[record.checked - 1]
         yield plane_value(plane, sampled.points[added]) == max(plane_value(plane, point) for point in sampled.points)
 
 
 def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
-    """If a new point is outside one facet only, that facet is removed, and each of its edges gets a new facet."""
+    """Yield, for each new point that is outside only one facet, whether this facet is replaced by one on each of its
+    edges.
+    """
     for before, after, record, added in _steps(sampled):
         if record.outside == 1:
             replaced = {*before.defining[record.checked - 1]}
@@ -212,7 +218,7 @@ def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _two_new_lines(sampled: SampledSet) -> Iterator[bool]:
-    """No point is outside both of a step's two new lines; the lines meet in the new vertex."""
+    """Yield, for each step, whether it adds two lines, and whether no point is outside both of them."""
     for _, after, _, added in _steps(sampled):
         lines = [plane for plane, ends in zip(after.equations, after.defining, strict=True) if added in ends]
         yield len(lines) == 2
@@ -220,7 +226,7 @@ def _two_new_lines(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _counts(sampled: SampledSet) -> Iterator[bool]:
-    """NV and NE of H_1 are 3 in a plane and 4 in space; in a plane each stage increases both by one."""
+    """Yield whether NV and NE are 3 (in space 4) for H_1, and grow by one at each stage (NE only in a plane)."""
     first = sampled.judge.dimension + 1
     for number, stage in enumerate(sampled.stages()):
         yield len(stage.vertices) == first + number
@@ -229,14 +235,14 @@ def _counts(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _renumbering(sampled: SampledSet) -> Iterator[bool]:
-    """Equations that follow the removed one move up by one number, and the two new equations come last."""
+    """Yield, for each step, whether later equations move up by one number and the two new equations come last."""
     for before, after, record, _ in _steps(sampled):
         kept_lines = [d for k, d in enumerate(before.defining) if k != record.checked - 1]
         yield [{*d} for d in after.defining[:-2]] == [{*d} for d in kept_lines]
 
 
 def _netc_order(sampled: SampledSet) -> Iterator[bool]:
-    """NETC, the number of the first equation that a point is outside of, never decreases between stages."""
+    """Yield whether NETC, the number of the equation under test, never decreases between stages."""
     yield all(a.checked <= b.checked for a, b in pairwise(sampled.hull.history))
 
 
@@ -245,14 +251,14 @@ def _vertices_used(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _vertex_when_added(sampled: SampledSet) -> Iterator[bool]:
-    """When a point is added, it is a vertex of the hull of the points used so far."""
+    """Yield, for each added point, whether it is a vertex of the hull of the points used so far."""
     for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
         judge = exact_hull([sampled.points[k] for k in stage.vertices])
         yield {stage.vertices.index(k) for k in record.added} <= {*judge.vertices}
 
 
 def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
-    """A lattice point is in H_k+1 if and only if it is in H_k or in the added triangle."""
+    """Yield, for each lattice point, whether it is in H_k+1 if and only if it is in H_k or in the added triangle."""
     plane = sampled.judge.plane
     assert plane is not None
     lattice = [
@@ -268,7 +274,7 @@ def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
-    """A lattice point is in H_k+1 if and only if it is in H_k or in a tetrahedron of the new point."""
+    """Yield, for each lattice point, whether it is in H_k+1 if and only if it is in H_k or in an added tetrahedron."""
     lattice: list[Point] = [(x, y, z) for x, y, z in product(range(-5, 6, 2), repeat=3)]
     for before, after, record, added in _steps(sampled):
         apex = sampled.points[added]
@@ -298,7 +304,8 @@ def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
 
 
 def _convexity(sampled: SampledSet) -> Iterator[bool]:
-    """If only equation NETC is replaced, the result is convex if and only if the new point is outside no other one."""
+    """Yield whether replacing only equation NETC gives a convex body just if the point is outside no other equation.
+    """
     inner = [sampled.points[k] for k in sampled.hull.history[0].added]
     for before, after, record, added in _steps(sampled):
         # Page 30: replace only equation NETC, by the planes through its sides and the new point.
