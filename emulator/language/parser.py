@@ -266,8 +266,7 @@ class _Builder:
         self._places = places
 
     def build(self, node: Tree[Token]) -> Any:
-        """Convert a node. This takes half the time that lark's Transformer needs. Raise Refused for an invalid name.
-        """
+        """Convert a node. This takes half the time that lark's Transformer needs. Raise Refused for an invalid name."""
         children = [self.build(child) if isinstance(child, Tree) else child for child in node.children]
         return getattr(self, node.data)(children)
 

@@ -49,8 +49,7 @@ from modern.port import convex_hull
 @claim("thesis.241", "thesis.240", kind="added_triangle", full=300)
 @claim("thesis.278", kind="two_new_lines", full=300)
 def stage_property(kind: str, cases: int = CASES) -> Check:
-    """Check one property, a key of ``_PROPERTIES``, of all stages H_1, H_2, ... in the construction of sampled sets.
-    """
+    """Check one property, a key of ``_PROPERTIES``, of all stages H_1, H_2, ... in the construction of sampled sets."""
     sets = (
         sampled_sets(2, cases)
         if kind in _FLAT
@@ -163,8 +162,7 @@ def _contained_points(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _decreasing(sampled: SampledSet) -> Iterator[bool]:
-    """Yield whether N_j, the number of remaining points, never grows, and whether no eliminated point is used again.
-    """
+    """Yield whether N_j, the number of remaining points, never grows, and whether no eliminated point is used again."""
     remaining = len(sampled.points)
     eliminated_so_far: set[int] = set()
     for stage in sampled.hull.history:
@@ -304,8 +302,7 @@ def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
 
 
 def _convexity(sampled: SampledSet) -> Iterator[bool]:
-    """Yield whether replacing only equation NETC gives a convex body just if the point is outside no other equation.
-    """
+    """Yield whether replacing only equation NETC gives a convex body just if the point is outside no other equation."""
     inner = [sampled.points[k] for k in sampled.hull.history[0].added]
     for before, after, record, added in _steps(sampled):
         # Page 30: replace only equation NETC, by the planes through its sides and the new point.
