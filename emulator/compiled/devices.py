@@ -71,9 +71,7 @@ class Marks(NamedTuple):
 
 
 class Code(NamedTuple):
-    """The object code, its parts that the devices use, and a number for each library function, 1 for SQRT and 0 for
-    others.
-    """
+    """The object code, its parts that devices use, and for each library function 1 for SQRT or 0 for others."""
 
     flat: Flat
     marks: Marks
@@ -167,9 +165,7 @@ def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
 
 
 def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool) -> int:
-    """Advance to the next field of the FORMAT. If ``repeat`` is set, a FORMAT that has ended begins again on a new
-    record.
-    """
+    """Advance to the next field.  If ``repeat`` is set, a FORMAT that has ended begins again on a new record."""
     devices = desk.devices
     while True:
         spec = devices[SPEC]

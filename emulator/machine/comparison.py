@@ -100,7 +100,7 @@ class Comparison:
         self.uncertain = ""
 
     def differs(self, entry: Entry, reference_entry: Entry) -> bool:
-        """Compare a journal entry of each run.  Return True if both entries record a decision and the outcomes differ."""
+        """Compare an entry of each run's journal. Return True if both record a decision and the outcomes differ."""
         pc = entry[0]
         if self._counts[pc]:
             return False

@@ -188,7 +188,7 @@ def _longest(value: Exact) -> int:
 
 
 def _root_steps(operation: str, first: Exact, second: Exact) -> int:
-    """Return the steps of an operation with a sum of roots. The operation compares each pair of terms with each root."""
+    """Return the steps of an operation with a sum of roots, in which each pair of terms is compared with each root."""
     a, b, terms_first, terms_second = _longest(first), _longest(second), len(_parts(first)), len(_parts(second))
     radicands = [n.bit_length() for n, _ in (*_parts(first), *_parts(second))]
     # To find the kind of a term, one integer square root is computed for each root that the sum already contains.

@@ -40,9 +40,9 @@ def count_pair_uses(all_texts: Mapping[str, Text]) -> Counter[tuple[str, str]]:
     return attested(row for text in all_texts.values() for row in text.rows)
 
 
-def check_sources(whole: str | None = None) -> Iterator[Proof]:
-    """Check the hashes of the source files, and compare the excerpts with ``whole``, a whole text, if given."""
-    for file, holds, message in (*sources.check_files(), *(() if whole is None else sources.check_against(whole))):
+def check_sources(whole: tuple[str, str] | None = None) -> Iterator[Proof]:
+    """Check the hashes of the source files. Compare the excerpts with ``whole``, a file's name and text, if given."""
+    for file, holds, message in (*sources.check_files(), *(sources.check_against(*whole) if whole else ())):
         yield Proof(file.removeprefix("fortran_src/").removeprefix("transcripts/"), holds, message)
 
 
@@ -156,11 +156,13 @@ def _span(text: Text, row: Row, first: str, last: str) -> list[str]:
     return order[start:end]
 
 
-def check_everything(rows: list[Row], transcripts: bool, whole: str | None = None, workers: int = 1) -> Iterator[Proof]:
+def check_everything(
+    rows: list[Row], transcripts: bool, whole: tuple[str, str] | None = None, workers: int = 1
+) -> Iterator[Proof]:
     """Run all checks and return the proofs in the order in which they are printed.
 
-    If ``transcripts`` is false, check only the ``rows`` of the listings. If ``whole``, the text of a document, is
-    given, also compare the excerpts with it; raise ApparatusError if it is not the text of one of the documents.
+    If ``transcripts`` is false, check only the ``rows`` of the listings. If ``whole``, the name and the text of a
+    file, is given, also compare the excerpts with it.  Raise ApparatusError if it is not the text of a document.
     """
     pair_uses = count_pair_uses(texts())
     if workers == 1 or len(rows) < _MANY:

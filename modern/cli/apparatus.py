@@ -11,7 +11,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from emulator.errors import quoted
-from emulator.files import read_text
+from emulator.files import read_text, source_name
 from modern.claims.apparatus_checks import check_everything
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.edition import programs
@@ -45,7 +45,8 @@ def main(args: argparse.Namespace) -> int:
         len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, _MOST_PROCESSES
     )
     proofs = []
-    for proof in check_everything(rows, everything, None if args.text is None else read_text(args.text), workers):
+    whole = None if args.text is None else (source_name(args.text), read_text(args.text))
+    for proof in check_everything(rows, everything, whole, workers):
         proofs.append(proof)
         print(_line(proof), flush=True)
     if everything and find_spec("numpy") is None:

@@ -149,16 +149,18 @@ def check_files() -> Iterator[tuple[str, bool, str]]:
     yield "grounds", not wrong, f"CHANGED: {', '.join(wrong)}" if wrong else f"{len(table.decks)} decks"
 
 
-def check_against(text: str) -> Iterator[tuple[str, bool, str]]:
-    """Compare the whole text of a document with its recorded length and excerpts.
+def check_against(name: str, text: str) -> Iterator[tuple[str, bool, str]]:
+    """Compare the file ``name``, the whole text of a document, with the recorded length and excerpts of the document.
 
-    Yields (subject, whether it agrees, message).  Raises ApparatusError if the text is not that of a document.
+    Yield (subject, whether it agrees, message).  Raise ApparatusError if the text is not that of a document.
     """
     sha = hashlib.sha256(text.encode()).hexdigest()
     table = sources()
     known = [document for document in table.documents if document.sha256 == sha]
     if not known:
-        raise ApparatusError(f"no document of SOURCES.toml has the SHA-256 {sha[:16]}...")
+        raise ApparatusError(
+            f"{name}: expected the text of a document; none in SOURCES.toml has the SHA-256 {sha[:16]}"
+        )
     whole = text.split("\n")
     document = known[0]
     size = (len(text.encode()), len(text), len(whole))

@@ -65,6 +65,11 @@ def _module_sum(name: str) -> str:
         return ""
 
 
+def plan_sum(document: Mapping[str, object]) -> str:
+    """Return the SHA-256 of a plan's JSON data."""
+    return hashlib.sha256(json.dumps(document, sort_keys=True).encode("ascii")).hexdigest()
+
+
 def manifest(plan: Plan, command: Sequence[str], installed: Mapping[str, str]) -> dict[str, Any]:
     """Return the manifest of a new study; ``installed`` is the result of :func:`versions`."""
     programs = {
@@ -75,6 +80,7 @@ def manifest(plan: Plan, command: Sequence[str], installed: Mapping[str, str]) -
         "command": list(command),
         "versions": dict(installed),
         "plan": plan.document(),
+        "plan_sha256": plan_sum(plan.document()),
         "programs_sha256": programs,
         "code_sha256": code_sums(plan),
         "samples": plan.samples,

@@ -22,7 +22,7 @@ from modern.formats.deck import with_epsilon
 from modern.port import convex_hull
 from modern.study.chartfile import write_charts
 from modern.study.families import draw_sample
-from modern.study.manifest import NAME, first_difference, manifest, read_manifest, versions, write_manifest
+from modern.study.manifest import NAME, first_difference, manifest, plan_sum, read_manifest, versions, write_manifest
 from modern.study.measures import MEASURES, OF_PORT, measure_of
 from modern.study.plan import Cell, Plan, PlanError, Port, Programs, Route, StudyFileError
 from modern.study.plots import can_plot, draw
@@ -119,6 +119,7 @@ def verify_study(folder: Path) -> tuple[Plan, int, list[str]]:
     try:
         plan = Plan.of_document(document["plan"])
         is_plan = plan.document() == document["plan"]
+        is_plan &= document.get("plan_sha256") in (None, plan_sum(document["plan"]))  # earlier manifests lack it
     except (KeyError, TypeError, ValueError, AttributeError):
         is_plan = False
     if not is_plan:

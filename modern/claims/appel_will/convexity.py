@@ -155,7 +155,7 @@ def _inside_of_all(points: Sequence[Point], judge: ExactHull) -> list[bool]:
 
 
 def _cones(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """Return, for each vertex, whether all points lie in the cone of its planes, and only the vertex lies on them all."""
+    """Return, for each vertex, whether all points lie in the cone of its planes, and only it lies on them all."""
     checks = []
     for k in judge.vertices:
         planes = [f.plane for f in judge.facets if k in f.polygon]

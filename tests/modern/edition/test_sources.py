@@ -81,10 +81,10 @@ def test_a_row_leads_to_its_page_and_its_line() -> None:
 
 
 def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(ApparatusError, match=r"^no document of SOURCES\.toml has the SHA-256 ca978112ca1bbdca"):
-        list(check_sources("a"))
-    with pytest.raises(ApparatusError, match="no document"):
-        list(check_sources(""))  # an empty file is not the same as no file
+    with pytest.raises(ApparatusError, match=r"^a\.txt: expected the text .* SHA-256 ca978112ca1bbdca"):
+        list(check_sources(("a.txt", "a")))
+    with pytest.raises(ApparatusError, match="expected the text"):
+        list(check_sources(("empty.txt", "")))  # an empty file is not the same as no file
     whole = "first\nalpha beta gamma"
     excerpt = sources.Excerpt("t", "w.txt", "d", "", (Stretch(1, 1, 2, True),))
     names = ("id", "author", "title", "year", "kind", "institution", "volume", "extent", "doi", "held")
@@ -93,11 +93,11 @@ def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch: pytest.Monkey
     monkeypatch.setattr(sources, "sources", lambda: sources.Sources((document,), (excerpt,), (), ()))
     for witness, holds in (("alpha gamma\n", True), ("gamma alpha\n", False), ("beta gamma\n", True)):
         monkeypatch.setattr(sources, "read", lambda file, witness=witness: witness)
-        assert [same for _, same, _ in sources.check_against(whole)] == [True, holds]
+        assert [same for _, same, _ in sources.check_against("whole.txt", whole)] == [True, holds]
     for wrong in ({"lines": 1}, {"bytes": 21}, {"characters": 23}):
         table = sources.Sources((replace(document, **wrong),), (), (), ())  # type: ignore[arg-type]
         monkeypatch.setattr(sources, "sources", lambda table=table: table)
-        assert [same for _, same, _ in sources.check_against(whole)] == [False]
+        assert [same for _, same, _ in sources.check_against("whole.txt", whole)] == [False]
 
 
 def test_pages_of_lines_end_where_the_text_ends() -> None:

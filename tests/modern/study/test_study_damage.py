@@ -102,6 +102,7 @@ def test_verify_reports_every_damaged_file_and_resume_stops(
     [
         ('"decks_sha256": "', '"decks_sha256": "0', "decks_sha256 is not the SHA-256 of the decks in the rows"),
         ('"cells": [', '"cells": 5, "other": [', "the plan in the manifest is damaged"),
+        ('"family": "integers"', '"family": "ball"', "the plan in the manifest is damaged"),
     ],
 )
 def test_verify_reports_a_damaged_manifest(
