@@ -47,7 +47,8 @@ def convex_hull(
         Real numbers of any type, decimal strings or fractions ``"p/q"``.  A float has the binary value it stores.
     arithmetic : str, optional
         ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the eight digits of the thesis), ``ibm1962``,
-        ``truncating1962``, ``truncating:P``, ``guarded:P`` or ``rounding:P``.
+        ``truncating1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, ``stochastic:P:SEED`` or
+        ``stochastic:BITSb:SEED``.
     epsilon : number or str, optional
         The e of chapter 7: values of an equation from -e to e count as zero.  ``"rel:1e-9"`` is relative to the
         equation.  If e is so large that the faces do not form a closed surface, there is no hull.

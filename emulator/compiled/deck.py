@@ -15,11 +15,24 @@ from typing import NamedTuple
 
 from emulator.compiled import devices as dev
 from emulator.compiled.devices import Cards, Code, Desk, Forms, Report, Tools, begin, error, finish, item
-from emulator.compiled.kernel import ADDRESS, AT, AT_MINUS_ZERO, CHARACTERISTIC, EVENT, FAC, WORK, Core, Row, owe, run
+from emulator.compiled.kernel import (
+    ADDRESS,
+    AT,
+    AT_MINUS_ZERO,
+    CHARACTERISTIC,
+    DRAWS,
+    EVENT,
+    FAC,
+    WORK,
+    Core,
+    Row,
+    owe,
+    run,
+)
 from emulator.machine import interpreter
 from emulator.machine.result import LOOP_WINDOW
 from emulator.numbers.accumulator import whole_power
-from emulator.numbers.arithmetic import ZERO, Rules, square_root
+from emulator.numbers.arithmetic import ZERO, Rules, drawn, square_root
 from emulator.numbers.work import multiplied
 
 
@@ -122,6 +135,10 @@ def run_deck(
         pc = registers[AT]
         address = registers[ADDRESS]
         status = dev.GO_ON
+        # A root or a power takes a random number, as an operation of the kernel does.
+        if rules.random and (reason == interpreter.AT_FUNCTION or reason == interpreter.AT_POWERX):
+            registers[DRAWS] += 1
+            rules = drawn(rules, registers[DRAWS])
         if reason == interpreter.AT_ITEM:
             status = item(marks, forms, cards, core, desk, rules)
         elif reason == interpreter.AT_BEGIN:

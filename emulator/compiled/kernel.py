@@ -16,14 +16,15 @@ from emulator.language.objectcode import Flat, element_after
 from emulator.machine import interpreter
 from emulator.machine.interpreter import is_minus_zero
 from emulator.numbers.accumulator import add, divide, divide_fixed, multiply, negate, subtract, subtract_reversed
-from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules, from_integer, to_integer, wrap_integer
+from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules, drawn, from_integer, to_integer, wrap_integer
 from emulator.numbers.work import STEPS
 
 # The registers that are kept between calls; their meaning is that of the fields of emulator.machine.state.State.
 # FAC and CHARACTERISTIC are mantissa and exponent of the accumulator, SENT and SENT_EXPONENT a field being copied.
 PC, FAC, CHARACTERISTIC, FIXED, WORK, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2 = range(11)
-AT, DECISION, ELEMENT, COSTLY, OWED, HOPPER_EMPTY = range(11, 17)
-REGISTERS = 17
+# DRAWS is the number of operations so far that took a random number.
+AT, DECISION, ELEMENT, COSTLY, OWED, HOPPER_EMPTY, DRAWS = range(11, 18)
+REGISTERS = 18
 
 # The reason to return for a fixed-point minus zero, which only the interpreter has.
 AT_MINUS_ZERO = 16
@@ -60,7 +61,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
     fac, fac_exponent, fixed = registers[FAC], registers[CHARACTERISTIC], registers[FIXED]
     work, decision = registers[WORK], registers[DECISION]
     sent, sent_exponent = registers[SENT], registers[SENT_EXPONENT]
-    element = registers[ELEMENT]
+    element, draws = registers[ELEMENT], registers[DRAWS]
     event = 0
     address = 0
     while True:
@@ -129,6 +130,9 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                 fac = mantissa
                 fac_exponent = exponent
                 continue
+            if rules.random:
+                draws += 1
+                rules = drawn(rules, draws)
             if operation == op.FMP:
                 fac, fac_exponent, event = multiply(fac, fac_exponent, mantissa, exponent, rules)
             elif operation == op.FAD:
@@ -317,5 +321,6 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
     registers[SENT] = sent
     registers[SENT_EXPONENT] = sent_exponent
     registers[EVENT] = event
+    registers[DRAWS] = draws
     registers[ADDRESS] = address
     return reason

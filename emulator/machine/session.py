@@ -92,6 +92,7 @@ class Session:
 
     def __post_init__(self) -> None:
         program = self.program
+        self.options = replace(self.options, numbers=self.options.numbers.fresh())
         refuse_overlap(program, self.options.core)
         values, kinds = loaded(program, self.options.numbers)
         self.state = State(values, kinds, [0] * len(program.counters), self.options.numbers.from_integer(0))

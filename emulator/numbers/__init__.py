@@ -29,16 +29,17 @@ from emulator.numbers.arithmetic import Profile, profile
 from emulator.numbers.base import Number, Numbers, Trap, Undecided
 from emulator.numbers.decimal import DecimalNumbers
 
-__all__ = ["HOSTED", "DecimalNumbers", "Number", "Numbers", "Trap", "Undecided", "hosted", "numbers"]
+__all__ = ["HOSTED", "RANDOM", "DecimalNumbers", "Number", "Numbers", "Trap", "Undecided", "hosted", "numbers"]
 
-# The names of the arithmetics that are not decimal profiles.
+# The names of the arithmetics that are not decimal profiles, and those that round at random.
 HOSTED = ("float64", "float32", "mp:BITS", "exact")
+RANDOM = ("stochastic:P:SEED", "stochastic:BITSb:SEED")
 
 
 def hosted(name: str) -> Numbers | None:
-    """Return the system ``float64``, ``float32``, ``mp:BITS`` or ``exact``, or None for any other name.
+    """Return the system ``float64``, ``float32``, ``mp:BITS``, ``exact`` or one that rounds at random, otherwise None.
 
-    Raise ArgumentError if the number of bits is out of range.
+    Raise ArgumentError if the number of bits or digits is out of range.
     """
     if name in ("float64", "float32"):
         from emulator.numbers.binary import FloatNumbers
@@ -55,6 +56,10 @@ def hosted(name: str) -> Numbers | None:
         if not (count.isdecimal() and count.isascii() and len(count) < 9 and MIN_BITS <= int(count) <= MAX_BITS):
             raise ArgumentError(f"{name}: the number of bits must be {MIN_BITS} to {MAX_BITS}")
         return MultiprecisionNumbers(int(count))
+    if family == "stochastic":
+        from emulator.numbers.stochastic import stochastic
+
+        return stochastic(name)
     return None
 
 
@@ -69,5 +74,5 @@ def numbers(name: str | Profile) -> Numbers:
     try:
         return DecimalNumbers(profile(name))
     except ArgumentError as error:
-        more = f", {', '.join(HOSTED)}" if str(error).startswith("no arithmetic") else ""
+        more = f", {', '.join((*HOSTED, *RANDOM))}" if str(error).startswith("no arithmetic") else ""
         raise ArgumentError(f"{error}{more}") from None

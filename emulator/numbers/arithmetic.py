@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from emulator.errors import ArgumentError, expect, quoted
+from emulator.numbers.draws import DRAWS, PROPORTIONAL, draw, randomly
 
 ZERO = -99
 MINUS_ZERO = -100
@@ -40,6 +41,9 @@ class Rules(NamedTuple):
     - ``round_sums``, ``round_products``, ``round_quotients``: round the result half up instead of truncating it.
     - ``as_1962``: signs of zeros, whole powers, conversions to fixed point, input, output and error codes follow IBM's
       library of 1962 (docs/reference/ibm-library.md) instead of FORTRAN II-D.
+
+    - ``random``, ``key``, ``draw``: the rule of random rounding or 0, the key of the seed, and the random number of the
+      current operation (:mod:`emulator.numbers.draws`).
     """
 
     digits: int
@@ -51,6 +55,16 @@ class Rules(NamedTuple):
     round_products: int
     round_quotients: int
     as_1962: int
+    random: int = 0
+    key: int = 0
+    draw: int = 0
+
+
+def drawn(rules: Rules, count: int) -> Rules:
+    """Return the rules of operation number ``count`` of a run: the same rules with the random number of it."""
+    digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, _ = rules
+    number = draw(key, count)
+    return Rules(digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, number)
 
 
 class MinusZero(int):
@@ -147,7 +161,10 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, 
     if size >= wide:
         unit *= 10
         ea += 1
-    size = (size + unit // 2) // unit if rounding else size // unit
+    if rules.random:
+        size = randomly(size, unit, lost, rules.random, rules.draw)
+    else:
+        size = (size + unit // 2) // unit if rounding else size // unit
     if size >= base:
         size = size // 10
         ea += 1
@@ -168,13 +185,13 @@ def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int
     else:
         unit = low
         exponent -= 1
-    if rules.round_products:
-        size = (size + unit // 2) // unit
-        if size >= base:
-            size = size // 10
-            exponent += 1
+    if rules.random:
+        size = randomly(size, unit, 0, rules.random, rules.draw)
     else:
-        size = size // unit
+        size = (size + unit // 2) // unit if rules.round_products else size // unit
+    if size >= base:
+        size = size // 10
+        exponent += 1
     return (size if product > 0 else -size), exponent
 
 
@@ -193,7 +210,7 @@ def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
         # The library of 1962 subtracts one from the exponent of such a dividend, and -99 then loses its minus sign.
         if rules.as_1962 and ea == MIN_EXPONENT:
             exponent = MAX_EXPONENT + 1 - eb
-    quotient = size // by
+    quotient = randomly(size, by, 0, rules.random, rules.draw) if rules.random else size // by
     if rules.round_quotients and 2 * (size - quotient * by) >= by:
         # Rounding cannot carry to P + 1 digits.  A quotient of all nines would need size/by above 1 - 1/base, but both
         # are integers below base.
@@ -256,7 +273,14 @@ def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
         better = (root + size // root) // 2
     exponent = power // 2 + rules.digits
     # Round up if size > (root + 1/2)**2, that is if size - root**2 > root: equality is impossible for integers.
-    if rules.round_quotients and size - root * root > root:
+    rest = size - root * root
+    up = rules.round_quotients and rest > root
+    if rules.random and rest:
+        # By the proportional rule, round up if size > (root + t)**2, where t is the draw as a fraction.
+        up = 2 * rules.draw >= DRAWS
+        if rules.random == PROPORTIONAL:
+            up = rest * DRAWS - 2 * root * rules.draw > rules.draw * rules.draw // DRAWS
+    if up:
         root += 1
         if root >= rules.limit:
             root = root // 10

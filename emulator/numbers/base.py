@@ -47,7 +47,7 @@ def lossless_rules(digits: int) -> Rules:
 
 
 class Numbers(ABC):
-    """A number system.  Instances are plain data without state."""
+    """A number system.  Instances are plain data; only random rounding has a state (:meth:`fresh`)."""
 
     @property
     @abstractmethod
@@ -58,6 +58,10 @@ class Numbers(ABC):
     @abstractmethod
     def digits(self) -> float:
         """The number of decimal digits of a number, infinite for exact numbers."""
+
+    def fresh(self) -> Numbers:
+        """Return the system in the state in which every run begins."""
+        return self
 
     @abstractmethod
     def decimal(self, whole: int, power: int, minus: bool = False) -> Number:

@@ -45,29 +45,34 @@ class DecimalNumbers(Numbers):
     def _rules(self) -> Rules:
         return self.profile.rules
 
+    @cached_property
+    def _drawn(self) -> Rules:
+        """The rules of the next operation."""
+        return self._rules
+
     def decimal(self, whole: int, power: int, minus: bool = False) -> Pair:
         if whole == 0:
             return 0, MINUS_ZERO if minus else ZERO
         return cut_decimal(whole, power, self._rules.digits)
 
     def add(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.add(first[0], first[1], second[0], second[1], self._rules)
+        m, e, event = accumulator.add(first[0], first[1], second[0], second[1], self._drawn)
         return self._trapped(m, e, event) if event else (m, e)
 
     def subtract(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.subtract(first[0], first[1], second[0], second[1], self._rules)
+        m, e, event = accumulator.subtract(first[0], first[1], second[0], second[1], self._drawn)
         return self._trapped(m, e, event) if event else (m, e)
 
     def subtract_reversed(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.subtract_reversed(*first, *second, self._rules)
+        m, e, event = accumulator.subtract_reversed(*first, *second, self._drawn)
         return self._trapped(m, e, event) if event else (m, e)
 
     def multiply(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.multiply(first[0], first[1], second[0], second[1], self._rules)
+        m, e, event = accumulator.multiply(first[0], first[1], second[0], second[1], self._drawn)
         return self._trapped(m, e, event) if event else (m, e)
 
     def divide(self, dividend: Pair, divisor: Pair) -> Pair:
-        m, e, event = accumulator.divide(dividend[0], dividend[1], divisor[0], divisor[1], self._rules)
+        m, e, event = accumulator.divide(dividend[0], dividend[1], divisor[0], divisor[1], self._drawn)
         return self._trapped(m, e, event) if event else (m, e)
 
     def _trapped(self, mantissa: int, exponent: int, event: int) -> Pair:
@@ -90,13 +95,13 @@ class DecimalNumbers(Numbers):
         return whole
 
     def function(self, name: str, value: Pair) -> tuple[Pair, str]:
-        return _unpacked(functions.function(name, *value, self._rules))
+        return _unpacked(functions.function(name, *value, self._drawn))
 
     def power(self, base: Pair, exponent: Pair) -> tuple[Pair, str]:
-        return _unpacked(functions.power(base, exponent, self._rules))
+        return _unpacked(functions.power(base, exponent, self._drawn))
 
     def integer_power(self, base: Pair, count: int) -> tuple[Pair, str]:
-        return _unpacked(functions.integer_power(*base, count, self._rules))
+        return _unpacked(functions.integer_power(*base, count, self._drawn))
 
     def work(self, operation: str, first: Any, second: Any = 0) -> int:
         if operation == "integer_power":

@@ -1,10 +1,10 @@
 """Library functions and powers.
 
 The result is the exact value, truncated to the profile's digits, or rounded if the profile rounds products (SQRT: if it
-rounds quotients).  SIN, COS, ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  Executing IBM's code
-showed that SQRT truncates the exact value.  For the other functions this is an assumption (OPEN-QUESTIONS 9).  Error
-codes and results for invalid arguments follow GOTRAN's table F1 to F6 (C26-5594 p. 28), and IBM FORTRAN II-D for SQRT
-of a negative number.
+rounds quotients) or at random.  SIN, COS, ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  Executing
+IBM's code showed that SQRT truncates the exact value.  For the other functions this is an assumption (OPEN-QUESTIONS
+9).  Error codes and results for invalid arguments follow GOTRAN's table F1 to F6 (C26-5594 p. 28), and IBM FORTRAN II-D
+for SQRT of a negative number.
 """
 
 from __future__ import annotations
@@ -31,10 +31,13 @@ from emulator.numbers.arithmetic import (
     square_root,
 )
 from emulator.numbers.base import cut_decimal, decimal_length
+from emulator.numbers.draws import randomly
 
 # The number of digits that intermediate products of an integer power keep beyond those of the result, and a number of
 # digits so large that the products keep all digits.
 GUARD, _ALL = 20, 10**9
+# The digits beyond those of the result that random rounding needs.
+_RANDOM = 8
 
 # The number of products from which a chain is long, and the number of long chains after which numba compiles them.
 LONG, MANY = 24, 500
@@ -270,29 +273,34 @@ def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | No
     number, power_of_ten = _digits(value, context)
     text = str(abs(number))
     # The last six digits may be wrong, so they are ignored.
-    tail = text[rules.digits : -6]
+    tail = text[_decisive(rules) : -6]
     if tail.strip("0") == "" or tail.strip("9") == "":
         return None
     return _cut(number, power_of_ten, rules)
 
 
+def _decisive(rules: Rules) -> int:
+    """Return the number of digits that decide the rounding of a value if the digits that follow are not all equal."""
+    return rules.digits + (_RANDOM if rules.random else 0)
+
+
 def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
-    """Return the P-digit number that a value equals to within 10**-200."""
+    """Return the number with the decisive digits that a value equals to within 10**-200, with P digits."""
     number, power_of_ten = _digits(value, context)
-    text = str(abs(number))
-    exponent = power_of_ten + len(text)
-    mantissa = int(text[: rules.digits]) + (text[rules.digits] == "9")
-    if mantissa >= rules.limit:
-        mantissa, exponent = mantissa // 10, exponent + 1
-    return (mantissa if number > 0 else -mantissa), exponent
+    text, digits = str(abs(number)), _decisive(rules)
+    size = int(text[:digits]) + (text[digits] == "9")
+    return _cut(size if number > 0 else -size, power_of_ten + len(text) - digits, rules)
 
 
 def _cut(number: int, power_of_ten: int, rules: Rules) -> tuple[int, int]:
-    """Return ``number * 10**power_of_ten`` with P digits, truncated, or rounded half up if products are rounded."""
-    mantissa, exponent = cut_decimal(abs(number), power_of_ten, rules.digits + 1)
-    mantissa, last_digit = divmod(mantissa, 10)
-    if rules.round_products and last_digit >= 5:
-        mantissa += 1
+    """Return ``number * 10**power_of_ten`` with P digits, rounded as products are."""
+    extra = _RANDOM if rules.random else 1
+    size, exponent = cut_decimal(abs(number), power_of_ten, rules.digits + extra)
+    if rules.random:
+        is_lost = size * 10 ** max(decimal_length(number) - rules.digits - extra, 0) < abs(number)
+        mantissa = randomly(size, 10**extra, int(is_lost), rules.random, rules.draw)
+    else:
+        mantissa = (size + 5) // 10 if rules.round_products else size // 10
     if mantissa >= rules.limit:
         mantissa, exponent = mantissa // 10, exponent + 1
     return (mantissa if number > 0 else -mantissa), exponent

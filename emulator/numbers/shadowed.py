@@ -63,6 +63,9 @@ class ShadowedNumbers(Numbers):
     def digits(self) -> float:
         return self.inner.digits
 
+    def fresh(self) -> ShadowedNumbers:
+        return ShadowedNumbers(self.inner.fresh())
+
     @cached_property
     def _finer(self) -> MultiprecisionNumbers:
         return MultiprecisionNumbers(2 * math.ceil(self.inner.digits / math.log10(2)) + _CARE)

@@ -1,0 +1,171 @@
+"""``stochastic:P:SEED`` and ``stochastic:BITSb:SEED``: decimal or binary numbers whose results are rounded at random.
+
+:mod:`emulator.numbers.draws` defines the two rules of rounding, their sources and the random numbers.  + - * /, the
+library functions and powers round the exact result once.  FLOAT, cards and constants are converted without randomness:
+decimal numbers are truncated, and binary numbers are rounded to nearest.  Binary numbers have the range of ``mp:BITS``,
+so ``stochastic:53b:SEED`` agrees with binary64 except beyond its range.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+from mpmath.libmp import from_man_exp, mpf_add, mpf_mul, mpf_sub
+
+from emulator.errors import ArgumentError
+from emulator.numbers import accumulator
+from emulator.numbers.arithmetic import MAX_DIGITS, MIN_DIGITS, Profile, Rules, drawn, rules_of
+from emulator.numbers.decimal import DecimalNumbers
+from emulator.numbers.draws import CESTAC, MAX_SEED, PROPORTIONAL, draw, key_of, randomly
+from emulator.numbers.multiprecision import MAX_BITS, MIN_BITS, MultiprecisionNumbers
+
+NAME = "stochastic"
+# The words after the seed, with their rules.
+_RULES = {"": CESTAC, "proportional": PROPORTIONAL}
+_SOURCES = {CESTAC: "up or down with probability 1/2 (CESTAC)", PROPORTIONAL: "up with the probability of the part cut"}
+# The guard digits of sums: enough to compare the part that is cut with a draw of eight digits.
+_GUARD = 9
+
+
+@dataclass(frozen=True)
+class StochasticNumbers(DecimalNumbers):
+    """The numbers of a decimal profile that rounds at random."""
+
+    _taken: list[int] = field(default_factory=lambda: [0], compare=False, repr=False)
+
+    @property
+    def _drawn(self) -> Rules:  # each access takes the next random number
+        self._taken[0] += 1
+        return drawn(self._rules, self._taken[0])
+
+    def fresh(self) -> StochasticNumbers:
+        return StochasticNumbers(self.profile)
+
+    def seeded(self, seed: int) -> StochasticNumbers:
+        """Return the same arithmetic with another seed."""
+        return StochasticNumbers(_profile(self.profile.digits, seed, self._rules.random))
+
+
+@dataclass(frozen=True)
+class StochasticBinaryNumbers(MultiprecisionNumbers):
+    """Binary numbers that are rounded at random."""
+
+    seed: int
+    rule: int
+    _taken: list[int] = field(default_factory=lambda: [0], compare=False, repr=False)
+
+    @property
+    def name(self) -> str:
+        return _name(f"{self.bits}b", self.seed, self.rule)
+
+    def fresh(self) -> StochasticBinaryNumbers:
+        return self.seeded(self.seed)
+
+    def seeded(self, seed: int) -> StochasticBinaryNumbers:
+        """Return the same arithmetic with another seed."""
+        return replace(self, seed=seed, _taken=[0])
+
+    @cached_property
+    def _key(self) -> int:
+        return key_of(self.seed)
+
+    @cached_property
+    def _finer(self) -> MultiprecisionNumbers:
+        # Twice the bits tell a root that is exact from one that is not; 64 more leave the others practically exact.
+        return MultiprecisionNumbers(2 * self.bits + 64)
+
+    def _draw(self) -> int:
+        self._taken[0] += 1
+        return draw(self._key, self._taken[0])
+
+    def _rounded(self, value: Any, drawn: int) -> Any:
+        """Round the tuple of an mpf."""
+        sign, mantissa, exponent, bits = value
+        excess = bits - self.bits
+        if excess > 0:
+            whole = randomly(int(mantissa), 1 << excess, 0, self.rule, drawn)
+            value = from_man_exp(-whole if sign else whole, exponent + excess)
+        return self._context.make_mpf(value)
+
+    def add(self, first: Any, second: Any) -> Any:
+        total = self._rounded(mpf_add(first._mpf_, second._mpf_), self._draw())
+        return self._in_range(total, accumulator.SUM_OVER, accumulator.SUM_UNDER)
+
+    def subtract(self, first: Any, second: Any) -> Any:
+        total = self._rounded(mpf_sub(first._mpf_, second._mpf_), self._draw())
+        return self._in_range(total, accumulator.SUM_OVER, accumulator.SUM_UNDER)
+
+    def multiply(self, first: Any, second: Any) -> Any:
+        product = self._rounded(mpf_mul(first._mpf_, second._mpf_), self._draw())
+        return self._in_range(product, accumulator.PRODUCT_OVER, accumulator.PRODUCT_UNDER)
+
+    def divide(self, dividend: Any, divisor: Any) -> Any:
+        number = self._draw()
+        (sign, size, exponent, bits), (by_sign, by, by_exponent, by_bits) = dividend._mpf_, divisor._mpf_
+        if not size or not by:
+            return super().divide(dividend, divisor)
+        # Scale the dividend so that the integer quotient has exactly the bits of a mantissa.
+        shift = self.bits + by_bits - bits
+        if _shifted(size, shift) // _shifted(by, -shift) >> self.bits:
+            shift -= 1
+        whole = randomly(_shifted(size, shift), _shifted(by, -shift), 0, self.rule, number)
+        value = from_man_exp(-whole if sign != by_sign else whole, exponent - by_exponent - shift)
+        quotient = self._context.make_mpf(value)
+        return self._in_range(quotient, accumulator.QUOTIENT_OVER, accumulator.QUOTIENT_UNDER)
+
+    def function(self, name: str, value: Any) -> tuple[Any, str]:
+        return self._once(*self._finer.function(name, self._long(value)))
+
+    def power(self, base: Any, exponent: Any) -> tuple[Any, str]:
+        return self._once(*self._finer.power(self._long(base), self._long(exponent)))
+
+    def integer_power(self, base: Any, count: int) -> tuple[Any, str]:
+        return self._once(*self._finer.integer_power(self._long(base), count))
+
+    def _long(self, value: Any) -> Any:
+        return self._finer._context.make_mpf(value._mpf_)
+
+    def _once(self, value: Any, code: str) -> tuple[Any, str]:
+        return self._rounded(value._mpf_, self._draw()), code
+
+
+def _shifted(size: int, shift: int) -> int:
+    return int(size) << max(shift, 0)
+
+
+def _name(width: str, seed: int, rule: int) -> str:
+    return ":".join([NAME, width, str(seed), *(word for word in _RULES if word and _RULES[word] == rule)])
+
+
+def _profile(digits: int, seed: int, rule: int) -> Profile:
+    rules = rules_of(digits, guard=_GUARD, sticky=1)._replace(random=rule, key=key_of(seed))
+    return Profile(_name(str(digits), seed, rule), f"exact result, rounded {_SOURCES[rule]}", rules)
+
+
+def stochastic(name: str) -> StochasticNumbers | StochasticBinaryNumbers | None:
+    """Return the system of a name such as ``stochastic:8:1`` or ``stochastic:53b:1:proportional``.
+
+    Return None if the name does not begin with ``stochastic``.  Raise ArgumentError for an incomplete or invalid name.
+    """
+    family, *parts = name.split(":")
+    if family != NAME:
+        return None
+    width, seed, word = (*parts, "", "")[:3]
+    counts = [
+        text for text in (width.removesuffix("b"), seed) if text.isdecimal() and text.isascii() and len(text) < 11
+    ]
+    if len(counts) < 2 or len(parts) > 3 or word not in _RULES or (len(parts) == 3 and not word):
+        raise ArgumentError(
+            f"{name[:40]}: expected {NAME}:P:SEED or {NAME}:BITSb:SEED, as {NAME}:8:1; only :proportional may follow"
+        )
+    size, number = map(int, counts)
+    least, most, what = (MIN_BITS, MAX_BITS, "bits") if width.endswith("b") else (MIN_DIGITS, MAX_DIGITS, "digits")
+    if not least <= size <= most:
+        raise ArgumentError(f"{name[:40]}: the number of {what} must be {least} to {most}")
+    if number > MAX_SEED:
+        raise ArgumentError(f"{name[:40]}: the seed must be 0 to {MAX_SEED}")
+    if width.endswith("b"):
+        return StochasticBinaryNumbers(size, number, _RULES[word])
+    return StochasticNumbers(_profile(size, number, _RULES[word]))

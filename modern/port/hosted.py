@@ -1,0 +1,97 @@
+"""The port over a number system of the emulator, for arithmetics whose operations are not pure functions.
+
+``a op b`` is the result of the system's operation.  If it raises an error code, the result is used and no error is
+reported, as in :mod:`modern.port.decimal`.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from emulator.numbers import DecimalNumbers, Trap
+from emulator.numbers.stochastic import StochasticBinaryNumbers, StochasticNumbers
+from modern.geometry.numbers import Exact, exact_text
+from modern.port.arithmetic import Arithmetic, Vector
+from modern.port.decimal import Arithmetic1620
+
+System = StochasticNumbers | StochasticBinaryNumbers
+# The digits of an irrational number that are shown or compared exactly; stochastic numbers are rational.
+_DIGITS = 40
+
+
+def _operator(operation: str) -> Callable[["HostedNumber", "HostedNumber"], "HostedNumber"]:
+    def apply(self: "HostedNumber", operand: "HostedNumber") -> "HostedNumber":
+        if not isinstance(operand, HostedNumber):
+            return NotImplemented  # numpy then applies the operation to each element
+        try:
+            return HostedNumber(getattr(self.by, operation)(self.value, operand.value), self.by)
+        except Trap as trap:
+            return HostedNumber(trap.value, self.by)
+
+    return apply
+
+
+class HostedNumber:
+    """A number of a system, with the system that calculates with it."""
+
+    __slots__ = ("by", "value")
+
+    def __init__(self, value: Any, by: System) -> None:
+        self.value = value
+        self.by = by
+
+    __add__ = _operator("add")
+    __sub__ = _operator("subtract")
+    __mul__ = _operator("multiply")
+    __truediv__ = _operator("divide")
+
+    def __neg__(self) -> "HostedNumber":
+        return HostedNumber(self.by.negate(self.value), self.by)
+
+    def __abs__(self) -> "HostedNumber":
+        return -self if self.by.sign(self.value) < 0 else self
+
+    def __repr__(self) -> str:
+        return f"HostedNumber({self.by.text(self.value)})"
+
+
+@dataclass(frozen=True)
+class HostedArithmetic(Arithmetic):
+    """Vectors of :class:`HostedNumber` of one system."""
+
+    system: System
+
+    @property
+    def name(self) -> str:
+        return self.system.name
+
+    def number(self, value: Exact, minus: bool = False) -> HostedNumber:
+        """Return a coordinate as READ stores it in the arithmetic without random rounding."""
+        if isinstance(self.system, DecimalNumbers):
+            read = Arithmetic1620(self.system.profile).number(value, minus)
+            return HostedNumber((read.m, read.e), self.system)
+        return HostedNumber(self.system.nearest(value.numerator, value.denominator), self.system)
+
+    def quotient(self, value: HostedNumber, count: int) -> HostedNumber:
+        return value / HostedNumber(self.system.from_integer(count), self.system)
+
+    def sign(self, values: Vector) -> Vector:
+        signs = (self.system.sign(value.value) for value in values.flat)
+        return np.fromiter(signs, np.int8, values.size).reshape(values.shape)
+
+    def keys(self, coordinates: Vector) -> Iterable[object]:
+        return zip(*([self.exact(value, 1) for value in row] for row in coordinates), strict=True)
+
+    def root(self, value: HostedNumber) -> HostedNumber:
+        return HostedNumber(self.system.function("SQRT", value.value)[0], self.system)
+
+    def exact(self, value: HostedNumber, degree: int) -> Exact:
+        exact = self.system.exact(value.value, _DIGITS)
+        assert exact is not None, "an operation of the port never divides by zero"
+        return exact
+
+    def text(self, value: HostedNumber, degree: int) -> str:
+        text = self.system.text(value.value)
+        return text if text == "-0" else exact_text(self.exact(value, degree))
