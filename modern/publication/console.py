@@ -2,7 +2,8 @@
 
 The HTML and the worker are in ``docs/console``, the scripts in ``docs/_static``.  Python for the browser is the npm
 package ``pyodide``, which ``docs/console/package-lock.json`` pins.  The project itself is loaded from its wheel, lark
-and mpmath from the installed packages.  Without the npm package or the wheel, the pages show recorded runs only.
+and mpmath from the installed packages.  ``docs/console/compile.mjs`` compiles all modules for that Python.  Without the
+npm package or the wheel, the pages show recorded runs only.
 """
 
 import base64
@@ -11,6 +12,8 @@ import hashlib
 import html
 import json
 import shutil
+import subprocess
+import tempfile
 import zipfile
 from collections.abc import Mapping
 from io import BytesIO
@@ -20,7 +23,7 @@ from modern.edition import programs
 from modern.edition.chapter6 import input_deck
 from modern.edition.sources import read
 from modern.formats.points import parse_bytes
-from modern.publication.building import ROOT
+from modern.publication.building import ROOT, BuildError
 from modern.publication.commentary import commentary
 from modern.publication.desk import Answer, Desk
 from modern.publication.parting import parted
@@ -39,6 +42,10 @@ _NOT_LOADED = (
     *("_pyio.py", "optparse.py", "configparser.py", "pydoc_data", "emulator/compiled", "emulator/jit", "hull1620"),
     *("modern/claims", "modern/papers", "modern/study", "modern/cli", "modern/digital", "modern/port", "modern/bench"),
     *("modern/exact_hull", "modern/drawing", "transcripts/statements", "transcripts/appel_will_1976", "lark/tools"),
+    *("modern/publication/book", "modern/publication/site", "modern/publication/tei", "modern/publication/deposit.py"),
+    *("modern/publication/hull1620.odd", "lark/grammars/python.lark", "argparse.py"),
+    *("_pydatetime.py", "ipaddress.py", "logging/handlers.py", "logging/config.py", "_sysconfigdata", "bdb.py"),
+    *("asyncio/windows", "asyncio/proactor", "concurrent/futures/process.py", "pyodide/console.py", "plistlib.py"),
 )
 _ENCODINGS = ("__init__", "aliases", "ascii", "cp437", "latin_1", "utf_8")
 # Seconds of the recorded run on a 1620 between two of its frames, and how much faster than in 1963 it is shown.
@@ -116,7 +123,7 @@ def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> 
     if npm.is_dir() and wheel is not None:
         lock = json.loads((npm / _LOCK).read_text("utf-8"))
         files = {name: (npm / name).read_bytes() for name in PYODIDE}
-        files |= {_LIBRARY: _library(npm / _LIBRARY), "packages.zip": _stored(files_of(wheel))}
+        files |= _compiled(npm, {_LIBRARY: _library(npm / _LIBRARY), "packages.zip": _stored(files_of(wheel))})
         files["lock.json"] = json.dumps(lock | {"packages": {}}).encode()
         data = packed(files)
         size, version = len(data), hashlib.sha256(data).hexdigest()[:16]
@@ -135,6 +142,21 @@ def packed(files: Mapping[str, bytes]) -> bytes:
     """Compress files into one: the length of an index in four bytes, the index with their sizes, and their bytes."""
     index = json.dumps({name: len(content) for name, content in files.items()}).encode()
     return gzip.compress(len(index).to_bytes(4, "little") + index + b"".join(files.values()), mtime=0)
+
+
+def _compiled(npm: Path, archives: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the archives with compiled modules instead of their source."""
+    if not (node := shutil.which("node")):
+        raise BuildError("node is missing; it compiles the modules of the emulator in the browser")
+    with tempfile.TemporaryDirectory() as folder:
+        paths = {name: Path(folder) / name for name in archives}
+        for name, path in paths.items():
+            path.write_bytes(archives[name])
+        command = [node, str(SOURCE / "compile.mjs"), str(npm), *map(str, paths.values())]
+        process = subprocess.run(command, capture_output=True, text=True, check=False)
+        if process.returncode:
+            raise BuildError(f"the modules were not compiled: {process.stderr.strip()[-300:]}")
+        return {name: path.read_bytes() for name, path in paths.items()}
 
 
 def _library(archive: Path) -> bytes:
