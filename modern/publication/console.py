@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import tempfile
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from io import BytesIO
 from pathlib import Path
 
@@ -123,7 +123,9 @@ def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> 
     if npm.is_dir() and wheel is not None:
         lock = json.loads((npm / _LOCK).read_text("utf-8"))
         files = {name: (npm / name).read_bytes() for name in PYODIDE}
-        files |= _compiled(npm, {_LIBRARY: _library(npm / _LIBRARY), "packages.zip": _stored(files_of(wheel))})
+        files[_LIBRARY], packages = _compiled(npm, [_library(npm / _LIBRARY), _stored(files_of(wheel))])
+        with zipfile.ZipFile(BytesIO(packages)) as archive:
+            files |= {f"packages/{name}": archive.read(name) for name in archive.namelist()}
         files["lock.json"] = json.dumps(lock | {"packages": {}}).encode()
         data = packed(files)
         size, version = len(data), hashlib.sha256(data).hexdigest()[:16]
@@ -144,19 +146,19 @@ def packed(files: Mapping[str, bytes]) -> bytes:
     return gzip.compress(len(index).to_bytes(4, "little") + index + b"".join(files.values()), mtime=0)
 
 
-def _compiled(npm: Path, archives: Mapping[str, bytes]) -> dict[str, bytes]:
+def _compiled(npm: Path, archives: Sequence[bytes]) -> list[bytes]:
     """Return the archives with compiled modules instead of their source."""
     if not (node := shutil.which("node")):
         raise BuildError("node is missing; it compiles the modules of the emulator in the browser")
     with tempfile.TemporaryDirectory() as folder:
-        paths = {name: Path(folder) / name for name in archives}
-        for name, path in paths.items():
-            path.write_bytes(archives[name])
-        command = [node, str(SOURCE / "compile.mjs"), str(npm), *map(str, paths.values())]
+        paths = [Path(folder) / f"{number}.zip" for number in range(len(archives))]
+        for path, archive in zip(paths, archives, strict=True):
+            path.write_bytes(archive)
+        command = [node, str(SOURCE / "compile.mjs"), str(npm), *map(str, paths)]
         process = subprocess.run(command, capture_output=True, text=True, check=False)
         if process.returncode:
             raise BuildError(f"the modules were not compiled: {process.stderr.strip()[-300:]}")
-        return {name: path.read_bytes() for name, path in paths.items()}
+        return [path.read_bytes() for path in paths]
 
 
 def _library(archive: Path) -> bytes:

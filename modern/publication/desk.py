@@ -21,7 +21,6 @@ from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Line, Program
 from emulator.language.statements import capitals
 from emulator.machine.console import Cards, command, done
-from emulator.machine.divergence import diverge
 from emulator.machine.machine import run_with_operator
 from emulator.machine.operator import PUNCHED, FromFile, Load, Logged, Operator
 from emulator.machine.result import DEFAULT_CORE, DEFAULT_LIMIT, Event, Options
@@ -179,10 +178,9 @@ class Desk:
         ``pace`` is the largest speed relative to the 1620, or 0 for full speed.  The answer has ``events`` (kind and
         text), ``card`` (the card that is executed next), ``statement`` (its number in the run), ``seconds`` on a 1620,
         ``stands`` (why the machine waits, or empty), ``waits`` (``typed`` for a line with its ``fields``, ``answer``
-        for an action, or empty), ``ended`` and ``messages``.  ``registers`` are the floating
-        and the fixed-point accumulator.  ``picture``, ``stages`` and ``wrote`` are those of
-        :mod:`modern.publication.panel`.  After the end, ``next`` names the program that reads the punched cards, and
-        ``queued`` is true if a log has further loads.
+        for an action, or empty), ``ended`` and ``messages``.  ``registers`` are the floating and the fixed-point
+        accumulator.  ``picture``, ``stages`` and ``wrote`` are those of :mod:`modern.publication.panel`.  After the
+        end, ``next`` names the program that reads the punched cards, and ``queued`` is true if a log has further loads.
         """
         session = self._session
         if session is None or self._ending:
@@ -266,6 +264,8 @@ class Desk:
         The answer has ``lines``: the statement with the value and the target in both arithmetics.  ``statement`` is
         its number in the run.  ``hull`` is the true hull of the points of the first stage.
         """
+        from emulator.machine.divergence import diverge  # not at the top: mpmath would delay the page
+
         if (loaded := self._loaded) is None:
             return {"lines": [_EMPTY]}
         try:

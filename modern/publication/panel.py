@@ -22,7 +22,6 @@ from emulator.machine.trace import contents
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.objectdeck.digits import card_text
 from emulator.objectdeck.extent import code_positions
-from modern.publication.parting import scaled, true_hull
 
 # The arrays of coordinates in programs 1 and 3, and those in program 2 by the projection KPROJ.
 _SPACE = ("X", "Y", "Z")
@@ -220,6 +219,8 @@ class Record:
 
 def true_picture(stages: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Return the true hull of the points of the first stage, in exact arithmetic, as a picture."""
+    from modern.publication.parting import scaled, true_hull  # not at the top: it would delay the page
+
     points = stages[0]["points"]
     faces = true_hull(scaled([(Fraction(str(x)), Fraction(str(y)), Fraction(str(z))) for x, y, z in points]))[1]
     vertices = sorted({n for face in faces for n in face})
