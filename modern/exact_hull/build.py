@@ -10,13 +10,11 @@ import numpy as np
 
 from emulator.jit.functions import require_numba
 from modern.exact_hull.certificate import certify
-from modern.exact_hull.coordinates import Coordinates, IntPoint, Ints, read_points
+from modern.exact_hull.coordinates import Coordinates, Ints, read_points
 from modern.exact_hull.facets import (
     faces,
     independent,
-    lowest_terms,
     merged,
-    plane_at,
     planes_of,
     polygon,
     segment,
@@ -25,7 +23,7 @@ from modern.exact_hull.facets import (
 from modern.exact_hull.planes import facet_planes
 from modern.exact_hull.proposal import propose
 from modern.exact_hull.result import CertificateError, ExactHull, Facet, Plane
-from modern.exact_hull.surface import convex_surface, frame
+from modern.exact_hull.surface import convex_surface
 from modern.geometry.points import Points
 
 SEED = 1963
@@ -64,17 +62,6 @@ def _on_facets(
     rows = np.flatnonzero(~on)
     on[rows] = planes.largest(others[rows])[1] == 0
     return others[on]
-
-
-def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int]) -> list[Facet]:
-    """Return the faces of the hull of distinct points, starting from the four points in ``simplex``."""
-    space = frame(points)
-    triangles = convex_surface(space, simplex, insertion_order(len(points), simplex))
-    # The frame has moved the points, so the constant terms are computed again.
-    return [
-        Facet(lowest_terms(plane_at(facet.plane[:3], points[facet.polygon[0]])), facet.polygon)
-        for facet in faces(triangles, space.integers)
-    ]
 
 
 def _proposed(points: Coordinates, basis: Sequence[int], fast: bool | None) -> tuple[list[Facet], Ints] | None:
@@ -160,8 +147,9 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
             hull = classified(3, *proposed)
             with suppress(CertificateError):
                 return replace(hull, certificate=certify(scaled, hull))
-        facets = _polyhedron(distinct.all(), basis)
+        order = insertion_order(len(distinct), basis)
+        facets = faces(convex_surface(distinct, basis, order), distinct.all())
     boundary = _on_facets(distinct, facets) if len(basis) > 2 else np.empty(0, np.int64)
-    hull = replace(classified(len(basis) - 1, facets, boundary), plane=plane)
-    hull = replace(hull, polygon=tuple(indices[list(cycle)].tolist()))
+    hull = classified(len(basis) - 1, facets, boundary)
+    hull = replace(hull, plane=plane, polygon=tuple(indices[list(cycle)].tolist()))
     return replace(hull, certificate=certify(scaled, hull))

@@ -18,7 +18,8 @@ Evaluating every plane at every point takes too long for many points and facets.
 plane and a point, the convexity of a polyhedron is proved from its edges, and each point is evaluated in the plane of
 only one facet.  This establishes the same facts by other means (:mod:`modern.exact_hull.convexity`).
 
-The proof shares nothing with the construction: it has its own vectors, float64 images and error bounds.
+The proof shares with the construction only the reading of the points and the filter for signs (``planes``), whose bound
+is proved there.  It computes its own planes and vectors.
 """
 
 import math
@@ -53,24 +54,16 @@ def _is_plane(plane: Sequence[int]) -> bool:
 
 
 def rank(vectors: Iterable[Sequence[int]]) -> int:
-    """Return the rank of vectors of three integers, by fraction-free elimination."""
-    rows: list[tuple[int, list[int]]] = []
-    for vector in vectors:
-        # Subtract multiples of the previous rows to eliminate their pivots.  The remainder is zero if the vector
-        # depends on them.
-        rest = list(vector)
-        for pivot, row in rows:
-            if rest[pivot]:
-                factor, divisor = rest[pivot], row[pivot]
-                rest = [divisor * number - factor * entry for number, entry in zip(rest, row, strict=True)]
-        for axis in range(3):
-            if rest[axis]:
-                common = math.gcd(*rest)
-                rows.append((axis, [number // common for number in rest]))
-                break
-        if len(rows) == 3:
-            break
-    return len(rows)
+    """Return the rank of vectors of three integers."""
+    rest = iter(vectors)
+    first = next(filter(any, rest), None)
+    if first is None:
+        return 0
+    # The vectors skipped are multiples of the first one.
+    normal = next(filter(any, (product(first, vector) for vector in rest)), None)
+    if normal is None:
+        return 1
+    return 3 if any(dot(normal, vector) for vector in rest) else 2
 
 
 def _check_integers(points: Coordinates, hull: ExactHull) -> None:
@@ -135,7 +128,8 @@ def _check_planes(hull: ExactHull) -> None:
         require(bool(polygon) and polygon[0] == min(polygon), f"facet {number}: the smallest vertex is not first")
         for index in polygon:
             x, y, z = hull.scaled[index]
-            require(a * x + b * y + c * z + d == 0, f"facet {number}: vertex {index} is not in its plane")
+            if a * x + b * y + c * z + d:
+                raise CertificateError(f"facet {number}: vertex {index} is not in its plane")
 
 
 def _check_points(hull: ExactHull) -> Planes:
@@ -147,7 +141,8 @@ def _check_points(hull: ExactHull) -> Planes:
     planes = facet_planes(read_points(hull.scaled), hull.facets)
     for block in planes.near(np.array(unique)):
         for row, facet, sign in zip(*(column.tolist() for column in block), strict=True):
-            require(sign <= 0, f"point {unique[row]} is outside of facet {facet}")
+            if sign > 0:
+                raise CertificateError(f"point {unique[row]} is outside of facet {facet}")
             if sign == 0 and row < len(hull.vertices):  # the vertices come first in ``unique``
                 corners[facet].add(unique[row])
                 normals[unique[row]].append(hull.facets[facet].plane[:3])
@@ -176,7 +171,8 @@ def _check_polyhedron(hull: ExactHull) -> int:
         count += len(facet.polygon)
     require(count > 0 and len(edges) == count, "an edge occurs twice in the same direction, or there are no edges")
     for start, end in edges:
-        require((end, start) in edges, f"the edge {start}-{end} belongs to only one facet")
+        if (end, start) not in edges:
+            raise CertificateError(f"the edge {start}-{end} belongs to only one facet")
     shape = f"{len(hull.vertices)} vertices, {count // 2} edges, {len(hull.facets)} facets"
     require(len(hull.vertices) - count // 2 + len(hull.facets) == 2, f"Euler's relation does not hold: {shape}")
     return count // 2
@@ -193,7 +189,8 @@ def _check_polygon(hull: ExactHull) -> int:
     )
     require(math.gcd(a, b, c, d) == 1, "the polygon's plane is not in lowest terms")
     for index, (x, y, z) in enumerate(hull.scaled):
-        require(a * x + b * y + c * z + d == 0, f"point {index} is not in the polygon's plane")
+        if a * x + b * y + c * z + d:
+            raise CertificateError(f"point {index} is not in the polygon's plane")
     cycle = hull.polygon
     require(
         sorted(cycle) == list(hull.vertices) and cycle[0] == min(cycle), "the polygon is not an order of the vertices"

@@ -27,6 +27,8 @@ Objects = NDArray[np.object_]
 _HASH = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
 # Floats of at least 2**_HUGE are halved this number of times before their difference is computed.
 _HUGE, _HALVINGS = 1000, 64
+# The number of bits that the sides of the bounding box of small points have together.
+_SMALL_BITS = 48
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +42,11 @@ class Images:
     low: tuple[int, ...]
     shifts: tuple[int, ...]
     places: Floats
+
+    @property
+    def are_small(self) -> bool:
+        """True if float64 holds all images and values of planes through the points exactly, as integers below 2**52."""
+        return sum(self.shifts) <= _SMALL_BITS
 
     def exactly(self, place: Floats) -> tuple[IntPoint, int]:
         """Return the point with this image exactly, as integers and their common divisor."""

@@ -35,7 +35,12 @@ def plane_at(normal: IntPoint, p: IntPoint) -> Plane:
 
 def plane_through(p: IntPoint, q: IntPoint, r: IntPoint) -> Plane:
     """Return the plane (not in lowest terms) through points that are counterclockwise seen from its positive side."""
-    return plane_at(cross(minus(q, p), minus(r, p)), p)
+    # Written out, because the construction calls it for every triangle.
+    x, y, z = p
+    u, v, w = q[0] - x, q[1] - y, q[2] - z
+    k, l, m = r[0] - x, r[1] - y, r[2] - z  # noqa: E741
+    a, b, c = v * m - w * l, w * k - u * m, u * l - v * k
+    return a, b, c, -(a * x + b * y + c * z)
 
 
 def lowest_terms(plane: Plane) -> Plane:

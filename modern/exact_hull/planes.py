@@ -41,17 +41,24 @@ _BLOCK = 1 << 16
 def normal_images(planes: Objects, shifts: Sequence[int]) -> Floats:
     """Return the images of the planes' normals (m, 3)."""
     normals = planes[:, :3]
-    # A fast path for numbers of moderate size.  It has the same results as the loop below.
+    # A fast path for numbers of moderate size.  It has the same results as ``normal_image``.
     if abs(normals).max() < _WIDE and max(shifts) - min(shifts) < _APART:
         floats = np.ldexp(normals.astype(np.float64), np.array(shifts) - min(shifts))
         exponents = np.frexp(abs(floats).max(axis=1))[1]
         return np.asarray(np.ldexp(floats, -exponents[:, None]))
-    # The exact quotients, for integers too large for float64.
-    rows = []
-    for normal in normals.tolist():
-        power = max(number.bit_length() + shift for number, shift in zip(normal, shifts, strict=True) if number)
-        rows.append([n / (1 << power - shift) if n else 0.0 for n, shift in zip(normal, shifts, strict=True)])
-    return np.array(rows)
+    return np.array([normal_image(normal, shifts) for normal in normals.tolist()])
+
+
+def normal_image(plane: Sequence[int], shifts: Sequence[int]) -> tuple[float, float, float]:
+    """Return the image of a plane's normal; the integers may have any size."""
+    a, b, c = plane[:3]
+    k, l, m = shifts  # noqa: E741
+    power = max(a.bit_length() + k if a else 0, b.bit_length() + l if b else 0, c.bit_length() + m if c else 0)
+    return (
+        a / (1 << power - k) if a else 0.0,
+        b / (1 << power - l) if b else 0.0,
+        c / (1 << power - m) if c else 0.0,
+    )
 
 
 def long_signs(normals: Ints, differences: Ints) -> Ints:

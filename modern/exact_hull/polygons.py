@@ -34,7 +34,8 @@ def check_convex(
         difference(scaled[end], scaled[start]) for start, end in zip(polygon, (*polygon[1:], polygon[0]), strict=True)
     ]
     for before, after, index in zip(sides, sides[1:] + sides[:1], (*polygon[1:], polygon[0]), strict=True):
-        require(dot(product(before, after), normal) > 0, f"{name}: the polygon does not turn left at vertex {index}")
+        if dot(product(before, after), normal) <= 0:
+            raise CertificateError(f"{name}: the polygon does not turn left at vertex {index}")
     # Each turn is less than 180 degrees, so no turn can skip half of the directions.  The polygon therefore goes around
     # as often as the direction of its sides enters the half with a positive coordinate on an axis not along the normal.
     axis = 2 if any(normal[:2]) else 1

@@ -33,8 +33,6 @@ from modern.exact_hull.planes import Planes
 # divided by the power of two s that makes its largest number at most 1.  So the value of the plane at a point has an
 # error of 60e w / s from the normal and 46e from its evaluation (see ``planes``), less than 2**-47 (1 + w / s).
 _BOUND = 2.0**-47
-# If the sides of the bounding box have together at most this number of bits, all values are exact.
-_EXACT_BITS = 48
 # Doubles hold the points and all products of three coordinates if these have at most this number of bits.
 _DOUBLE_BITS, _PRODUCT_BITS = 53, 1000
 # The number of points from which the compiled kernel saves more time than it takes to load.
@@ -84,7 +82,7 @@ def propose(points: Coordinates, basis: Sequence[int], fast: bool | None = None)
     basis: four points that do not lie in a plane. fast: use compiled code; None chooses.
     """
     start = _simplex(points, basis)
-    exact = sum(points.images.shifts) <= _EXACT_BITS
+    exact = points.images.are_small
     kernel = _chosen(fast, len(points))
     if kernel and (places := in_doubles(points)) is not None:
         known, work = kernels.surface(places, exact), kernels.room(len(places))

@@ -10,91 +10,27 @@ cycle.  No edge of the horizon is in line with the new point, since otherwise th
 edge would contain the point.  So no triangle without area arises.  Triangles may share a plane, and a former corner may
 end up inside a face or an edge; ``facets.faces`` merges such triangles at the end.
 
-Signs are first computed in floating point, from images of points and planes, with a bound on their errors.
+Signs are first computed with the filter of ``planes``, and in integers where it leaves them undecided.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from modern.exact_hull.coordinates import IntPoint
+from modern.exact_hull.coordinates import Coordinates, Floats
 from modern.exact_hull.facets import Triangle, plane_through, value
+from modern.exact_hull.planes import BOUND, normal_image
 from modern.exact_hull.result import Plane
 
-# Points are moved by an integer vector so that the origin is their middle.  Each axis is then divided by a power of two
-# such that every image has |x| <= 1.  A plane A x + B y + C z + D through one of the points is divided by the power of
-# two that brings the largest of |A| 2^k, |B| 2^l, |C| 2^m (2^k, 2^l, 2^m being the divisors of the axes) to at most 1;
-# then |D| <= 3.  All images are the nearest float64 (Python's int / int rounds correctly at any length).
-#
-# The bound: with e = 2**-54 the images of x and A have errors of at most e each, that of D 4e.  A product of images has
-# an error of 2e, and e more once it is rounded; three of them have 9e.  The three additions, in any order and with or
-# without fused products, have partial sums below 8 and round by at most 8e each, together 24e.  The sum has an error of
-# at most 9e + 4e + 24e = 37e < 64e = 2**-48.  Underflow adds at most about 2**-1070.  So a computed value beyond 2**-48
-# has the true sign, and any value closer to zero is computed in integers.
-#
-# If the points are small enough, all of this arithmetic is exact and the bound is 0; see ``Frame.bound``.
-BOUND = 2.0**-48
-
-
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """Points moved by an integer vector so that the origin is in their middle, and their float64 images.
-
-    centre: the point that is moved to the origin. shifts: the exponents of the powers of two that divide the axes.
-    integers: the moved points. images: (n, 4) float64, with 1 in the fourth column. bound: 2**-48, or 0 if every step
-    of evaluating a plane is an integer below 2**53, which float64 holds exactly (48 times the product of the largest
-    coordinates is a bound).
-    """
-
-    centre: IntPoint
-    shifts: IntPoint
-    integers: list[IntPoint]
-    images: NDArray[np.float64]
-    bound: float
-
-
-def frame(points: Sequence[IntPoint]) -> Frame:
-    """Return the frame of points that do not lie in one plane."""
-    columns = list(zip(*points, strict=True))
-    centre = tuple((min(column) + max(column)) // 2 for column in columns)
-    moved = [[number - middle for number in column] for column, middle in zip(columns, centre, strict=True)]
-    largest = [max(max(column), -min(column)) for column in moved]
-    shifts = tuple(number.bit_length() for number in largest)
-    images = np.ones((len(points), 4))
-    for axis in range(3):
-        divisor = 1 << shifts[axis]
-        images[:, axis] = [number / divisor for number in moved[axis]]
-    # See ``Frame.bound``.
-    exact = 48 * largest[0] * largest[1] * largest[2] < 2**53
-    return Frame(
-        (centre[0], centre[1], centre[2]),
-        (shifts[0], shifts[1], shifts[2]),
-        list(zip(*moved, strict=True)),
-        images,
-        0.0 if exact else BOUND,
-    )
-
-
-def plane_image(plane: Plane, shifts: IntPoint) -> tuple[float, float, float, float]:
-    """Return the float64 image of a plane through a point of the frame."""
-    a, b, c, d = plane
-    k, l, m = shifts  # noqa: E741
-    power = max(a.bit_length() + k if a else 0, b.bit_length() + l if b else 0, c.bit_length() + m if c else 0)
-    return (
-        a / (1 << power - k) if a else 0.0,
-        b / (1 << power - l) if b else 0.0,
-        c / (1 << power - m) if c else 0.0,
-        d / (1 << power),
-    )
-
+# The number of signs that are computed one by one faster than by numpy.
+_FEW = 24
 
 # Why one triangle for each waiting point is enough: let q see the triangle f, which point p sees and removes, and let m
 # be a point inside f.  The segment q m is outside the old hull up to m, and m is interior to the new hull.  The segment
 # therefore enters the new hull through a new triangle, which q sees.  So a waiting point needs to be compared only with
 # the new triangles, and if it sees none of them it belongs to the hull.
 _Horizon = list[tuple[int, int, int]]
+_Image = tuple[float, float, float, float]
 
 
 class Surface:
@@ -105,21 +41,24 @@ class Surface:
     is the result of the last test of visibility with its point (see ``_visible``).
     """
 
-    def __init__(self, frame: Frame, simplex: Sequence[int]) -> None:
-        self.frame = frame
-        self.point_images: list[list[float]] = frame.images[:, :3].tolist()
+    def __init__(self, points: Coordinates, simplex: Sequence[int]) -> None:
+        self.points = points.all()
+        self.shifts = points.images.shifts
+        self.bound = 0.0 if points.images.are_small else BOUND
+        self.places = np.ones((len(points), 4))
+        self.places[:, :3] = points.images.places
+        self.rows: list[list[float]] = points.images.places.tolist()
         self.corners: list[Triangle] = []
         self.neighbours: list[list[int]] = []
         self.planes: list[Plane] = []
-        self.images: list[tuple[float, float, float, float]] = []
+        self.images: list[_Image] = []
         self.waiting: list[list[int]] = []
         self.alive: list[bool] = []
         self.mark: list[int] = []
-        self.home: list[int] = [-1] * len(frame.integers)
+        self.home: list[int] = [-1] * len(points)
         # The first tetrahedron.  Its fourth point is on the inner side of the plane of the first triangle.
         a, b, c, d = simplex
-        points = frame.integers
-        if value(plane_through(points[a], points[b], points[c]), points[d]) > 0:
+        if value(plane_through(self.points[a], self.points[b], self.points[c]), self.points[d]) > 0:
             b, c = c, b
         for corners, neighbours in (
             ((a, b, c), [1, 2, 3]),
@@ -132,12 +71,14 @@ class Surface:
         self._distribute([p for p in range(len(points)) if p not in used], range(4))
 
     def _add(self, corners: Triangle, neighbours: list[int]) -> None:
-        points = self.frame.integers
-        plane = plane_through(points[corners[0]], points[corners[1]], points[corners[2]])
+        p, q, r = corners
+        plane = plane_through(self.points[p], self.points[q], self.points[r])
+        a, b, c = normal_image(plane, self.shifts)
+        x, y, z = self.rows[p]
         self.corners.append(corners)
         self.neighbours.append(neighbours)
         self.planes.append(plane)
-        self.images.append(plane_image(plane, self.frame.shifts))
+        self.images.append((a, b, c, -(a * x + b * y + c * z)))
         self.waiting.append([])
         self.alive.append(True)
         self.mark.append(-1)
@@ -145,39 +86,36 @@ class Surface:
     def sees(self, p: int, triangle: int) -> bool:
         """Return True if point ``p`` sees the triangle, that is, if it is strictly outside the triangle's plane."""
         a, b, c, d = self.images[triangle]
-        x, y, z = self.point_images[p]
+        x, y, z = self.rows[p]
         approximate = a * x + b * y + c * z + d
-        if approximate > self.frame.bound:
+        if approximate > self.bound:
             return True
-        if approximate < -self.frame.bound:
+        if approximate < -self.bound:
             return False
-        return value(self.planes[triangle], self.frame.integers[p]) > 0
+        return value(self.planes[triangle], self.points[p]) > 0
 
     def _distribute(self, points: list[int], triangles: range) -> None:
         """Let every point wait outside one of ``triangles`` (up to the newest) that it sees; the others are inside."""
-        if not points:
+        if len(points) * len(triangles) <= _FEW:
+            for p in points:
+                self._wait(p, next((triangle for triangle in triangles if self.sees(p, triangle)), -1))
             return
-        bound = self.frame.bound
         # One matrix product gives all approximate values; each point takes the triangle with the largest one.
-        values: NDArray[np.float64] = self.frame.images[points] @ np.array(self.images[triangles.start :]).T
+        values: Floats = self.places[points] @ np.array(self.images[triangles.start :]).T
         chosen: list[int] = values.argmax(axis=1).tolist()
-        largest: list[float] = values.max(axis=1).tolist()
-        first = triangles.start
-        for row, p in enumerate(points):
+        for row, (p, largest) in enumerate(zip(points, values.max(axis=1).tolist(), strict=True)):
             triangle = -1
-            if largest[row] > bound:
-                triangle = first + chosen[row]
-            elif bound and largest[row] >= -bound:
-                triangle = self._exactly_seen(p, np.flatnonzero(values[row] >= -bound) + first)
-            self.home[p] = triangle
-            if triangle >= 0:
-                self.waiting[triangle].append(p)
+            if largest > self.bound:
+                triangle = triangles.start + chosen[row]
+            elif self.bound and largest >= -self.bound:
+                doubtful = (np.flatnonzero(values[row] >= -self.bound) + triangles.start).tolist()
+                triangle = next((t for t in doubtful if value(self.planes[t], self.points[p]) > 0), -1)
+            self._wait(p, triangle)
 
-    def _exactly_seen(self, p: int, doubtful: NDArray[np.intp]) -> int:
-        for triangle in doubtful.tolist():
-            if value(self.planes[triangle], self.frame.integers[p]) > 0:
-                return int(triangle)
-        return -1
+    def _wait(self, p: int, triangle: int) -> None:
+        self.home[p] = triangle
+        if triangle >= 0:
+            self.waiting[triangle].append(p)
 
     def _visible(self, p: int) -> tuple[list[int], _Horizon]:
         """Return the triangles that point ``p`` sees, and the edges around them: start, end, and triangle beyond."""
@@ -225,7 +163,7 @@ class Surface:
         self._distribute(orphans, range(first, len(self.corners)))
 
     def triangles(self) -> list[tuple[Triangle, Plane]]:
-        """Return the triangles with their planes in the coordinates of the frame, not reduced to lowest terms."""
+        """Return the triangles with their planes, which are not reduced to lowest terms."""
         return [
             (corners, plane)
             for corners, plane, alive in zip(self.corners, self.planes, self.alive, strict=True)
@@ -233,9 +171,9 @@ class Surface:
         ]
 
 
-def convex_surface(frame: Frame, simplex: Sequence[int], order: Sequence[int]) -> list[tuple[Triangle, Plane]]:
+def convex_surface(points: Coordinates, simplex: Sequence[int], order: Sequence[int]) -> list[tuple[Triangle, Plane]]:
     """Return the hull as triangles, from four affinely independent points and the others in ``order``."""
-    surface = Surface(frame, simplex)
+    surface = Surface(points, simplex)
     for p in order:
         surface.insert(p)
     return surface.triangles()

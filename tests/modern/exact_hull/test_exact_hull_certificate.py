@@ -11,6 +11,7 @@ from modern.exact_hull import CertificateError, Facet, certify, exact_hull
 from modern.exact_hull import build as build_module
 from modern.exact_hull import certificate as checks
 from modern.exact_hull import surface as surface_module
+from modern.exact_hull.coordinates import read_points
 from tests.support.corrupted import (
     BIG,
     GRID,
@@ -316,10 +317,12 @@ def test_a_construction_that_forgets_points_is_refused(monkeypatch: pytest.Monke
 def test_a_construction_in_rounded_numbers_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """The surface is constructed from coordinates truncated to multiples of 1024, so that only its planes are wrong."""
     points = ball(60, 2)
-    frame = build_module.frame
-    monkeypatch.setattr(
-        build_module, "frame", lambda given: frame([tuple(number // 1024 * 1024 for number in p) for p in given])
-    )
+    construct = build_module.convex_surface
+
+    def rounded(points, simplex, order):
+        return construct(read_points([tuple(number // 1024 * 1024 for number in p) for p in points]), simplex, order)
+
+    monkeypatch.setattr(build_module, "convex_surface", rounded)
     with pytest.raises(CertificateError, match="is not in its plane"):
         exact_hull(points)
 

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from modern.exact_hull import PointsError, certify, exact_hull
 from modern.exact_hull.coordinates import read_points
 from modern.exact_hull.facets import lowest_terms, plane_at, plane_through, value
-from modern.exact_hull.planes import Planes
-from modern.exact_hull.surface import BOUND, frame, plane_image
+from modern.exact_hull.planes import BOUND, Planes, normal_image
 from modern.geometry.numbers import decimal
 
 LAW = settings(deadline=None, max_examples=150)
@@ -183,27 +182,29 @@ triples = st.tuples(coordinate, coordinate, coordinate)
 @LAW
 @given(st.lists(triples, min_size=4, max_size=8))
 def test_errors_in_the_construction_are_within_the_bound(points) -> None:
-    """The image of every value is within the bound of the exact quotient, or equal to it if the bound is 0."""
-    space = frame(points)
+    """The image of every value is within the bound of the exact quotient, or equal to it if the points are small."""
+    coordinates = read_points(points)
+    images, places = coordinates.images, coordinates.images.places.tolist()
     for k in range(len(points) - 2):
-        plane = plane_through(*space.integers[k : k + 3])
+        plane = plane_through(*points[k : k + 3])
         if not any(plane[:3]):
             continue
-        image = plane_image(plane, space.shifts)
-        power = max(abs(n).bit_length() + s if n else 0 for n, s in zip(plane[:3], space.shifts, strict=True))
-        for place, integers in zip(space.images.tolist(), space.integers, strict=True):
-            computed = Fraction(sum(a * b for a, b in zip(image, place, strict=True)))
+        a, b, c = normal_image(plane, images.shifts)
+        x, y, z = places[k]
+        d = -(a * x + b * y + c * z)
+        power = max(abs(n).bit_length() + s if n else 0 for n, s in zip(plane[:3], images.shifts, strict=True))
+        for (x, y, z), integers in zip(places, points, strict=True):
+            computed = Fraction(a * x + b * y + c * z + d)
             true = Fraction(value(plane, integers), 1 << power)
             assert abs(computed - true) < BOUND
-            if space.bound == 0:
+            if images.are_small:
                 assert computed == true
 
 
-def test_the_bound_is_zero_only_if_floats_are_exact() -> None:
-    """48 X Y Z < 2**53 holds for X = Y = Z = 57250, but not for 57251."""
-    assert 48 * 57250**3 < 2**53 < 48 * 57251**3
-    for half, bound in ((57250, 0), (57251, BOUND)):
-        assert frame([(0, 0, 0), (2 * half, 0, 0), (0, 2 * half, 0), (0, 0, 2 * half)]).bound == bound
+def test_points_are_small_if_the_sides_of_their_box_have_at_most_48_bits() -> None:
+    for side, are_small in ((2**16 - 1, True), (2**16, False)):
+        corners = [(0, 0, 0), (side, 0, 0), (0, side, 0), (0, 0, side)]
+        assert read_points(corners).images.are_small == are_small
 
 
 def signs(planes, points, filtered: bool = False) -> dict[tuple[int, int], int]:

@@ -9,8 +9,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from modern.exact_hull import exact_hull
+from modern.exact_hull.coordinates import read_points
 from modern.exact_hull.facets import faces, independent
-from modern.exact_hull.surface import convex_surface, frame
+from modern.exact_hull.surface import convex_surface
 
 LAW = settings(deadline=None, max_examples=60)
 tiny = st.integers(-2, 2)
@@ -150,11 +151,10 @@ def test_the_order_of_insertion_changes_no_face(points, rng) -> None:
     if len(simplex) < 4:
         return
     expected = {facet.polygon for facet in exact_hull(points).facets}
-    space = frame(points)
     for _ in range(3):
         others = [index for index in range(len(points)) if index not in simplex]
         rng.shuffle(others)
-        facets = faces(convex_surface(space, rng.sample(simplex, 4), others), space.integers)
+        facets = faces(convex_surface(read_points(points), rng.sample(simplex, 4), others), points)
         assert len(facets) == len(expected)
         assert {facet.polygon for facet in facets} == expected
 

@@ -58,7 +58,7 @@ TURNED = [(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z + 0.1 * x) for x, y, z in CUB
 def _proposed(monkeypatch: pytest.MonkeyPatch) -> None:
     """Propose hulls also for few points, and prevent the exact construction."""
     monkeypatch.setattr(build_module, "MANY", 4)
-    monkeypatch.setattr(build_module, "_polyhedron", None)
+    monkeypatch.setattr(build_module, "convex_surface", None)
 
 
 def built(points, monkeypatch: pytest.MonkeyPatch) -> ExactHull:
