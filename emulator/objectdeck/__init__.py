@@ -2,7 +2,8 @@
 
 ``digits.py`` writes digits with flags and names the entry points of the library's arithmetic, ``addresses.py``
 translates operands and subscripts, ``generator.py`` translates a program, ``extent.py`` measures it, and ``cards.py``
-punches the object deck.  ``square_root.py`` is a routine of this project for SQRT, a function that no known copy of the
+punches the object deck.  ``job.py`` writes jobs for two compilers of the time, and ``check_job.py`` is the script that
+compares their cards.  ``square_root.py`` is a routine of this project for SQRT, a function that no known copy of the
 library contains.  The rules come from the only known object deck of IBM's compiler (docs/reference/object-decks.md).
 
 To add a library function: write its routine as ``square_root.py`` does, and add it to ``ROUTINES`` in ``generator.py``.

@@ -19,6 +19,7 @@ from modern.cli.shared.arguments import (
     epsilon_argument,
     json_argument,
     layers_argument,
+    machine_arguments,
     output_argument,
     program_argument,
     result_arguments,
@@ -148,6 +149,16 @@ def _compile(parser: ArgumentParser) -> None:
     output_argument(parser)
 
 
+def _export_job(parser: ArgumentParser) -> None:
+    program_argument(parser, "export")
+    deck_argument(parser, "a file of data cards, or a deck by name, such as example5 or example5/punched")
+    compiler = "write a job for FORTRAN II-D under Monitor I, or for PDQ FORTRAN"
+    add(parser, {"--for": compiler}, choices=("fortran2d", "pdq"), required=True, dest="compiler")
+    add(parser, {"--out DIR": "write the job to this folder"}, type=Folder, required=True)
+    machine_arguments(parser)
+    upcase_argument(parser)
+
+
 def _check(parser: ArgumentParser) -> None:
     program_argument(parser, "check", "?")
     add(parser, {"--explain N": "explain an error number, such as 5 or E3, or all error numbers (all)"})
@@ -232,6 +243,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "apparatus": ("list, check and weigh the emendations of the listings", _apparatus),
     "check": ("compile a program and show the messages, or explain error numbers", _check),
     "compile": ("print the object code of a program, or punch its object deck", _compile),
+    "export-job": ("write a program and its data as a job for FORTRAN II-D or PDQ FORTRAN under SIMH", _export_job),
     "map": ("print the storage map of a program", _map),
     "listing": ("list a program with run counts, times and lost digits next to each card", _listing),
     "flowchart": ("draw the flow chart of a program as SVG", _flowchart),

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element
 
 from emulator.errors import quoted
 from emulator.files import read_bytes, read_text, write_text
-from modern.cli.shared.console import DIFFERS, OK, UsageError, version
+from modern.cli.shared.console import DIFFERS, OK, UsageError, version, write_folder
 from modern.publication import tei_reading as reading
 from modern.publication.tei import archive, documents, tei
 from modern.publication.tei_schema import odd, schema
@@ -33,21 +32,12 @@ def main(args: argparse.Namespace) -> int:
     elif args.check is not None:
         return _check(args)
     elif args.all:
-        _write_all(Path(args.all))
+        write_folder(args.all, archive(version()))
     elif args.text is None:
         raise UsageError(f"expected a text, or --all with a folder; the texts are {', '.join(documents())}")
     else:
         write_text(args.output, tei(args.text, version()))
     return OK
-
-
-def _write_all(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UsageError(f"{folder}: {(error.strerror or str(error)).lower()}") from None
-    for name, text in archive(version()).items():
-        write_text(str(folder / name), text)
 
 
 def _read(args: argparse.Namespace) -> str:

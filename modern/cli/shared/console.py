@@ -12,10 +12,10 @@ import contextlib
 import os
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, TextIO
 
-from emulator.errors import EmulatorError, quoted
+from emulator.errors import EmulatorError, FileError, quoted
 
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
@@ -86,6 +86,18 @@ def print_report(args: argparse.Namespace, lines: Iterable[str]) -> None:
     """Print the lines of a report on ``report_stream``."""
     for line in lines:
         print(line, file=report_stream(args))
+
+
+def write_folder(folder: str, texts: Mapping[str, str]) -> None:
+    """Write text files by name to a folder, which is made if it does not exist.  Raise FileError."""
+    from emulator.files import reason, write_text  # imported here because --help does not need it
+
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise FileError(f"{folder}: {reason(error)}") from None
+    for name, text in texts.items():
+        write_text(os.path.join(folder, name), text)
 
 
 def misses_numpy(error: ModuleNotFoundError) -> bool:

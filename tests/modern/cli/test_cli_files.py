@@ -20,6 +20,7 @@ READERS = {
     "diverge": ("good.deck",),
     "draw": (),
     "export": ("--format", "off"),
+    "export-job": ("--for", "pdq", "--out", "job"),
     "hidden-line": (),
     "hull": (),
     "map": (),
@@ -28,7 +29,7 @@ READERS = {
     "voxel-hull": (),
 }
 """The commands whose first argument is a file, with the rest of a call."""
-SOURCE_DECKS = {"check", "compile", "diverge", "hull", "map", "run"}
+SOURCE_DECKS = {"check", "compile", "diverge", "export-job", "hull", "map", "run"}
 
 
 @pytest.fixture(autouse=True)

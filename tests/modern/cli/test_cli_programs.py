@@ -30,6 +30,7 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 CALLS = {
     "check": (),
     "compile": (),
+    "export-job": ("one.deck", "--for", "pdq", "--out", "job"),
     "flowchart": (),
     "listing": ("one.deck",),
     "map": (),
@@ -188,3 +189,39 @@ def test_check_rejects_what_run_rejects(capsys: pytest.CaptureFixture[str]) -> N
     code, _, err = call(capsys, "run", "wide.f", "one.deck")
     assert code == 2
     assert err == f"hull1620: {out}"
+
+
+def test_export_job_writes_a_folder_and_names_the_changes(capsys: pytest.CaptureFixture[str]) -> None:
+    job = Path("job")
+    code, out, _ = call(
+        capsys, "export-job", "program2", "example4/punched", "--for", "pdq", "--out", "job", "--switch", "1"
+    )
+    assert (code, out) == (
+        0,
+        "job: 282 cards of the program, 10 of data, 2 changes; README.txt says how to run the job\n",
+    )
+    names = ["README.txt", "check.py", "data.cards", "expected.cards", "job.ini", "program.cards"]
+    assert sorted(path.name for path in job.iterdir()) == names
+    readme = job.joinpath("README.txt").read_text(encoding="ascii")
+    assert "- card 226: PDQ's compiler stops" in readme
+    assert "IF (E(I))112,191,180" in readme
+    script = job.joinpath("job.ini").read_text(encoding="ascii").split("join run.cards")
+    assert ["deposit sw1 0" in script[0], "deposit sw1 1" in script[1]] == [True, True]
+    assert len(job.joinpath("expected.cards").read_text(encoding="ascii").splitlines()) == 58
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("program1", "example4"), "the following arguments are required: --for, --out"),
+        (("program1", "example4", "--for", "pdq", "--out", "taken/job"), "taken/job: not a directory"),
+        (("program1", "missing", "--for", "pdq", "--out", "job"), "missing: no such file or directory"),
+    ],
+)
+def test_export_job_rejects_its_arguments_in_one_line(
+    capsys: pytest.CaptureFixture[str], words: tuple[str, ...], message: str
+) -> None:
+    Path("taken").write_text("", encoding="ascii")
+    code, _, err = call(capsys, "export-job", *words)
+    assert (code, err.count("\n"), message in err) == (2, 1, True), err
+    assert not Path("job").exists()
