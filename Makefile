@@ -12,6 +12,8 @@ PIP = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 reproduce: $(VENV)/.run
 	$(BIN)/hull1620 reproduce
 
+# The processes that tests start read the bytecode of earlier ones, also if the user turned bytecode off.
+test: export PYTHONDONTWRITEBYTECODE =
 test: $(VENV)/.dev lint
 	$(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal
 

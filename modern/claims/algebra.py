@@ -230,7 +230,7 @@ def largest_value() -> Step:
 
 
 def combination_satisfies() -> tuple[Step, ...]:
-    """Return the steps: a linear inequality L <= 0 that holds at two points holds at every point between them."""
+    """Return the steps that prove: if a linear L is at most 0 at two points, it is so at every point between them."""
     p, q = point("p", 3), point("q", 3)
     slope = variables("L_1 L_2 L_3")
     level, share, l_p, l_q = variables("L_0 lambda L_p L_q")

@@ -91,7 +91,7 @@ def half_balls() -> Iterator[HalfBall]:
 
 @claim("kovalevsky-schulz.171")
 def table_5() -> Check:
-    """Check the columns of Table 5: 4.5 integers for each of an even number of triangles, 3 V + 5 F integers."""
+    """Check that rows of Table 5 have 4.5 integers for each of an even number of triangles, and 3 V + 5 F integers."""
     outcomes: list[Outcome] = []
     for row in half_balls():
         hundredths = Fraction(100 * row.integers, row.faces)

@@ -52,7 +52,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _in_space(volume: Volume) -> Volume:
-    """Return the volume with three axes; an array of two axes without physical coordinates becomes one layer."""
+    """Return the volume with three axes. A picture without physical coordinates becomes a volume of one layer."""
     if volume.dimension == 3 or volume.world is not None:
         return volume
     return replace(volume, array=volume.array[..., None], origin=(*volume.origin, 0))

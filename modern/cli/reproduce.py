@@ -165,7 +165,7 @@ def _example_lines(
 
 
 def _same(verdict: Verdict) -> str:
-    """If a result is exact in another order, return its parts, such as vertices, with counts; otherwise nothing."""
+    """Return the parts of a result that is exact in another order, with counts, and nothing for other results."""
     counted = ", ".join(f"{count} {_PARTS[part]}" for part, count in verdict.same)
     return f"the same {counted}" if counted else ""
 

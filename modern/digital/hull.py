@@ -128,7 +128,7 @@ def placed(
     origin: Sequence[Any] | None = None,
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> Volume:
-    """Return a volume unchanged. Convert an array to a volume of its nonzero values with the given position."""
+    """Return a volume unchanged, and an array as the volume of its nonzero values, with the given position."""
     if hasattr(volume, "GetDirection"):
         return placed(*_of_image(volume))
     if not isinstance(volume, Volume):

@@ -123,7 +123,7 @@ def _product(u: Floats, v: Floats) -> Floats:
 
 @dataclass
 class _Proof:
-    """The data of a proof of convexity, and the number of signs of a plane at a point that it has evaluated."""
+    """The data of a proof of convexity, and the number of evaluated signs. Each is the sign of a plane at a point."""
 
     hull: ExactHull
     sides: Polygons
@@ -147,7 +147,7 @@ class _Proof:
             (x, y, z), weight = self.middle
             self.planes.in_integers += 1
             if a * x + b * y + c * z + d * weight >= 0:
-                raise Undecided(f"facet {facet} does not have the middle of the vertices inside")
+                raise Undecided(f"the middle of the vertices is not inside facet {facet}")
         self.planes.evaluations += len(approximate)
         return float((-approximate / np.sqrt((normals**2).sum(axis=1))).min())
 

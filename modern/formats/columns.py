@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 
 def aligned(rows: Iterable[Sequence[str]], right: Sequence[bool] | bool = False) -> Iterator[str]:
-    """Yield the rows as lines with aligned columns; ``right``, for all columns or for each, aligns to the right."""
+    """Yield the rows as lines with aligned columns. Columns for which ``right`` is true are aligned to the right."""
     cells = list(rows)
     columns = range(len(cells[0]) if cells else 0)
     widths = [max(len(row[k]) for row in cells) for k in columns]

@@ -36,7 +36,7 @@ def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def _normalised(line: str, separator: str) -> str:
-    """Return a line for the csv reader: empty for a comment, with single blanks if blanks separate the fields."""
+    """Return a line for the csv reader. A comment becomes empty; blanks that separate fields become single blanks."""
     if line.lstrip().startswith("#"):
         return ""
     return line if separator else " ".join(line.split())

@@ -47,7 +47,7 @@ def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
 
 
 def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
-    """Return a polygon's normal, as long as twice its area; seen from its tip, the corners are counterclockwise."""
+    """Return a polygon's normal with twice its area as length. Seen from its tip, the corners are counterclockwise."""
     origin = points[face[0]]
     total = minus(origin, origin)
     for here, ahead in pairwise(face[1:]):

@@ -96,7 +96,7 @@ class Arithmetic(ABC):
         return not self.sign(self.filled([value]))[0]
 
     def last_largest(self, values: Vector) -> int:
-        """Return the index of the largest value, of equals the last. Values are compared by signs of differences."""
+        """Return the index of the largest value, or of the last one if several are equal."""
         # The listing's search replaces its candidate when the difference is zero or negative (program 1, 135 and 185;
         # program 3, 122), so the last of equal values wins.
         index, largest = 0, values[0]
@@ -121,11 +121,11 @@ class Arithmetic(ABC):
         return not self.sign(values * values).any()
 
     def distances_add_up(self, first_square: Scalar, second_square: Scalar, total_square: Scalar) -> bool:
-        """Return True if the first two distances add up to the third. The arguments are squares of distances."""
+        """Return True if two distances add up to a third. The arguments are the squares of the three distances."""
         return self.is_zero(self.root(first_square) + self.root(second_square) - self.root(total_square))
 
     def farthest(self, o1: Vector, o2: Vector, o3: Vector) -> int:
-        """Return the index of the largest O1**2 + O2**2 + O3**2, the last one of equals (thesis p. 15)."""
+        """Return the index of the largest O1**2 + O2**2 + O3**2, the last one if several are equal (thesis p. 15)."""
         return self.last_largest(o1 * o1 + o2 * o2 + o3 * o3)
 
 

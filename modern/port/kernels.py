@@ -85,7 +85,10 @@ def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
 
 
 def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation: Any, above: Any) -> int:
-    """Count the points at which a plane's value is larger, without branches, so that several are computed at a time."""
+    """Count the points at which a plane's value exceeds ``above``.
+
+    A loop without branches computes several at a time.
+    """
     x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
     count = 0
     for k in range(len(x)):
@@ -94,7 +97,9 @@ def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation:
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
-    """Return the index of the point farthest outside a plane, the last one of equals, or -1 if no point is outside."""
+    """Return the index of the point farthest outside a plane (of several equal ones the last), or -1 if none is
+    outside.
+    """
     # A value within the slack counts as zero. The difference computed here is a zero of the number type of the values.
     largest = e if e > 0 else e - e
     index = -1

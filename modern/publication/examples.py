@@ -98,7 +98,7 @@ def rest() -> tuple[Row, ...]:
 
 
 def _origins(lines: Sequence[Segments]) -> dict[str, list[Segments]]:
-    """Map each line of the corrected text to its family: a witness line and the lines that rows made from it."""
+    """Map the id of each line to its family: a witness line, and the lines that rows inserted after this line."""
     families: dict[str, list[Segments]] = {}
     family: list[Segments] = []
     for line in lines:

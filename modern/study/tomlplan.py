@@ -231,7 +231,7 @@ def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, sec
     default_key = {"family": family, **{name: str(value) for name, value in parameters.items()}}
     if family == "file":
         if not isinstance(parameters.get("path"), str):
-            raise section.error("the family file needs the parameter path", "parameters")
+            raise section.error("the family 'file' needs the parameter 'path'", "parameters")
         family, path = "points", Path(section.path).parent / parameters.pop("path")
         with section.locating("parameters"):
             parameters["points"] = file_points(str(path))

@@ -1,8 +1,8 @@
 """Checks of the rows of Table 5 of Kovalevsky and Schulz, which lists hulls of half-balls.
 
-The paper does not define how a half-ball is digitised. In a *digitisation*, the centre is a voxel or halfway between
-two, both in the plane and in height; points exactly at the radius belong to it or do not; and so does the layer through
-the centre.
+The paper does not define how a half-ball is digitised. A *digitisation* makes four choices. In the plane, and
+separately in height, the centre is a voxel or halfway between two. Points exactly at the radius belong to the
+half-ball or not, and so does the layer through the centre.
 """
 
 from collections.abc import Iterator

@@ -122,7 +122,7 @@ def cube_visible_from_corner() -> Check:
 
 @claim("kovalevsky-schulz.54", "kovalevsky-schulz.166")
 def coplanar_triangles() -> Check:
-    """Check that a hull gets more triangles than it has faces if coplanar faces count as visible."""
+    """Check that a hull is built of more triangles than it has faces if coplanar faces count as visible."""
     cells = polyhedron(GRID)
     passed = len(merged(cells).faces) == 6 < len(cells.faces)
     return exhibited(passed, f"a cubic grid of points gets {len(cells.faces)} triangles, which are merged to 6 faces")
@@ -158,7 +158,7 @@ def _created(points: Sequence[Point]) -> int:
 
 @claim("kovalevsky-schulz.58", "kovalevsky-schulz.59")
 def extended_faces() -> Check:
-    """Check that extending faces to coplanar points gives the exact hull with fewer new faces than in Fig. 7."""
+    """Check that extending faces to coplanar points gives the exact hull, with fewer new faces than Fig. 7 needs."""
     extended, quadrangles_hull = coplanar_hull(GRID, EXTENDED), coplanar_hull(GRID, QUADRANGLES)
     right = list(extended.faces) == sorted(f.polygon for f in exact_hull(GRID).facets)
     message = f"a cubic grid of points needs {extended.created} new faces, and {quadrangles_hull.created} by Fig. 7"

@@ -26,7 +26,7 @@ TETRAHEDRON: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
 
 
 def lemma_lz() -> Proof:
-    """Prove that a nonempty part of a finite set that an inequality cuts off contains a vertex of the set's hull."""
+    """Prove that if an inequality cuts off a nonempty part of a finite set, this part contains a vertex of the hull."""
     return Proof(
         "a part of a finite set that a linear inequality cuts off contains a point that is no combination of others",
         "The part is not empty, so it contains all points with the largest value of the linear function H. Among them "

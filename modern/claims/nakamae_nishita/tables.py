@@ -239,7 +239,7 @@ def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
 @claim("nakamae-nishita.26", number="4", full=25)
 @claim("nakamae-nishita.27", number="LP", full=25)
 def table_properties(number: str, cases: int = CASES) -> Check:
-    """Check property ``number`` of the table PL on pairs of convex polygons; ``LP`` checks all four of the table LP."""
+    """Check a property of the table PL by its number, or with ``LP`` all four properties of the table LP."""
     checks, touching = [], False
     for v, w in pairs(cases):
         pl, lp = tables_of(v, w)

@@ -73,7 +73,7 @@ def _extremes_of(p: Lattice) -> frozenset[Extreme]:
 
 
 def table_1() -> Iterator[bool]:
-    """Yield the facts that show: Table 1 of theorem 4.2 describes a nonconvex polyhedron on six extreme points."""
+    """Yield the facts that show that Table 1 of theorem 4.2 describes a nonconvex polyhedron on six extreme points."""
     theorem = theorem_of("4.2")
     # The coordinates are multiples of 1/4.
     at: dict[str, Lattice] = {p.name: tuple(int(4 * c) for c in p.at) for p in theorem.points}  # type: ignore[misc]

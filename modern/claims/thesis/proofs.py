@@ -182,7 +182,7 @@ def theorem_4_6() -> Proof:
 
 
 def _boundary_steps() -> Iterator[Step]:
-    """Yield the steps: a point where a linear function is largest is not inside a triangle of points of the set."""
+    """Yield the steps that prove that no point where a linear function is largest is inside a triangle of the set."""
     yield largest_value()
     p, q, r = point("p", 2), point("q", 2), point("r", 2)
     slope = variables("L_1 L_2")

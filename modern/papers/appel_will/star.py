@@ -50,7 +50,7 @@ def as_corrected(images: Sequence[Image]) -> bool:
 
 
 def in_one_pass(images: Sequence[Image]) -> bool:
-    """Decide the same as :func:`as_corrected` without sorting.
+    """Return the same result as :func:`as_corrected`, without sorting.
 
     C is outside if all images lie within an angle of less than 180 degrees. ``first`` and ``last`` are the images
     that bound that angle so far, counterclockwise.

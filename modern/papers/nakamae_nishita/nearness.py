@@ -97,4 +97,4 @@ def _enclosing_face(solid: Solid, point: Homogeneous) -> Plane:
             # A front face runs clockwise in the image, so its inside is on the right of every side.
             if all(value(line_through(corners[k - 1], corners[k]), at) >= 0 for k in range(len(corners))):
                 return plane
-    raise AssertionError("the front faces cover the inside of the contour")
+    raise AssertionError("expected a front face at an inner point of the contour")

@@ -78,7 +78,7 @@ def _contour_sense() -> str:
     ):
         if sign(x * (a[1] - b[1]) - y * (a[0] - b[0])) == sign(index):
             return difference
-    raise AssertionError("one of two opposite products has the sign")
+    raise AssertionError("expected one of two opposite products to have the sign of the index")
 
 
 def _row(letter: str, scene_drawing: Drawing) -> str:

@@ -131,7 +131,7 @@ def _sight(fields: Fields) -> Sight:
     if projection == PARALLEL and not any(eye):
         raise fields.wrong("eye", "expected a direction of view other than 0,0,0")
     if towards == eye:
-        raise fields.wrong("towards", "expected another point than the observation point, eye")
+        raise fields.wrong("towards", "expected a point other than the observation point in the field eye")
     near = fields.number("near")
     if near is not None and projection == PARALLEL:
         raise fields.wrong("near", "a parallel projection has no near plane")

@@ -194,12 +194,14 @@ def test_a_damaged_volume_is_rejected_or_gives_the_true_values(name: str) -> Non
 
 
 @needs_itk
-def test_a_slice_truncated_at_any_byte_is_damaged_also_between_two_elements() -> None:
+def test_a_slice_truncated_at_any_byte_is_named_and_not_left_out_of_its_series() -> None:
     sample = series()
     whole = Path(sample.damaged_file).read_bytes()
     for length in range(len(whole)):
         Path(sample.damaged_file).write_bytes(whole[:length])
-        assert "damaged" in (message := rejection("ct")) or "not a DICOM file" in message or "bytes of data" in message
+        message = rejection("ct")
+        assert message.startswith("ct/1.2.3-5.dcm: "), message
+        assert re.search("damaged|not a DICOM file|bytes of data", message), message
 
 
 @needs_itk
@@ -384,17 +386,6 @@ def test_sizes_of_dicom_must_agree_with_its_pixel_data(element: tuple[int, int],
     at = data.index(struct.pack("<2HI", *element, 2))
     struct.pack_into("<H", data, at + 8, number)
     assert re.match("expected (positive sizes|[0-9]+ bytes of data|at most)", rejection(saved("a.dcm", bytes(data))))
-
-
-@needs_itk
-def test_a_truncated_slice_is_not_left_out_of_its_series() -> None:
-    series()
-    file = Path("ct/1.2.3-5.dcm")
-    whole = file.read_bytes()
-    for length in (0, 100, 200, 600, len(whole) - 1):
-        file.write_bytes(whole[:length])
-        with pytest.raises(VolumeError, match=r"^ct/1.2.3-5\.dcm: "):
-            read_scan("ct")
 
 
 def test_a_detached_nrrd_header_that_ends_within_a_line_is_rejected() -> None:

@@ -118,7 +118,7 @@ def test_a_surface_turned_inside_out_is_refused(monkeypatch: pytest.MonkeyPatch)
     facets = [Facet(tuple(-n for n in facet.plane), rotated(facet.polygon[::-1])) for facet in hull.facets]
     facets.sort(key=lambda facet: facet.plane)
     corrupt = replace(hull, facets=tuple(facets))
-    with pytest.raises(convexity.Undecided, match="does not have the middle of the vertices inside"):
+    with pytest.raises(convexity.Undecided, match="the middle of the vertices is not inside facet"):
         convexity.prove(corrupt)
     monkeypatch.undo()
     refused(OCTAHEDRON, corrupt, "is outside of facet")

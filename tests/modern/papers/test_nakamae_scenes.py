@@ -135,7 +135,7 @@ BOX = HEAD + "'cuboid'\nsize = [1, 1, 1]\n"
             "[view]\nprojection = 'perspective'\neye = [3, 2, 1]\ntowards = [3, 2, 1]\n"
             + HEAD
             + "'cuboid'\nsize = [1, 1, 1]",
-            "view: towards: expected another point than the observation point, eye",
+            "view: towards: expected a point other than the observation point in the field eye",
         ),
         ("[view]\ntowards = [1, 1, 1]\n" + BOX, "has only a direction, in the field eye"),
         (BOX + "figures = [[[0, 0, 0], [1, 1, 1], [0, 1, 0]]]", "expected all corners of a figure in one face"),

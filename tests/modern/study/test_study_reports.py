@@ -184,7 +184,7 @@ CELL = f"{ROUTE}[[cell]]\n"
         (f"{CELL}routes = ['b']\nfamily = 'thesis'", "line 4: cell 1: there is no route 'b'; the routes are a"),
         (f"{CELL}n = 3", "line 4: cell 1: unknown name 'n'; expected key, family, parameters, routes, samples"),
         (f"{CELL}samples = 3", "line 3: cell 1: it has no family"),
-        (f"{CELL}family = 'file'", "the family file needs the parameter path"),
+        (f"{CELL}family = 'file'", "the family 'file' needs the parameter 'path'"),
         (f"{CELL}family = 'file'\nparameters = {{path = 'no'}}", "no such file"),
         (f"{CELL}family = 'thesis'\nsamples = '3'", "line 5: cell 1: samples: expected an integer of at"),
         (f"notes = ['''\nsamples = 1\n''']\nsamples = 0\n{ROUTE}", "bad.toml: line 4: samples: expected"),

@@ -79,7 +79,7 @@ def _examples() -> str:
 
 
 def _agreement(example: int, state: State) -> str:
-    """Return how the cards of an example agree with the print in a state of program 1."""
+    """Return the verdict on an example's cards for one of the two states of program 1, compared with the print."""
     reports = [report for report in reproduce((example,), states=(state,)) if not report.stated]
     kinds = Counter(report.verdict.kind for report in reports)
     return ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
