@@ -50,7 +50,7 @@ def corrected_method(cases: int = CASES) -> Check:
 @claim("appel-will.36", "appel-will.116", "appel-will.120", "appel-will.135", "yau-srihari.112", full=300)
 @claim("appel-will.146", "appel-will.147", "appel-will.149", full=300)
 def method_against_judge(cases: int = CASES) -> Check:
-    """Check that the corrected method finds the edges and faces of the exact hull, and each edge in two closed loops."""
+    """Check that the corrected method finds the edges and faces of the exact hull, with each edge in two loops."""
     checks = []
     for sampled in sampled_sets(3, cases):
         hull = appel_will(sampled.points)

@@ -124,8 +124,8 @@ def _core(peaks: dict[int, _Peak]) -> Table:
     )
     head = ("table", "places", "positions, about", "smallest core")
     notes = (
-        "Program 3 as listed with longer arrays. Places: entries of its plane table. The length of its object code is "
-        "an estimate (docs/reference/machine.md).",
+        "The table applies to program 3 as listed, but with longer arrays. Places: entries of its plane table. The "
+        "length of its object code is an estimate (docs/reference/machine.md).",
     )
     return Table("storage", "Positions of core needed by program 3", head, rows, notes)
 
@@ -173,13 +173,13 @@ def _conclusions(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> tuple[
     most = max((peak.most for peak in peaks.values()), default=0)
     conclusions = [
         f"The plane table is {'too short for some' if most > PLACES else 'long enough for all'} sets: up to {most} "
-        f"entries were in use at once, and the table as listed has {PLACES}. Largest N up to which no set needed more "
-        f"than {PLACES}: {sufficient or 'none'}."
+        f"entries were in use at once, and the table as listed has {PLACES}. The largest N up to which no set needed "
+        f"more than {PLACES} entries is {sufficient or 'unknown'}."
     ]
     if sufficient:
         number = sum(counts.of(k, LISTED) for k, cell in enumerate(plan.cells) if cell.key["n"] == sufficient)
         conclusions.append(
-            f"Sets tried at that N: {number}. As none of them needed more than {PLACES}, up to "
+            f"At that N, {number} sets were tried. As none of them needed more than {PLACES} entries, up to "
             f"{100 * exact(0, number).high:.2f} % of such sets could need more (exact 95 % interval)."
         )
     return tuple(conclusions)

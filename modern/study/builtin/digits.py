@@ -178,10 +178,10 @@ def _conclusions(counts: Summary, cells: Cells) -> tuple[str, ...]:
     agree = [d for cell, d in cells if least(counts, cell) == exact_zeros(d)]
     sets = counts.of(0, LISTED)
     return (
-        "In eight-digit arithmetic the corrected programs failed for no set with coordinates of these numbers of "
-        f"digits: {listed(without_failure)}. They found no hull with: {listed(without_hull)}.",
-        f"Plausible but wrong hulls among the failures: {share_of(wrong, failed)}.",
+        "In eight-digit arithmetic the corrected programs found every hull if the coordinates had one of these numbers "
+        f"of digits: {listed(without_failure)}. They found no hull at all for these: {listed(without_hull)}.",
+        f"The failures include this part of plausible but wrong hulls: {share_of(wrong, failed)}.",
         f"The least P is 3d + 1, with which every test for zero is exact, for {len(agree)} of {len(cells)} numbers of "
         f"digits d. If none of {sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of such sets could fail "
-        "(exact 95 % interval). With 3d + 4 digits none can.",
+        "(exact 95 % interval). With 3d + 4 digits no set can fail.",
     )

@@ -153,10 +153,10 @@ def _conclusions(plan: Plan, counts: _Divergences) -> tuple[str, ...]:
     saved = sum(counts.with_hull(name) for name in counts.places)
     lost = same - counts.with_hull(NOWHERE)
     return (
-        "Eight-digit arithmetic made every decision as exact arithmetic does for this part of the sets: "
-        f"{share_of(same, everything)}. Families in which it did so for all sets: {listed(never)}.",
-        f"Other sets that still give the right hull: {share_of(saved, everything - same)}. Sets for which all "
-        "decisions agree but which fail because of faults of the programs: "
+        "In this part of the sets, eight-digit arithmetic made every decision as exact arithmetic does: "
+        f"{share_of(same, everything)}. It did so for all sets of these families: {listed(never)}.",
+        f"Sets with a different decision that still give the right hull: {share_of(saved, everything - same)}. Sets "
+        "in which all decisions agree, but which fail because of faults of the programs: "
         f"{share_of(lost, same)}.",
-        f"Runs that exact arithmetic could not follow as far as a different decision: {counts.undecided}.",
+        f"Exact arithmetic could not follow {counts.undecided} runs as far as a different decision.",
     )

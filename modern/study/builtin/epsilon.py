@@ -243,9 +243,9 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
     lost = [cell.key["sets"] for number, cell in enumerate(plan.cells) if rows.swallowed.get((number, WITHOUT), 0)]
     same, of = _same_as_port(store)
     return (
-        f"Some absolute e removed all failures of these kinds of sets, which fail without e: {saved[0]}. Some scaled e "
-        f"did so for: {saved[1]}. Kinds that lose a vertex even at e = 0: {listed(lost)}.",
-        f"Runs in which the port with the same e gives the outcome of the programs: {same:,} of {of:,}.",
+        f"An absolute e removed all failures of these kinds of sets, which fail without e: {saved[0]}. A scaled e "
+        f"removed all failures of these kinds: {saved[1]}. Kinds that lose a vertex even at e = 0: {listed(lost)}.",
+        f"The port gives the outcome of the programs with the same e in {same:,} of {of:,} runs.",
     )
 
 

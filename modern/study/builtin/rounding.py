@@ -164,8 +164,9 @@ def _main(plan: Plan, counts: Summary, tested: Mapping[str, _Pairs], widened: Ma
     head = ("way", *exact_test, "against truncating", "with the interval")
     notes = (
         "In parentheses: exact 95 % intervals (Clopper and Pearson).",
-        "Sets, failed and wrong hulls: with the exact test. Whole numbers up to: the largest size up to which no set "
-        "failed. Against truncating: sets whose hull is found by this arithmetic but not by truncation / the reverse. "
+        "The columns sets, failed and wrong hulls are those of the exact test. Whole numbers up to: the largest size "
+        "up to which no set failed. Against truncating: sets whose hull is found by this arithmetic but not by "
+        "truncation / the reverse. "
         "With the interval: sets whose hull is found at more / at fewer widths than by truncation.",
     )
     return Table("table", "Arithmetics compared, all sets", head, tuple(rows), notes)
@@ -296,8 +297,8 @@ def _conclusions(plan: Plan, counts: Summary) -> tuple[str, ...]:
     eight, binary = counts.share(number, TRUNCATING), counts.share(number, "float64")
     return (
         f"Sets that failed with the exact test, by arithmetic: {listed(failed)}.",
-        f"Failures with the exact test, all arithmetics together: {of - right:,}. Plausible but wrong hulls among "
-        f"them: {wrong:,}. Rejected sets and runs that did not end: {of - right - wrong:,}.",
+        f"With the exact test, all arithmetics together failed {of - right:,} times. Of these failures, {wrong:,} are "
+        f"plausible but wrong hulls, and {of - right - wrong:,} are rejected sets or runs that did not end.",
         f"Hulls found for the sets {cell.key['sets']}: {percent(eight)} by truncation to eight digits; "
         f"{percent(binary)} by float64, which cannot represent a tenth.",
     )

@@ -246,14 +246,15 @@ def _conclusions(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...],
     frequent = (f"{outcome} {where}, {share_of(n, as_listed.failed)}" for (outcome, where), n in causes.most_common(3))
     conclusions = [
         f"Seventy such sets have {with_interval(as_listed.mean)} failures with the programs as listed, "
-        f"{_compared_with_two(as_listed.mean)}. Groups of seventy with exactly two failures: "
-        f"{percent(as_listed.groups(THESIS, THESIS))}; with two or more: {percent(as_listed.groups(THESIS))}. "
+        f"{_compared_with_two(as_listed.mean)}. Of the groups of seventy, "
+        f"{percent(as_listed.groups(THESIS, THESIS))} have two failures and {percent(as_listed.groups(THESIS))} have "
+        "two or more. "
         f"Two failures in seventy are {_unusual(as_listed.groups(THESIS))}.",
-        f"Most frequent failures as listed: {listed(frequent)}. DATA NOT ACCEPTABLE, the message for too few "
-        f"digits: {share_of(digits, as_listed.failed)}. Plausible but wrong hulls: "
+        f"The most frequent failures of the programs as listed are: {listed(frequent)}. DATA NOT ACCEPTABLE, the "
+        f"message for too few digits: {share_of(digits, as_listed.failed)}. Plausible but wrong hulls: "
         f"{share_of(wrong, as_listed.failed)}.",
-        f"Failures in seventy sets with the one card of row P3-025: {with_interval(mended.mean)}. Difference: "
-        f"{as_listed.mean.value - mended.mean.value:.2f}.",
+        f"With the one card of row P3-025, seventy sets have {with_interval(mended.mean)} failures, which is "
+        f"{as_listed.mean.value - mended.mean.value:.2f} fewer.",
         f"The longest run that gave a hull took {longest:,} statements; runs of {_LIMIT:,} count as endless.",
     ]
     space = tuple(name for name in _names(kinds) if name in _IN_SPACE)
@@ -261,8 +262,8 @@ def _conclusions(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...],
         failed = _failed(kinds, space, LISTED)
         share, seventy = exact(*failed), count(*failed, SEVENTY)
         conclusions[2] += (
-            f" Sets in space that fail as listed: {percent(share)}; failures in seventy such sets: "
-            f"{with_interval(seventy, 1)}."
+            f" Of the sets in space, {percent(share)} fail as listed, and seventy such sets have "
+            f"{with_interval(seventy, 1)} failures."
         )
     return tuple(conclusions)
 

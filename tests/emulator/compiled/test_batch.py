@@ -61,7 +61,7 @@ def test_a_copying_program_runs_in_the_compiled_engine() -> None:
     )
 
 
-AT_RANDOM = int(os.environ.get("HULL1620_SETS", "100"))
+AT_RANDOM = int(os.environ.get("HULL1620_SETS", "60"))
 """The number of random programs to compare. Runs with 5,000 found no difference."""
 
 

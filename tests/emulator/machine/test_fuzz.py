@@ -58,7 +58,7 @@ def checked_ending(machine: Machine, result: Result, options: Options) -> str:
     return result.ending.kind
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(programs(), DATA, OPTIONS, KEYS)
 def test_random_programs_end_with_a_result_or_an_error(
     cards: list[str], data: list[str], options: Options, keys: list[str]
@@ -66,7 +66,7 @@ def test_random_programs_end_with_a_result_or_an_error(
     exercise(cards, data, options, keys)
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(programs(ALL_FUNCTIONS, powers=True), DATA, OPTIONS, KEYS)
 def test_random_programs_with_library_functions_end_with_a_result_or_an_error(
     cards: list[str], data: list[str], options: Options, keys: list[str]
@@ -74,7 +74,7 @@ def test_random_programs_with_library_functions_end_with_a_result_or_an_error(
     exercise(cards, data, replace(options, limit=1_000), keys)
 
 
-@settings(max_examples=60)
+@settings(max_examples=40)
 @given(spoilt_programs(), DATA, OPTIONS, KEYS)
 def test_corrupted_programs_end_with_a_result_or_an_error(
     cards: list[str], data: list[str], options: Options, keys: list[str]
@@ -82,13 +82,13 @@ def test_corrupted_programs_end_with_a_result_or_an_error(
     exercise(cards, data, replace(options, limit=2_000), keys)
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(st.lists(CARD, max_size=10), DATA, OPTIONS)
 def test_random_cards_end_with_a_result_or_an_error(cards: list[str], data: list[str], options: Options) -> None:
     exercise(cards, data, replace(options, limit=2_000), [])
 
 
-@settings(max_examples=150)
+@settings(max_examples=100)
 @given(st.text(min_size=1, max_size=40), CARD_TEXT)
 def test_random_formats_read_and_write(text: str, card: str) -> None:
     spec = "".join(c for c in text.upper() if c in "0123456789IEFXH/(),. ")[:40]

@@ -71,7 +71,7 @@ def results(name: str, *lines: str, data: tuple[str, ...] = (), limit: int = 10_
     return Machine(program(*lines), deck_from_lines("data.cards", data), options).run()
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(programs(), DATA)
 def test_python_floats_and_mpmath_with_53_bits_agree(cards: list[str], data: list[str]) -> None:
     """Decisions and cards are equal, except for signs of zeros and after an overflow, which mpmath does not have."""

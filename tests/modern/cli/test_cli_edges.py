@@ -131,14 +131,20 @@ def test_an_unwritable_output_is_reported_before_the_work(
         "listing program1 example1 --operator=both -o both",
         "tei --check both -o both",
         "hull both --punch both",
+        "hull both --trace link",
+        "run both --typewriter both",
+        "cards both -o ./both",
+        "export both --format off -o both",
+        "diff both --json both",
     ],
 )
 def test_an_output_that_is_also_an_input_is_rejected_before_the_work(
     words: str, room: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (room / "both").write_text("kept", encoding="ascii")
-    message = "hull1620: both: this output is also an input, which would be overwritten; choose another name\n"
-    assert call(capsys, *words.split()) == (2, "", message)
+    (room / "link").symlink_to("both")
+    message = f"{words.split()[-1]}: this output is also an input, which would be overwritten; choose another name\n"
+    assert call(capsys, *words.split()) == (2, "", f"hull1620: {message}")
     assert (room / "both").read_text(encoding="ascii") == "kept"
 
 

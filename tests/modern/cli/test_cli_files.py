@@ -119,13 +119,6 @@ def test_invalid_plans_and_scenes_are_reported(capsys: pytest.CaptureFixture[str
     assert err == f"hull1620: {path}: {reasons[path.removesuffix('.toml')]}\n"
 
 
-def test_standard_input_that_the_shell_closed_is_reported() -> None:
-    command = f"{sys.executable} -m modern.cli.main diff - <&-"
-    folder = Path(__file__).parents[3]
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, cwd=folder)
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", "hull1620: standard input is closed\n")
-
-
 def test_points_beyond_doubles_are_one_line_in_diff(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

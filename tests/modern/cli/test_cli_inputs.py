@@ -148,29 +148,6 @@ def test_an_unsupported_extension_of_an_output_is_rejected(
     assert [path.name for path in folder.iterdir()] == ["points.csv"]
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["cards", "points.csv", "-o", "points.csv"],
-        ["cards", "points.csv", "-o", "./points.csv"],
-        ["export", "points.csv", "--format", "off", "-o", "points.csv"],
-        ["diff", "points.csv", "--json", "points.csv"],
-        ["hull", "points.csv", "--punch", "points.csv"],
-        ["hull", "points.csv", "--trace", "link"],
-        ["run", "points.csv", "--typewriter", "points.csv"],
-        ["voxel-hull", "points.csv", "-o", "points.csv"],
-    ],
-)
-def test_an_output_never_overwrites_an_input(
-    words: list[str], folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (folder / "link").symlink_to("points.csv")
-    code, _, err = call(capsys, *words)
-    assert (code, err.count("\n")) == (2, 1)
-    assert "which would be overwritten" in err
-    assert (folder / "points.csv").read_text(encoding="ascii") == CSV
-
-
 def options(command: str) -> list[argparse.Action]:
     parser = build_parser([command])
     found = next(a for a in parser._actions if isinstance(a, argparse._SubParsersAction))

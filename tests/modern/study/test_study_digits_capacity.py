@@ -136,7 +136,7 @@ def test_capacity_reports_the_greatest_number_of_entries_of_its_rows(tmp_path: P
     assert [row[1] for row in report.tables[0].rows] == ["-", "51"]
     assert f" sets: up to {max(figures)} entries were in use at once" in report.conclusions[0]
     assert report.conclusions[0].endswith("no set needed more than 98: 8.")
-    assert report.conclusions[1].startswith("Sets tried at that N: 4. ")
+    assert report.conclusions[1].startswith("At that N, 4 sets were tried. ")
     assert report.tables[2].rows[0][1:] == ("98", str(capacity.positions(98)), "40000")
 
 
@@ -177,18 +177,18 @@ def test_divergence_report_follows_changed_rows(tmp_path: Path) -> None:
     plan = Plan(whole.name, whole.title, whole.question, tuple(selected), whole.seed)
     report = _finished(plan, tmp_path / "out", divergence)
     assert sum(int(row[1]) for row in report.tables[0].rows) == 6
-    assert report.conclusions[0].endswith("Families in which it did so for all sets: whole, 2 digits.")
+    assert report.conclusions[0].endswith("It did so for all sets of these families: whole, 2 digits.")
     with closing(Store.open(tmp_path / "out", plan)) as store:
         store.query("UPDATE runs SET outcome = 'right'")
         assert "because of faults of the programs: 0 of 3," in divergence.report(plan, store).conclusions[1]
         store.query("UPDATE runs SET outcome = 'endless' WHERE place = 0")
         once = divergence.report(plan, store).conclusions[1]
-        assert once.startswith("Other sets that still give the right hull: 2 of 3,")
+        assert once.startswith("Sets with a different decision that still give the right hull: 2 of 3,")
         assert "because of faults of the programs: 1 of 3," in once
         store.query("UPDATE runs SET figures = json_set(figures, '$.diverges', 'program3 116')")
         after = divergence.report(plan, store)
     assert after.tables[0].rows[0][:2] == ("program3 116", "6")
-    assert after.conclusions[0].endswith("Families in which it did so for all sets: none.")
+    assert after.conclusions[0].endswith("It did so for all sets of these families: none.")
     assert after.conclusions[1].endswith("because of faults of the programs: 0 of 0.")
 
 

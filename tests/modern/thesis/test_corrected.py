@@ -1,5 +1,7 @@
 """With the layer ``corrected`` the programs find the exact hull of two-digit integers.
 
+``tests/modern/edition/test_known_faults.py`` tests the decks of single faults.
+
 A larger run: ``HULL1620_SETS=5000 pytest tests/modern/thesis/test_corrected.py``.
 """
 
@@ -12,46 +14,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from emulator.errors import DeckError
-from emulator.language.cards import Deck, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.machine.result import Options
 from modern.edition import programs
-from modern.edition.grounds import ground_deck
-from modern.thesis.batch import run_hulls
-from modern.thesis.cards import number
 from modern.thesis.job import HullRun
 from tests.support.judged import Point, differences, faults, faulty_sets, run, run_all, sets
-from tests.support.paths import MACHINE_RUNS
 
 COUNT = int(os.environ.get("HULL1620_SETS", "240"))
-RUNS = MACHINE_RUNS
-LARGE = Options(core=60_000, limit=2_000_000)
-
-
-def points_of(deck: Deck) -> list[Point]:
-    """Return the points of a deck of integers."""
-
-    def integer(text: str) -> int:
-        value = number(text)
-        assert value == int(value)
-        return int(value)
-
-    return [
-        (integer(card.columns(1, 14)), integer(card.columns(15, 28)), integer(card.columns(29, 42)))
-        for card in deck.cards[1:]
-    ]
-
-
-def ground(name: str) -> Deck:
-    deck = ground_deck(name)
-    assert deck is not None
-    return deck
-
-
-def through(deck: Deck, *layers: str) -> HullRun:
-    (hull_run,) = run_hulls([deck], programs.loader(layers), LARGE)
-    assert isinstance(hull_run, HullRun)
-    return hull_run
 
 
 def test_a_cube_is_right_in_sixty_orders_of_its_corners() -> None:
@@ -59,25 +28,6 @@ def test_a_cube_is_right_in_sixty_orders_of_its_corners() -> None:
     corners: list[Point] = [(x, y, z) for x, y, z in product((0, 1), repeat=3)]
     orders = [(str(seed), random.Random(seed).sample(corners, 8)) for seed in range(60)]
     assert not faulty_sets(orders, "corrected")
-
-
-@pytest.mark.parametrize("name", ["04_cube8", "39_prism_n10"])
-def test_the_sets_that_two_compilers_could_not_finish_are_right(name: str) -> None:
-    deck = read_deck(str(RUNS / name / "deck.cards"))
-    assert not differences(points_of(deck), through(deck, "corrected"))
-
-
-@pytest.mark.parametrize("name", ["lastpair", "lastplane", "throughc", "between", "renumber", "table", "polygon51"])
-def test_the_ground_decks_are_wrong_in_the_listing_and_right_with_the_layer(name: str) -> None:
-    deck = ground(name)
-    points = points_of(deck)
-    assert differences(points, through(deck))
-    assert not differences(points, through(deck, "corrected"))
-
-
-def test_a_plane_of_zeros_is_still_an_error() -> None:
-    """KNOWN-FAULTS 4 is not a mistake of the program: products of four-digit coordinates need more digits."""
-    assert through(ground("zeroplane"), "corrected").refusal == "ERROR IN PROGRAM"
 
 
 def test_sets_of_two_digit_integers_are_right() -> None:

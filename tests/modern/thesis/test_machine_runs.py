@@ -45,13 +45,3 @@ def test_every_card_and_typed_line_is_that_of_the_machine(folder: Path) -> None:
             assert device == "endless"
             assert steps[program].ending.kind == "limit"
             assert "the last ones repeat" in steps[program].ending.message
-
-
-def test_the_cube_ends_in_error_in_program() -> None:
-    """KNOWN-FAULTS 2."""
-    assert run(RUNS / "04_cube8").refusal == "ERROR IN PROGRAM"
-
-
-def test_three_decimals_end_in_data_not_acceptable() -> None:
-    """KNOWN-FAULTS 6."""
-    assert run(RUNS / "18_dec3_n6").refusal == "DATA NOT ACCEPTABLE"
