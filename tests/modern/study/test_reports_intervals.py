@@ -126,10 +126,10 @@ def test_seventy_calls_two_unusual_only_if_the_whole_interval_is_below_a_twentie
 @pytest.mark.parametrize(
     ("failures", "slabs", "claim"),
     [
-        ([5, 0, 0, 0], 20, "failures in seventy such sets: 17.5 (6.1 to 34.4)."),
-        ([0, 0], 131, "failures in seventy such sets: 0.0 (0.0 to 1.9)."),
-        ([1, 0], 70, "failures in seventy such sets: 1.0 (0.0 to 5.4)."),
-        ([2, 0], 70, "failures in seventy such sets: 2.0 (0.2 to 7.0)."),
+        ([5, 0, 0, 0], 20, "seventy such sets have 17.5 (6.1 to 34.4) failures."),
+        ([0, 0], 131, "seventy such sets have 0.0 (0.0 to 1.9) failures."),
+        ([1, 0], 70, "seventy such sets have 1.0 (0.0 to 5.4) failures."),
+        ([2, 0], 70, "seventy such sets have 2.0 (0.2 to 7.0) failures."),
     ],
 )
 def test_seventy_reports_the_interval_of_sets_in_space(
@@ -144,7 +144,7 @@ def test_seventy_reports_the_interval_of_sets_in_space(
 
 def test_seventy_reports_the_difference_of_the_means(tmp_path: Path) -> None:
     """3, 4, 3 and 4 failures as listed and one with the card: 3.5 - 1."""
-    assert "Difference: 2.50." in seventies(tmp_path, [3, 4, 3, 4], mended=1)
+    assert "which is 2.50 fewer." in seventies(tmp_path, [3, 4, 3, 4], mended=1)
 
 
 def test_seventy_counts_failures_of_sets_in_space_with_the_listed_programs(tmp_path: Path) -> None:

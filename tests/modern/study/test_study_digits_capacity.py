@@ -135,7 +135,7 @@ def test_capacity_reports_the_greatest_number_of_entries_of_its_rows(tmp_path: P
     assert max(int(row[4]) for row in report.tables[0].rows) == max(figures) > capacity.PLACES
     assert [row[1] for row in report.tables[0].rows] == ["-", "51"]
     assert f" sets: up to {max(figures)} entries were in use at once" in report.conclusions[0]
-    assert report.conclusions[0].endswith("no set needed more than 98: 8.")
+    assert report.conclusions[0].endswith("no set needed more than 98 entries is 8.")
     assert report.conclusions[1].startswith("At that N, 4 sets were tried. ")
     assert report.tables[2].rows[0][1:] == ("98", str(capacity.positions(98)), "40000")
 
