@@ -10,7 +10,7 @@ from tests.support import architecture
 from tests.support.paths import ROOT
 
 LIMITS = architecture.limits(ROOT)
-EMULATOR = ("compiled", "machine", "objectdeck", "language", "numbers", "jit")
+EMULATOR = ("compiled", "machine", "objectdeck", "translation", "language", "numbers", "jit")
 
 
 def test_packages_import_only_lower_packages() -> None:

@@ -14,7 +14,8 @@ To add a kind of statement:
 5. ``foreign.py``: remove the statement if it is listed there as one of another FORTRAN.
 6. ``compiler.py``: a case of ``_Translation._body`` that emits operations, an entry of ``_NO_DO_END`` if no DO may end
    with the statement, and an entry of ``_EFFECTS`` if a trace should show its effect.
-7. ``modern/bench/translate.py``: a case.  mypy reports an error until steps 6 and 7 are done.
+7. ``emulator/translation/steps.py`` and ``writers.py``: a step, if the statement needs a new operation.  mypy reports
+   an error until step 6 is done.
 8. Only if no operation fits: a name and its meaning in ``objectcode.py`` (``MEANINGS`` and the names below it in the
    same order, and ``flatten`` if it branches), its action in ``emulator/machine/interpreter.py``, or in
    ``session.py`` or ``devices.py`` if it concerns the operator or a device, the same in ``emulator/compiled/kernel.py``
@@ -39,6 +40,6 @@ To add a FORMAT code that transfers a number:
 
 A code that transfers no number, like X and H, is a class next to ``Literal`` in ``formats.py`` and a member of
 ``Spec``.  It needs a case in ``_advance`` of ``emulator/machine/forms.py``, ``_forms`` of
-``emulator/compiled/runner.py``, both ``devices.py`` and ``format`` of ``modern/bench/translate.py``, and in
-``FormatSpec.widths`` and ``positions``.
+``emulator/compiled/runner.py``, both ``devices.py``, ``layout`` of ``emulator/translation/writers.py`` and its
+runtimes, and in ``FormatSpec.widths`` and ``positions``.
 """

@@ -1,9 +1,8 @@
 """Comparison of the native program's cards with the emulated ones, deck by deck.
 
-Two results are *the same* if they differ only in the printing of numbers: a zero before the decimal point, and the
-sign and exponent of zero. They have *different digits* if, in addition, numbers differ by at most TOLERANCE of the
-larger one, because doubles round where the 1620 truncates eight digits. Anything else is *a different hull*: another
-number of points or planes, another order, or a refusal.
+Two results are *the same* if they differ only in the sign of zeros. They have *different digits* if, in addition,
+numbers differ by at most TOLERANCE of the larger one, because doubles round where the 1620 truncates eight digits.
+Anything else is *a different hull*: another number of points or planes, another order, or a refusal.
 """
 
 import re
@@ -16,7 +15,7 @@ TOLERANCE = Decimal("1E-6")
 # The second card of each data set of programs 2 and 3. The first card is blank.
 HEADING = "CONVEX HULL"
 
-_NUMBER = re.compile(r"[ 0-]\.\d{8}E[+-]\d\d")
+_NUMBER = re.compile(r"[ -]\.\d{8}E[+-]\d\d")
 _ZERO = " .00000000E-99"
 
 
@@ -68,7 +67,7 @@ def plain(card: str) -> str:
 
 
 def _printed(number: str) -> str:
-    return _ZERO if number[2:10] == "00000000" else number.replace("0.", " .", 1) if number[0] == "0" else number
+    return _ZERO if number[2:10] == "00000000" else number
 
 
 def _close(emulated: str, native: str) -> bool:

@@ -9,12 +9,13 @@ from pathlib import Path
 
 from emulator.errors import EmulatorError
 from emulator.language.cards import Deck
-from modern.bench.translate import translated
+from emulator.translation.writers import translated
 
 # Compilers, tried in this order after the one that the environment variable FC names.
 COMPILERS = ("gfortran", "flang", "flang-new", "ifx", "f95")
 
-_EXTRA = {"gfortran": ("-std=legacy", "-w"), "ifx": ("-w",)}
+# Fused multiplications and additions would change results.
+_EXTRA = {"gfortran": ("-std=f2018", "-ffp-contract=off"), "ifx": ("-no-fma",)}
 _PATIENCE = 120
 
 
@@ -51,7 +52,7 @@ def compiler() -> Compiler:
 def built(deck: Deck, fortran: Compiler, folder: Path) -> Path:
     """Translate a source deck, compile it with -O2 in ``folder`` and return the program. Raise NoCompiler."""
     source, program = folder / "deck.f90", folder / "deck"
-    source.write_text(translated(deck), encoding="ascii")
+    source.write_text(translated(deck, "fortran"), encoding="ascii")
     extra = _EXTRA.get(Path(fortran.command[0]).name, ())
     process = _run([*fortran.command, "-O2", *extra, "-o", str(program), str(source)])
     if process.returncode:

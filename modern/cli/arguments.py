@@ -159,6 +159,12 @@ def _export_job(parser: ArgumentParser) -> None:
     upcase_argument(parser)
 
 
+def _translate(parser: ArgumentParser) -> None:
+    _program(parser)
+    add(parser, {"--to": "write the program in this language"}, choices=("fortran", "c"), required=True)
+    output_argument(parser)
+
+
 def _check(parser: ArgumentParser) -> None:
     program_argument(parser, "check", "?")
     add(parser, {"--explain N": "explain an error number, such as 5 or E3, or all error numbers (all)"})
@@ -244,6 +250,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "check": ("compile a program and show the messages, or explain error numbers", _check),
     "compile": ("print the object code of a program, or punch its object deck", _compile),
     "export-job": ("write a program and its data as a job for FORTRAN II-D or PDQ FORTRAN under SIMH", _export_job),
+    "translate": ("write a program in C or modern Fortran, with its cards, FORMATs and decisions", _translate),
     "map": ("print the storage map of a program", _map),
     "listing": ("list a program with run counts, times and lost digits next to each card", _listing),
     "flowchart": ("draw the flow chart of a program as SVG", _flowchart),

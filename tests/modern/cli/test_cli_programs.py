@@ -35,6 +35,7 @@ CALLS = {
     "listing": ("one.deck",),
     "map": (),
     "run": ("one.deck",),
+    "translate": ("--to", "c"),
     "diverge": ("one.deck",),
 }
 """Every command that reads a user-defined program, and its other arguments."""
