@@ -5,7 +5,11 @@ import statistics
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from pathlib import Path
+
+from modern.study.plots import draw
+from modern.study.report import Lines, Series
+from modern.study.statistics import Interval
 
 RUNS = 5
 Clock = Callable[[], float]
@@ -63,11 +67,10 @@ def _seconds(work: Callable[[], object], clock: Clock = time.perf_counter) -> fl
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """The seconds by size, and the style in which matplotlib draws them as a curve; curves differ in grey."""
+    """The seconds by size."""
 
     name: str
     points: Sequence[tuple[int, float]]
-    style: Mapping[str, Any]
 
     def slope(self, least: int = 0) -> float | None:
         """Return the exponent of growth by least squares of the logarithms, for sizes of at least ``least``."""
@@ -78,27 +81,16 @@ class Curve:
 
 
 def plot(curves: Sequence[Curve], path: str, what: str) -> None:
-    """Write curves on logarithmic axes as SVG. ``what`` labels the first axis (extra ``plot``)."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    matplotlib.rcParams["svg.hashsalt"] = "hull1620"
-    from matplotlib import pyplot
-
-    figure, axes = pyplot.subplots(figsize=(7, 4.5))
-    for curve in curves:
-        if curve.points:
-            axes.loglog(*zip(*curve.points, strict=True), label=curve.name, **curve.style)
-    axes.set_xlabel(what)
-    axes.set_ylabel("median seconds")
-    axes.grid(True, which="major", color="0.9")
-    axes.legend()
-    figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
+    """Write curves on logarithmic axes as SVG, in the style of the studies.  ``what`` labels the first axis."""
+    file = Path(path)
+    series = (
+        Series(curve.name, tuple((n, Interval(t, t, t)) for n, t in curve.points)) for curve in curves if curve.points
+    )
+    draw(Lines(file.stem, "", what, "median seconds", tuple(series), log_x=True, log_y=True), file.parent, ("svg",))
 
 
 def plotted(curves: Sequence[Curve], path: str, what: str, least: int = 0) -> Iterator[str]:
-    """Yield a line of figures for each curve, then plot the curves with their slopes in the legend."""
+    """Yield a line of figures for each curve, then plot the curves with their slopes in their names."""
     shown = []
     for curve in curves:
         slope = curve.slope(least)

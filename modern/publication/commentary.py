@@ -20,13 +20,15 @@ from modern.publication.uses import uses
 class Block:
     """Consecutive cards with one purpose.
 
-    ``cards`` are their numbers in the deck.  ``steps`` name rows of the concordance with chapter 3 of the thesis.
+    ``cards`` are their numbers in the deck.  ``steps`` name rows of the concordance with chapter 3 of the thesis.  ``marks``
+    name the variables whose points the picture of the block highlights (:mod:`modern.publication.moments`).
     """
 
     title: str
     cards: range
     steps: tuple[str, ...]
     text: str
+    marks: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +124,7 @@ def _blocks_of_variant(
 
 
 def _block(row: dict[str, object], cards: range) -> Block:
-    steps = row.get("steps", [])
+    steps, marks = row.get("steps", []), row.get("marks", [])
     assert isinstance(steps, list)
-    return Block(str(row["title"]), cards, tuple(steps), str(row["text"]).strip())
+    assert isinstance(marks, list)
+    return Block(str(row["title"]), cards, tuple(steps), str(row["text"]).strip(), tuple(marks))

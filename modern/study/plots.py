@@ -82,7 +82,7 @@ def can_plot() -> str:
     return ""
 
 
-def draw(chart: Chart, folder: Path) -> None:
+def draw(chart: Chart, folder: Path, kinds: Sequence[str] = ("svg", "png")) -> None:
     """Write ``NAME.svg`` and ``NAME.png``.  Raise StudyFileError if that fails, PlanError without matplotlib."""
     try:
         import matplotlib
@@ -90,9 +90,9 @@ def draw(chart: Chart, folder: Path) -> None:
         raise PlanError(_NO_MATPLOTLIB) from None
     with matplotlib.rc_context(_STYLE):
         figure = drawn(chart)
-        for kind, metadata in (("svg", {"Date": None}), ("png", {"Software": None})):
+        for kind in kinds:
             file = io.BytesIO()
-            figure.savefig(file, format=kind, metadata=metadata)
+            figure.savefig(file, format=kind, metadata={"Date": None} if kind == "svg" else {"Software": None})
             put(folder / f"{chart.name}.{kind}", _themed(file.getvalue()) if kind == "svg" else file.getvalue())
 
 

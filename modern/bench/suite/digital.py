@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from modern.bench.suite.hulls import STYLES, Table
+from modern.bench.suite.hulls import Table
 from modern.bench.suite.peers import Work
 from modern.bench.timing import Curve, Figure, plotted, side_by_side, timed, timed_once
 from modern.digital.hull import digital_hull
@@ -33,7 +33,6 @@ COMMANDS = (
     ("voxel", 255, "bar 1.4 s"),
     ("voxel", 511, "bar 10 s"),
 )
-CURVES = (STYLES[0], STYLES[1], STYLES[2], STYLES[4])
 # The slope of a curve is fitted from this number of voxels on; smaller solids measure the cost of a call.
 SLOPES_FROM = 10_000
 OCTREE, CELLS, FILLED, SCIKIT_IMAGE = "octree hull", "voxel hull, cell list", "digital hull", "skimage"
@@ -134,7 +133,7 @@ def growth(diameters: Sequence[int] = DIAMETERS) -> list[Curve]:
         volume = ball(diameter)
         for figure in table(volume, diameter <= 2 * SCIKIT_UP_TO + 1).rows:
             points_by_way.setdefault(figure.what, []).append((volume.count, figure.median))
-    return [Curve(name, points, style) for (name, points), style in zip(points_by_way.items(), CURVES, strict=False)]
+    return [Curve(name, points) for name, points in points_by_way.items()]
 
 
 def scikit_image(array: Any) -> Figure | None:

@@ -18,7 +18,6 @@ from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
 
 COUNTS = (10, 20, 50, 100, 200, 500, 1000)
 EYE = (30, -46, 27)
-STYLES = ({"marker": "o", "linestyle": "-", "color": "0"}, {"marker": "s", "linestyle": "--", "color": "0.35"})
 
 
 def array(x: int, y: int, z: int, step: Fraction) -> list[Polyhedron]:
@@ -66,12 +65,8 @@ def growth() -> dict[str, list[tuple[int, float, int]]]:
 def curves(rows_by_arrangement: dict[str, list[tuple[int, float, int]]]) -> list[Curve]:
     *_, (count, seconds, _) = rows_by_arrangement["on a floor, few overlap"]
     scale = seconds / (count * math.log(count))
-    guide = Curve("n log n", [(n, scale * n * math.log(n)) for n in COUNTS], {"linestyle": ":", "color": "0.6"})
-    rows = [
-        Curve(name, [row[:2] for row in rows], style)
-        for (name, rows), style in zip(rows_by_arrangement.items(), STYLES, strict=True)
-    ]
-    return [*rows, guide]
+    guide = Curve("n log n", [(n, scale * n * math.log(n)) for n in COUNTS])
+    return [*(Curve(name, [row[:2] for row in rows]) for name, rows in rows_by_arrangement.items()), guide]
 
 
 def main() -> None:

@@ -30,14 +30,6 @@ COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000)
 # The slope of a curve is fitted from this number of points on; smaller sets measure the cost of a call.
 SLOPES_FROM = 1_000
 WITH_FACES = "port, fast, with its faces as text"
-STYLES = (
-    {"marker": "o", "linestyle": "-", "color": "0"},
-    {"marker": "o", "linestyle": "--", "color": "0"},
-    {"marker": "D", "linestyle": "-", "color": "0.4"},
-    {"marker": "D", "linestyle": "--", "color": "0.4"},
-    {"marker": "s", "linestyle": "-.", "color": "0.6"},
-    {"marker": "^", "linestyle": ":", "color": "0.6"},
-)
 
 
 def ball(count: int, seed: int = 1) -> Any:
@@ -184,7 +176,7 @@ def growth(peers: Peers, counts: Sequence[int] = COUNTS) -> list[Curve]:
         works.pop(WITH_FACES, None)
         for figure in table("", points, works, peers).rows:
             points_by_route.setdefault(figure.what, []).append((count, figure.median))
-    return [Curve(name, points, style) for (name, points), style in zip(points_by_route.items(), STYLES, strict=False)]
+    return [Curve(name, points) for name, points in points_by_route.items()]
 
 
 def main() -> None:

@@ -60,7 +60,7 @@ def test_growth_is_printed_and_plotted_with_slopes(
     measured = digital.growth((3, 5))
     assert [curve.name for curve in measured] == ["octree hull", "voxel hull, cell list", "digital hull"]
     assert [count for count, _ in measured[0].points] == [ball(3).count, ball(5).count]
-    curves = [Curve("ours", [(10, 1.0), (100, 10.0), (1000, 100.0)], {}), Curve("theirs", [(10, 2.0)], {})]
+    curves = [Curve("ours", [(10, 1.0), (100, 10.0), (1000, 100.0)]), Curve("theirs", [(10, 2.0)])]
     monkeypatch.setattr(digital, "growth", lambda: curves)
     monkeypatch.setattr(digital, "SLOPES_FROM", 100)
     monkeypatch.setattr(sys, "argv", ["digital", str(tmp_path / "growth.svg")])

@@ -114,8 +114,8 @@ def test_every_table_measures_judge_or_port_and_peers(monkeypatch: pytest.Monkey
 
 def test_slope_is_the_exponent_of_growth() -> None:
     points = [(10, 99.0), *((count, 2e-6 * count**1.25) for count in (100, 1_000, 10_000))]
-    assert Curve("", points, {}).slope(100) == pytest.approx(1.25)
-    assert Curve("", points, {}).slope(10_000) is None
+    assert Curve("", points).slope(100) == pytest.approx(1.25)
+    assert Curve("", points).slope(10_000) is None
 
 
 def test_waiting_is_not_counted_as_processor_time() -> None:

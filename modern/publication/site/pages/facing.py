@@ -12,6 +12,7 @@ from modern.publication.commentary import Block, Gloss, commentary
 from modern.publication.facing import Card, Facing, Piece, Variant, facing
 from modern.publication.flow import flow
 from modern.publication.measured import DETECTED_BY, runs, weights
+from modern.publication.moments import LEGEND, drawn, moments
 from modern.publication.site.entries import column, entry, sign, witness_line
 from modern.publication.site.made import Made, Part, Target, one_of
 from modern.publication.site.markup import (
@@ -45,7 +46,7 @@ def make(argument: str) -> Made:
     name = one_of(argument, programs.NAMES)
     listing = facing(name)
     first_cards = {row.id: cards[0] for row in listing.rows() if (cards := listing.cards_of(row.id))}
-    parts = [Part(html=_controls(listing))]
+    parts = [Part(html=_controls(listing) + text("p", LEGEND, cls="quiet"))]
     titles = ("place", "witness: line and text", "deck", "executions, time")
     head = element("div", "".join(text("span", title) for title in titles), cls="card-head", aria_hidden="true")
     sheets = sheets_of(chart(flow(programs.program(name))))
@@ -67,6 +68,8 @@ def _remark(name: str, block: Block, sheet_of: dict[int, int]) -> str:
     sheets = dict.fromkeys(sheet for card, sheet in sheet_of.items() if card in block.cards)
     where += ", ".join(link(_CHARTS[name], f"sheet-{n}", f"flow chart, sheet {n}") for n in sheets)
     inner = text("h3", block.title) + text("p", block.text) + (element("p", where, cls="quiet") if where else "")
+    if moment := moments(name).get(block.cards.start):
+        inner = element("div", inner) + element("figure", drawn(moment) + text("figcaption", moment.caption()))
     return element("li", inner, cls="remark", id=f"about-{place}")
 
 
