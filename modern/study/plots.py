@@ -299,7 +299,8 @@ def _numbers(
     from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
     if logarithmic:
-        is_short = limits[1] / limits[0] < _MANY_DECADES
+        # Labels of more than five digits would touch each other.
+        is_short = limits[1] / limits[0] < _MANY_DECADES and limits[1] < _MANY_DECADES * 10
         axis.set_major_locator(LogLocator(subs=(1, 2, 5) if is_short else (1,)))
         axis.set_minor_formatter(NullFormatter())
     else:
