@@ -20,8 +20,8 @@ from modern.publication.uses import uses
 class Block:
     """Consecutive cards with one purpose.
 
-    ``cards`` are their numbers in the deck.  ``steps`` name rows of the concordance with chapter 3 of the thesis.  ``marks``
-    name the variables whose points the picture of the block highlights (:mod:`modern.publication.moments`).
+    ``cards`` are their numbers in the deck.  ``steps`` name rows of the concordance with chapter 3 of the thesis.
+    ``marks`` name the variables whose points the picture of the block highlights (:mod:`modern.publication.moments`).
     """
 
     title: str

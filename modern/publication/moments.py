@@ -12,9 +12,9 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from emulator.language.objectcode import Line, Program
-from emulator.machine.operator import Operator
+from emulator.language.objectcode import Line
 from emulator.machine.machine import run_with_operator
+from emulator.machine.operator import Operator
 from emulator.machine.result import Options
 from emulator.machine.session import Session
 from modern.drawing.layout import fit
@@ -28,12 +28,12 @@ from modern.publication.panel import Record, number
 
 Point = tuple[float, ...]
 Faces = tuple[tuple[Point, ...], ...]
-# The direction of view for points in space, in which no two points of examples 5 and 6 coincide.
+# The direction of view for points in space.
 EYE: Eye = (11, 13, 19)
 _WIDTH, _HEIGHT, _MARGIN = 200, 130, 12
 LEGEND = (
-    "Pictures: the points in the machine's variables at the end of the block. Filled: a vertex. Cross: a point that the "
-    "program has deleted. Bold: a new equation. Dashed: a removed equation. Coloured: the named variables."
+    "Pictures: the points in the program's variables at the end of the block. Filled: a vertex. Cross: a point that "
+    "the program has deleted. Bold: a new equation. Dashed: a removed equation. Coloured: the named variables."
 )
 _DEFINING = ("MM", "NN", "KK")
 

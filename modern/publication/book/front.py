@@ -4,23 +4,15 @@ from collections.abc import Callable, Iterator, Mapping
 
 from modern.claims.register import COLUMNS, DOCUMENTS, THESIS, counts
 from modern.drawing.draw import draw_svg
-from modern.drawing.punched import cards_svg
-from modern.drawing.stages import frames, strip
-from modern.edition import programs
-from modern.edition.chapter6 import input_deck
+from modern.drawing.stages import strip
 from modern.edition.sources import Document, sources
-from modern.formats.deck import data_deck
-from modern.formats.points import parse_input
-from modern.port import convex_hull
+from modern.publication import essay
 from modern.publication.book.markup import block, code, heading, label, say, string, table
 from modern.publication.building import citation
 from modern.publication.facing import facing
-from modern.publication.site.pages.story import CORNERS, EXAMPLE, FIRST, plane_values
-from modern.thesis.job import run_hull
 
 # Saves a picture, given its name and SVG, and returns the name by which Typst finds it.
 SavePicture = Callable[[str, str], str]
-_CUBE = [[str(n >> k & 1) for k in (2, 1, 0)] for n in range(8)]
 
 
 def title_and_imprint() -> Iterator[str]:
@@ -104,36 +96,25 @@ def _picture(file: str, caption: str, width: str) -> str:
 
 
 def _card(save: SavePicture) -> str:
-    deck = input_deck(EXAMPLE)
-    svg = cards_svg(type(deck)(deck.source, deck.cards[1:2]), title="a punched data card")
-    return _picture(save("essay-card", svg), f"The first point of example {EXAMPLE} on a punched card", "92%")
+    caption = f"The first point of example {essay.EXAMPLE} on a punched card"
+    return _picture(save("essay-card", essay.card()), caption, "92%")
 
 
 def _growth(save: SavePicture) -> str:
-    points = parse_input(input_deck(EXAMPLE).text(), f"example{EXAMPLE}").points
-    svg = strip(frames(convex_hull(points, "exact", history=True)))
-    return _picture(save("essay-growth", svg), f"The hull of example {EXAMPLE} grows in the order of program 3", "64%")
+    caption = f"The hull of example {essay.EXAMPLE} grows in the order of program 3"
+    return _picture(save("essay-growth", strip(essay.growth())), caption, "64%")
 
 
 def _truncation(save: SavePicture) -> str:
-    rows = []
-    for x in (95, 320, 590, 635, 815, 905):
-        points = ((x, *FIRST), *CORNERS)
-        (exact, _), (machine, values) = (plane_values(name, points) for name in ("exact", "truncating"))
-        rows.append([say(str(cell)) for cell in (x, exact, machine, *values)])
-    others = " and ".join(f"({', '.join(map(str, point))})" for point in CORNERS)
-    caption = f"The plane through (x, {FIRST[0]}, {FIRST[1]}), {others}, as program 3 calculates it. "
-    caption += "Its value at each of the three points should be zero."
-    head = ("x", "D, exactly", "D in eight digits", "first point", "second", "third")
-    return _table(caption, head, rows, (4, 14, 18, 14, 14, 14), range(6))
+    rows = [[say(str(cell)) for cell in (x, *essay.plane_row(x))] for x in essay.XS]
+    caption = f"{essay.plane_caption()} Its value at each of the three points should be zero."
+    return _table(caption, ("x", *essay.HEAD), rows, (4, 14, 18, 14, 14, 14), range(6))
 
 
 def _cube(save: SavePicture) -> str:
-    run = run_hull(data_deck(_CUBE, "cube"), programs.program)
-    typed = [event.text for step in run.steps for event in step.result.events if event.what == "type"]
-    hull = convex_hull([tuple(map(int, corner)) for corner in _CUBE], "exact")
+    _, typed, hull = essay.cube()
     drawn = _picture(save("essay-cube", draw_svg(hull, width=360)), "The unit cube, which program 3 cannot do", "38%")
-    return drawn + block("\n".join(typed), "8pt")
+    return drawn + block(typed, "8pt")
 
 
 def _mended(save: SavePicture) -> str:

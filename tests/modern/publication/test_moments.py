@@ -1,4 +1,4 @@
-"""The pictures beside the commentary show the variables of the programs at the end of each block."""
+"""The pictures next to the commentary show the variables of the programs at the end of each block."""
 
 import pytest
 

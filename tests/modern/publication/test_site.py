@@ -14,10 +14,10 @@ import pytest
 
 from emulator.errors import explanations
 from modern.edition import programs
+from modern.publication import essay
 from modern.publication.site import build as site_build
 from modern.publication.site.made import make, names
 from modern.publication.site.markup import code, element, escape, inline, relative, stacked
-from modern.publication.site.pages import story
 from tests.support import editions
 from tests.support.editions import page_of_each_kind, pages, words
 from tests.support.paths import ROOT
@@ -97,9 +97,9 @@ def test_downloads_are_files_of_the_site_and_open(site: Path) -> None:
 
 def test_the_plane_misses_its_own_points_exactly_if_eight_digits_are_too_few() -> None:
     for number in (95, 590, 635, 995):
-        points = ((number, *story.FIRST), *story.CORNERS)
-        exact, values = story.plane_values("exact", points)
-        machine, on_machine = story.plane_values("truncating", points)
+        points = ((number, *essay.FIRST), *essay.CORNERS)
+        exact, values = essay.plane_values("exact", points)
+        machine, on_machine = essay.plane_values("truncating", points)
         assert values == ["0", "0", "0"]
         assert (machine == exact) == (on_machine == values) == (number < 600)
 
