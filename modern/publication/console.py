@@ -39,7 +39,7 @@ _NOT_LOADED = (
     *("tests", "__pyinstaller", "__pycache__", "email", "multiprocessing", "xml", "_pyrepl", "unittest", "http"),
     *("pdb.py", "doctest.py", "tarfile.py", "pydoc.py", "ctypes", "html", "xmlrpc", "wsgiref", "imaplib.py"),
     *("pickletools.py", "mailbox.py", "smtplib.py", "ftplib.py", "sqlite3", "difflib.py", "statistics.py"),
-    *("_pyio.py", "optparse.py", "configparser.py", "pydoc_data", "emulator/compiled", "emulator/jit", "hull1620"),
+    *("_pyio.py", "optparse.py", "configparser.py", "pydoc_data", "emulator/compiled", "hull1620"),
     *("modern/claims", "modern/papers", "modern/study", "modern/cli", "modern/digital", "modern/port", "modern/bench"),
     *("modern/exact_hull", "modern/drawing", "transcripts/statements", "transcripts/appel_will_1976", "lark/tools"),
     *("modern/publication/book", "modern/publication/site", "modern/publication/tei", "modern/publication/deposit.py"),
@@ -123,8 +123,8 @@ def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> 
     if npm.is_dir() and wheel is not None:
         lock = json.loads((npm / _LOCK).read_text("utf-8"))
         files = {name: (npm / name).read_bytes() for name in PYODIDE}
-        files[_LIBRARY], packages = _compiled(npm, [_library(npm / _LIBRARY), _stored(files_of(wheel))])
-        with zipfile.ZipFile(BytesIO(packages)) as archive:
+        files[_LIBRARY], compiled = _compiled(npm, [_library(npm / _LIBRARY), packages(wheel)])
+        with zipfile.ZipFile(BytesIO(compiled)) as archive:
             files |= {f"packages/{name}": archive.read(name) for name in archive.namelist()}
         files["lock.json"] = json.dumps(lock | {"packages": {}}).encode()
         data = packed(files)
@@ -138,6 +138,11 @@ def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> 
     known = f'window.hull1620Bytes = {size};\nwindow.hull1620Version = "{version}";\n'
     (folder / "size.js").write_text(known, encoding="ascii")
     return size
+
+
+def packages(wheel: Path) -> bytes:
+    """Return an archive of the modules and data of the wheel, lark and mpmath that a page may use."""
+    return _stored(files_of(wheel))
 
 
 def packed(files: Mapping[str, bytes]) -> bytes:

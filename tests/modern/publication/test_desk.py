@@ -13,9 +13,11 @@ import pytest
 
 from modern.formats.deck import data_deck
 from modern.port import convex_hull
+from modern.publication.console import packages
 from modern.publication.desk import Desk
 from tests.support.commands import call
 from tests.support.desks import PAIRS, Pair, played
+from tests.support.editions import packed
 from tests.support.paths import ROOT
 
 
@@ -257,18 +259,20 @@ def test_accept_expects_the_fields_of_its_format() -> None:
     assert desk.run(1e9)["fields"] == [("I3", 1, 3), ("F5.1", 4, 5)]
 
 
-def test_the_module_imports_only_what_the_page_provides() -> None:
-    own = "emulator modern hull1620 fortran_src transcripts lark mpmath __main__".split()
+def test_the_page_needs_only_the_modules_that_it_loads(tmp_path: Path) -> None:
+    (tmp_path / "packages.zip").write_bytes(packages(packed(tmp_path)))
     code = f"""
-import sys
-sys.path[:0] = {sys.path!r}
+import sys, zipfile
+zipfile.ZipFile("packages.zip").extractall("packages")
+sys.path[:] = ["packages", *(path for path in sys.path if path.startswith({sys.base_prefix!r}))]
 from modern.publication.desk import Desk
+from modern.publication.parting import parted
 desk = Desk()
 desk.load({{"program": "program1", "deck": "example4"}})
 desk.run(1)
 desk.act("START")
 assert desk.run(1e9)["ended"]
-print(sorted({{name.partition(".")[0] for name in sys.modules}} - set({own}) - set(sys.stdlib_module_names)))
+assert desk.decide()["lines"]
+assert parted("1 2 3")["says"]
 """
-    process = subprocess.run([sys.executable, "-S", "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert process.stdout.strip() == "[]"
+    subprocess.run([sys.executable, "-S", "-c", code], cwd=tmp_path, check=True)
