@@ -46,7 +46,7 @@
       const margin = (bottom - top) / 4;
       boxes.push({
         left: Math.max(left, area.left) + 1, right: Math.min(right, area.right) - 1,
-        top: top + margin, bottom: bottom - margin, node, layer: area.layer,
+        top: Math.max(top + margin, area.top), bottom: Math.min(bottom - margin, area.bottom), node, layer: area.layer,
       });
     }
   }

@@ -6,6 +6,7 @@ skipped with a message.
 
 from __future__ import annotations
 
+import itertools
 import threading
 from collections.abc import Iterator
 from functools import partial
@@ -18,6 +19,7 @@ import pytest
 from modern.edition.chapter6 import prints
 from modern.publication.console import SOURCE, install_machine
 from modern.publication.desk import Desk
+from tests.modern.publication.test_site_layout import problems
 from tests.support.desks import PAIRS, Pair, played
 from tests.support.editions import packed
 
@@ -116,6 +118,73 @@ def paper(page: Page) -> list[str]:
     return lines
 
 
+def fit(page: Page) -> None:
+    """Check the layout of the desk in its present state, in a wide and a narrow window and in both themes."""
+    for width, theme in itertools.product((360, 1280), ("dark", "light")):
+        page.set_viewport_size({"width": width, "height": 800})
+        page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
+        # Lists and paper may be empty here.
+        messages = [message for message in problems(page) if not message.startswith("empty")]
+        assert messages == [], f"{width} pixels, {theme}"
+        assert page.evaluate("document.documentElement.scrollWidth") == width
+
+
+def reach(page: Page, selector: str) -> None:
+    """Press Tab until the element has the focus."""
+    for _ in range(120):
+        page.keyboard.press("Tab")
+        if page.evaluate("s => document.activeElement.matches(s)", selector):
+            return
+    pytest.fail(f"the keyboard does not reach {selector}")
+
+
+def test_the_keyboard_alone_loads_starts_stops_and_steps(tab: Page) -> None:
+    tab.evaluate("document.activeElement.blur(); document.getElementById('desk').dataset.state = 'keyboard'")
+    reach(tab, "#desk-program")
+    tab.keyboard.type("program 1 in", delay=5)
+    reach(tab, "#desk-deck")
+    tab.keyboard.type("example 4 of", delay=5)
+    reach(tab, "#desk-load")
+    tab.keyboard.press("Enter")
+    assert state(tab, "waits") == "program1_examples.f is loaded. Press START."
+    reach(tab, "#desk-where")
+    tab.keyboard.type("CARD 20")
+    tab.keyboard.press("Enter")
+    reach(tab, "[data-words=START]")
+    tab.evaluate("document.getElementById('desk').dataset.state = 'started'")
+    tab.keyboard.press("Enter")
+    assert "before" in state(tab, "waits")
+    assert tab.inner_text("#desk-card") == "card 20"
+    reach(tab, "[data-words=STEP]")
+    tab.keyboard.press("Space")
+    tab.wait_for_function("document.getElementById('desk-card').textContent !== 'card 20'", timeout=LONG)
+    reach(tab, "#desk-clear")
+    tab.keyboard.press("Enter")
+    reach(tab, "[data-words=START]")
+    tab.evaluate("document.getElementById('desk').dataset.state = 'started'")
+    tab.keyboard.press("Space")
+    assert state(tab, "ended").startswith("The run has ended.")
+    reach(tab, "#desk-stacker")
+    assert cards(tab) == {(p.program, p.device): list(p.lines) for p in prints(4)}[1, "punch"]
+
+
+def test_the_first_decision_that_exact_arithmetic_takes_otherwise_is_shown(tab: Page) -> None:
+    load(tab, "program1", "counterexamples/silent")
+    press(tab)
+    tab.evaluate("document.getElementById('desk').dataset.state = 'pressed'")
+    tab.click("#desk-next")
+    state(tab, "ended")
+    tab.click("#desk-decide")
+    tab.wait_for_function(
+        "/otherwise: card 185.*eight digits: 0, .*exact: 27180, /.test(document.getElementById('desk-state').textContent)",
+        timeout=LONG,
+    )
+    assert tab.inner_text("#desk-card") == "card 185"
+    assert tab.is_visible("#desk-true")
+    assert tab.inner_text("#desk-caption") == "Left: the hull in the machine. Right: the true hull."
+    fit(tab)
+
+
 def test_example_5_runs_from_the_first_deck_to_the_last_card_and_goes_back(tab: Page) -> None:
     printed = {(p.program, p.device): list(p.lines) for p in prints(5)}
     assert load(tab, "program1_examples", "example5").endswith("is loaded. Press START.")
@@ -161,6 +230,7 @@ def test_tic_tac_toe_is_won_by_typing_the_number_of_a_square(tab: Page) -> None:
         tab.wait_for_function("m => document.getElementById('desk-paper').textContent.includes(' ' + m)", arg=move)
         state(tab, "waits")
     tab.wait_for_function("document.getElementById('desk-paper').textContent.includes('YOU WIN')")
+    fit(tab)
 
 
 def test_a_refused_load_empties_the_machine(tab: Page) -> None:
@@ -170,6 +240,7 @@ def test_a_refused_load_empties_the_machine(tab: Page) -> None:
     message = load(tab, "bad.f")
     assert message.startswith("Refused: bad.f: card 1, column 8: error: the statement ends too soon")
     assert tab.locator("#desk-listing li").count() == 0
+    fit(tab)
 
 
 def test_the_keypunch_shows_errors_next_to_their_cards_and_loads_three_cards(tab: Page) -> None:
@@ -177,6 +248,7 @@ def test_the_keypunch_shows_errors_next_to_their_cards_and_loads_three_cards(tab
     tab.click("#desk-punch-open")
     tab.fill("#punch-text", "      TYPE 5\n    5 FORMAT(2HHI\n      END\n")
     tab.wait_for_function("document.querySelector('#punch-messages li:nth-child(2)')?.textContent")
+    fit(tab)
     tab.fill("#punch-text", "      TYPE 5\n    5 FORMAT(2HHI)\n      END\n")
     tab.wait_for_function("document.getElementById('punch-state').textContent === 'No errors.'")
     tab.click("#punch-use")
@@ -222,6 +294,7 @@ def test_an_endless_loop_can_be_stopped(tab: Page) -> None:
     load(tab, "loop.f", "")
     tab.click("[data-words=START]")
     state(tab, "runs")
+    fit(tab)
     tab.click("[data-words=ATTN]")
     assert "stopped (attention) before statement 1" in state(tab, "waits")
     assert press(tab, "STOP").startswith("The run has stopped")
