@@ -141,7 +141,8 @@
     punchedCards.draw(at("read-card"), "");
     punchedCards.draw(at("punch-card"), "");
     at("punched").textContent = "0 cards";
-    at("next").hidden = at("true").hidden = true;
+    at("next").hidden = true;
+    at("true").toggleAttribute("hidden", true); // an SVG element has no property of this name
     at("stage").disabled = true;
     at("card").textContent = "";
     at("caption").textContent = "Points appear when a program reads them.";
@@ -496,7 +497,7 @@
     paper(lines, "note");
     if (hull) {
       truth.show(hull);
-      at("true").hidden = false;
+      at("true").toggleAttribute("hidden", false);
     }
     if (!differs) return say(`${lines[0]}.`);
     await jump(differs);

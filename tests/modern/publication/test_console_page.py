@@ -148,16 +148,16 @@ def test_the_keyboard_alone_loads_starts_stops_and_steps(tab: Page) -> None:
     tab.keyboard.press("Enter")
     assert state(tab, "waits") == "program1_examples.f is loaded. Press START."
     reach(tab, "#desk-where")
-    tab.keyboard.type("CARD 20")
+    tab.keyboard.type("CARD 92")
     tab.keyboard.press("Enter")
     reach(tab, "[data-words=START]")
     tab.evaluate("document.getElementById('desk').dataset.state = 'started'")
     tab.keyboard.press("Enter")
     assert "before" in state(tab, "waits")
-    assert tab.inner_text("#desk-card") == "card 20"
+    assert tab.inner_text("#desk-card") == "card 92"
     reach(tab, "[data-words=STEP]")
     tab.keyboard.press("Space")
-    tab.wait_for_function("document.getElementById('desk-card').textContent !== 'card 20'", timeout=LONG)
+    tab.wait_for_function("document.getElementById('desk-card').textContent !== 'card 92'", timeout=LONG)
     reach(tab, "#desk-clear")
     tab.keyboard.press("Enter")
     reach(tab, "[data-words=START]")
@@ -176,7 +176,7 @@ def test_the_first_decision_that_exact_arithmetic_takes_otherwise_is_shown(tab: 
     state(tab, "ended")
     tab.click("#desk-decide")
     tab.wait_for_function(
-        "/otherwise: card 185.*eight digits: 0, .*exact: 27180, /.test(document.getElementById('desk-state').textContent)",
+        "/card 185.*eight digits: 0, .*exact: 27180, /.test(document.getElementById('desk-state').textContent)",
         timeout=LONG,
     )
     assert tab.inner_text("#desk-card") == "card 185"
