@@ -1,4 +1,4 @@
-"""``hull1620 apparatus``: list the emendations of the listings, check them, or weigh the evidence for them."""
+"""``hull1620 apparatus``: list or check the emendations, weigh the evidence, or collate another transcription."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from emulator.errors import quoted
-from emulator.files import read_text, source_name
+from emulator.files import read_text, source_name, write_text
 from modern.claims.apparatus_checks import check_everything
-from modern.cli.shared.console import DIFFERS, OK, UsageError
+from modern.cli.shared.console import DIFFERS, OK, UsageError, print_report
 from modern.edition import programs
 from modern.edition.apparatus import Row
+from modern.edition.collation import collate, report, to_csv, to_json, verdicts_by_id
 from modern.edition.grounds import Proof
 from modern.edition.sources import place
 
@@ -31,6 +32,10 @@ def main(args: argparse.Namespace) -> int:
         answers = weigh(Path(args.weigh), args.runs or "", max(args.workers, 1), args.most)
         print(write_weight(Path(args.weigh), answers), end="")
         return OK
+    if args.collate is not None:
+        return _collate(args)
+    if args.json is not None or args.csv is not None:
+        raise UsageError("--json and --csv write a collation and need --collate")
     rows = _rows(args)
     if args.text is not None and not (args.check and args.program is None and args.layer is None):
         raise UsageError("--text needs --check, without --program and --layer")
@@ -56,6 +61,17 @@ def main(args: argparse.Namespace) -> int:
     return DIFFERS if failed else OK
 
 
+def _collate(args: argparse.Namespace) -> int:
+    collation = collate(read_text(args.collate), Path(args.collate).name)
+    if not any(card.lines for card in collation.cards):
+        raise UsageError(f"--collate: no line of {quoted(args.collate)} resembles a card of the listings")
+    for path, written in ((args.json, to_json), (args.csv, to_csv)):
+        if path is not None:
+            write_text(path, written(collation))
+    print_report(args, report(collation))
+    return OK
+
+
 def _line(proof: Proof) -> str:
     return f"{'holds' if proof.holds else 'FAILS'}  {proof.subject:<18} {proof.message}"
 
@@ -67,6 +83,8 @@ def show(row: Row, width: int) -> Iterator[str]:
     yield from _folded("source", f"{place(row.text, line) or f'after row {line}'}; cause: {row.cause}", width)
     yield from _folded("reads", row.witness, width)
     yield from _folded("lemma", row.lemma, width)
+    for name, verdicts in verdicts_by_id(row).items():
+        yield from _folded("collated", f"{name}: {', '.join(verdicts)}", width)
     for rejected in row.rejected:
         yield from _folded("rejected", f"{rejected.reading}: {rejected.reason}", width)
     yield from _folded("reason", row.reason, width)

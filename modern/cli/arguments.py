@@ -124,6 +124,10 @@ def _apparatus(parser: ArgumentParser) -> None:
     add(parser, rows)
     text = "with --check: compare the project's excerpts with FILE, a whole OCR text"
     add(parser, {"--text FILE": text}, type=InputFile)
+    collate = "classify every reading of the listings by FILE, another transcription of them or of a part of them"
+    add(parser, {"--collate FILE": collate}, type=InputFile)
+    json_argument(parser, "collation")
+    add(parser, {"--csv FILE": "with --collate: write a table with a row for each reading"}, type=OutputFile)
     weigh = (
         "alter the tokens of the listings one at a time, and record in FOLDER the first check that detects each "
         "alteration; results already in FOLDER are kept"

@@ -105,6 +105,11 @@ def _named(name: str, layers: tuple[str, ...]) -> tuple[tuple[str, frozenset[str
     return tuple(named)
 
 
+def card_names(name: str) -> tuple[str, ...]:
+    """Return the name of each card of a built-in program, such as ``147+1``."""
+    return tuple(card for card, _ in _named(name, ()))
+
+
 def cards_of(row: Row) -> str:
     """Return the names of the cards that a row changes: ``147+1``, ``FORMAT 9``, ``before 106``, ``131 to 133``."""
     entry = next(b for b in BUILT_INS if b.text == row.text and (row.layer in b.layers or b.name == row.text))

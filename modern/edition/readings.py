@@ -23,7 +23,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from typing import Literal
 
@@ -87,6 +87,12 @@ def steps(row: Row) -> tuple[Step, ...] | None:
             return None
         row_steps += [Step(number, at, pair, to) for at, to, pair in way]
     return tuple(row_steps)
+
+
+@lru_cache(65536)
+def explains(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> bool:
+    """Return True if the OCR, by exchanging these pairs, can have made the witness from the lemma."""
+    return abs(len(witness) - len(lemma)) < 12 and _way(witness, lemma, pairs) is not None
 
 
 def _way(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> list[tuple[int, int, Pair]] | None:

@@ -70,6 +70,20 @@ class Excerpt:
 
 
 @dataclass(frozen=True, slots=True)
+class Transcription:
+    """Another transcription of a document.  ``file`` is its collation, with a hash, or empty if there is none."""
+
+    id: str
+    document: str
+    title: str
+    address: str
+    held: str
+    independence: str
+    file: str = ""
+    sha256: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Sources:
     """The contents of SOURCES.toml.
 
@@ -81,9 +95,14 @@ class Sources:
     excerpts: tuple[Excerpt, ...]
     decks: tuple[tuple[str, str], ...]
     layered: tuple[tuple[str, str, str], ...]
+    transcriptions: tuple[Transcription, ...] = ()
 
     def document(self, name: str) -> Document:
         return next(document for document in self.documents if document.id == name)
+
+    def collated(self, document: str) -> tuple[Transcription, ...]:
+        """Return the transcriptions of a document that are witnesses, because their collations are in the project."""
+        return tuple(entry for entry in self.transcriptions if entry.document == document and entry.file)
 
     def excerpt(self, text: str) -> Excerpt:
         """Return the excerpt that is the witness of a text.  Raises ApparatusError."""
@@ -122,6 +141,7 @@ def sources() -> Sources:
         ),
         tuple((raw["file"], raw["sha256"]) for raw in data["deck"]),
         tuple((raw["program"], raw["layer"], raw["sha256"]) for raw in data["layered"]),
+        tuple(Transcription(**raw) for raw in data["transcription"]),
     )
 
 
@@ -138,13 +158,16 @@ def digest(text: str) -> str:
 
 
 def check_files() -> Iterator[tuple[str, bool, str]]:
-    """Yield (file, whether its hash is right, message) for each excerpt, and once for all decks of ``grounds``."""
+    """Yield (file, whether its hash is right, message) for each excerpt and collation, and once for all ``grounds``."""
     table = sources()
     for excerpt in table.excerpts:
         same = digest(read(excerpt.file)) == excerpt.sha256
         count = sum(s.last - s.first + 1 for s in excerpt.stretches)
         message = f"{count} lines of {excerpt.document}" if same else "CHANGED: its hash is not that of SOURCES.toml"
         yield excerpt.file, same, message
+    for entry in (entry for entry in table.transcriptions if entry.file):
+        same = digest(read(entry.file)) == entry.sha256
+        yield entry.file, same, "a collation" if same else "CHANGED: its hash is not that of SOURCES.toml"
     wrong = [file for file, sha in table.decks if digest(read(file)) != sha]
     yield "grounds", not wrong, f"CHANGED: {', '.join(wrong)}" if wrong else f"{len(table.decks)} decks"
 

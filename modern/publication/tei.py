@@ -20,6 +20,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 from modern.claims.apparatus_checks import texts
 from modern.edition.apparatus import PAGE_MARK, Row, Text, build
 from modern.edition.chapter6_cards import Chapter, cards, device_files, device_layout, load_chapter
+from modern.edition.collation import verdicts_by_id
 from modern.edition.programs import BUILT_INS
 from modern.edition.segments import Piece, Place, Segments, segments
 from modern.edition.sources import read, sources
@@ -184,8 +185,11 @@ def _app(parent: Element, edition: _Edition, place: Place) -> None:
         _write(SubElement(app, "rdg", ours | {"wit": "#examples"}), edition, place.new)
     else:
         # An error of the OCR is not on the page, an error of the author or the typist is.
-        _write(SubElement(app, "lem", ours | ({"wit": "#print"} if row.cause == "ocr" else {})), edition, place.new)
+        collated = verdicts_by_id(row)
+        lem = ["#print"] * (row.cause == "ocr") + [f"#{name}" for name, v in collated.items() if set(v) == {"confirms"}]
+        _write(SubElement(app, "lem", ours | ({"wit": " ".join(lem)} if lem else {})), edition, place.new)
         wit = "#print #ocr" if row.cause in ("author", "typist") else "#ocr"
+        wit += "".join(f" #{name}" for name, v in collated.items() if set(v) == {"supports a rival"})
         _write(SubElement(app, "rdg", wit=wit, cause=row.cause), edition, place.old)
     if first:
         _notes(app, row)

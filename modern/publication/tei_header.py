@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from xml.etree.ElementTree import Element, SubElement
 
 from modern.edition.apparatus import Text
-from modern.edition.sources import Document
+from modern.edition.sources import Document, sources
 from modern.publication.tei_schema import FILE_NAME
 
 TEI = "http://www.tei-c.org/ns/1.0"
@@ -128,6 +128,11 @@ def _witnesses(witnesses: Element, heading: Heading) -> None:
     add(bibl, "idno", document.sha256, type="SHA-256")
     if heading.sha256:
         add(bibl, "idno", heading.sha256, type="SHA-256-of-the-excerpt")
+    for entry in sources().collated(document.id):
+        bibl = SubElement(SubElement(witnesses, "witness", {ID: entry.id, "corresp": "#print"}), "bibl")
+        add(bibl, "title", entry.title)
+        add(bibl, "idno", entry.sha256, type="SHA-256-of-the-collation")
+        add(bibl, "note", entry.independence)
     if heading.text and any(row.layer == "examples" for row in heading.text.rows):
         state = SubElement(witnesses, "witness", {ID: "examples"})
         state.text = "The earlier state of the program that ran the examples. It is lost and reconstructed here."

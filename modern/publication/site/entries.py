@@ -5,6 +5,7 @@ from functools import cache
 
 from modern.edition import programs
 from modern.edition.apparatus import Row
+from modern.edition.collation import verdicts_by_id
 from modern.edition.grounds import check_row
 from modern.edition.sources import place
 from modern.publication.site.markup import definitions, element, escape, link, text
@@ -41,6 +42,7 @@ def entry(row: Row, places: Iterable[str], page: str) -> str:
         (
             ("witness", _reading(row.witness)),
             ("our reading", _reading(row.lemma)),
+            *(("collated", escape(f"{name}: {', '.join(v)}")) for name, v in verdicts_by_id(row).items()),
             ("reason", escape(row.reason)),
             *(("rejected", f"{_reading(r.reading)} {escape(r.reason)}") for r in row.rejected),
             ("evidence", escape(row.evidence)),

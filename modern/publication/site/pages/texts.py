@@ -97,5 +97,16 @@ def _document(document: Document) -> str:
     ]
     head = ("witness", "lines, and the line of the source where each range begins", "start of the SHA-256")
     excerpts = table(head, rows, name=f"Witnesses taken from {document.id}") if rows else ""
+    others = [
+        (
+            text("a", entry.title, href=entry.address) + ("; collated" if entry.file else ""),
+            escape(entry.held),
+            escape(entry.independence),
+        )
+        for entry in sources().transcriptions
+        if entry.document == document.id
+    ]
+    head = ("another transcription", "what is known of it", "independence")
+    excerpts += table(head, others, name=f"Other transcriptions of {document.id}") if others else ""
     pages = "".join(text("li", f"{page}: lines {first} to {last}") for page, first, last in document.pages)
     return facts + excerpts + details("pages and lines", element("ul", pages))

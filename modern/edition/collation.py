@@ -1,0 +1,314 @@
+"""Collate another transcription of the listings with the edition: classify every reading of every card.
+
+:mod:`modern.edition.transcription` finds the characters of each card, and :mod:`modern.edition.tokens` its readings and
+their rivals.  A reading gets one of four verdicts:
+
+``confirms``          the transcription has the reading, and no rival explains its characters
+``supports a rival``  it has a rival, and the reading of the edition does not explain its characters
+``contradicts``       it has another token of the same kind, which the reading of the edition does not explain
+``unreadable``        it lacks the place, has something that cannot stand there, or both texts explain its characters
+
+A text *explains* characters if the transcription can have misread it so, by pairs of the table of confusables.  A pair
+counts unless the transcription itself shows that it does not make this error: it has at least :data:`ENOUGH` places of
+the character on the page, and none of them is misread so.  An error of another kind counts once it occurs twice.
+"""
+
+import csv
+import hashlib
+import io
+import json
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Literal
+
+from modern.edition import programs
+from modern.edition.alignment import align_characters
+from modern.edition.apparatus import ApparatusError, Row
+from modern.edition.readings import Pair, explains, table
+from modern.edition.sources import read, sources
+from modern.edition.tokens import Rival, rivals, row_rivals, spans
+from modern.edition.transcription import align, edition_cards
+
+Verdict = Literal["confirms", "supports a rival", "contradicts", "unreadable"]
+VERDICTS: tuple[Verdict, ...] = ("confirms", "supports a rival", "contradicts", "unreadable")
+_LETTER: Mapping[Verdict, str] = {verdict: verdict[0] for verdict in VERDICTS} | {"contradicts": "x"}
+_VERDICT = {letter: verdict for verdict, letter in _LETTER.items()}
+# If a character was transcribed so often without an error of a kind, the transcription does not make that error.
+ENOUGH = 300
+# Errors are counted on cards of which at most this share is misread, because other cards may be misaligned.
+SOUND = 0.25
+FORMAT = "hull1620 collation 1"
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A token of a card with the text of the transcription and the verdict; ``rival`` is the supported rival."""
+
+    edition: str
+    transcription: str
+    verdict: Verdict
+    rival: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class CollatedCard:
+    """A card of the edition, by its index, with the lines of the transcription that hold it and its readings."""
+
+    card: int
+    lines: tuple[int, ...]
+    readings: tuple[Reading, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Collation:
+    """A collated transcription: its id, its size, the hash of its text, and every card of the edition."""
+
+    id: str
+    file: str
+    sha256: str
+    lines: int
+    cards: tuple[CollatedCard, ...]
+
+    def counts(self) -> Counter[Verdict]:
+        return Counter(reading.verdict for card in self.cards for reading in card.readings)
+
+
+def collate(text: str, file: str = "", name: str = "") -> Collation:
+    """Collate a transcription of the listings or of a part of them."""
+    aligned = align(text)
+    pieces = {n: _pieces(n, line) for n, (line, _) in aligned.items()}
+    pairs = _pairs(aligned)
+    cards = tuple(
+        CollatedCard(n, aligned[n][1] if n in aligned else (), tuple(_readings(n, pieces.get(n), pairs)))
+        for n in range(len(edition_cards()))
+    )
+    digest = hashlib.sha256(text.encode()).hexdigest()
+    return Collation(name or digest[:12], file, digest, text.count("\n") + 1, cards)
+
+
+def _pieces(n: int, line: str) -> tuple[str, ...]:
+    """Return the characters of a line that align with each token of a card.
+
+    A mark between two tokens that the OCR may have inserted belongs to neither.  Any other character belongs to the
+    token before it, or to the token after it if only that is a word or number as it is.
+    """
+    tokens, marks = spans(n), _marks()
+    owner = [k for k, (a, b) in enumerate(tokens) for _ in range(a, b)]
+    pieces, at, text = [""] * len(tokens), -1, edition_cards()[n].solid
+    for i, j in align_characters(text, line):
+        if i >= 0:
+            at = i
+            pieces[owner[i]] += line[j] if j >= 0 else ""
+            continue
+        inside = 0 <= at < len(text) - 1 and owner[at] == owner[at + 1]
+        if inside or line[j] not in marks:
+            before, after = text[max(at, 0)], text[min(at + 1, len(text) - 1)]
+            joins_next = at < 0 or (line[j].isalnum() and after.isalnum() and not before.isalnum())
+            pieces[owner[min(at + 1, len(text) - 1) if joins_next else at]] += line[j]
+    return tuple(pieces)
+
+
+@cache
+def _marks() -> frozenset[str]:
+    return frozenset(pair.witness for pair in table() if not pair.lemma)
+
+
+def _pairs(aligned: Mapping[int, tuple[str, tuple[int, ...]]]) -> tuple[Pair, ...]:
+    """Return the pairs that the transcription may have exchanged (see the module)."""
+    places: Counter[str] = Counter()
+    errors: Counter[tuple[str, str]] = Counter()
+    for n, (line, _) in aligned.items():
+        text = edition_cards()[n].solid
+        contested = {k for rival in rivals().get(n, ()) for k in range(rival.first, rival.last + 1)}
+        certain = {i for k, (a, b) in enumerate(spans(n)) if k not in contested for i in range(a, b)}
+        steps = align_characters(text, line)
+        if sum(i < 0 or j < 0 or text[i] != line[j] for i, j in steps) <= SOUND * len(text):
+            places.update(text[i] for i in certain)
+            errors.update((line[j] if j >= 0 else "", text[i]) for i, j in steps if i in certain)
+    pairs = [
+        pair
+        for pair in table()
+        if (
+            pair.cls == "comment"
+            or len(pair.lemma) != 1
+            or len(pair.witness) > 1
+            or places[pair.lemma] < ENOUGH
+            or errors[pair.witness, pair.lemma]
+        )
+    ]
+    known = {(pair.witness, pair.lemma) for pair in table()}
+    others = [
+        Pair(a, b, "confusable") for (a, b), count in errors.items() if a != b and count > 1 and (a, b) not in known
+    ]
+    return (*pairs, *sorted(others, key=lambda pair: (pair.witness, pair.lemma)))
+
+
+def _readings(n: int, aligned: tuple[str, ...] | None, pairs: tuple[Pair, ...]) -> Iterator[Reading]:
+    text = edition_cards()[n].solid
+    tokens = [text[a:b] for a, b in spans(n)]
+    known = rivals().get(n, ())
+    pieces = aligned or ("",) * len(tokens)
+    supported: dict[int, Rival] = {}
+    for rival in known if aligned else ():
+        there = "".join(pieces[rival.first : rival.last + 1])
+        here = "".join(tokens[rival.first : rival.last + 1])
+        if there == rival.text != here and not explains(there, here, pairs):
+            supported |= {k: rival for k in range(rival.first, rival.last + 1) if pieces[k] != tokens[k]}
+    for k, token in enumerate(tokens):
+        there = pieces[k]
+        near = slice(max(k - 1, 0), k + 2)
+        if k in supported:
+            yield Reading(token, there, "supports a rival", supported[k].text)
+        elif there == token:
+            doubtful = any(r.first == r.last == k and r.text != token and explains(token, r.text, pairs) for r in known)
+            yield Reading(token, there, "unreadable" if doubtful else "confirms")
+        elif (
+            _kind(there) == _kind(token) != ""
+            and not explains(there, token, pairs)
+            and not explains("".join(pieces[near]), "".join(tokens[near]), pairs)
+        ):
+            yield Reading(token, there, "contradicts")
+        else:
+            yield Reading(token, there, "unreadable")
+
+
+def _kind(token: str) -> str:
+    """Return the kind of a token: number, name, operator, or empty for what no card can have."""
+    for kind, pattern in (("number", r"\d+"), ("name", r"[A-Z][A-Z0-9]*"), ("sign", r"[-+*/=.,()]+")):
+        if re.fullmatch(pattern, token):
+            return kind
+    return ""
+
+
+def to_json(collation: Collation) -> str:
+    """Return a collation as JSON, one card on a line: a letter for each reading, and what differs."""
+    head = {"format": FORMAT, "id": collation.id, "file": collation.file, "sha256": collation.sha256}
+    head |= {"lines": str(collation.lines), "edition": _edition()}
+    lines = []
+    for card in collation.cards:
+        entry = edition_cards()[card.card]
+        letters = "".join(_LETTER[reading.verdict] for reading in card.readings)
+        others = {
+            str(k): [r.transcription, *([r.rival] if r.rival else [])]
+            for k, r in enumerate(card.readings)
+            if r.verdict != "confirms" and card.lines
+        }
+        lines.append(json.dumps([entry.program, entry.number, card.lines, letters, others], ensure_ascii=False))
+    return json.dumps(head)[:-1] + ', "cards": [\n' + ",\n".join(lines) + "\n]}\n"
+
+
+def from_json(text: str, source: str) -> Collation:
+    """Read a collation.  Raise ApparatusError if the text is not one, or belongs to other cards of the edition."""
+    try:
+        data = json.loads(text)
+        if data["format"] != FORMAT:
+            raise ValueError(data["format"])
+        if data["edition"] != _edition():
+            raise ApparatusError(f"{source}: belongs to other cards of the listings; collate the transcription again")
+        cards = tuple(_card(n, raw) for n, raw in enumerate(data["cards"]))
+        return Collation(data["id"], data["file"], data["sha256"], int(data["lines"]), cards)
+    except (ValueError, KeyError, TypeError, IndexError) as error:
+        if isinstance(error, ApparatusError):
+            raise
+        raise ApparatusError(f"{source}: is not a collation that --collate wrote with --json ({error!r})") from None
+
+
+def _card(n: int, raw: list[object]) -> CollatedCard:
+    program, number, lines, letters, others = raw
+    card = edition_cards()[n]
+    if (program, number) != (card.program, card.number) or not isinstance(lines, list) or not isinstance(others, dict):
+        raise ValueError(f"card {program} {number}")
+    readings = []
+    for k, ((a, b), letter) in enumerate(zip(spans(n), str(letters), strict=True)):
+        token = card.solid[a:b]
+        there, *rival = others.get(str(k), [token if letter == "c" else ""])
+        readings.append(Reading(token, there, _VERDICT[letter], *rival))
+    return CollatedCard(n, tuple(lines), tuple(readings))
+
+
+@cache
+def _edition() -> str:
+    """Return the hash of the cards of the edition."""
+    return hashlib.sha256("\n".join(card.solid for card in edition_cards()).encode()).hexdigest()
+
+
+def to_csv(collation: Collation) -> str:
+    """Return a collation as a table with a row for each reading."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(("program", "card", "place", "lines", "reading", "edition", "transcription", "verdict", "rival"))
+    for card in collation.cards:
+        entry, lines = edition_cards()[card.card], " ".join(map(str, card.lines))
+        for k, r in enumerate(card.readings, 1):
+            row = (r.edition, r.transcription, r.verdict, r.rival)
+            writer.writerow((entry.program, entry.number, entry.place, lines, k, *row))
+    return out.getvalue()
+
+
+def report(collation: Collation) -> Iterator[str]:
+    """Yield the lines of a summary: cards, readings by verdict, errors shared with the witness, and differences."""
+    aligned = [card for card in collation.cards if card.lines]
+    yield f"cards: {len(aligned)} of {len(collation.cards)} are in the transcription"
+    counts = collation.counts()
+    yield "readings: " + ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS)
+    shared, places = shared_errors(collation)
+    yield f"errors of our OCR text: {shared} of {places} are in the transcription too"
+    for card in aligned:
+        entry = edition_cards()[card.card]
+        for r in card.readings:
+            if r.verdict in ("contradicts", "supports a rival"):
+                place = f"{entry.program} {entry.place}, line {card.lines[0]}"
+                yield f"{place}: {r.verdict}: {r.transcription or 'nothing'} for {r.edition}"
+
+
+def shared_errors(collation: Collation) -> tuple[int, int]:
+    """Return how many misreadings of our OCR text a transcription shares, and of how many whose cards it has.
+
+    A transcription that shares most of them was probably made from the same OCR or scan and is not independent.
+    """
+    shared = places = 0
+    for row in (row for name in programs.TEXTS for row in programs.text(name).rows if row.kind == "misread"):
+        for reading in _of_row(collation, row):
+            places += 1
+            shared += reading[1]
+    return shared, places
+
+
+def _of_row(collation: Collation, row: Row) -> Iterator[tuple[Verdict, bool]]:
+    """Yield the verdict on each place of a row, and whether the transcription has the reading of our witness there."""
+    for n, rival in row_rivals(row):
+        card = collation.cards[n]
+        if card.lines:
+            readings = card.readings[rival.first : rival.last + 1]
+            same = "".join(r.transcription for r in readings) == rival.text
+            worst = max((r.verdict for r in readings), key=VERDICTS.index)
+            decided = next((r.verdict for r in readings if r.verdict in ("supports a rival", "contradicts")), worst)
+            yield decided, same
+
+
+def row_verdicts(collation: Collation, row: Row) -> tuple[Verdict, ...]:
+    """Return the verdict of a collated transcription on each place that a row changes."""
+    return tuple(verdict for verdict, _ in _of_row(collation, row))
+
+
+@cache
+def registered() -> tuple[Collation, ...]:
+    """Return the collations that SOURCES.toml names, with the ids of the transcriptions.
+
+    Raise ApparatusError if a file is not a collation of these listings.
+    """
+    collations = []
+    for entry in sources().transcriptions:
+        if entry.file:
+            collations.append(replace(from_json(read(entry.file), entry.file), id=entry.id))
+    return tuple(collations)
+
+
+def verdicts_by_id(row: Row, collations: Iterable[Collation] | None = None) -> dict[str, tuple[Verdict, ...]]:
+    """Return the verdicts of every registered collation on a row, by the id of the collation; none without verdict."""
+    known = registered() if collations is None else collations
+    by_id = {collation.id: row_verdicts(collation, row) for collation in known}
+    return {name: verdicts for name, verdicts in by_id.items() if verdicts}

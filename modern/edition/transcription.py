@@ -1,0 +1,314 @@
+"""Align the lines of another transcription of the listings with the cards of the edition.
+
+A transcription may have lost lines, and its pages and columns may stand in another order.  Therefore the alignment is
+not one monotone sequence.  A Viterbi search assigns a card to each line: following the order of the cards is free,
+skipping cards costs a little, and a jump to any other card costs as much as a short line gains.  A line may also belong
+to no card (a page number, a running head), two lines may make one card (a hyphenated line), and one line may hold two
+cards.  A line that holds more is first divided where its characters align with the cards.  Statement numbers that
+form a separate column are joined with their statements afterwards.
+
+Lines are compared after characters that may be confused have been replaced by one representative
+(:mod:`modern.edition.alignment`), so that misreadings of the expected kind cost nothing.
+"""
+
+import re
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+
+from modern.edition import programs
+from modern.edition.alignment import distance, divide, folded
+from modern.edition.apparatus import PAGE_MARK
+from modern.edition.edits import solid
+from modern.edition.readings import table
+
+# A jump costs JUMP.  Skipping k cards costs SKIP + k * SKIP_CARD, for at most FARTHEST cards.
+JUMP, SKIP, SKIP_CARD, FARTHEST = 14.0, 0.7, 0.3, 25
+# The number of card texts with which a line is compared, and the share of differing characters above which it is no
+# match.  A line that differs more than POOR from every card may be a part of a card or hold two.
+CANDIDATES, NO_MATCH, POOR = 8, 0.45, 0.15
+# A line with more characters than any two cards is divided.
+LONGEST = 132
+_MARKS = sorted((p.witness for p in table() if p.cls == "noise" and not p.lemma and len(p.witness) > 1), reverse=True)
+_NOISE = re.compile("|".join(map(re.escape, _MARKS)) + r"|[$}`]|^\s*[-·•*]\s+")
+_DASHES = str.maketrans({"−": "-", "–": "-", "—": "-", "‐": "-", "\xad": "-", "\xa0": " "})
+
+
+@dataclass(frozen=True, slots=True)
+class EditionCard:
+    """A card of a built-in program: its number in the deck, its place, and its characters that are not blank."""
+
+    program: str
+    number: int
+    place: str
+    label: str
+    text: str
+
+    @property
+    def solid(self) -> str:
+        return self.label + self.text
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """Lines ``lines`` (indices into the cleaned transcription) that hold ``cards`` (indices into the edition)."""
+
+    lines: tuple[int, ...]
+    cards: tuple[int, ...]
+    gain: float
+
+
+@cache
+def edition_cards() -> tuple[EditionCard, ...]:
+    """Return the cards of the three listings in their order."""
+    cards = []
+    for name in programs.TEXTS:
+        for card, place in zip(programs.committed(name).cards, programs.card_names(name), strict=True):
+            number = re.match(r" *(\d*)", card.text)
+            label = number[1] if number and not card.text.startswith("C  ") else ""
+            cards.append(EditionCard(name, card.number, place, label, solid(card.text)[len(label) :]))
+    return tuple(cards)
+
+
+def read_lines(text: str) -> list[tuple[int, str]]:
+    """Return the lines of a transcription with their numbers, without blank lines, page marks and typesetting marks.
+
+    If most letters are small, as in a retyping, they become capitals.
+    """
+    letters = Counter("small" if c.islower() else "capital" for c in text if c.isalpha())
+    text = text.upper() if letters["small"] > letters["capital"] and not text.isupper() else text
+    lines = []
+    for number, raw in enumerate(text.splitlines(), 1):
+        cleaned = _NOISE.sub(" ", raw.translate(_DASHES))
+        if cleaned.strip() and not raw.startswith(PAGE_MARK):
+            lines.append((number, cleaned))
+    return lines
+
+
+def align(text: str, cards: Sequence[EditionCard] | None = None) -> dict[int, tuple[str, tuple[int, ...]]]:
+    """Return the characters and the line numbers of the transcription for each card, by its index in the edition.
+
+    A card that the transcription lacks is absent from the result.  The characters are not blank.
+    """
+    every = edition_cards() if cards is None else tuple(cards)
+    index = _Index(every)
+    numbered = [piece for line in read_lines(text) for piece in index.divided(*line)]
+    lines = [solid(line) for _, line in numbered]
+    spans = _best_path(lines, index)
+    texts: dict[int, tuple[str, tuple[int, ...]]] = {}
+    used: set[int] = set()
+    for span in sorted(spans, key=lambda s: -s.gain):
+        if any(card in texts for card in span.cards):
+            continue
+        used.update(span.lines)
+        joined = "".join(_unhyphenated(lines[n], n < span.lines[-1]) for n in span.lines)
+        numbers = tuple(numbered[n][0] for n in span.lines)
+        pieces = divide(joined, [every[card].solid for card in span.cards])
+        texts.update((card, (piece, numbers)) for card, piece in zip(span.cards, pieces, strict=True))
+    _place_strays(lines, numbered, used, texts, index)
+    _join_labels(lines, numbered, used, texts, every)
+    return texts
+
+
+def _unhyphenated(line: str, continues: bool) -> str:
+    return line.removesuffix("-") if continues else line
+
+
+class _Index:
+    """The folded texts of the cards, with and without their numbers, found by the trigrams that they contain."""
+
+    def __init__(self, cards: Sequence[EditionCard]) -> None:
+        self.cards = cards
+        self.owners: dict[str, list[int]] = defaultdict(list)
+        for n, card in enumerate(cards):
+            for text in {card.solid, card.text}:
+                self.owners[folded(text)].append(n)
+        self.postings: dict[str, list[str]] = defaultdict(list)
+        for text in self.owners:
+            for gram in set(_trigrams(text)):
+                self.postings[gram].append(text)
+
+    def candidates(self, line: str) -> list[tuple[str, float]]:
+        """Return the texts most like a folded line with their gains: characters, minus two for each difference."""
+        shared: Counter[str] = Counter()
+        for gram in set(_trigrams(line)):
+            shared.update(self.postings.get(gram, ()))
+        likely = sorted(shared, key=lambda text: -shared[text] / (len(text) + len(line)))[:CANDIDATES]
+        gains = []
+        for text in likely:
+            differing, size = distance(text, line), max(len(text), len(line))
+            if differing <= NO_MATCH * size:
+                gains.append((text, size - 2.0 * differing))
+        return gains
+
+    def fused(self, line: str) -> Iterator[tuple[tuple[int, ...], float]]:
+        """Yield each pair of consecutive cards of which a folded line may consist, with its gain."""
+        starts = {
+            n for text, owners in self.owners.items() if len(text) > 3 and line.startswith(text[:4]) for n in owners
+        }
+        for n in starts:
+            if n + 1 < len(self.cards):
+                text = folded(self.cards[n].solid + self.cards[n + 1].solid)
+                differing = distance(text, line)
+                if differing <= POOR * len(text) + 1:
+                    yield (n, n + 1), len(text) - 2.0 * differing
+
+    def divided(self, number: int, line: str) -> Iterator[tuple[int, str]]:
+        """Divide a line that holds many cards.  Eight characters that occur in one card only show which ones."""
+        text = solid(line)
+        if len(text) <= LONGEST:
+            yield number, line
+            return
+        joined, owner = "", []
+        for n, card in enumerate(self.cards):
+            joined += folded(card.solid)
+            owner += [n] * len(card.solid)
+        anchors = []
+        for at in range(len(text) - 8):
+            gram = folded(text[at : at + 8])
+            first = joined.find(gram)
+            if first >= 0 and joined.find(gram, first + 1) < 0:
+                anchors.append(owner[first])
+        if not anchors:
+            yield number, line
+            return
+        anchors.sort()
+        middle = anchors[len(anchors) // 2]
+        near = [n for n in anchors if abs(n - middle) < len(text) // 4]
+        # The ends of the line may have no anchor, so one card more is tried on either side.
+        pieces = divide(text, [card.solid for card in self.cards[max(near[0] - 1, 0) : near[-1] + 2]])
+        yield from ((number, piece) for piece in pieces if piece)
+
+
+def _trigrams(text: str) -> Iterator[str]:
+    padded = f"^{text}$"
+    return (padded[n : n + 3] for n in range(len(padded) - 2))
+
+
+@dataclass(slots=True)
+class _Node:
+    span: Span
+    score: float
+    before: "_Node | None"
+
+
+def _best_path(lines: Sequence[str], index: _Index) -> list[Span]:
+    """Return the spans of the best path through all lines (see the module)."""
+    # For each card, the best path that ends with it; before the current line, and before the line before that.
+    ends: dict[int, _Node] = {}
+    earlier: dict[int, _Node] = {}
+    poor_before = False
+    for n, line in enumerate(lines):
+        text = folded(line)
+        single = index.candidates(text)
+        best = max((gain for _, gain in single), default=0.0)
+        poor = best < len(text) * (1 - 2 * POOR)
+        spans = [Span((n,), (card,), gain) for match, gain in single for card in index.owners[match]]
+        if best < len(text) - 4:
+            spans += [Span((n,), cards, gain) for cards, gain in index.fused(text)]
+        nodes = [_extended(ends, span) for span in spans]
+        if n and (poor or poor_before):
+            whole = folded(_unhyphenated(lines[n - 1], True) + line)
+            pairs = [Span((n - 1, n), (c,), g - 1) for match, g in index.candidates(whole) for c in index.owners[match]]
+            nodes += [_extended(earlier, span) for span in pairs]
+        earlier, poor_before = dict(ends), poor
+        for node in nodes:
+            last = node.span.cards[-1]
+            if last not in ends or node.score > ends[last].score:
+                ends[last] = node
+    path = []
+    node = max(ends.values(), key=lambda end: end.score, default=None)
+    while node is not None:
+        path.append(node.span)
+        node = node.before
+    return path[::-1]
+
+
+def _extended(ends: Mapping[int, _Node], span: Span) -> _Node:
+    """Return the best path that ends with a span."""
+    best: _Node | None = None
+    score = -JUMP / 2
+    if ends:
+        anywhere = max(ends.values(), key=lambda end: end.score)
+        best, score = anywhere, anywhere.score - JUMP
+        for steps in range(1, FARTHEST + 1):
+            before = ends.get(span.cards[0] - steps)
+            cost = 0.0 if steps == 1 else SKIP + SKIP_CARD * (steps - 1)
+            if before is not None and before.score - cost > score:
+                best, score = before, before.score - cost
+    return _Node(span, score + span.gain, best)
+
+
+def _place_strays(
+    lines: Sequence[str],
+    numbered: Sequence[tuple[int, str]],
+    used: set[int],
+    texts: dict[int, tuple[str, tuple[int, ...]]],
+    index: _Index,
+) -> None:
+    """Assign each unused line to the only missing card that it resembles, if it has at least eight characters."""
+    for n, line in enumerate(lines):
+        if n in used or len(line) < 8:
+            continue
+        matches = [(text, gain) for text, gain in index.candidates(folded(line)) if gain >= len(line) * (1 - 2 * POOR)]
+        missing = {card for text, _ in matches for card in index.owners[text] if card not in texts}
+        if len(missing) == 1:
+            texts[missing.pop()] = line, (numbered[n][0],)
+            used.add(n)
+
+
+def _join_labels(
+    lines: Sequence[str],
+    numbered: Sequence[tuple[int, str]],
+    used: set[int],
+    texts: dict[int, tuple[str, tuple[int, ...]]],
+    every: Sequence[EditionCard],
+) -> None:
+    """Put statement numbers that form a separate column before the statements that lack them."""
+    line_of = {number: n for n, (number, _) in enumerate(numbered)}
+    lacking = [
+        n for n in sorted(texts) if every[n].label and not folded(texts[n][0]).startswith(folded(every[n].label)[:2])
+    ]
+    runs = list(_runs([n for n, line in enumerate(lines) if n not in used and len(line) <= 5]))
+    for run, likeness in ((run, likeness) for likeness in (1.0, 0.2) for run in runs):
+        # The statements stand on the same page: within sixty lines of the column of numbers.
+        unused = [n for n in run if n not in used]
+        near = [c for c in lacking if abs(line_of[texts[c][1][0]] - run[0]) < 60 + len(run)]
+        labels = [folded(every[c].label) for c in near]
+        for line, card in _common([folded(lines[n]) for n in unused], labels, likeness):
+            text, numbers = texts[near[card]]
+            texts[near[card]] = lines[unused[line]] + text, (numbered[unused[line]][0], *numbers)
+            used.add(unused[line])
+            lacking.remove(near[card])
+
+
+def _runs(numbers: Sequence[int]) -> Iterator[list[int]]:
+    """Yield runs of at least three numbers with gaps of one or two."""
+    run: list[int] = []
+    for n in (*numbers, 10**9):
+        if run and n - run[-1] > 2:
+            if len(run) > 2:
+                yield run
+            run = []
+        run.append(n)
+
+
+def _common(a: Sequence[str], b: Sequence[str], likeness: float) -> list[tuple[int, int]]:
+    """Return the index pairs of a best common subsequence of texts whose likeness is at least this (1 if equal)."""
+    best = [[0.0] * (len(b) + 1) for _ in range(len(a) + 1)]
+    alike = [[1 - 1.5 * distance(x, y) / max(len(x), len(y)) for y in b] for x in a]
+    alike = [[value if value >= likeness else 0.0 for value in row] for row in alike]
+    for i in range(len(a) - 1, -1, -1):
+        for j in range(len(b) - 1, -1, -1):
+            best[i][j] = max(best[i + 1][j], best[i][j + 1], best[i + 1][j + 1] + alike[i][j])
+    pairs, i, j = [], 0, 0
+    while i < len(a) and j < len(b):
+        if alike[i][j] and best[i][j] == best[i + 1][j + 1] + alike[i][j]:
+            pairs.append((i, j))
+            i, j = i + 1, j + 1
+        elif best[i][j] == best[i + 1][j]:
+            i += 1
+        else:
+            j += 1
+    return pairs
