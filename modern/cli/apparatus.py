@@ -1,4 +1,4 @@
-"""``hull1620 apparatus``: list or check the emendations, weigh the evidence, or collate another transcription."""
+"""``hull1620 apparatus``: list or check the emendations, measure how sure they are, or collate a transcription."""
 
 from __future__ import annotations
 

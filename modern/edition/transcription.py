@@ -213,12 +213,12 @@ def _best_path(lines: Sequence[str], index: _Index) -> list[Span]:
             pairs = [Span((n - 1, n), (c,), g - 1) for match, g in index.candidates(whole) for c in index.owners[match]]
             nodes += [_extended(earlier, span) for span in pairs]
         earlier, poor_before = dict(ends), poor
-        for node in nodes:
-            last = node.span.cards[-1]
-            if last not in ends or node.score > ends[last].score:
-                ends[last] = node
+        for extended in nodes:
+            last = extended.span.cards[-1]
+            if last not in ends or extended.score > ends[last].score:
+                ends[last] = extended
     path = []
-    node = max(ends.values(), key=lambda end: end.score, default=None)
+    node: _Node | None = max(ends.values(), key=lambda end: end.score, default=None)
     while node is not None:
         path.append(node.span)
         node = node.before

@@ -27,7 +27,7 @@ from modern.edition.readings import table
 _NAME = re.compile(r"[A-Z][A-Z0-9]*")
 _NUMBER = re.compile(r"\d+")
 # The positions at which each kind of statement refers to other statement numbers.
-_LABELS = {
+LABELS = {
     "if": re.compile(r"\)(\d+(?:,\d+)*)$"),
     "if_switch": re.compile(r"\)(\d+(?:,\d+)*)$"),
     "go_to": re.compile(r"^GOTO(\d+)$"),
@@ -89,7 +89,7 @@ def statements(name: str) -> tuple[Statement, ...]:
         word = "FORMAT " if source.kind == "format" else ""
         label, steps = (word + source.label, 0) if source.label else (label, steps + 1)
         place = f"{label}+{steps}" if steps and label else label or source.text.split("(")[0]
-        pattern = _LABELS.get(source.kind)
+        pattern = LABELS.get(source.kind)
         match = pattern.search(source.text) if pattern else None
         spans = (
             [(n.start() + match.start(1), n.end() + match.start(1)) for n in _NUMBER.finditer(match[1])]
