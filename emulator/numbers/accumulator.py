@@ -110,9 +110,9 @@ def largest(sign: int, rules: Rules) -> int:
 
 
 def in_range(m: int, e: int, over: int, rules: Rules) -> State:
-    """Return a result and its event.  The event is ``over`` if the result is too large, and the next one if too small.
+    """Return a result and its event: 0, ``over`` if the number is too large, or ``over + 1`` if it is too small.
 
-    The result is then the largest number or a zero with the same sign.
+    A number that is too large becomes the largest number, and one that is too small a zero, with the same sign.
     """
     if e > MAX_EXPONENT:
         return largest(m, rules), MAX_EXPONENT, over

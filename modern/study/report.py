@@ -20,7 +20,7 @@ _NUMBER = r"[\N{MINUS SIGN}\d.,]+"
 # An estimate with its interval, or an interval alone, in percent or not; a number of percent.
 _TOGETHER = re.compile(rf"(?:{_NUMBER} )?\({_NUMBER} to {_NUMBER}\)(?: %)?|{_NUMBER} %")
 _NUMERIC = frozenset("0123456789.+-%eE to(),")
-INTERVALS = ("In parentheses: exact 95 % intervals of proportions (Clopper and Pearson).",)
+INTERVALS = ("The numbers in parentheses are exact 95 % intervals of proportions (Clopper and Pearson).",)
 
 
 @dataclass(frozen=True, slots=True)

@@ -91,7 +91,7 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
 
 
 def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
-    """Place the points of the map, those of the outer surface on the unit circle with its first line at the bottom.
+    """Place the points of the map; the outer surface is on the unit circle and has its first line at the bottom.
 
     The surfaces may run in either sense. Every line must be on two of them.
     """

@@ -25,8 +25,8 @@ PLACES = 98
 CORE = (20_000, 40_000, 60_000)
 LISTED, EXACT = "as listed", "exact"
 _INTERVALS = (
-    "In parentheses: 95 % intervals, Student's for means, truncated at 0, exact (Clopper and Pearson) for proportions. "
-    "Places: entries of the plane table in use."
+    "The numbers in parentheses are 95 % intervals: Student's for means, truncated at 0, and exact ones (Clopper and "
+    "Pearson) for proportions. Places are the entries of the plane table in use."
 )
 _NAMES = {"integers": "cube, solid", "cube": "cube, surface"}
 

@@ -179,7 +179,8 @@ def _conclusions(counts: Summary, cells: Cells) -> tuple[str, ...]:
     sets = counts.of(0, LISTED)
     return (
         "In eight-digit arithmetic the corrected programs found every hull if the coordinates had one of these numbers "
-        f"of digits: {listed(without_failure)}. They found no hull at all for these: {listed(without_hull)}.",
+        f"of digits: {listed(without_failure)}. They found no hull at all for these numbers of digits: "
+        f"{listed(without_hull)}.",
         f"The failures include this part of plausible but wrong hulls: {share_of(wrong, failed)}.",
         f"The least P is 3d + 1, with which every test for zero is exact, for {len(agree)} of {len(cells)} numbers of "
         f"digits d. If none of {sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of such sets could fail "

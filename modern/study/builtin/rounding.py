@@ -163,7 +163,7 @@ def _main(plan: Plan, counts: Summary, tested: Mapping[str, _Pairs], widened: Ma
     exact_test = ("whole numbers up to", "sets", "failed", "wrong hulls", "of the failed")
     head = ("way", *exact_test, "against truncating", "with the interval")
     notes = (
-        "In parentheses: exact 95 % intervals (Clopper and Pearson).",
+        "The numbers in parentheses are exact 95 % intervals (Clopper and Pearson).",
         "The columns sets, failed and wrong hulls are those of the exact test. Whole numbers up to: the largest size "
         "up to which no set failed. Against truncating: sets whose hull is found by this arithmetic but not by "
         "truncation / the reverse. "

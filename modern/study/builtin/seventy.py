@@ -155,8 +155,8 @@ def _main(*routes: _Route) -> Table:
         share, groups = exact(route.failed, route.sets), (route.groups(THESIS, THESIS), route.groups(THESIS))
         rows.append(row(route.name, route.sets, route.failed, share, with_interval(route.mean), *groups))
     notes = (
-        "In parentheses: exact 95 % intervals (Clopper and Pearson). The interval of failures in 70 is seventy times "
-        "that of all sets, because sets are drawn independently. 70s: groups of seventy sets.",
+        "The numbers in parentheses are exact 95 % intervals (Clopper and Pearson). The interval of failures in "
+        "70 is seventy times that of all sets, because sets are drawn independently. 70s: groups of seventy sets.",
     )
     return Table("table", "Failures in seventy examples", head, tuple(rows), notes)
 
