@@ -203,7 +203,7 @@ def write_floating(
 
 
 def write_fixed(columns: MutableSequence[int], at: int, width: int, size: int, negative: bool) -> int:
-    """Write an I field: the last four digits, or the last w - 1 if only w < 5 columns, one for the sign, are there."""
+    """Write an I field: the last four digits, or the last w - 1 in a field of w < 5 columns, as one is for the sign."""
     end = at + width
     for k in range(at, end):
         columns[k] = BLANK

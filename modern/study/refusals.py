@@ -133,7 +133,8 @@ def conclusions(sheets: tuple[Sheets, ...]) -> tuple[str, ...]:
         shares = likely_shares(tuple((s.share, s.rate.value) for s in of_form))
         printed = of_form[-1]
         paragraphs.append(
-            f"Decimals {drawn}: with a third of decimals, as on the sheet, {percent(printed.rate)} are rejected."
+            f"Decimals {drawn}: if a third of the coordinates are decimals, as on the sheet, {percent(printed.rate)} "
+            "of the sets are rejected."
             + f" Two rejections are the most probable number if {needed(printed)} of seventy sets are such sheets"
             * bool(printed.refused)
             + (
