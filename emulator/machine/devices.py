@@ -94,6 +94,8 @@ class Devices:
         }
         # The numbers of the current record, with full digits (option ``uncut``).
         self._beside: list[Uncut] = []
+        # Card, column and width of each field of the deck that was read as a floating-point number.
+        self.fields_read: list[tuple[int, int, int]] = []
         self._charges = [spec.charge for _, spec in self.program.formats]
         self._charge = 0
         self._first_read = -1
@@ -282,6 +284,8 @@ class Devices:
                 value = self._whole[card.number, column, spec.width]
             else:
                 value, remark = self.options.numbers.read(spec, columns)
+                if not typed:
+                    self.fields_read.append((card.number, column, spec.width))
         except FieldError as error:
             if self.options.numbers.as_1962:
                 # The number keeps its former value.

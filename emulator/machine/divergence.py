@@ -150,7 +150,9 @@ def diverge(
     if rounding and math.isfinite(reference.digits):
         reference = ShadowedNumbers(reference)
     sides = zip((studied, reference), (deck, reference_deck or deck), uncut, strict=True)
-    runs = [_Run(program, cards, replace(options, numbers=n), values, operator(), more) for n, cards, more in sides]
+    runs = [
+        JournaledRun(program, cards, replace(options, numbers=n), values, operator(), more) for n, cards, more in sides
+    ]
     comparison = Comparison(program, studied, reference)
     apart = ""
     first, second = iter(runs[0].entries()), iter(runs[1].entries())
@@ -198,8 +200,8 @@ def diverge(
     )
 
 
-class _Run:
-    """One of the two runs, which advances _STRIDE statements at a time."""
+class JournaledRun:
+    """A run with a journal, which advances _STRIDE statements at a time."""
 
     def __init__(
         self,
@@ -212,16 +214,28 @@ class _Run:
     ) -> None:
         self.name = options.numbers.name
         self._journal = Journal(values)
-        self._session = Session(program, deck, options, journal=self._journal, uncut=uncut, keep=False)
+        self.session = Session(program, deck, options, journal=self._journal, uncut=uncut, keep=False)
         self._operator = operator
         self._program, self._limit = program, options.limit
         self.typed = ""
+        # The records printed so far, except those of events that the session still holds.
+        self._records: list[str] = []
         self.ending: Ending | None = None
         self.error: EmulatorError | None = None
 
     @property
     def statements(self) -> int:
-        return statements_begun(self._program, self._session.state.counts)
+        return statements_begun(self._program, self.session.state.counts)
+
+    @property
+    def records(self) -> list[str]:
+        """The cards punched and lines typed so far, in order."""
+        return self._records + _printed(self.session.devices.events)
+
+    @property
+    def record(self) -> int:
+        """The number of the next record, from 1."""
+        return len(self._records) + len(_printed(self.session.devices.events)) + 1
 
     def entries(self) -> Iterator[Entry]:
         """Yield the entries of the journal while the run advances."""
@@ -229,7 +243,7 @@ class _Run:
         while self.ending is None:
             goal = min(goal + _STRIDE, self._limit)
             try:
-                self.ending = run_with_operator(self._session, self._operator, goal, self._watch)
+                self.ending = run_with_operator(self.session, self._operator, goal, self._watch)
             except EmulatorError as error:
                 self.error, self.ending = error, Ending("input", trouble=str(error))
             if self.ending is not None and self.ending.kind == "limit":
@@ -239,7 +253,12 @@ class _Run:
             self._journal.entries.clear()
 
     def _watch(self, events: Sequence[Event]) -> None:
+        self._records += _printed(events)
         self.typed = next((event.text for event in reversed(events) if event.what == "type"), self.typed)
+
+
+def _printed(events: Sequence[Event]) -> list[str]:
+    return [event.text for event in events if event.what in ("punch", "type")]
 
 
 def _reached(entries: Iterator[Entry], junction: int) -> bool:
@@ -247,14 +266,14 @@ def _reached(entries: Iterator[Entry], junction: int) -> bool:
     return any(entry[0] == junction for entry in entries)
 
 
-def _raise_common_error(runs: list[_Run]) -> None:
+def _raise_common_error(runs: list[JournaledRun]) -> None:
     """Raise the error in the deck if both runs have found an error in it."""
     first, second = (run.error for run in runs)
     if first is not None and second is not None:
         raise first
 
 
-def _ended(runs: list[_Run], entry: Entry | None, reference_entry: Entry | None) -> str:
+def _ended(runs: list[JournaledRun], entry: Entry | None, reference_entry: Entry | None) -> str:
     """Return the endings of the runs whose journals have no further entry, or "" if both runs ended in the same way."""
     if entry is None and reference_entry is None and runs[0].ending == runs[1].ending:
         return ""

@@ -29,15 +29,27 @@ from emulator.numbers.arithmetic import Profile, profile
 from emulator.numbers.base import Number, Numbers, Trap, Undecided
 from emulator.numbers.decimal import DecimalNumbers
 
-__all__ = ["HOSTED", "RANDOM", "DecimalNumbers", "Number", "Numbers", "Trap", "Undecided", "hosted", "numbers"]
+__all__ = [
+    "HOSTED",
+    "INTERVAL",
+    "RANDOM",
+    "DecimalNumbers",
+    "Number",
+    "Numbers",
+    "Trap",
+    "Undecided",
+    "hosted",
+    "numbers",
+]
 
-# The names of the arithmetics that are not decimal profiles, and those that round at random.
+# The names of the arithmetics that are not decimal profiles, those that round at random, and intervals.
 HOSTED = ("float64", "float32", "mp:BITS", "exact")
 RANDOM = ("stochastic:P:SEED", "stochastic:BITSb:SEED")
+INTERVAL = "interval:P"
 
 
 def hosted(name: str) -> Numbers | None:
-    """Return the system ``float64``, ``float32``, ``mp:BITS``, ``exact`` or one that rounds at random, otherwise None.
+    """Return the system ``float64``, ``float32``, ``mp:BITS``, ``exact``, a stochastic one or intervals, or None.
 
     Raise ArgumentError if the number of bits or digits is out of range.
     """
@@ -60,6 +72,10 @@ def hosted(name: str) -> Numbers | None:
         from emulator.numbers.stochastic import stochastic
 
         return stochastic(name)
+    if family == "interval" and colon:
+        from emulator.numbers.interval import interval
+
+        return interval(count, name)
     return None
 
 
@@ -74,5 +90,5 @@ def numbers(name: str | Profile) -> Numbers:
     try:
         return DecimalNumbers(profile(name))
     except ArgumentError as error:
-        more = f", {', '.join((*HOSTED, *RANDOM))}" if str(error).startswith("no arithmetic") else ""
+        more = f", {', '.join((*HOSTED, *RANDOM, INTERVAL))}" if str(error).startswith("no arithmetic") else ""
         raise ArgumentError(f"{error}{more}") from None

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from emulator.errors import ArgumentError, expect, quoted
-from emulator.numbers.draws import DRAWS, PROPORTIONAL, draw, randomly
+from emulator.numbers.draws import CESTAC, DRAWS, PROPORTIONAL, draw, randomly
 
 ZERO = -99
 MINUS_ZERO = -100
@@ -277,7 +277,7 @@ def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
     up = rules.round_quotients and rest > root
     if rules.random and rest:
         # By the proportional rule, round up if size > (root + t)**2, where t is the draw as a fraction.
-        up = 2 * rules.draw >= DRAWS
+        up = (2 * rules.draw >= DRAWS) == (rules.random == CESTAC)
         if rules.random == PROPORTIONAL:
             up = rest * DRAWS - 2 * root * rules.draw > rules.draw * rules.draw // DRAWS
     if up:

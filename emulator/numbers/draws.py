@@ -8,11 +8,13 @@ with seed s takes
 where ``mix`` is the 32-bit finalizer of MurmurHash3 (A. Appleby, public domain).  The numbers are therefore the same on
 every machine and in every engine, and any operation can be recomputed separately.
 
-Two rules of rounding are defined.  f is the part of a result beyond its last digit, in units of that digit, and
+Three rules of rounding are defined.  f is the part of a result beyond its last digit, in units of that digit, and
 0 <= f < 1.  A result with f = 0 is exact and is not rounded.
 
 - ``CESTAC``: round away from zero with probability 1/2, otherwise toward zero (J. Vignes, A stochastic arithmetic for
   reliable scientific computation, Math. Comput. Simulation 35 (1993) 233-261; the rule of CADNA).
+- ``OPPOSITE``: the opposite of what ``CESTAC`` does with the same random number.  CADNA rounds the third of its three
+  runs as the opposite of the second, so that one inexact operation always makes two runs differ.
 - ``PROPORTIONAL``: round away from zero with probability f, so that the expected error is zero.  This is the random
   rounding (RR) of Monte Carlo arithmetic (D. S. Parker, Monte Carlo arithmetic, UCLA CSD-970002, 1997) and the
   stochastic rounding (SR) of M. Croci et al., Stochastic rounding: implementation, error analysis and applications,
@@ -26,7 +28,7 @@ The functions use only integers, so that numba can compile them.
 from __future__ import annotations
 
 # The rules of rounding, as values of ``Rules.random``; 0 stands for arithmetic that is not random.
-CESTAC, PROPORTIONAL = 1, 2
+CESTAC, PROPORTIONAL, OPPOSITE = 1, 2, 3
 # A draw is an integer from 0 to DRAWS - 1.
 DRAWS = 10**8
 MAX_SEED = 2**32 - 1
@@ -61,8 +63,8 @@ def randomly(size: int, unit: int, lost: int, rule: int, drawn: int) -> int:
     rest = size - whole * unit
     if rest == 0 and lost == 0:
         return whole
-    if rule == CESTAC:
-        return whole + (1 if 2 * drawn >= DRAWS else 0)
+    if rule != PROPORTIONAL:
+        return whole + (1 if (2 * drawn >= DRAWS) == (rule == CESTAC) else 0)
     # The part f exceeds drawn / DRAWS.  With a lost part, equality of the integers means that f is larger.
     over = rest * DRAWS - drawn * unit
     return whole + (1 if over > 0 or (over == 0 and lost) else 0)

@@ -32,6 +32,7 @@ from emulator.numbers.base import Number, Numbers, Trap
 from emulator.numbers.exact import ExactNumbers
 from emulator.numbers.fields import Field, Remark
 from emulator.numbers.multiprecision import MultiprecisionNumbers
+from emulator.numbers.work import COSTED
 
 # The number of bits of a shadow beyond twice the bits of its number.
 _CARE = 64
@@ -213,7 +214,7 @@ class ShadowedNumbers(Numbers):
 
     def work(self, operation: str, first: Any, second: Any = 0) -> int:
         a, b = (operand.value if isinstance(operand, Shadowed) else operand for operand in (first, second))
-        inner_steps = self.inner.work(operation, a, b) if self.inner.is_costly or operation in _COSTED else 0
+        inner_steps = self.inner.work(operation, a, b) if self.inner.is_costly or operation in COSTED else 0
         if operation in ("sign", "to_integer", "card"):
             return inner_steps
         x, y = (self._shadow(operand) if isinstance(operand, Shadowed) else operand for operand in (first, second))
@@ -222,10 +223,6 @@ class ShadowedNumbers(Numbers):
     @property
     def as_1962(self) -> bool:
         return self.inner.as_1962
-
-
-# The operations whose work is estimated even by a system that is not costly.
-_COSTED = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT", "power", "integer_power")
 
 
 def _length(value: Fraction) -> int:

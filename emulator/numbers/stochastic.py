@@ -4,10 +4,14 @@
 library functions and powers round the exact result once.  FLOAT, cards and constants are converted without randomness:
 decimal numbers are truncated, and binary numbers are rounded to nearest.  Binary numbers have the range of ``mp:BITS``,
 so ``stochastic:53b:SEED`` agrees with binary64 except beyond its range.
+
+``stochastic:8:1-10`` runs the seeds 1 to 10 in step (:mod:`emulator.numbers.sampled`).  Of three runs in step, the
+third rounds as the opposite of the second, as in CADNA.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -18,13 +22,23 @@ from emulator.errors import ArgumentError
 from emulator.numbers import accumulator
 from emulator.numbers.arithmetic import MAX_DIGITS, MIN_DIGITS, Profile, Rules, drawn, rules_of
 from emulator.numbers.decimal import DecimalNumbers
-from emulator.numbers.draws import CESTAC, MAX_SEED, PROPORTIONAL, draw, key_of, randomly
+from emulator.numbers.draws import CESTAC, MAX_SEED, OPPOSITE, PROPORTIONAL, draw, key_of, randomly
 from emulator.numbers.multiprecision import MAX_BITS, MIN_BITS, MultiprecisionNumbers
+from emulator.numbers.sampled import MAJORITY, SampledNumbers
 
 NAME = "stochastic"
-# The words after the seed, with their rules.
-_RULES = {"": CESTAC, "proportional": PROPORTIONAL}
-_SOURCES = {CESTAC: "up or down with probability 1/2 (CESTAC)", PROPORTIONAL: "up with the probability of the part cut"}
+# The largest number of runs in step.
+MAX_RUNS = 1_000
+_FORM = re.compile(
+    NAME + r":(?P<size>\d{1,9})(?P<binary>b?):(?P<seed>\d{1,10})(-(?P<last>\d{1,10}))?"
+    r"(?P<proportional>:proportional)?(?P<majority>:majority)?",
+    re.ASCII,
+)
+_SOURCES = {
+    CESTAC: "up or down with probability 1/2 (CESTAC)",
+    OPPOSITE: "as the opposite of CESTAC with the same seed",
+    PROPORTIONAL: "up with the probability of the part cut",
+}
 # The guard digits of sums: enough to compare the part that is cut with a draw of eight digits.
 _GUARD = 9
 
@@ -136,7 +150,7 @@ def _shifted(size: int, shift: int) -> int:
 
 
 def _name(width: str, seed: int, rule: int) -> str:
-    return ":".join([NAME, width, str(seed), *(word for word in _RULES if word and _RULES[word] == rule)])
+    return f"{NAME}:{width}:{seed}{':proportional' if rule == PROPORTIONAL else ''}"
 
 
 def _profile(digits: int, seed: int, rule: int) -> Profile:
@@ -144,28 +158,38 @@ def _profile(digits: int, seed: int, rule: int) -> Profile:
     return Profile(_name(str(digits), seed, rule), f"exact result, rounded {_SOURCES[rule]}", rules)
 
 
-def stochastic(name: str) -> StochasticNumbers | StochasticBinaryNumbers | None:
-    """Return the system of a name such as ``stochastic:8:1`` or ``stochastic:53b:1:proportional``.
+def stochastic(name: str) -> StochasticNumbers | StochasticBinaryNumbers | SampledNumbers | None:
+    """Return the system of a name such as ``stochastic:8:1``, ``stochastic:53b:1:proportional``, ``stochastic:8:1-10``.
 
     Return None if the name does not begin with ``stochastic``.  Raise ArgumentError for an incomplete or invalid name.
     """
-    family, *parts = name.split(":")
-    if family != NAME:
+    if name.partition(":")[0] != NAME:
         return None
-    width, seed, word = (*parts, "", "")[:3]
-    counts = [
-        text for text in (width.removesuffix("b"), seed) if text.isdecimal() and text.isascii() and len(text) < 11
-    ]
-    if len(counts) < 2 or len(parts) > 3 or word not in _RULES or (len(parts) == 3 and not word):
+    match = _FORM.fullmatch(name)
+    if not match or (match["majority"] and not match["last"]):
         raise ArgumentError(
-            f"{name[:40]}: expected {NAME}:P:SEED or {NAME}:BITSb:SEED, as {NAME}:8:1; only :proportional may follow"
+            f"{name[:40]}: expected {NAME}:P:SEED or {NAME}:BITSb:SEED, where SEED is 1, or 1-10 for runs in step; "
+            "only :proportional may follow, and then :majority for runs in step"
         )
-    size, number = map(int, counts)
-    least, most, what = (MIN_BITS, MAX_BITS, "bits") if width.endswith("b") else (MIN_DIGITS, MAX_DIGITS, "digits")
+    size, seed, last = int(match["size"]), int(match["seed"]), int(match["last"] or match["seed"])
+    least, most, what = (MIN_BITS, MAX_BITS, "bits") if match["binary"] else (MIN_DIGITS, MAX_DIGITS, "digits")
     if not least <= size <= most:
         raise ArgumentError(f"{name[:40]}: the number of {what} must be {least} to {most}")
-    if number > MAX_SEED:
+    if max(seed, last) > MAX_SEED:
         raise ArgumentError(f"{name[:40]}: the seed must be 0 to {MAX_SEED}")
-    if width.endswith("b"):
-        return StochasticBinaryNumbers(size, number, _RULES[word])
-    return StochasticNumbers(_profile(size, number, _RULES[word]))
+    if match["last"] and not 1 <= last - seed < MAX_RUNS:
+        raise ArgumentError(f"{name[:40]}: expected 2 to {MAX_RUNS} runs in step, such as 1-10")
+    rule = PROPORTIONAL if match["proportional"] else CESTAC
+
+    def member(number: int, rule: int = rule) -> StochasticNumbers | StochasticBinaryNumbers:
+        if match["binary"]:
+            return StochasticBinaryNumbers(size, number, rule)
+        return StochasticNumbers(_profile(size, number, rule))
+
+    if not match["last"]:
+        return member(seed)
+    members = [member(number) for number in range(seed, last + 1)]
+    # CADNA's three runs.
+    if len(members) == 3 and rule == CESTAC:
+        members[2] = member(seed + 1, OPPOSITE)
+    return SampledNumbers(name, members, MAJORITY if match["majority"] else "mean")

@@ -30,6 +30,8 @@ from math import isqrt
 STEPS = 34
 # The steps that an error code costs, because the interpreter returns and is called again.
 ERROR = 4
+# The operations whose work is estimated even for decimal numbers.
+COSTED = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT", "power", "integer_power")
 _PRODUCT, _QUOTIENT, _SERIES, _DECIMAL = 8_000, 650_000, 12_000, 40_000
 
 

@@ -75,6 +75,28 @@ def _diverge(parser: ArgumentParser) -> None:
     compared_machine(parser)
 
 
+def _digits(parser: ArgumentParser) -> None:
+    program_argument(parser, "examine")
+    deck_argument(parser, "a file of data cards (may be omitted if the program reads no cards)")
+    add(parser, {"--against NAME": "take this arithmetic as the truth (default: %(default)s)"}, default="exact")
+    runs = {"--runs N": "make N stochastic runs with the digits of --arithmetic (default: %(default)s)"}
+    add(parser, runs, type=int, default=10)
+    add(parser, {"--seed S": "give the runs the seeds S, S + 1, ... (default: %(default)s)"}, type=int, default=1)
+    modes = {
+        "--proportional": "round up with a probability proportional to the distance, instead of 1/2",
+        "--majority": "let most runs choose the common branch, instead of the mean",
+        "--independent": "estimate the printed numbers from runs that each follow their own branches",
+    }
+    add(parser, modes)
+    for option, contents in (
+        ("--csv FILE", "write the tables to FILE as CSV"),
+        ("--html FILE", "write the report to FILE as a page"),
+        ("--samples FILE", "write the printed numbers of every run to FILE as a NumPy array, one row for each run"),
+    ):
+        add(parser, {option: contents}, type=OutputFile)
+    compared_machine(parser)
+
+
 def _listing(parser: ArgumentParser) -> None:
     program_argument(parser, "list")
     deck_argument(parser, "run the program with these data cards")
@@ -83,6 +105,7 @@ def _listing(parser: ArgumentParser) -> None:
         "(default: %(default)s)"
     )
     add(parser, {"--against NAME": against}, default="exact")
+    add(parser, {"--digits": "add the fewest digits that the values of ten stochastic runs have in common"})
     add(parser, {"--operator =FILE": "answer ACCEPT and PAUSE from FILE, or from a log of --log"}, type=InputFile)
     add(parser, {"--commentary": "explain the blocks of statements and the variables of a program of the thesis"})
     output_argument(parser)
@@ -237,6 +260,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "cards": ("punch points as a data deck", point_arguments.cards),
     "diff": ("compare the hulls of the 1963 programs, the port and the exact hull", point_arguments.diff),
     "diverge": ("run a program in two arithmetics, and report the first value and branch that differ", _diverge),
+    "digits": ("report which printed digits are significant, and which statements lose them", _digits),
     "study": ("find and judge the hulls of many point sets, and report a table, plots and conclusions", _study),
     "export": ("write the exact hull of points as a mesh or as JSON", point_arguments.export),
     "draw": ("draw the exact hull of points as SVG", point_arguments.draw),

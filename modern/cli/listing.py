@@ -28,6 +28,7 @@ from modern.cli.shared.console import BAD_INPUT, DIFFERS, OK, UsageError, check_
 from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.programs import machine_options, number_system, source_deck
 from modern.cli.shared.run_output import is_terminal, print_ending
+from modern.comparison.sampling import Sampling, in_step, sampled
 from modern.edition import programs
 from modern.publication.commentary import commentary
 
@@ -39,12 +40,14 @@ class _Row:
     """The statistics of the statement that begins on a card.
 
     count: how often it ran.  percent: its share of the processor time.  lost_digits: the most digits that one of its
-    values lost, or None if no value was compared.
+    values lost, or None if no value was compared.  significant: the fewest digits that stochastic runs estimate, or
+    None.
     """
 
     count: int
     percent: float
     lost_digits: float | None
+    significant: float | None
 
 
 def main(args: argparse.Namespace) -> int:
@@ -60,7 +63,10 @@ def main(args: argparse.Namespace) -> int:
     answers = _answers(args.operator)
     result = Machine(program, deck, options).run(_operator(answers), output=lambda events: None)
     divergence = _compared(args, program, deck, options, answers)
-    lines = _with_statistics(source, messages, program, result, divergence, notes_above)
+    sampling = None
+    if args.digits:
+        sampling = in_step(program, deck, sampled(options.numbers), options, lambda: _operator(answers))
+    lines = _with_statistics(source, messages, program, result, divergence, sampling, notes_above)
     _write(args.output, [*lines, *glosses])
     print_notes(notes(program, result))
     print_ending(result)
@@ -156,14 +162,17 @@ def _with_statistics(
     program: Program,
     result: Result,
     divergence: Divergence | None,
+    sampling: Sampling | None,
     notes_above: Mapping[int, Sequence[str]],
 ) -> Iterator[str]:
     seconds = measure(program, result).processor_seconds
     yield f"{program.source}: {result.statements} statements in {seconds:.1f} s of processor time on a 1620"
     if divergence is not None:
         yield from _comparison(divergence)
-    rows = _rows(program, result, divergence)
-    yield " card    count  time%  lost"
+    rows = _rows(program, result, divergence, sampling)
+    if sampling is not None:
+        yield f"digits that {len(sampling.numbers.members)} stochastic runs have in common: {sampling.numbers.name}"
+    yield " card    count  time%  lost" + (" digits" if sampling else "")
     for card in source.cards:
         yield from notes_above.get(card.number, ())
         row = rows.get(card.number)
@@ -171,7 +180,8 @@ def _with_statistics(
         if row is not None:
             lost = "" if row.lost_digits is None else f"{row.lost_digits:.1f}"
             statistics = f"{row.count:9d} {f'{row.percent:.1f}' if row.count else '':>6} {lost:>5}"
-        yield f"{card.number:5d}{statistics:<22}  {card.text}"
+            statistics += "" if row.significant is None else f" {row.significant:6.1f}"
+        yield f"{card.number:5d}{statistics:<{29 if sampling else 22}}  {card.text}"
         yield from _messages_below(messages, card.number, " " * 29)
 
 
@@ -185,14 +195,19 @@ def _comparison(divergence: Divergence) -> Iterator[str]:
         yield f"comparison ended: {divergence.apart}"
 
 
-def _rows(program: Program, result: Result, divergence: Divergence | None) -> dict[int, _Row]:
+def _rows(
+    program: Program, result: Result, divergence: Divergence | None, sampling: Sampling | None
+) -> dict[int, _Row]:
     """Return the statistics by the first card of each statement."""
     counts = dict(measure(program, result).statements)
     seconds = shares(program, result)
     total = sum(seconds) or 1.0
     losses = divergence.losses if divergence is not None and divergence.digits else ()
     lost = {loss.line.index: loss.worst for loss in losses}
+    digits = {row.line.index: row.worst for row in sampling.statements} if sampling else {}
     return {
-        line.place.card: _Row(counts.get(line.index, 0), 100 * seconds[line.index] / total, lost.get(line.index))
+        line.place.card: _Row(
+            counts.get(line.index, 0), 100 * seconds[line.index] / total, lost.get(line.index), digits.get(line.index)
+        )
         for line in program.statements
     }

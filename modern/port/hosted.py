@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from emulator.numbers import DecimalNumbers, Trap
+from emulator.numbers import DecimalNumbers, Numbers, Trap
+from emulator.numbers.sampled import SampledNumbers
 from emulator.numbers.stochastic import StochasticBinaryNumbers, StochasticNumbers
 from modern.geometry.numbers import Exact, exact_text
 from modern.port.arithmetic import Arithmetic, Vector
 from modern.port.decimal import Arithmetic1620
 
-System = StochasticNumbers | StochasticBinaryNumbers
+System = StochasticNumbers | StochasticBinaryNumbers | SampledNumbers
 # The digits of an irrational number that are shown or compared exactly; stochastic numbers are rational.
 _DIGITS = 40
 
@@ -57,6 +58,16 @@ class HostedNumber:
         return f"HostedNumber({self.by.text(self.value)})"
 
 
+def _read(system: Numbers, value: Exact, minus: bool) -> Any:
+    if isinstance(system, SampledNumbers):
+        return tuple(_read(member, value, minus) for member in system.members)
+    if isinstance(system, DecimalNumbers):
+        number = Arithmetic1620(system.profile).number(value, minus)
+        return number.m, number.e
+    assert isinstance(system, StochasticBinaryNumbers)
+    return system.nearest(value.numerator, value.denominator)
+
+
 @dataclass(frozen=True)
 class HostedArithmetic(Arithmetic):
     """Vectors of :class:`HostedNumber` of one system."""
@@ -69,10 +80,7 @@ class HostedArithmetic(Arithmetic):
 
     def number(self, value: Exact, minus: bool = False) -> HostedNumber:
         """Return a coordinate as READ stores it in the arithmetic without random rounding."""
-        if isinstance(self.system, DecimalNumbers):
-            read = Arithmetic1620(self.system.profile).number(value, minus)
-            return HostedNumber((read.m, read.e), self.system)
-        return HostedNumber(self.system.nearest(value.numerator, value.denominator), self.system)
+        return HostedNumber(_read(self.system, value, minus), self.system)
 
     def quotient(self, value: HostedNumber, count: int) -> HostedNumber:
         return value / HostedNumber(self.system.from_integer(count), self.system)

@@ -61,8 +61,8 @@ def machine_arguments(parser: ArgumentParser) -> None:
     add(parser, switch, type=int, action="append", choices=(1, 2, 3, 4), default=[])
     arithmetic = (
         "calculate with truncating, ibm1962, truncating1962, truncating:P, guarded:P, rounding:P, float64, float32, "
-        "mp:BITS, exact, stochastic:P:SEED or stochastic:BITSb:SEED (default: %(default)s, the eight digits of the "
-        "thesis)"
+        "mp:BITS, exact, stochastic:P:SEED, stochastic:BITSb:SEED or interval:P (default: %(default)s, the eight "
+        "digits of the thesis)"
     )
     add(parser, {"--arithmetic NAME": arithmetic}, default="truncating")
     core_argument(parser)

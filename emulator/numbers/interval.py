@@ -1,0 +1,188 @@
+"""``interval:P``: intervals of P-digit decimal numbers that contain the exact result, rounded outward.
+
+A number is a pair (low, high) of :class:`decimal.Decimal`, and the number that exact arithmetic would hold lies between
+them.  + - * / and SQRT are rounded outward by Python's decimal contexts.  The library functions and powers are computed
+by mpmath's interval arithmetic and rounded outward.  Cards and constants with at most P digits are read exactly.
+
+An IF on an interval that contains zero and another number cannot be decided.  The run then ends, and the ending names
+the statement.  A printed number is the middle of its interval.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from emulator.numbers.arithmetic import MINUS_ZERO, ZERO
+from emulator.numbers.base import Numbers, Undecided, cut_decimal
+from emulator.numbers.work import decimal_function
+
+Interval = tuple[Decimal, Decimal]
+MIN_DIGITS, MAX_DIGITS = 2, 1_000
+
+
+@dataclass(frozen=True)
+class IntervalNumbers(Numbers):
+    """Intervals whose ends have P digits."""
+
+    places: int
+
+    @property
+    def name(self) -> str:
+        return f"interval:{self.places}"
+
+    @property
+    def digits(self) -> float:
+        return self.places
+
+    @cached_property
+    def _down(self) -> Context:
+        return Context(self.places, ROUND_FLOOR, MIN_EMIN, MAX_EMAX)
+
+    @cached_property
+    def _up(self) -> Context:
+        return Context(self.places, ROUND_CEILING, MIN_EMIN, MAX_EMAX)
+
+    def decimal(self, whole: int, power: int, minus: bool = False) -> Interval:
+        value = Decimal((int(whole < 0 or minus), tuple(map(int, str(abs(whole)))), power))
+        return self._down.plus(value) if whole else value, self._up.plus(value) if whole else value
+
+    def add(self, first: Interval, second: Interval) -> Interval:
+        return self._down.add(first[0], second[0]), self._up.add(first[1], second[1])
+
+    def subtract(self, first: Interval, second: Interval) -> Interval:
+        return self._down.subtract(first[0], second[1]), self._up.subtract(first[1], second[0])
+
+    def multiply(self, first: Interval, second: Interval) -> Interval:
+        pairs = [(a, b) for a in first for b in second]
+        return min(self._down.multiply(a, b) for a, b in pairs), max(self._up.multiply(a, b) for a, b in pairs)
+
+    def divide(self, dividend: Interval, divisor: Interval) -> Interval:
+        if divisor[0] <= 0 <= divisor[1]:
+            if divisor[0] == divisor[1]:
+                raise Undecided("interval arithmetic cannot divide by zero")
+            raise Undecided(f"the divisor {self.text(divisor)} may be zero")
+        pairs = [(a, b) for a in dividend for b in divisor]
+        return min(self._down.divide(a, b) for a, b in pairs), max(self._up.divide(a, b) for a, b in pairs)
+
+    def negate(self, value: Interval) -> Interval:
+        return value[1].copy_negate(), value[0].copy_negate()
+
+    def sign(self, value: Interval) -> int:
+        low, high = value
+        if low > 0 or high < 0:
+            return 1 if low > 0 else -1
+        if low == high:
+            return 0
+        raise Undecided(f"the sign of {self.text(value)} is unknown")
+
+    def to_integer(self, value: Interval) -> int:
+        low, high = (int(end) % 10000 if end >= 0 else -(-int(end) % 10000) for end in value)
+        if int(value[0]) != int(value[1]):
+            raise Undecided(f"the integer part of {self.text(value)} is unknown")
+        assert low == high
+        return low
+
+    def function(self, name: str, value: Interval) -> tuple[Interval, str]:
+        if name == "SQRT":
+            low, high = sorted(map(abs, value)) if value[0] * value[1] > 0 else (Decimal(0), max(map(abs, value)))
+            return (self._directed(self._down, "sqrt", low), self._directed(self._up, "sqrt", high)), ""
+        if name == "LOG" and value[0] <= 0:
+            raise Undecided(f"interval arithmetic has no logarithm of {self.text(value)}")
+        if name == "ATAN":
+            from mpmath.libmp import mpi_atan
+
+            return self._outward(self._mpmath.make_mpf(mpi_atan(self._iv(value)._mpi_, self._mpmath.prec))), ""
+        return self._outward(getattr(self._mpmath, name.lower())(self._iv(value))), ""
+
+    def _directed(self, context: Context, name: str, value: Decimal) -> Decimal:
+        """Return a root rounded in the direction of a context: decimal's own root is rounded to nearest."""
+        root = Context(2 * self.places + 4, context.rounding, MIN_EMIN, MAX_EMAX).sqrt(value)
+        nudged = root
+        if root * root != value:
+            more = Context(2 * self.places + 4, context.rounding, MIN_EMIN, MAX_EMAX)
+            nudged = more.next_minus(root) if context.rounding == ROUND_FLOOR else more.next_plus(root)
+        return context.plus(nudged)
+
+    def power(self, base: Interval, exponent: Interval) -> tuple[Interval, str]:
+        if base[0] <= 0:
+            raise Undecided(f"interval arithmetic has no power of {self.text(base)}")
+        iv = self._mpmath
+        return self._outward(iv.exp(iv.log(self._iv(base)) * self._iv(exponent))), ""
+
+    def integer_power(self, base: Interval, count: int) -> tuple[Interval, str]:
+        one = Decimal(1), Decimal(1)
+        power = one
+        if count % 2 == 0 and base[0] < 0:
+            # An even power of an interval around zero begins at zero; chained products would lose that.
+            base = (Decimal(0) if base[1] > 0 else -base[1]), max(-base[0], base[1])
+        for _ in range(abs(count)):
+            power = self.multiply(power, base)
+        return (self.divide(one, power) if count < 0 else power), ""
+
+    @cached_property
+    def _mpmath(self) -> Any:
+        from mpmath import MPIntervalContext
+
+        context = MPIntervalContext()
+        context.dps = self.places + 10
+        return context
+
+    def _iv(self, value: Interval) -> Any:
+        return self._mpmath.mpf([str(value[0]), str(value[1])])
+
+    def _outward(self, value: Any) -> Interval:
+        low, high = (_fraction(end) for end in value._mpi_)
+        return self._quotient(self._down, low), self._quotient(self._up, high)
+
+    def _quotient(self, context: Context, value: Fraction) -> Decimal:
+        return context.divide(Decimal(value.numerator), Decimal(value.denominator))
+
+    def exact(self, value: Interval, digits: int) -> Fraction:
+        return (Fraction(value[0]) + Fraction(value[1])) / 2
+
+    def cut(self, value: Interval, digits: int) -> tuple[int, int]:
+        middle = self._middle(value)
+        if not middle:
+            return 0, MINUS_ZERO if middle.is_signed() else ZERO
+        _, numerals, power = middle.as_tuple()
+        whole = int("".join(map(str, numerals)))
+        assert isinstance(power, int)
+        return cut_decimal(-whole if middle < 0 else whole, power, digits)
+
+    def _middle(self, value: Interval) -> Decimal:
+        low, high = value
+        if low == high:
+            return low
+        wide = Context(self.places + 2 + abs(high.adjusted() - low.adjusted()), Emin=MIN_EMIN, Emax=MAX_EMAX)
+        return wide.divide(wide.add(low, high), Decimal(2))
+
+    def text(self, value: Interval) -> str:
+        low, high = value
+        return super().text(value) if low == high else f"[{low.normalize()}, {high.normalize()}]"
+
+    @property
+    def is_costly(self) -> bool:
+        return True
+
+    def work(self, operation: str, first: Any, second: Any = 0) -> int:
+        if operation in ("SIN", "COS", "ATAN", "EXP", "LOG", "power"):
+            return 4 * decimal_function(0)
+        return 2 * abs(second) + 2 if operation == "integer_power" else 4
+
+
+def _fraction(value: tuple[int, int, int, int]) -> Fraction:
+    sign, mantissa, exponent, _ = value
+    return Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** exponent
+
+
+def interval(count: str, name: str) -> IntervalNumbers:
+    """Return the system of ``interval:P``.  Raise ArgumentError if P is out of range."""
+    from emulator.errors import ArgumentError
+
+    if not (count.isdecimal() and count.isascii() and len(count) < 9 and MIN_DIGITS <= int(count) <= MAX_DIGITS):
+        raise ArgumentError(f"{name[:40]}: the number of digits must be {MIN_DIGITS} to {MAX_DIGITS}")
+    return IntervalNumbers(int(count))

@@ -1,0 +1,95 @@
+"""Estimates of the significant digits of a number from its values in several stochastic runs.
+
+Let m be the mean of N values, s their standard deviation (with N - 1) and r = s / abs(m).
+
+- *Stott Parker*: the digits common to the runs, ``-log10(r)`` (D. S. Parker, Monte Carlo arithmetic, UCLA CSD-970002,
+  1997).
+- *CESTAC*: the digits of the mean, ``log10(sqrt(N) / (r t))``, where t is Student's value for N - 1 degrees of freedom
+  and 95 % (J. Vignes, Math. Comput. Simulation 35 (1993) 233-261).  If it is not positive, the number is a
+  *computational zero*: no digit of it is significant.  CADNA prints such a number as ``@.0``.
+- *Sohier*: the digits that a run has with probability 95 %, at the confidence 95 %, if the errors are normal:
+  ``-log10(r) - log10((N - 1) / c) / 2 - log10(z)``, where c is the 2.5 % quantile of the chi-square distribution and z
+  the 97.5 % quantile of the normal one (D. Sohier et al., Confidence intervals for stochastic arithmetic, ACM Trans.
+  Math. Softw. 47 (2021) 10, section 4).  The package ``significantdigits`` computes s with N instead of N - 1, so its
+  result is larger by ``log10(N / (N - 1)) / 2``.
+
+Every estimate is at least 0 and at most the digits of the arithmetic.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from statistics import NormalDist
+
+_LEVEL = 0.95
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """The mean of a number's values and its significant digits by three estimates.
+
+    ``is_zero``: the number is a computational zero.  ``is_exact``: all values are equal.
+    """
+
+    mean: Fraction
+    parker: float
+    cestac: float
+    sohier: float
+    is_zero: bool
+    is_exact: bool
+
+
+def estimate(values: Sequence[Fraction | int | None], digits: float) -> Estimate | None:
+    """Return the estimates for a number with the given digits, or None if a value is not finite."""
+    finite = [value for value in values if value is not None]
+    count = len(finite)
+    if count < len(values) or count < 2:
+        return None
+    mean = Fraction(sum(finite), count)
+    if all(value == finite[0] for value in finite):
+        return Estimate(mean, digits, digits, digits, not mean, True)
+    if not mean:
+        return Estimate(mean, 0.0, 0.0, 0.0, True, False)
+    ratio = math.sqrt(sum(_float((value - mean) / mean) ** 2 for value in finite) / (count - 1))
+    parker = -math.log10(ratio) if ratio else math.inf
+    cestac = parker + math.log10(math.sqrt(count) / student(count - 1))
+    width = math.log10((count - 1) / chi_square(count - 1)) / 2
+    sohier = parker - width - math.log10(NormalDist().inv_cdf((1 + _LEVEL) / 2))
+    first, second, third = (min(max(estimated, 0.0), digits) for estimated in (parker, cestac, sohier))
+    return Estimate(mean, first, second, third, cestac <= 0, False)
+
+
+def _float(value: Fraction) -> float:
+    """Return a ratio as a float.  One beyond 1E100 is shortened, because it means that no digit is significant."""
+    return float(value) if abs(value) < 10**100 else 1e100
+
+
+@cache
+def student(degrees: int) -> float:
+    """Return t such that a variable with Student's distribution is between -t and t with probability 95 %."""
+    from mpmath import betainc
+
+    return _root(lambda t: 1 - betainc(degrees / 2, 0.5, 0, degrees / (degrees + t * t), regularized=True), _LEVEL)
+
+
+@cache
+def chi_square(degrees: int) -> float:
+    """Return the 2.5 % quantile of the chi-square distribution."""
+    from mpmath import gammainc
+
+    return _root(lambda x: gammainc(degrees / 2, 0, x / 2, regularized=True), (1 - _LEVEL) / 2)
+
+
+def _root(increasing: Callable[[float], float], level: float) -> float:
+    """Return the argument at which an increasing function reaches a level, by bisection."""
+    low, high = 0.0, 1.0
+    while increasing(high) < level:
+        low, high = high, 2 * high
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if increasing(middle) < level else (low, middle)
+    return high

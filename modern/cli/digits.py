@@ -1,0 +1,323 @@
+"""``hull1620 digits``: report which digits of a program's results are significant, and which statements lose them.
+
+The report joins four computations: the run in the arithmetic studied, the same run in exact arithmetic, N stochastic
+runs, and the run in interval arithmetic.  :class:`Table` holds each part of the report for the terminal, CSV and HTML.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import io
+import math
+import shutil
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from html import escape
+from string import Template
+
+from emulator.errors import EmulatorError
+from emulator.files import write_text
+from emulator.language.cards import Deck
+from emulator.language.objectcode import Line, Program
+from emulator.machine.devices import no_deck
+from emulator.machine.divergence import Divergence, diverge
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options, Result
+from emulator.numbers import Numbers, numbers
+from emulator.numbers.significance import Estimate
+from emulator.numbers.stochastic import MAX_RUNS
+from modern.cli.shared.console import DIFFERS, OK, UsageError, check_one_standard_input, counted, print_report
+from modern.cli.shared.inputs import deck_for
+from modern.cli.shared.programs import load_program, machine_options, number_system
+from modern.comparison.sampling import Independent, Printed, Sampling, in_step, independent, sampled
+from modern.comparison.sensitivity import NUMBER, Sensitivity, records_of, sensitivities, shape_of
+
+_NARROWEST, _WIDEST = 60, 120
+
+
+@dataclass(frozen=True)
+class Table:
+    """A part of the report: its title, sentences above its rows, the heads of its columns, and its rows."""
+
+    title: str
+    sentences: Sequence[str]
+    heads: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+
+def main(args: argparse.Namespace) -> int:
+    check_one_standard_input(args)
+    if not 2 <= args.runs <= MAX_RUNS:
+        raise UsageError(f"--runs: expected 2 to {MAX_RUNS} runs, found {args.runs}")
+    options = machine_options(args)
+    reference = number_system(args.against, "--against")
+    program = load_program(args)
+    deck = deck_for(args.program, args.deck) if args.deck else no_deck(program)
+    words = (":proportional" if args.proportional else "") + (":majority" if args.majority else "")
+    numbers_in_step = sampled(options.numbers, args.runs, args.seed, words)
+    result = Machine(program, deck, options).run()
+    divergence = diverge(program, deck, options.numbers, reference, options)
+    sampling = in_step(program, deck, numbers_in_step, options)
+    runs = independent(program, deck, numbers_in_step.members, options) if args.independent else None
+    truth = _truth(reference, divergence)
+    tables = [
+        _numbers(result, truth, _other(program, deck, options, truth), runs or sampling, options.numbers.digits),
+        _decisions(program, deck, options, divergence, sampling, runs),
+        _statements(divergence, sampling),
+    ]
+    if args.deck:
+        tables.append(_cards(sensitivities(program, deck, truth, options)))
+    heading = (
+        f"{program.source}, {deck.source}: {options.numbers.name} against {reference.name}; {args.runs} stochastic "
+        f"runs {'one by one' if runs else 'in step'} ({numbers_in_step.name})"
+    )
+    print_report(args, _terminal(heading, tables))
+    if args.csv is not None:
+        write_text(args.csv, _csv(tables))
+    if args.html is not None:
+        write_text(args.html, _html(heading, tables))
+    if args.samples is not None:
+        _write_samples(args.samples, (runs or sampling).printed)
+    return DIFFERS if divergence.decisions or divergence.apart or not result.ending.normal else OK
+
+
+def _other(program: Program, deck: Deck, options: Options, reference: Numbers) -> Result | None:
+    """Return the run in another arithmetic, or None if the deck is bad for it."""
+    try:
+        return Machine(program, deck, replace(options, numbers=reference)).run()
+    except EmulatorError:
+        return None
+
+
+def _truth(reference: Numbers, divergence: Divergence) -> Numbers:
+    """Return the reference, or 200 bits if the reference could not finish the run."""
+    ending = divergence.endings[1]
+    return numbers("mp:200") if ending is not None and ending.kind == "undecided" else reference
+
+
+def _numbers(
+    result: Result, truth: Numbers, reference: Result | None, runs: Sampling | Independent, digits: float
+) -> Table:
+    """Return the printed numbers with their true and estimated digits, and which of them to believe."""
+    studied, exact = records_of(result), records_of(reference) if reference else []
+    same = shape_of(studied) == shape_of(exact)
+    estimates = {}
+    if shape_of(studied) == shape_of(runs.records):
+        counts: dict[int, int] = {}
+        for number in runs.printed:
+            place = counts.get(number.record, 0)
+            counts[number.record] = place + 1
+            estimates[number.record, place] = number.estimate
+    rows = []
+    for record, text in enumerate(studied, 1):
+        for place, columns in enumerate(NUMBER.findall(text)):
+            true = _common(columns, NUMBER.findall(exact[record - 1])[place], digits) if same else None
+            estimated = estimates.get((record, place))
+            rows.append((str(record), columns, _one(true), *_estimated(estimated), _verdict(estimated, true)))
+    sentences = [f"true digits: against {truth.name}"]
+    if not same:
+        sentences = [f"{truth.name} prints other records, so true digits are not known"]
+    if studied and not estimates:
+        sentences.append("the stochastic runs print other records, so no digits can be estimated")
+    if isinstance(runs, Independent):
+        shares = " + ".join(map(str, runs.shares))
+        sentences.append(f"independent runs that print the same records, apart from digits: {shares}")
+    return Table("Printed numbers", sentences, ("line", "number", "true", "estimated", "at least", "verdict"), rows)
+
+
+def _common(first: str, second: str, digits: float) -> float:
+    """Return the digits in which a number agrees with its reference."""
+    a, b = Fraction(first), Fraction(second)
+    if a == b:
+        return digits
+    return min(max(-math.log10(abs(a - b) / abs(b)), 0.0), digits) if b else 0.0
+
+
+def _one(value: float | None) -> str:
+    return "" if value is None else f"{value:.1f}"
+
+
+def _estimated(estimated: Estimate | None) -> tuple[str, str]:
+    if estimated is None:
+        return "", ""
+    if estimated.is_zero and not estimated.is_exact:
+        return "@.0", "0.0"
+    return _one(estimated.parker), _one(estimated.sohier)
+
+
+def _verdict(estimated: Estimate | None, true: float | None) -> str:
+    """Return what a reader may believe of a number."""
+    if estimated is None:
+        return "not estimated"
+    if estimated.is_exact:
+        return "no rounding affects it" if true is None or true > estimated.parker - 1 else "stable, but wrong"
+    if estimated.is_zero:
+        return "no digit is significant"
+    if true is not None and true < estimated.sohier - 1:
+        return "the runs agree, but on a wrong value"
+    return f"believe {counted(math.floor(estimated.sohier), 'digit')}"
+
+
+def _decisions(
+    program: Program,
+    deck: Deck,
+    options: Options,
+    divergence: Divergence,
+    sampling: Sampling,
+    runs: Independent | None,
+) -> Table:
+    """Return the decisions on which the runs disagree, and the first one that the reference takes otherwise."""
+    first = divergence.first_decision
+    sentences = [f"{divergence.arithmetics[1]}: {counted(divergence.tested, 'decision')} compared, none differs"]
+    if first is not None:
+        sentences = [
+            f"first decision that {divergence.arithmetics[1]} takes otherwise: {_place(first.line)}, execution "
+            f"{first.time}: {first.values[0]} instead of {first.values[1]}"
+        ]
+    if divergence.apart:
+        sentences.append(f"the comparison with {divergence.arithmetics[1]} ended: {divergence.apart}")
+    tested = sum(row.times for row in sampling.decisions)
+    disputed = [row for row in sampling.decisions if row.disputed]
+    total = sum(row.disputed for row in disputed)
+    sentences.append(f"stochastic runs: {counted(tested, 'decision')} on floating-point numbers, {total} disputed")
+    digits = max(2, math.ceil(min(options.numbers.digits, 1_000)))
+    guaranteed = _other(program, deck, options, numbers(f"interval:{digits}"))
+    if guaranteed is not None:
+        unknown = guaranteed.ending.message if guaranteed.ending.kind == "undecided" else ""
+        sentences.append(f"intervals of {digits} digits: {unknown or 'every decision is certain'}")
+    rows = [
+        (
+            *_columns(row.line),
+            str(row.times),
+            str(row.disputed),
+            str(row.time),
+            "/".join(map(str, row.shares)),
+            ("negative", "zero", "positive")[row.taken + 1],
+        )
+        for row in disputed
+    ]
+    heads = ("card", "statement", "count", "disputed", "first", "runs -/0/+", "taken")
+    return Table("Decisions", sentences, heads, rows)
+
+
+def _statements(divergence: Divergence, sampling: Sampling) -> Table:
+    """Return the statements with the digits that they lost against the reference, and the digits estimated."""
+    losses = {loss.line.index: loss for loss in divergence.losses}
+    rows = []
+    for row in sorted(sampling.statements, key=lambda row: (row.worst, row.line.place.card)):
+        loss = losses.get(row.line.index)
+        if row.worst < sampling.numbers.digits or (loss and loss.worst):
+            lost = ("", "") if loss is None else (_one(loss.worst), _one(loss.median))
+            digits = _one(row.worst), _one(row.median), _one(row.sure), str(row.zeros)
+            rows.append((*_columns(row.line), str(row.times), *lost, *digits))
+    sentences = [f"digits of {sampling.numbers.digits:.1f}; statements that are not listed are exact in every run"]
+    if divergence.first_value is not None:
+        value = divergence.first_value
+        sentences.append(
+            f"first value that differs: {_place(value.line)}: {value.values[0]} instead of {value.values[1]}"
+        )
+    heads = ("card", "statement", "count", "lost", "median", "estimated", "median", "at least", "@.0")
+    return Table("Statements", sentences, heads, rows)
+
+
+def _cards(rows: Sequence[Sensitivity]) -> Table:
+    """Return the effect of one unit in the last digit of each number on the cards, the largest first."""
+
+    def size(row: Sensitivity) -> float:
+        return math.inf if row.branches else row.change or 0.0
+
+    cells = []
+    for row in sorted(rows, key=lambda row: (-size(row), row.card, row.column)):
+        effect = "other branches" if row.branches else "none" if row.change is None else f"{row.change:.1e}"
+        line = "" if row.record is None else str(row.record)
+        cells.append((str(row.card), str(row.column), row.columns.strip(), row.changed.strip(), effect, line))
+    sentences = ["the largest relative change of a printed number if one number of the deck changes in its last digit"]
+    return Table("Input cards", sentences, ("card", "column", "number", "changed to", "change", "line"), cells)
+
+
+def _columns(line: Line) -> tuple[str, str]:
+    return str(line.place.card), f"{line.label} {line.text}" if line.label else line.text
+
+
+def _place(line: Line) -> str:
+    return "card {}, {}".format(*_columns(line))
+
+
+def _terminal(heading: str, tables: Sequence[Table]) -> Iterator[str]:
+    import textwrap
+
+    width = max(_NARROWEST, min(shutil.get_terminal_size((100, 24)).columns, _WIDEST))
+    yield from textwrap.wrap(heading, width, subsequent_indent="  ")
+    for table in tables:
+        yield ""
+        yield table.title
+        for sentence in table.sentences:
+            yield from textwrap.wrap(sentence, width, initial_indent="  ", subsequent_indent="    ")
+        if not table.rows:
+            continue
+        widths = [max(map(len, column)) for column in zip(table.heads, *table.rows, strict=True)]
+        for row in (table.heads, *table.rows):
+            cells = (_aligned(cell, head, size) for cell, head, size in zip(row, table.heads, widths, strict=True))
+            yield ("  " + "  ".join(cells))[:width].rstrip()
+
+
+def _aligned(cell: str, head: str, size: int) -> str:
+    return cell.ljust(size) if head in ("statement", "verdict", "taken") else cell.rjust(size)
+
+
+def _csv(tables: Sequence[Table]) -> str:
+    """Return all rows in one table: the part, the number of the row, the column and the cell."""
+    output = io.StringIO()
+    writer = csv.writer(output, lineterminator="\n")
+    writer.writerow(("part", "row", "column", "value"))
+    for table in tables:
+        for number, row in enumerate(table.rows, 1):
+            writer.writerows((table.title, number, head, cell) for head, cell in zip(table.heads, row, strict=True))
+    return output.getvalue()
+
+
+_PAGE = Template("""<!DOCTYPE html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>$title</title>
+<style>
+:root { color-scheme: light dark; }
+body { font: 1rem/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; }
+h1 { font-size: 1.3rem; } h2 { font-size: 1.1rem; margin-top: 2rem; }
+div { overflow-x: auto; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
+th, td { text-align: left; padding: .15rem .8rem .15rem 0; border-bottom: 1px solid #8886; white-space: nowrap; }
+td { font-family: ui-monospace, monospace; font-size: .9rem; }
+</style>
+<h1>$title</h1>
+$parts
+</html>
+""")
+
+
+def _html(heading: str, tables: Sequence[Table]) -> str:
+    """Return a self-contained page."""
+    parts = []
+    for table in tables:
+        parts += [f"<h2>{escape(table.title)}</h2>", *(f"<p>{escape(sentence)}</p>" for sentence in table.sentences)]
+        if table.rows:
+            rows = ["".join(f"<th scope=col>{escape(head)}</th>" for head in table.heads)]
+            rows += ["".join(f"<td>{escape(cell)}</td>" for cell in row) for row in table.rows]
+            parts.append("<div><table>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table></div>")
+    return _PAGE.substitute(title=escape(heading), parts="\n".join(parts))
+
+
+def _write_samples(path: str, printed: Sequence[Printed]) -> None:
+    """Write the values of the printed numbers as a NumPy array with a row for each run."""
+    import numpy as np
+
+    from emulator.files import writing_bytes
+
+    columns = [[math.nan if value is None else float(value) for value in number.values] for number in printed]
+    output = io.BytesIO()
+    np.save(output, np.array(columns, dtype=np.float64).reshape(len(columns), -1).T)
+    with writing_bytes(path) as file:
+        file.write(output.getvalue())

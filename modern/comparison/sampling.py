@@ -1,0 +1,214 @@
+"""The significant digits of a program's values and printed numbers, and the stability of its decisions, by sampling.
+
+:func:`in_step` executes N stochastic runs on one common branch (:mod:`emulator.numbers.sampled`).  It records at every
+store the estimated digits, and at every IF how many runs would have gone each way.  :func:`independent` executes the
+runs one after the other (Monte Carlo), each on a separate branch, if possible with the compiled engine.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from statistics import median
+
+from emulator.compiled.batch import run_batch
+from emulator.language import objectcode as op
+from emulator.language.cards import Deck
+from emulator.language.objectcode import Line, Program
+from emulator.machine.divergence import JournaledRun
+from emulator.machine.endings import Ending
+from emulator.machine.operator import Operator
+from emulator.machine.result import Options, Result
+from emulator.numbers import DecimalNumbers, Numbers
+from emulator.numbers.sampled import SampledNumbers, Values
+from emulator.numbers.significance import Estimate, estimate
+from emulator.numbers.stochastic import stochastic
+from modern.comparison.sensitivity import NUMBER, records_of, shape_of
+
+
+@dataclass(frozen=True, slots=True)
+class StatementDigits:
+    """The digits of the values that a statement stored.
+
+    ``worst`` and ``median`` are those of Stott Parker's estimate, and ``sure`` is the fewest by Sohier's.
+    ``times`` counts the values, and ``zeros`` those that are computational zeros without being exact.
+    """
+
+    line: Line
+    times: int
+    worst: float
+    median: float
+    sure: float
+    zeros: int
+
+
+@dataclass(frozen=True, slots=True)
+class DecisionShares:
+    """An IF on floating-point numbers: its executions, and those in which the runs disagree.
+
+    ``shares`` are the numbers of runs with a negative, zero and positive value at the first disagreement, which is
+    execution ``time``, and ``taken`` is the sign of the common branch there.
+    """
+
+    line: Line
+    times: int
+    disputed: int
+    time: int
+    shares: tuple[int, int, int]
+    taken: int
+
+
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """A floating-point number on a printed record: its record (from 1), its columns, its values and its digits."""
+
+    record: int
+    columns: str
+    values: tuple[Fraction | None, ...]
+    estimate: Estimate | None
+
+
+@dataclass(frozen=True, slots=True)
+class Sampling:
+    """The statements, decisions and printed numbers of N runs in step, and their common ending."""
+
+    numbers: SampledNumbers
+    statements: tuple[StatementDigits, ...]
+    decisions: tuple[DecisionShares, ...]
+    printed: tuple[Printed, ...]
+    records: tuple[str, ...]
+    ending: Ending | None
+
+
+@dataclass
+class _Tally:
+    estimates: list[tuple[float, float]] = field(default_factory=list)
+    zeros: int = 0
+
+
+@dataclass
+class _Votes:
+    times: int = 0
+    disputed: int = 0
+    time: int = 0
+    signs: Counter[int] = field(default_factory=Counter)
+    taken: int = 0
+
+
+def sampled(studied: Numbers, runs: int = 10, seed: int = 1, rules: str = "") -> SampledNumbers:
+    """Return stochastic runs in step with the digits of an arithmetic, or with eight digits if it is exact.
+
+    ``rules`` is the end of the name: ``:proportional``, ``:majority``, both in this order, or nothing.  Raise
+    ArgumentError if a seed is out of range.
+    """
+    width = "8"
+    if isinstance(studied, SampledNumbers):
+        return studied
+    if isinstance(studied, DecimalNumbers):
+        width = str(studied.profile.digits)
+    elif math.isfinite(studied.digits):
+        width = f"{round(studied.digits / math.log10(2))}b"
+    system = stochastic(f"stochastic:{width}:{seed}-{seed + runs - 1}{rules}")
+    assert isinstance(system, SampledNumbers)
+    return system
+
+
+def in_step(
+    program: Program,
+    deck: Deck,
+    numbers: SampledNumbers,
+    options: Options | None = None,
+    operator: Callable[[], Operator] = Operator,
+) -> Sampling:
+    """Run a program in N stochastic runs that follow one branch.  Raise CardError or DeckError for a bad deck."""
+    written: list[tuple[int, str, Values]] = []
+    sampled = replace(numbers, on_write=lambda columns, values: written.append((run.record, columns, values)))
+    run = JournaledRun(program, deck, replace(options or Options(), numbers=sampled), True, operator(), ())
+    tallies: dict[int, _Tally] = {}
+    votes: dict[int, _Votes] = {}
+    for pc, _, value in run.entries():
+        if not isinstance(value, tuple):
+            continue
+        if program.code[pc].operation == op.IF:
+            branch = program.branches[program.code[pc].address]
+            _vote(votes.setdefault(pc, _Votes()), numbers.signs(value), branch, numbers.sign(value))
+        elif (estimated := numbers.estimate(value)) is not None:
+            tally = tallies.setdefault(program.statement_numbers[pc], _Tally())
+            tally.estimates.append((estimated.parker, estimated.sohier))
+            tally.zeros += estimated.is_zero and not estimated.is_exact
+    if run.error is not None:
+        raise run.error
+    printed = [
+        Printed(record, columns, tuple(map(_fraction, numbers.values(values))), numbers.estimate(values))
+        for record, columns, values in written
+    ]
+    lines = program.statements
+    statements = [_statement(lines[number], tally) for number, tally in tallies.items()]
+    decisions = [_decision(program.line_at(pc), vote) for pc, vote in votes.items()]
+    return Sampling(
+        numbers=numbers,
+        statements=tuple(sorted(statements, key=lambda row: row.line.place.card)),
+        decisions=tuple(sorted(decisions, key=lambda row: row.line.place.card)),
+        printed=tuple(printed),
+        records=tuple(run.records),
+        ending=run.ending,
+    )
+
+
+def _fraction(value: Fraction | int | None) -> Fraction | None:
+    return None if value is None else Fraction(value)
+
+
+def _vote(votes: _Votes, signs: Sequence[int], branch: Sequence[int], taken: int) -> None:
+    """Count an execution of an IF, and whether the runs would take different branches."""
+    votes.times += 1
+    if len({branch[1 + sign] for sign in signs}) > 1:
+        votes.disputed += 1
+        if votes.disputed == 1:
+            votes.time, votes.signs, votes.taken = votes.times, Counter(signs), taken
+
+
+def _statement(line: Line, tally: _Tally) -> StatementDigits:
+    parker = [digits for digits, _ in tally.estimates]
+    sure = min(digits for _, digits in tally.estimates)
+    return StatementDigits(line, len(parker), min(parker), median(parker), sure, tally.zeros)
+
+
+def _decision(line: Line, votes: _Votes) -> DecisionShares:
+    negative, zero, positive = (votes.signs[sign] for sign in (-1, 0, 1))
+    return DecisionShares(line, votes.times, votes.disputed, votes.time, (negative, zero, positive), votes.taken)
+
+
+@dataclass(frozen=True, slots=True)
+class Independent:
+    """N independent runs.
+
+    ``shares`` are the numbers of runs with each sequence of records, apart from the digits of their numbers, the most
+    frequent first.  ``printed`` holds the numbers of the runs with the most frequent sequence.
+    """
+
+    results: tuple[Result, ...]
+    shares: tuple[int, ...]
+    records: tuple[str, ...]
+    printed: tuple[Printed, ...]
+
+
+def independent(
+    program: Program, deck: Deck, members: Sequence[Numbers], options: Options | None = None
+) -> Independent:
+    """Run a program once in each of several arithmetics.  Raise CardError or DeckError for a bad deck."""
+    base = options or Options()
+    results = [run_batch(program, [deck], replace(base, numbers=member))[0] for member in members]
+    runs = [records_of(result) for result in results]
+    shapes = [tuple(shape_of(records)) for records in runs]
+    frequent = Counter(shapes).most_common()
+    same = [records for records, shape in zip(runs, shapes, strict=True) if shape == frequent[0][0]]
+    printed = []
+    for record, texts in enumerate(zip(*same, strict=True), 1):
+        for columns in zip(*(NUMBER.findall(text) for text in texts), strict=True):
+            values = tuple(Fraction(column) for column in columns)
+            printed.append(Printed(record, columns[0], values, estimate(values, members[0].digits)))
+    return Independent(tuple(results), tuple(count for _, count in frequent), tuple(same[0]), tuple(printed))

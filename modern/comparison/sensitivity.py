@@ -1,0 +1,104 @@
+"""The sensitivity of a program's printed numbers to each number on its input cards.
+
+Each floating-point number of the deck is changed in turn by one unit in its last digit, and the program runs again in
+an arithmetic that makes no or much smaller rounding errors.  The changes of the printed numbers are then due to the
+change of the card alone.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from emulator.errors import EmulatorError
+from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options, Result
+from emulator.numbers import Numbers
+
+NUMBER = re.compile(r"-?(?:\d+\.\d*|\.\d+)(?:E[+-]?\d+)?")
+# The last digit of a number, before its exponent.
+_LAST = re.compile(r"(\d)(\.?\s*(?:E\s*[+-]?\s*\d*|[+-]\s*\d+)?\s*)$")
+
+
+@dataclass(frozen=True, slots=True)
+class Sensitivity:
+    """The effect of one unit in the last digit of a number on a card.
+
+    ``change`` is the largest relative change of a printed number, and ``record`` the number of its record, from 1; both
+    are None if nothing changes.  ``branches`` is True if the run prints other records or ends otherwise.
+    """
+
+    card: int
+    column: int
+    columns: str
+    changed: str
+    change: float | None
+    record: int | None
+    branches: bool
+
+
+def records_of(result: Result) -> list[str]:
+    """Return the punched cards and typed lines of a run, in order."""
+    return [event.text for event in result.events if event.what in ("punch", "type")]
+
+
+def shape_of(texts: Sequence[str]) -> list[str]:
+    """Return the records without blanks and with a mark for each number; runs with equal shapes can be compared."""
+    return ["".join(NUMBER.sub("#", text).split()) for text in texts]
+
+
+def sensitivities(
+    program: Program, deck: Deck, reference: Numbers, options: Options | None = None, most: int = 200
+) -> list[Sensitivity]:
+    """Return the sensitivity to each floating-point number of a deck, for at most ``most`` numbers.
+
+    Raise CardError or DeckError for a bad deck.
+    """
+    base = replace(options or Options(), numbers=reference)
+    machine = Machine(program, deck, base)
+    result = machine.run()
+    rows = []
+    for card, column, width in list(dict.fromkeys(machine.devices.fields_read))[:most]:
+        text = deck.cards[card - 1].text.ljust(column - 1 + width)
+        columns = text[column - 1 : column - 1 + width]
+        changed = _nudged(columns)
+        if changed is None:
+            continue
+        lines = [other.text for other in deck.cards]
+        lines[card - 1] = text[: column - 1] + changed + text[column - 1 + width :]
+        nudged = deck_from_lines(deck.source, lines)
+        rows.append(_compared(program, nudged, base, result, (card, column, columns, changed)))
+    return rows
+
+
+def _nudged(columns: str) -> str | None:
+    """Return a number with its last digit changed by one, or None if the columns hold no digit."""
+    match = _LAST.search(columns)
+    if match is None:
+        return None
+    digit = int(match[1])
+    return f"{columns[: match.start()]}{digit + 1 if digit < 9 else digit - 1}{match[2]}"
+
+
+def _compared(
+    program: Program, deck: Deck, options: Options, result: Result, place: tuple[int, int, str, str]
+) -> Sensitivity:
+    try:
+        other = Machine(program, deck, options).run()
+    except EmulatorError:
+        return Sensitivity(*place, None, None, True)
+    first, second = records_of(result), records_of(other)
+    branches = shape_of(first) != shape_of(second) or result.ending.kind != other.ending.kind
+    pairs = [] if branches else zip(first, second, strict=True)
+    changes = [(change, record) for record, pair in enumerate(pairs, 1) for change in _changes(*pair)]
+    change, record = max(changes) if changes else (None, None)
+    return Sensitivity(*place, change, record, branches)
+
+
+def _changes(first: str, second: str) -> Sequence[float]:
+    """Return the relative changes of the numbers of a record that change."""
+    pairs = zip(map(float, NUMBER.findall(first)), map(float, NUMBER.findall(second)), strict=True)
+    return [abs(b - a) / abs(a) if a else 1.0 for a, b in pairs if a != b]

@@ -1,0 +1,96 @@
+"""``hull1620 digits``, ``listing --digits`` and ``run --trace`` with stochastic arithmetic."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modern.cli.main import main
+
+SOURCE = """C     ROOTS OF A QUADRATIC EQUATION
+    5 READ 1,A,B,C
+    1 FORMAT(3F10.0)
+      D=B*B-4.*A*C
+      IF(D)10,20,20
+   10 TYPE 11
+   11 FORMAT(8HNO ROOTS)
+      GO TO 5
+   20 R=SQRT(D)
+      X=(-B-R)/(2.*A)
+      Y=(-B+R)/(2.*A)
+      TYPE 21,X,Y
+   21 FORMAT(6HROOTS ,E14.8,1X,E14.8)
+      GO TO 5
+      END
+"""
+CARDS = "       1.0     -99.9      0.01\n"
+
+
+@pytest.fixture
+def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    Path("my.f").write_text(SOURCE, encoding="utf-8")
+    Path("my.deck").write_text(CARDS, encoding="utf-8")
+    return tmp_path
+
+
+def test_report_says_which_digits_to_believe_and_which_statement_loses_them(
+    program: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["digits", "my.f", "my.deck", "--csv", "out.csv", "--html", "out.html", "--samples", "out.npy"]) == 0
+    report = capsys.readouterr().out
+    rows = {tuple(line.split()[:2]): line for line in report.splitlines() if line.strip()}
+    assert rows["1", ".10050000E-03"].endswith("believe 2 digits")
+    assert rows["1", ".99899895E+02"].endswith("believe 7 digits")
+    assert rows["10", "X=(-B-R)/(2.*A)"].split()[3:6] == ["5.6", "5.6", "2.6"]
+    assert "stochastic runs: 1 decision on floating-point numbers, 0 disputed" in report
+    assert "intervals of 8 digits: every decision is certain" in report
+    table = list(csv.DictReader(Path("out.csv").read_text(encoding="utf-8").splitlines()))
+    assert {row["part"] for row in table} == {"Printed numbers", "Statements", "Input cards"}
+    page = Path("out.html").read_text(encoding="utf-8")
+    assert all(f"<h2>{part}</h2>" in page for part in ("Printed numbers", "Decisions", "Statements", "Input cards"))
+    assert np.load("out.npy").shape == (10, 2)
+
+
+def test_unknown_and_disputed_decisions_are_reported(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    lines = [
+        "A=1./3.",
+        "B=A*3.-1.",
+        "IF(B)10,20,20",
+        "   10 TYPE 11",
+        "   11 FORMAT(5HBELOW)",
+        "STOP",
+        "   20 STOP",
+        "END",
+    ]
+    text = "".join((line if line.startswith("   ") else "      " + line) + "\n" for line in lines)
+    Path("third.f").write_text(text, encoding="utf-8")
+    assert main(["digits", "third.f", "--runs", "20", "--independent"]) == 1
+    report = capsys.readouterr().out
+    assert "first decision that exact takes otherwise: card 3, IF(B)10,20,20, execution 1: -1E-7 instead of 0" in report
+    assert "stochastic runs: 1 decision on floating-point numbers, 1 disputed" in report
+    assert "intervals of 8 digits: third.f: card 3: the sign of [-1E-8, 1E-7] is unknown" in report
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--runs", "1"], "--runs: expected 2 to 1000 runs, found 1"),
+        (["--seed", "-1"], "expected stochastic:P:SEED"),
+        (["--arithmetic", "none"], "no arithmetic is called 'none'"),
+    ],
+)
+def test_wrong_options_are_explained_in_one_line(
+    program: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
+) -> None:
+    assert main(["digits", "my.f", "my.deck", *arguments]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_listing_and_trace_show_the_digits(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["listing", "my.f", "my.deck", "--digits"]) == 0
+    listing = capsys.readouterr().out
+    assert next(line for line in listing.splitlines() if "X=(-B-R)" in line).split()[3:5] == ["5.6", "2.6"]
+    assert main(["run", "my.f", "my.deck", "--arithmetic", "stochastic:8:1-10", "--trace", "out.txt"]) == 0
+    assert "X = 0.0001 (2.6 digits)" in Path("out.txt").read_text(encoding="utf-8")
