@@ -133,8 +133,9 @@ def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> 
         worker = (source / "worker.js").read_text("utf-8")
         local = f"window.hull1620Local = {_json({'worker': worker, 'machine': base64.b64encode(data).decode()})};\n"
         (folder / "machine.js").write_text(local, encoding="utf-8")
-        for name in ("worker.js", "cache.js"):
-            shutil.copyfile(source / name, folder / name)
+        shutil.copyfile(source / "worker.js", folder / "worker.js")
+        # A service worker controls only the pages in its own folder.
+        shutil.copyfile(source / "cache.js", folder.parent / "cache.js")
     known = f'window.hull1620Bytes = {size};\nwindow.hull1620Version = "{version}";\n'
     (folder / "size.js").write_text(known, encoding="ascii")
     return size

@@ -23,17 +23,20 @@ const hull1620 = (() => {
     });
   }
 
-  /** Let the service worker keep the emulator for the next visit; the page works without it. */
+  /** Let the service worker keep the page and the emulator for the next visit; the page works without it. */
   async function keep() {
     if (!navigator.serviceWorker) return;
     try {
-      const { installing, waiting } = await navigator.serviceWorker.register(`${here}cache.js`);
+      const { installing, waiting } = await navigator.serviceWorker.register(`${here}../cache.js`);
       const starting = installing ?? waiting;
       if (!starting) return;
       await new Promise((done) => {
         starting.addEventListener("statechange", () => starting.state === "activated" && done(null));
         setTimeout(done, 2000);
       });
+      // The page itself was loaded before the worker began.
+      const parts = performance.getEntriesByType("resource").map(({ name }) => name);
+      for (const part of [location.pathname, ...parts]) fetch(part).catch(() => {});
     } catch {
       // A browser may forbid service workers, for example in a private window.
     }

@@ -338,6 +338,19 @@ def test_the_comparison_in_the_page_equals_that_in_python(chromium: Browser, ser
     page.close()
 
 
+def test_the_page_is_kept_for_a_visit_without_a_network(tab: Page) -> None:
+    parts = ["console.html", "console/worker.js", "console/size.js", "_static/desk/desk.js", "console/machine.gzip"]
+    missing = tab.evaluate(
+        """async (parts) => {
+          const cache = await caches.open("hull1620-machine");
+          const isKept = (part) => cache.match(new URL(part, location.href), { ignoreSearch: true });
+          return (await Promise.all(parts.map(async (part) => (await isKept(part)) ? "" : part))).filter(Boolean);
+        }""",
+        parts,
+    )
+    assert missing == []
+
+
 def test_a_point_can_be_dragged(chromium: Browser, served: str) -> None:
     page = chromium.new_page()
     page.goto(f"{served}/parting.html")
