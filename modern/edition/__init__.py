@@ -11,7 +11,7 @@ To add an emendation:
 3. If the row exchanges a pair of characters for the first time, add the pair to
    ``fortran_src/apparatus/confusables.toml`` (:mod:`modern.edition.readings`).
 4. If the layer belongs to a committed deck, build the deck again and commit it: ``built(NAME).text()`` of
-   :mod:`modern.edition.programs` returns its text.  For chapter 6, ``python -m modern.edition --write`` writes the
-   device files.  Read the differences.
+   :mod:`modern.edition.programs` returns its text.  For chapter 6,
+   ``python -m modern.edition.chapter6_checks --write`` writes the device files.  Read the differences.
 5. Run ``hull1620 apparatus --program N --check`` and the tests in ``tests/modern/edition/``.
 """

@@ -8,15 +8,25 @@
 """
 
 import re
+import sys
 from collections.abc import Sequence
 from decimal import Decimal
 from importlib.resources.abc import Traversable
+from pathlib import Path
 
 from emulator.errors import Refused
 from emulator.language.formats import Literal, Slash, parse_format
 from emulator.language.tree import Format, Place
-from modern.edition.chapter6 import CardShape, DeviceLayout, Field, Role, chapter6_folder
-from modern.edition.chapter6_cards import Chapter, built_files, cards, device_files, printed_lines
+from modern.edition.chapter6 import CardShape, DeviceLayout, Field, LayoutError, Role, chapter6_folder
+from modern.edition.chapter6_cards import (
+    Chapter,
+    built_files,
+    cards,
+    device_files,
+    load_chapter,
+    printed_lines,
+    write_files,
+)
 from modern.edition.chapter6_grounds import incidences, numbers, of_role, plane_at, planes, row_faults, solid, vertices
 
 Point = tuple[Decimal, ...]
@@ -198,3 +208,28 @@ def check_files(chapter: Chapter, folder: Traversable) -> tuple[str, ...]:
         elif path.read_bytes() != contents.encode("ascii"):
             faults.append(f"{name} differs from the file built from witness, apparatus and layout")
     return tuple(faults)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run with ``--write`` or ``--check`` and return the exit status."""
+    options = list(sys.argv[1:] if arguments is None else arguments)
+    if options not in (["--write"], ["--check"]):
+        print("usage: python -m modern.edition.chapter6_checks --write | --check", file=sys.stderr)
+        return 2
+    try:
+        chapter = load_chapter()
+        if options == ["--write"]:
+            for name in write_files(chapter, Path(str(chapter6_folder()))):
+                print(name)
+            return 0
+        faults = check_chapter(chapter)
+    except (ValueError, LayoutError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    for fault in faults:
+        print(fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -7,10 +7,9 @@ from pathlib import Path
 import pytest
 
 from modern.edition import chapter6_cards
-from modern.edition.__main__ import main
 from modern.edition.apparatus import Line
 from modern.edition.chapter6 import chapter6_folder
-from modern.edition.chapter6_checks import check_arithmetic, check_chapter, check_files, check_tie
+from modern.edition.chapter6_checks import check_arithmetic, check_chapter, check_files, check_tie, main
 
 CHAPTER = chapter6_cards.load_chapter()
 NAMES = [name for *_, name in chapter6_cards.device_files(CHAPTER)]
