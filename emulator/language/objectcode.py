@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 from emulator.language.formats import FormatSpec
@@ -172,6 +172,10 @@ class Program:
     verbs: tuple[str, ...]
     functions: tuple[str, ...]
 
+    def __hash__(self) -> int:
+        # The hash of all fields would take milliseconds at each look-up in a cache.
+        return hash((self.source, len(self.code)))
+
     def uses(self, *verbs: str) -> bool:
         """Return True if the program has an input or output statement with one of these verbs."""
         return any(i.operation == BEGIN and self.verbs[i.address] in verbs for i in self.code)
@@ -224,6 +228,7 @@ class Flat(NamedTuple):
     fields: int
 
 
+@lru_cache(maxsize=64)
 def flatten(program: Program) -> Flat:
     """Return the object code of a program in flat form."""
     targets: list[int] = []

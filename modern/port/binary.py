@@ -6,8 +6,6 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from mpmath import MPContext
-from mpmath.libmp import from_rational, round_nearest
 from numpy.typing import NDArray
 
 from modern.geometry.numbers import Exact, exact_text
@@ -85,12 +83,18 @@ def _float_text(value: float) -> str:
     return exact_text(Fraction(value)) if "E" in text else text
 
 
+def _context() -> Any:
+    from mpmath import MPContext  # not at the top, because most hulls need no numbers of mpmath
+
+    return MPContext()
+
+
 @dataclass(frozen=True)
 class MultiprecisionArithmetic(Arithmetic):
     """Binary floating point with any number of bits, rounded to nearest, without limits for exponents."""
 
     bits: int
-    context: Any = field(default_factory=MPContext, compare=False)
+    context: Any = field(default_factory=_context, compare=False)
 
     def __post_init__(self) -> None:
         self.context.prec = self.bits
@@ -100,6 +104,8 @@ class MultiprecisionArithmetic(Arithmetic):
         return f"mp:{self.bits}"
 
     def number(self, value: Exact, minus: bool = False) -> Scalar:
+        from mpmath.libmp import from_rational, round_nearest
+
         return self.context.make_mpf(from_rational(value.numerator, value.denominator, self.bits, round_nearest))
 
     def quotient(self, value: Scalar, count: int) -> Scalar:

@@ -204,13 +204,15 @@ def points_on_three_surfaces() -> Check:
 
 @claim("appel-will.78")
 def hulls_of_surfaces() -> Check:
-    """Check that vertices of the hull are vertices of the hulls of their surfaces; the apex of a pit is not."""
+    """Check that a vertex of the hulls of its surfaces may not be one of the hull, although the converse is a theorem."""
     solid = pitted()
     apex = max(range(len(solid.points)), key=lambda k: k not in exact_hull(solid.points).vertices)
     surfaces_at = [surface for surface in solid.surfaces if apex in surface]
     own = all(s.index(apex) in exact_hull([solid.points[k] for k in s]).vertices for s in surfaces_at)
-    refutes = own and apex not in exact_hull(solid.points).vertices
-    return vertex_is_no_combination().check().unless(refutes, "the converse, which fails for the apex of a pit")
+    unrelated = own and apex not in exact_hull(solid.points).vertices
+    check = exhibited(unrelated, "the apex of a pit is a vertex of the hulls of its surfaces, but not of the hull")
+    case = "a vertex of the hull, which is a vertex of the hull of each of its surfaces (proved)"
+    return check.unless(vertex_is_no_combination().check().holds, case)
 
 
 @claim("appel-will.138", "appel-will.76")

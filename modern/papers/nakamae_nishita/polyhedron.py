@@ -126,13 +126,15 @@ def _faults(polyhedron: Polyhedron) -> Iterator[str]:
 
 def turns_once(points: Sequence[tuple[N, N, N]], normal: tuple[N, N, N]) -> bool:
     """Return True if a plane polygon is convex and runs counterclockwise once as seen from the side of ``normal``."""
-    lines = list(sides(range(len(points))))
-    steps = [minus(points[b], points[a]) for a, b in lines]
-    bends = [dot(cross(steps[a], steps[b]), normal) for a, b in lines]
+    # The signs are those of integers, which are computed faster than fractions.
+    (_, corners), up = whole(points), lowest(normal)
+    lines = list(sides(range(len(corners))))
+    steps = [minus(corners[b], corners[a]) for a, b in lines]
+    bends = [dot(cross(steps[a], steps[b]), up) for a, b in lines]
     if any(bend < 0 for bend in bends) or not all(map(any, steps)):
         return False
     # A polygon that turns left at all corners may run around twice. Then a corner is to the right of a side.
-    return all(dot(cross(steps[a], minus(q, points[a])), normal) >= 0 for a, _ in lines for q in points)
+    return all(dot(cross(steps[a], minus(q, corners[a])), up) >= 0 for a, _ in lines for q in corners)
 
 
 def polyhedron_of_hull(hull: Hull, name: str = "hull", joined: Joined | None = None) -> Polyhedron:

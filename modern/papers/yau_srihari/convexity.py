@@ -114,7 +114,10 @@ def _boundary_points(polygon: list[Place], axis: int, at: Fraction) -> Iterator[
 def _covered(segment: tuple[Place, Place], points: list[Voxel]) -> bool:
     """Return True if every point of a segment is near a digital point: less than 1 away on every axis."""
     p, q = segment
-    spans = sorted(span for point in points if (span := near_span(p, q, point)))
+    # Only a point within the box of the segment, enlarged by less than 1, can be near it.
+    box = [range(math.floor(min(a, b)), math.ceil(max(a, b)) + 1) for a, b in zip(p, q, strict=True)]
+    inside = [point for point in points if point[0] in box[0] and point[1] in box[1] and point[2] in box[2]]
+    spans = sorted(span for point in inside if (span := near_span(p, q, point)))
     reached = Fraction(0)
     if not any(low < 0 for low, _ in spans):
         return False
