@@ -204,7 +204,7 @@ def points_on_three_surfaces() -> Check:
 
 @claim("appel-will.78")
 def hulls_of_surfaces() -> Check:
-    """Check that a vertex of the hulls of its surfaces may not be one of the hull, although the converse is a theorem."""
+    """Check that a vertex of the hulls of its surfaces may not be a vertex of the hull; the converse is a theorem."""
     solid = pitted()
     apex = max(range(len(solid.points)), key=lambda k: k not in exact_hull(solid.points).vertices)
     surfaces_at = [surface for surface in solid.surfaces if apex in surface]
