@@ -4,6 +4,7 @@
 """
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -27,6 +28,10 @@ Objects = NDArray[np.object_]
 _HASH = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
 # Floats of at least 2**_HUGE are halved this number of times before their difference is computed.
 _HUGE, _HALVINGS = 1000, 64
+# Decimals without an exponent, one on each line, and the digits after their points.  Powers of ten up to 10**18 are
+# exact in float64 and in int64.
+_DECIMALS = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:\n[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))*")
+_FRACTIONS, _EXACT_POWER = re.compile(r"\.([0-9]*)"), 18
 # The number of bits that the sides of the bounding box of small points have together.
 _SMALL_BITS = 48
 
@@ -226,9 +231,28 @@ def read_points(points: Points) -> Coordinates:
         return Coordinates(tuple(map(tuple, points)))
     if _plain(points, float):
         return _from_floats(np.array(points))
+    if _plain(points, str) and (short := _from_short_decimals(points)):
+        return short
     exact = read_exact(points)
     scale = common_scale(exact)
     return Coordinates(tuple(to_integers(exact, scale)), scale)
+
+
+def _from_short_decimals(points: Sequence[Sequence[str]]) -> Coordinates | None:
+    """Return points of decimal strings such as ``"-.25"``, or None for other strings and numbers of many digits."""
+    texts = [text for point in points for text in point]
+    joined = "\n".join(texts)
+    if not _DECIMALS.fullmatch(joined) or joined.count("\n") != len(texts) - 1:
+        return None
+    places = max(map(len, _FRACTIONS.findall(joined)), default=0)
+    numbers = np.array(texts, np.float64) * float(10 ** min(places, _EXACT_POWER))
+    # The nearest double and its product with an exact power of ten have a relative error of at most 2**-52, which is
+    # less than 1/4 for integers below 10**15.
+    if places > _EXACT_POWER or abs(numbers).max() >= 1e15:
+        return None
+    integers = np.rint(numbers).astype(np.int64)
+    divisor = math.gcd(int(np.gcd.reduce(integers)), 10**places)
+    return Coordinates((integers // divisor).reshape(-1, 3), 10**places // divisor)
 
 
 def _from_floats(floats: Floats) -> Coordinates:

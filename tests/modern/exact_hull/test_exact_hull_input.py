@@ -1,15 +1,16 @@
 """Valid and invalid points, small hulls, and the error bounds of the floating-point filters."""
 
+import re
 from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from modern.exact_hull import PointsError, certify, exact_hull
-from modern.exact_hull.coordinates import read_points
+from modern.exact_hull.coordinates import common_scale, read_exact, read_points, to_integers
 from modern.exact_hull.facets import lowest_terms, plane_at, plane_through, value
 from modern.exact_hull.planes import BOUND, Planes, normal_image
 from modern.geometry.numbers import decimal
@@ -164,6 +165,24 @@ def test_coordinates_beyond_the_range_of_floats_are_exact(exponent: int) -> None
     assert certify(points, hull).arithmetic == "float64 and integers"
     assert (hull.dimension, hull.boundary, hull.inside) == (3, (4,), ())
     assert hull.vertices == (0, 1, 2, 3, 5, 6)
+
+
+short = st.from_regex(r"[+-]?([0-9]{1,9}\.?[0-9]{0,7}|\.[0-9]{1,16})", fullmatch=True)
+long = st.sampled_from(["1e3", "123456789012345.5", "0." + "0" * 22 + "1", "-999999999999999", " 1", "1\n2", "1/3"])
+
+
+@given(st.lists(st.tuples(short, short, short | long), min_size=1, max_size=6))
+@example([("0", "-0", "0." + "0" * 18)])
+def test_strings_have_the_same_coordinates_as_their_fractions(points) -> None:
+    try:
+        exact = read_exact(points)
+    except PointsError as error:
+        with pytest.raises(PointsError, match=re.escape(str(error))):
+            read_points(points)
+        return
+    coordinates = read_points(points)
+    assert coordinates.scale == common_scale(exact)
+    assert list(coordinates) == to_integers(exact, coordinates.scale)
 
 
 def test_tiny_floats_on_one_axis_and_huge_floats_on_others_have_the_hull_of_fractions() -> None:
