@@ -135,7 +135,10 @@ class _Translation:
         code = self.emitter
         return Program(
             source=self.source,
-            code=tuple(replace(i, address=code.allocator.final(i.address)) for i in code.code),
+            code=tuple(
+                i if (address := code.allocator.final(i.address)) == i.address else replace(i, address=address)
+                for i in code.code
+            ),
             subscripts=tuple(code.subscripts),
             branches=tuple(tuple(self.targets[label] for label in labels) for labels in self.branches),
             loops=tuple(

@@ -117,7 +117,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     facets: list[Facet] = []
 
     def classified(dimension: int, facets: Sequence[Facet], boundary: Ints) -> ExactHull:
-        """Return the result without plane and polygon.  ``facets`` and ``boundary`` use indices of distinct points."""
+        """Return the result without the proof.  ``facets`` and ``boundary`` use indices of distinct points."""
         vertices = sorted({index for facet in facets for index in facet.polygon} or {0})
         inside = np.ones(len(distinct), np.bool_)
         inside[vertices] = False
@@ -133,8 +133,9 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
             boundary=tuple(indices[boundary].tolist()),
             inside=tuple(indices[inside].tolist()),
             duplicates=scaled.duplicates,
-            plane=None,
+            plane=plane,
             facets=tuple(sorted(facets, key=attrgetter("plane"))),
+            polygon=tuple(indices[list(cycle)].tolist()),
         )
 
     if len(basis) == 2:
@@ -151,5 +152,4 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
         facets = faces(convex_surface(distinct, basis, order), distinct.all())
     boundary = _on_facets(distinct, facets) if len(basis) > 2 else np.empty(0, np.int64)
     hull = classified(len(basis) - 1, facets, boundary)
-    hull = replace(hull, plane=plane, polygon=tuple(indices[list(cycle)].tolist()))
     return replace(hull, certificate=certify(scaled, hull))
