@@ -46,6 +46,11 @@ _NOT_LOADED = (
     *("modern/publication/hull1620.odd", "lark/grammars/python.lark", "argparse.py"),
     *("_pydatetime.py", "ipaddress.py", "logging/handlers.py", "logging/config.py", "_sysconfigdata", "bdb.py"),
     *("asyncio/windows", "asyncio/proactor", "concurrent/futures/process.py", "pyodide/console.py", "plistlib.py"),
+    *("emulator/translation", "modern/edition/chapter6_", "modern/edition/weight", "modern/edition/collation.py"),
+    *("modern/edition/transcription.py", "modern/publication/chart", "modern/publication/console.py"),
+    *("modern/publication/facing.py", "modern/publication/flow.py", "modern/publication/steps.py"),
+    *("modern/publication/moments.py", "fortran_src/apparatus", "fortran_src/commentary", "fortran_src/witness"),
+    *("fortran_src/silent.csv", "fortran_src/README.md", "transcripts/README.md"),
 )
 _ENCODINGS = ("__init__", "aliases", "ascii", "cp437", "latin_1", "utf_8")
 # Seconds of the recorded run on a 1620 between two of its frames, and how much faster than in 1963 it is shown.
