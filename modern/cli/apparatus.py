@@ -32,6 +32,13 @@ def main(args: argparse.Namespace) -> int:
         answers = weigh(Path(args.weigh), args.runs or "", max(args.workers, 1), args.most)
         print(write_weight(Path(args.weigh), answers), end="")
         return OK
+    if args.restore:
+        from modern.study.restoration import listings, measure, others, write_restoration
+
+        groups = (listings(), *((others(Path(args.runs)),) if args.runs else ()))
+        measured = list(measure(groups, max(args.most, 1)))
+        print(write_restoration(Path(args.restore), measured), end="")
+        return OK
     if args.collate is not None:
         return _collate(args)
     if args.json is not None or args.csv is not None:

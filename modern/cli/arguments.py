@@ -156,9 +156,16 @@ def _apparatus(parser: ArgumentParser) -> None:
         "alteration; results already in FOLDER are kept"
     )
     add(parser, {"--weigh FOLDER": weigh}, type=Folder)
-    add(parser, {"--runs FOLDER": "with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards"})
+    restore = (
+        "damage the listings as the OCR did, restore them by the rules of the apparatus in a process that cannot read "
+        "the originals, and write the errors by class of certainty to FOLDER"
+    )
+    add(parser, {"--restore FOLDER": restore}, type=Folder)
+    runs = "with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards; with --restore: also damage FOLDER/*.f"
+    add(parser, {"--runs FOLDER": runs})
     add(parser, {"--workers N": "with --weigh: use N processes (default: 1)"}, type=int, default=1)
-    add(parser, {"--most N": "with --weigh: try only the first N alterations (default: all)"}, type=int, default=0)
+    most = "with --weigh: try only the first N alterations (default: all); with --restore: damage N copies (default: 1)"
+    add(parser, {"--most N": most}, type=int, default=0)
 
 
 def _program(parser: ArgumentParser) -> None:

@@ -21,6 +21,7 @@ from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES
 from modern.edition.reproduce import reproduce
 from modern.publication.building import citation
+from modern.study.restoration import CLASSES, read_restoration, summary
 
 _PLACE = re.compile(r"\{\{ *([a-z][\w.-]*) *\}\}")
 
@@ -65,6 +66,7 @@ def figures(docs: Path) -> dict[str, str]:
     return {
         **{name: _formatted(read_cell(docs, cell)) for name, cell in cells(docs).items()},
         **dict(_weight(docs)),
+        **dict(_restoration(docs)),
         **dict(_examples()),
         **dict(_papers()),
         **dict(_statements()),
@@ -107,6 +109,24 @@ def _weight(docs: Path) -> Iterator[tuple[str, str]]:
     yield "weight.noticed", f"{sum(sums[kind] for kind in _CHECKS):,}"
     yield "weight.silent", f"{sums['nothing']:,}"
     yield "weight.silent-share", f"{100 * sums['nothing'] / compiled:.1f} %"
+
+
+def _restoration(docs: Path) -> Iterator[tuple[str, str]]:
+    measured = read_restoration(docs / "restoration")
+    head, *lines = summary(measured)
+    yield "restoration.copies", str(len({row["copy"] for row in measured}))
+    totals = {line[0]: line[2:] for line in lines if line[1] == "all"}
+    for name in CLASSES:
+        cards, _, wrong, rate, interval = totals.get(name, ("0", "0", "0", "", ""))
+        yield f"restoration.{name}-cards", cards
+        yield f"restoration.{name}-wrong", wrong
+        yield f"restoration.{name}-rate", f"{rate} ({interval})"
+    yield "restoration.damaged", totals["all"][1]
+    yield "restoration.abstained", totals["abstained"][1]
+    yield "restoration.unnoticed", totals["unnoticed"][1]
+    yield "restoration.emended", str(sum(int(totals[name][1]) for name in CLASSES if name in totals))
+    rows = [head, ("---", "---", *["---:"] * (len(head) - 2)), *lines]
+    yield "restoration.table", "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
 def _examples() -> Iterator[tuple[str, str]]:

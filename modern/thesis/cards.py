@@ -97,7 +97,7 @@ def _canonical(hull: CardHull, oriented: bool) -> tuple[object, ...]:
     equations = [scaled(equation, oriented) for equation in hull.equations]
     joins = Counter(
         (
-            frozenset(hull.vertices[v - 1] for v in numbers if v <= len(hull.vertices)),
+            frozenset(hull.vertices[v - 1] for v in numbers if 0 < v <= len(hull.vertices)),
             equations[e - 1] if e <= len(equations) else None,
         )
         for numbers, e in hull.satisfied

@@ -1,0 +1,380 @@
+"""Restore damaged programs by the written rules of the edition, without an editor.
+
+The rules are those of ``fortran_src/README.md``.  A reading may differ from the damaged text only by exchanges of the
+table of confusables, and each exchange needs a ground:
+
+``parse``   of the readings with the fewest exchanges, only this one compiles: it has the form of a statement, the
+            numbers to which it refers exist, its own number is free, and its names occur elsewhere
+``print``   only with this reading are the printed results reproduced
+``forced``  only this reading equals another card (a sibling) with names exchanged; a card that compiles is emended so
+            only if it has 20 characters and two siblings.  The equations of chapter 3 are
+            symmetric in x, y and z, so that their cards are siblings of each other.
+
+Readings with these grounds are *certain*; an insertion that only siblings support is *probable*; the reading whose
+exchange is attested most often in the apparatus, without a ground, is a *conjecture*.  If several readings remain that
+nothing distinguishes, the restorer abstains.
+
+The restorer is a function of the damaged cards, the table, and the printed results.  Run as a program
+(``python -m modern.edition.restorer``), it reads them from standard input, and an audit hook rejects every attempt to
+open a listing, a witness, an apparatus or a test.
+"""
+
+import json
+import os
+import re
+import sys
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from functools import lru_cache
+from typing import Any, Literal
+
+from emulator.errors import EmulatorError, Refused
+from emulator.language import tree
+from emulator.language.cards import deck_from_lines
+from emulator.language.formats import parse_format
+from emulator.language.parser import parse_statement
+from emulator.language.statements import sources
+from modern.edition.readings import Pair, table
+from modern.edition.trials import Job, Trial, score, score_of
+from modern.edition.variants import LABELS
+
+Certainty = Literal["certain", "probable", "conjecture", "abstained"]
+# The most exchanges on a card, the readings that are extended by another exchange, and the runs to find an error.
+EXCHANGES, BEAM, RUNS = 3, 30, 30
+# From this number of characters on, a form without siblings is suspicious if another reading has siblings.
+ALONE = 20
+_NAME = re.compile(r"[A-Z][A-Z0-9]*")
+_SETS = re.compile(r"^(?:DO\d+)?([A-Z][A-Z0-9]*)(?:\([^=]*\))?=")
+
+
+@dataclass(frozen=True, slots=True)
+class Restored:
+    """A card that the restorer changed or gave up, counted from 0.  ``text`` has no blanks."""
+
+    card: int
+    text: str
+    certainty: Certainty
+    ground: str
+
+
+@dataclass(slots=True)
+class _Program:
+    """A program while it is restored: the present cards, the open readings of some, and the results for others."""
+
+    cards: list[str]
+    trials: tuple[Trial, ...]
+    open: dict[int, list[tuple[str, tuple[Pair, ...]]]] = field(default_factory=dict)
+    done: dict[int, Restored] = field(default_factory=dict)
+
+
+def restore(jobs: Sequence[Job], weights: Mapping[str, int]) -> list[list[Restored]]:
+    """Restore programs together, because the cards of each are siblings of those of the others.
+
+    ``weights`` counts how often the apparatus attests each pair, by witness, tab and lemma.
+    """
+    every = [_Program([_solid(card) for card in job.cards], job.trials) for job in jobs]
+    for program in every:
+        for n, card in enumerate(program.cards):
+            if _fault(card) is not None:
+                _by_form(program, n)
+    for program in every:
+        _by_compiler(program)
+    for program in every:
+        for n in list(program.open):
+            program.cards[n] = _likeliest(program.open[n], weights)
+    forms = Counter(_form(card) for program in every for card in program.cards)
+    for program in every:
+        for n in list(program.open):
+            _decide(program, n, forms, weights)
+        _unlike_siblings(program, forms)
+        _find_by_print(program, forms, weights)
+    return [sorted(program.done.values(), key=lambda r: r.card) for program in every]
+
+
+def _solid(card: str) -> str:
+    """Return a card without blanks; a comment and a FORMAT, whose literals count blanks, keep theirs."""
+    return card if card.startswith("C  ") or "RMAT" in card.replace(" ", "") else "".join(card.split())
+
+
+@lru_cache(1 << 20)
+def _statement(card: str) -> tuple[tree.Statement | None, int]:
+    """Return the statement of a card and 0, or None and the column of the first error.  A comment has no statement."""
+    try:
+        deck = deck_from_lines("card", [card])
+        for source in sources(deck):
+            statement = parse_statement(source)
+            if isinstance(statement.body, tree.Format):
+                parse_format(statement.body)
+            return statement, 0
+    except Refused as refused:
+        return None, refused.diagnostic.column or len(card)
+    except EmulatorError:
+        return None, next((n for n, char in enumerate(card, 1) if not char.isascii() or char in _BAD), len(card))
+    return None, 0
+
+
+_BAD = frozenset("abcdefghijklmnopqrstuvwxyz#_'\":;<>[]{}\\~!?&%^|`")
+
+
+def _fault(card: str) -> int | None:
+    """Return the column of the first error of a card, or None if it is a statement or a comment."""
+    return _statement(card)[1] or None
+
+
+def _progress(card: str) -> int:
+    """Return a number that grows with the column of the first error and falls with characters that no card has."""
+    return (_fault(card) or 0) - 100 * sum(char in _BAD or not char.isascii() for char in card)
+
+
+def _exchanges(card: str) -> Iterator[tuple[str, Pair]]:
+    """Yield every text that one exchange makes from a card."""
+    for pair in table():
+        if pair.cls == "comment":
+            continue
+        at = card.find(pair.witness)
+        while 0 <= at < len(card):
+            text = card[:at] + pair.lemma + card[at + len(pair.witness) :]
+            near_zero = "0" in (card[at - 1 : at], card[at : at + 1])
+            if pair.cls != "zero" or near_zero:
+                yield text, pair
+            at = card.find(pair.witness, at + 1)
+
+
+def _by_form(program: _Program, n: int) -> None:
+    """Find the readings of a card with the fewest exchanges that are statements.  Words without signs are a comment."""
+    card = program.cards[n]
+    if (re.fullmatch(r"[A-Z -]{9,}", card) and " " in card.strip()) or re.fullmatch(r"[A-Z-]{15,}", card):
+        program.done[n] = Restored(n, "C" + "".join(card.split()), "certain", "parse")
+        program.cards[n] = "C  " + card
+        return
+    frontier: list[tuple[int, str, tuple[Pair, ...]]] = [(_progress(card), card, ())]
+    readings: dict[str, tuple[Pair, ...]] = {}
+    for _ in range(EXCHANGES):
+        following: dict[str, tuple[int, tuple[Pair, ...]]] = {}
+        for column, text, pairs in frontier:
+            for new, pair in _exchanges(text):
+                fault = _fault(new)
+                if fault is None and _statement(new)[0] is not None:
+                    readings.setdefault(new, (*pairs, pair))
+                elif fault is not None and _progress(new) >= column:
+                    following.setdefault(new, (_progress(new), (*pairs, pair)))
+        if readings:
+            break
+        # Only texts whose first error is farther to the right are extended.
+        best = sorted(((f, t, p) for t, (f, p) in following.items()), key=lambda x: (-x[0], x[1]))
+        frontier = best[:BEAM]
+    if readings:
+        program.open[n] = list(readings.items())
+    else:
+        program.done[n] = Restored(n, card, "abstained", "no exchange makes a statement")
+
+
+@lru_cache(1 << 16)
+def _labels(card: str) -> tuple[str, tuple[str, ...]]:
+    """Return the number of a statement and the numbers to which it refers.  An F precedes the number of a FORMAT."""
+    match = re.match(r"\s*(\d*)(.*)", card)
+    assert match is not None
+    number = ("F" if match[2].strip().startswith("FORMAT") else "") + match[1] if match[1] else ""
+    for kind, pattern in LABELS.items():
+        spans = pattern.search(match[2])
+        if spans:
+            mark = "F" if kind == "input_output" else ""
+            return number, tuple(mark + reference for reference in re.findall(r"\d+", spans[1]))
+    return number, ()
+
+
+@lru_cache(1 << 16)
+def _names(card: str) -> frozenset[str]:
+    text = re.sub(r"^\d*(?:GOTO|DO\d+|(?:READ|PUNCH|PRINT|TYPE|ACCEPT)\d*|IF\(SENSESWITCH\d|IF)?", "", card)
+    return frozenset() if "FORMAT" in card or card.startswith("C  ") else frozenset(_NAME.findall(text))
+
+
+def _by_compiler(program: _Program) -> None:
+    """Keep the readings that the rest of the program allows: numbers that exist, numbers not used twice, names set."""
+    for n, readings in list(program.open.items()):
+        others = [card for k, card in enumerate(program.cards) if k != n and k not in program.open]
+        numbers = Counter(_labels(card)[0] for card in others)
+        known = Counter(name for card in others for name in _names(card))
+        possible = {_labels(text)[0] for k, rest in program.open.items() for text, _ in rest if k != n}
+        referenced = {number for card in others for number in _labels(card)[1]} - set(numbers)
+        allowed = []
+        for text, pairs in readings:
+            label, references = _labels(text)
+            exists = all(number in numbers or number in possible or number == label for number in references)
+            free = not label or not numbers[label]
+            if exists and free and all(known[name] for name in _names(text)):
+                allowed.append((text, pairs))
+        # A number to which another card refers and that no card has belongs to this one.
+        needed = [(text, pairs) for text, pairs in allowed if _labels(text)[0] in referenced]
+        readings = needed or allowed or readings
+        if len({_key(text) for text, _ in readings}) == 1:
+            _accept(program, n, readings[0][0], "certain", "parse")
+        else:
+            program.open[n] = readings
+
+
+def _key(text: str) -> str:
+    return "".join(text.split())
+
+
+def _accept(program: _Program, n: int, text: str, certainty: Certainty, ground: str) -> None:
+    program.open.pop(n, None)
+    program.cards[n] = text
+    program.done[n] = Restored(n, _key(text), certainty, ground)
+
+
+def _likeliest(readings: Sequence[tuple[str, tuple[Pair, ...]]], weights: Mapping[str, int]) -> str:
+    return max(readings, key=lambda reading: (_weight(reading[1], weights), reading[0]))[0]
+
+
+def _weight(pairs: Sequence[Pair], weights: Mapping[str, int]) -> int:
+    return min((weights.get(f"{pair.witness}\t{pair.lemma}", 0) for pair in pairs), default=0)
+
+
+@lru_cache(1 << 18)
+def _form(card: str) -> str:
+    """Return a statement with each name replaced by the order of its first occurrence, without its own number."""
+    order: dict[str, str] = {}
+    text = re.sub(r"^\d+", "", _key(card))
+    return _NAME.sub(lambda m: order.setdefault(m[0], f"<{len(order)}>"), text)
+
+
+def _decide(program: _Program, n: int, forms: Counter[str], weights: Mapping[str, int]) -> None:
+    """Choose among readings that all compile: by the print, by siblings, and last by the attested exchanges."""
+    readings = program.open[n]
+    present = program.cards[n]
+    if len(readings) <= 12 and program.trials:
+        matches = {text: _matching(program, n, text) for text, _ in readings}
+        best = max(matches.values())
+        winners = [text for text, count in matches.items() if count == best]
+        if len(winners) == 1 and best > 0:
+            _accept(program, n, winners[0], "certain", "print")
+            return
+        readings = [(text, pairs) for text, pairs in readings if text in winners]
+    own = Counter({_form(present): 1})
+    alike = [(text, pairs) for text, pairs in readings if forms[_form(text)] > own[_form(text)]]
+    if len(alike) == 1:
+        inserted = any(not pair.witness for pair in alike[0][1])
+        _accept(program, n, alike[0][0], "probable" if inserted else "certain", "sibling" if inserted else "forced")
+        return
+    ranked = sorted(alike or readings, key=lambda reading: -_weight(reading[1], weights))
+    first, second = (_weight(pairs, weights) for _, pairs in ranked[:2])
+    if first > second:
+        _accept(program, n, ranked[0][0], "conjecture", "attested")
+    else:
+        program.open.pop(n)
+        program.done[n] = Restored(n, _key(present), "abstained", "several readings")
+
+
+def _compiling(program: _Program, n: int) -> list[tuple[str, tuple[Pair, ...]]]:
+    """Return the readings of a card by one exchange that the program allows."""
+    card = program.cards[n]
+    others = [text for k, text in enumerate(program.cards) if k != n]
+    numbers = {_labels(text)[0] for text in others}
+    known = {name for text in others for name in _names(text)}
+    readings: dict[str, tuple[Pair, ...]] = {}
+    for text, pair in _exchanges(card):
+        label, references = _labels(text)
+        compiles = _statement(text)[0] is not None and (not label or label not in numbers)
+        if compiles and all(r in numbers or r == label for r in references) and _names(text) <= known:
+            readings.setdefault(text, (pair,))
+    return list(readings.items())
+
+
+def _unlike_siblings(program: _Program, forms: Counter[str]) -> None:
+    """Emend a card that compiles if a name in it occurs nowhere else, or if only another reading has siblings."""
+    uses = Counter(name for card in program.cards for name in _names(card))
+    for n, card in enumerate(program.cards):
+        abstained = n in program.done and program.done[n].certainty == "abstained"
+        if abstained or _statement(card)[0] is None or "FORMAT" in card:
+            continue
+        unknown = {name for name in _names(card) if uses[name] == 1 and len(name) > 1}
+        if not unknown and (forms[_form(card)] > 1 or len(card) < ALONE):
+            continue
+        readings = [text for text, _ in _compiling(program, n) if not _names(text) & unknown]
+        alike = [text for text in readings if _form(text) != _form(card) and forms[_form(text)] > 1]
+        alike = readings if unknown and len(readings) == 1 else alike
+        if len(alike) == 1:
+            before, after = _matching(program, n, card), _matching(program, n, alike[0])
+            if after >= before:
+                _accept(program, n, alike[0], "certain", "print" if after > before else "forced")
+
+
+def _matching(program: _Program, n: int, text: str) -> int:
+    """Return the score of the program with a reading, over all its printed results."""
+    return score(_with(program, n, text), program.trials)
+
+
+def _find_by_print(program: _Program, forms: Counter[str], weights: Mapping[str, int]) -> None:
+    """Find exchanges with which a program reproduces more of a printed result.
+
+    They are certain if the program then reproduces all printed results, and conjectures if not.
+    """
+    by_print = []
+    while True:
+        lines = tuple(program.cards)
+        # The shortest result that is not reproduced is tried, because its runs take the least time.
+        failing = [trial for trial in program.trials if 0 <= score_of(lines, trial) < 1000]
+        if not failing:
+            break
+        trial = min(failing, key=lambda trial: len(trial.printed))
+        readings = [
+            (bool(forms[_form(text)]), _weight(pairs, weights), n, text)
+            for n, card in enumerate(program.cards)
+            if not (n in program.done and program.done[n].certainty == "abstained") and _statement(card)[0] is not None
+            for text, pairs in _compiling(program, n)
+            if _weight(pairs, weights) > 1
+        ]
+        readings.sort(key=lambda reading: reading[:2], reverse=True)
+        counts = {(n, text): score_of(_with(program, n, text), trial) for *_, n, text in readings[:RUNS]}
+        best = max(counts.values(), default=0)
+        winners = [key for key, count in counts.items() if count == best]
+        # Errors on different cards can improve the result equally; two readings of one card leave it undecided.
+        if best <= score_of(lines, trial) or len({n for n, _ in winners}) < len(winners):
+            break
+        if _matching(program, *winners[0]) <= _matching(program, 0, program.cards[0]):
+            break
+        _accept(program, *winners[0], "conjecture", "a part of the print")
+        by_print.append(winners[0])
+    if all(score_of(tuple(program.cards), trial) >= 1000 for trial in program.trials):
+        for n, text in by_print:
+            _accept(program, n, text, "certain", "print")
+
+
+def _with(program: _Program, n: int, text: str) -> tuple[str, ...]:
+    return (*program.cards[:n], text, *program.cards[n + 1 :])
+
+
+_FORBIDDEN = re.compile(r"\.(?:f|txt|deck|output|punch|csv|md|jsonl?)$|program\d\.toml|SOURCES\.toml|tests?[/\\]")
+
+
+def seal() -> None:
+    """Reject every later attempt of this process to open a listing, witness, apparatus or test, and to run programs."""
+
+    def watch(event: str, arguments: tuple[Any, ...]) -> None:
+        if event in ("subprocess.Popen", "os.system", "os.exec", "os.posix_spawn", "socket.connect"):
+            raise PermissionError(f"the restorer may not use {event}")
+        if event == "open" and isinstance(arguments[0], (str, bytes, os.PathLike)):
+            path = os.fsdecode(arguments[0])
+            if _FORBIDDEN.search(path):
+                raise PermissionError(f"the restorer may not read {os.path.basename(path)}")
+
+    sys.addaudithook(watch)
+
+
+def main() -> None:
+    seal()
+    for line in sys.stdin:
+        data = json.loads(line)
+        jobs = [Job(tuple(raw["cards"]), tuple(map(_trial, raw["trials"]))) for raw in data["jobs"]]
+        print(json.dumps([[asdict(card) for card in cards] for cards in restore(jobs, data["weights"])]), flush=True)
+
+
+def _trial(raw: dict[str, Any]) -> Trial:
+    values: dict[str, Any] = {name: tuple(value) if isinstance(value, list) else value for name, value in raw.items()}
+    return Trial(**values)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,73 @@
+"""Printed results with which a restored program is compared, and the comparison."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from emulator.errors import EmulatorError
+from emulator.language.cards import deck_from_lines
+from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
+from emulator.machine.operator import FromFile
+from emulator.machine.result import Options
+from modern.edition.reproduce import EXACT, SPACING, compare
+
+# The most statements of a run; the longest printed result takes 15,000.
+LIMIT = 30_000
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """Data cards with the printed result: sense switches, answers of the operator, and the punched lines.
+
+    ``in_order`` is False if the parts of a result may be in another order than the printed ones.
+    """
+
+    cards: tuple[str, ...]
+    printed: tuple[str, ...]
+    switches: tuple[int, ...] = ()
+    operator: str = ""
+    final: bool = True
+    in_order: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """A damaged program, and the printed results that it produced."""
+
+    cards: tuple[str, ...]
+    trials: tuple[Trial, ...] = ()
+
+
+def score(lines: tuple[str, ...], trials: tuple[Trial, ...]) -> int:
+    """Return the number of printed lines that a program reproduces, plus 1000 for each result that it reproduces whole.
+
+    Return -1 if the program does not compile.
+    """
+    return sum(max(score_of(lines, trial), 0) for trial in trials) if _compiled(lines) else -1
+
+
+@lru_cache(256)
+def _compiled(lines: tuple[str, ...]) -> Program | None:
+    try:
+        return compile_deck(deck_from_lines("damaged", lines))
+    except EmulatorError:
+        return None
+
+
+@lru_cache(8192)
+def score_of(lines: tuple[str, ...], trial: Trial) -> int:
+    """Return the score of one result."""
+    program = _compiled(lines)
+    if program is None:
+        return -1
+    options = Options(limit=LIMIT, switches=frozenset(trial.switches), hopper="any", core=60_000)
+    try:
+        machine = Machine(program, deck_from_lines("data", trial.cards), options)
+        result = machine.run(FromFile("operator", trial.operator)) if trial.operator else machine.run()
+    except EmulatorError:
+        return 0
+    verdict = compare(trial.printed, result.punched, trial.final, oriented=trial.in_order)
+    if verdict.kind in (EXACT, SPACING) or (verdict.holds and not trial.in_order):
+        return 1000 + len(trial.printed)
+    return sum(a.split() == b.split() for a, b in zip(trial.printed, result.punched, strict=False))
