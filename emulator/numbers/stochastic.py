@@ -39,8 +39,8 @@ _SOURCES = {
     OPPOSITE: "as the opposite of CESTAC with the same seed",
     PROPORTIONAL: "up with the probability of the part cut",
 }
-# The guard digits of sums: enough to compare the part that is cut with a draw of eight digits.
-_GUARD = 9
+# The guard digits of sums: enough to compare the part that is cut with a draw of eight digits, or with zero.
+_GUARD, _FEW = 9, 2
 
 
 @dataclass(frozen=True)
@@ -154,7 +154,8 @@ def _name(width: str, seed: int, rule: int) -> str:
 
 
 def _profile(digits: int, seed: int, rule: int) -> Profile:
-    rules = rules_of(digits, guard=_GUARD, sticky=1)._replace(random=rule, key=key_of(seed))
+    guard = _GUARD if rule == PROPORTIONAL else _FEW
+    rules = rules_of(digits, guard=guard, sticky=1)._replace(random=rule, key=key_of(seed))
     return Profile(_name(str(digits), seed, rule), f"exact result, rounded {_SOURCES[rule]}", rules)
 
 

@@ -218,7 +218,7 @@ def _statements(divergence: Divergence, sampling: Sampling) -> Table:
         sentences.append(
             f"first value that differs: {_place(value.line)}: {value.values[0]} instead of {value.values[1]}"
         )
-    heads = ("card", "statement", "count", "lost", "median", "estimated", "median", "at least", "@.0")
+    heads = ("card", "statement", "count", "lost", "median lost", "estimated", "median", "at least", "@.0")
     return Table("Statements", sentences, heads, rows)
 
 
