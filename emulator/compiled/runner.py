@@ -20,7 +20,7 @@ from emulator.jit.functions import Compiled, NotInstalled
 from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, RECORD_MARKS, Deck, deck_from_lines
 from emulator.language.compiler import compile_deck
 from emulator.language.formats import MAX_RECORD, Literal
-from emulator.language.objectcode import Flat, Program, flatten
+from emulator.language.objectcode import Flat, Program
 from emulator.machine.interpreter import AT_LIMIT
 from emulator.machine.result import Options
 from emulator.machine.state import FLOATING, loaded, refuse_overlap
@@ -235,7 +235,7 @@ def _codes(text: bytes) -> Any:
 def _code(program: Program) -> devices.Code:
     roots = [int(name == "SQRT") for name in program.functions]
     verbs = [_VERBS.get(verb, devices.TYPE) for verb in program.verbs]
-    *rows, fields = flatten(program)
+    *rows, fields = program.flat
     flat = Flat._make([*map(_short, rows), fields])
     marks = devices.Marks(_short(flat.seconds), _short(program.statement_numbers), _short(verbs))
     return devices.Code(flat, marks, _short(roots))

@@ -173,8 +173,13 @@ class Program:
     functions: tuple[str, ...]
 
     def __hash__(self) -> int:
-        # The hash of all fields would take milliseconds at each look-up in a cache.
+        # Caches use programs as keys; the hash of all instructions would take milliseconds.
         return hash((self.source, len(self.code)))
+
+    @cached_property
+    def flat(self) -> Flat:
+        """The object code as flat sequences of integers."""
+        return flatten(self)
 
     def uses(self, *verbs: str) -> bool:
         """Return True if the program has an input or output statement with one of these verbs."""

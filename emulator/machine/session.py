@@ -13,7 +13,7 @@ from typing import Literal
 
 from emulator.errors import CardError
 from emulator.language.cards import Deck
-from emulator.language.objectcode import Line, Program, flatten
+from emulator.language.objectcode import Line, Program
 from emulator.machine import interpreter
 from emulator.machine.devices import Devices, Ended, LineNeeded
 from emulator.machine.endings import Ending, Notice, looped, out_of_bounds, stopped, too_costly, unfit
@@ -104,9 +104,9 @@ class Session:
         self.halt: Halt | None = None
         self.last: Line | None = None
         self._begun: Line | None = None
-        self._code = flatten(program)
+        self._code = program.flat
         self._table = subscript_table(self._code)
-        self._enters = recorded_instructions(program) if self.journal else []
+        self._enters = recorded_instructions(program) if self.journal and self.journal.stores else []
         self._ending: Ending | None = None
         self._before: list[int] | None = None
         self._taken = 0
