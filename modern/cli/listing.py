@@ -165,8 +165,10 @@ def _with_statistics(
     sampling: Sampling | None,
     notes_above: Mapping[int, Sequence[str]],
 ) -> Iterator[str]:
-    seconds = measure(program, result).processor_seconds
-    yield f"{program.source}: {result.statements} statements in {seconds:.1f} s of processor time on a 1620"
+    timing = measure(program, result)
+    low, high = timing.processor_bounds
+    time = f"{timing.processor_seconds:.1f} s ({low:.1f} to {high:.1f}) of processor time on a 1620"
+    yield f"{program.source}: {result.statements} statements in {time}"
     if divergence is not None:
         yield from _comparison(divergence)
     rows = _rows(program, result, divergence, sampling)

@@ -176,11 +176,12 @@ class Desk:
         """Run for about the given time, or until the machine waits or the run ends.
 
         ``pace`` is the largest speed relative to the 1620, or 0 for full speed.  The answer has ``events`` (kind and
-        text), ``card`` (the card that is executed next), ``statement`` (its number in the run), ``seconds`` on a 1620,
-        ``stands`` (why the machine waits, or empty), ``waits`` (``typed`` for a line with its ``fields``, ``answer``
-        for an action, or empty), ``ended`` and ``messages``.  ``registers`` are the floating and the fixed-point
-        accumulator.  ``picture``, ``stages`` and ``wrote`` are those of :mod:`modern.publication.panel`.  After the
-        end, ``next`` names the program that reads the punched cards, and ``queued`` is true if a log has further loads.
+        text), ``card`` (the card that is executed next), ``statement`` (its number in the run), ``seconds`` on a 1620
+        with their ``bounds``, ``stands`` (why the machine waits, or empty), ``waits`` (``typed`` for a line with its
+        ``fields``, ``answer`` for an action, or empty), ``ended`` and ``messages``.  ``registers`` are the floating and
+        the fixed-point accumulator.  ``picture``, ``stages`` and ``wrote`` are those of
+        :mod:`modern.publication.panel`.  After the end, ``next`` names the program that reads the punched cards, and
+        ``queued`` is true if a log has further loads.
         """
         session = self._session
         if session is None or self._ending:
@@ -374,16 +375,27 @@ class Desk:
         session, events = self._session, self._happened
         self._happened = []
         if session is None:
-            return {"events": [], "card": 0, "work": 0, "seconds": 0.0, "stands": "", "waits": "", "ended": False}
+            return {
+                "events": [],
+                "card": 0,
+                "work": 0,
+                "seconds": 0.0,
+                "bounds": [0, 0],
+                "stands": "",
+                "waits": "",
+                "ended": False,
+            }
         halt = None if self._ending else session.halt
         accepts = halt is not None and halt.what == "accept"
+        timing = measure(session.program, session.result())
         return {
             "events": [[event.what, event.text] for event in events if event.what != "begin"],
             "card": session.here.place.card,
             "statement": len(self._record.times),
             "work": session.state.work,
             "read": session.devices.position,
-            "seconds": round(self._seconds(session), 1),
+            "seconds": round(timing.seconds, 1),
+            "bounds": [round(bound, 1) for bound in timing.bounds],
             "switches": [bool(on) for on in session.switches],
             "breaks": [session.program.statements[index].place.card for index in session.breakpoints],
             "watched": list(session.watched),

@@ -1,6 +1,6 @@
 """Measurements of every card: its executions and machine time in the printed examples, and its weight of evidence.
 
-Times are processor seconds of a 1620 Model 1 (:mod:`emulator.machine.timing`), accurate to about 10 %.  The weight of
+Times are processor seconds of a 1620 Model 1 (:mod:`emulator.machine.timing`).  The weight of
 evidence counts altered readings of a card by the first check that detects them.  It is read from
 ``docs/weight/cards.csv``, which exists only in a checkout.
 """
@@ -29,7 +29,8 @@ class Run:
 
     ``executions`` and ``times`` (processor seconds) have an entry for each card that was executed.  ``statements`` is
     the number of statements executed, ``seconds`` the processor time, and ``total`` the time including reader, punch
-    and typewriter without overlap.  ``rows`` break the time down by cause: first the processor's, then the devices'.
+    and typewriter without overlap; ``bounds`` give its systematic error.  ``rows`` break the time down by cause: first
+    the processor's, then the devices'.
     """
 
     example: int
@@ -40,6 +41,12 @@ class Run:
     seconds: float
     total: float
     rows: tuple[Row, ...]
+    bounds: tuple[float, float]
+
+    @property
+    def between(self) -> str:
+        """The bounds as text."""
+        return f"{self.bounds[0]:.1f} to {self.bounds[1]:.1f} s"
 
 
 @cache
@@ -63,7 +70,9 @@ def _job(example: int, first: str) -> tuple[Run, ...]:
         executions = {card: counts[index] for card, index in cards.items()}
         times = {card: seconds[index] for card, index in cards.items()}
         totals = (step.result.statements, timing.processor_seconds, timing.seconds)
-        job_runs.append(Run(example, step.name, executions, times, *totals, (*timing.processor, *timing.devices)))
+        job_runs.append(
+            Run(example, step.name, executions, times, *totals, (*timing.processor, *timing.devices), timing.bounds)
+        )
     return tuple(job_runs)
 
 

@@ -16,6 +16,7 @@ from emulator.machine.result import DEFAULT_LIMIT, Options
 from emulator.machine.timing import measure
 from emulator.numbers import numbers
 from modern.geometry.hull import Hull
+from modern.study.alarms import alarms
 from modern.study.outcomes import Figures, position
 from modern.study.plan import named
 from modern.study.sample import Sample
@@ -28,13 +29,18 @@ _MILLISECOND = Decimal("0.001")
 
 
 def machine_time(sample: Sample, run: HullRun) -> Figures:
-    """Seconds that all programs take on a 1620, separately for processor, reader, punch and typewriter
-    (emulator/machine/timing.py)."""
+    """Seconds that all programs take on a 1620, separately for processor, reader, punch and typewriter.
+
+    ``model_low`` and ``model_high`` bound the sum by the systematic error of the model (emulator/machine/timing.py).
+    """
     tables = [measure(step.program, step.result) for step in run.steps]
     seconds = {"processor": sum(table.processor_seconds for table in tables)}
     for device, name in enumerate(("reader", "punch", "typewriter")):
         seconds[name] = sum(table.devices[device].seconds for table in tables)
-    return {f"seconds_{name}": str(Decimal(value).quantize(_MILLISECOND)) for name, value in seconds.items()}
+    bounds = zip(*(table.bounds for table in tables), strict=True)
+    figures = {f"seconds_{name}": value for name, value in seconds.items()}
+    figures |= {f"model_{name}": sum(values) for name, values in zip(("low", "high"), bounds, strict=True)}
+    return {name: str(Decimal(value).quantize(_MILLISECOND)) for name, value in figures.items()}
 
 
 def operations(sample: Sample, run: HullRun) -> Figures:
@@ -89,6 +95,7 @@ MEASURES: Mapping[str, Measure] = {
     "operations": operations,
     "plane_table": plane_table,
     "divergence": divergence,
+    "alarms": alarms,
 }
 
 

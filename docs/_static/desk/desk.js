@@ -198,7 +198,8 @@
     lamps(busy);
   }
 
-  const clock = (/** @type {number} */ seconds) => `${seconds.toLocaleString("en")} s on a 1620`;
+  const clock = (/** @type {any} */ { seconds, bounds }) =>
+    `${seconds.toLocaleString("en")} s on a 1620 (${bounds.map((/** @type {number} */ b) => b.toLocaleString("en")).join(" to ")})`;
 
   /** Show a slice of the live machine, and what the visitor can do next. @param {any} frame */
   function slice(frame) {
@@ -213,8 +214,8 @@
     if (frame.ended) end(frame);
     else if (waits === "typed") say("The program asks for a line: type it below the typewriter and press Enter.");
     else if (waits && frame.statement === 1) say(`${loaded.program} is loaded. Press START.`);
-    else if (waits) say(`${frame.stands}. Press START to continue, or step. ${clock(frame.seconds)}.`);
-    else say(`Running, ${clock(frame.seconds)}.`);
+    else if (waits) say(`${frame.stands}. Press START to continue, or step. ${clock(frame)}.`);
+    else say(`Running, ${clock(frame)}.`);
     at("asks").textContent = waits === "typed" ? "Line" : "Console";
     if (waits === "typed" && became) {
       view("paper");
@@ -227,7 +228,7 @@
   function end(frame) {
     paper(frame.messages, "note");
     const trouble = frame.messages.findLast((/** @type {string} */ line) => line.startsWith("hull1620:"));
-    say(`${trouble ? `The run has stopped: ${trouble.slice(10)}` : "The run has ended."} ${clock(frame.seconds)}.`);
+    say(`${trouble ? `The run has stopped: ${trouble.slice(10)}` : "The run has ended."} ${clock(frame)}.`);
     if (frame.queued) return void ask("next_load").then(received);
     isReplay = false;
     if (!frame.next) return;

@@ -11,7 +11,7 @@ from emulator.errors import EmulatorError, Refused
 from emulator.files import read_text, write_text
 from emulator.language.cards import read_deck
 from emulator.language.compiler import compile_deck
-from modern.bench.ibm1962 import arithmetic
+from modern.bench.ibm1962 import arithmetic, times
 from modern.bench.ibm1962.chapter6 import FOLDER, results
 from modern.bench.ibm1962.emulated import emulate
 from modern.bench.ibm1962.measured import at_random, fields_at_random, load, measure, same
@@ -50,6 +50,8 @@ def parser() -> argparse.ArgumentParser:
         "chapter6", help="run chapter 6 and its apparatus; compare with the committed results"
     )
     chapter6.add_argument("--write", action="store_true", help="replace the committed results")
+    timing = commands.add_parser("times", help="time runs on the library; compare with the committed results")
+    timing.add_argument("--write", action="store_true", help="replace the committed results")
     commands.add_parser("programs", help="run the object decks of all programs, and compare them with the emulator")
     repeat = commands.add_parser("measure", help="repeat the measured statements; compare with the emulator")
     repeat.add_argument(
@@ -76,15 +78,16 @@ def show(options: argparse.Namespace) -> int:
 def run_chapter6(options: argparse.Namespace) -> int:
     """Run chapter 6, and write the results or compare them with the committed files.  Return 1 if they differ."""
     library()
-    exit_code = 0
-    for name, text in results().items():
-        path = f"{FOLDER}/{name}"
-        if options.write:
-            write_text(path, text)
-        same = read_text(path) == text
-        exit_code = exit_code or int(not same)
-        print(f"{path}: {'as committed' if same else 'different'}")
-    return exit_code
+    return max(_committed(f"{FOLDER}/{name}", text, options.write) for name, text in results().items())
+
+
+def _committed(path: str, text: str, write: bool) -> int:
+    """Write a result, or compare it with the committed file.  Return 1 if they differ."""
+    if write:
+        write_text(path, text)
+    same = read_text(path) == text
+    print(f"{path}: {'as committed' if same else 'different'}")
+    return int(not same)
 
 
 def run_programs() -> int:
@@ -140,6 +143,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 return run_chapter6(options)
             case "measure":
                 return run_measure(options)
+            case "times":
+                return _committed(times.FILE, times.table(times.timed()), options.write)
             case "programs":
                 return run_programs()
             case _:

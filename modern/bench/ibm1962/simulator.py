@@ -25,6 +25,9 @@ _SIMULATOR = re.compile(
 )
 # What it writes may follow a typed line at once, because the carriage returns only before the next line.
 _POSITION = re.compile(r"(\d{4,5}):\t([0-9A-F]{2})\n?")
+_TIME = re.compile(r"^TIME:\t(\d+)\n", re.MULTILINE)
+# The unit of the counter of time, in milliseconds.
+_UNIT = 0.004
 _TROUBLE = re.compile(r"^(?:Invalid|No card in|Step expired) ?[^\n]*$", re.MULTILINE)
 
 
@@ -47,6 +50,8 @@ class Run:
     punched: tuple[str, ...]
     core: Mapping[int, int] = field(default_factory=dict)
     trouble: str = ""
+    # The time of the instructions, if the simulator counts it (instruction_times.patch).
+    milliseconds: float | None = None
 
     def field(self, address: int) -> list[int]:
         """Return ten examined digits, those of the field whose low-order position is ``address``."""
@@ -92,6 +97,7 @@ def run(
     keys: Sequence[str] = (),
     starts: Sequence[Collection[int]] = (),
     seconds: float = SECONDS,
+    timed: bool = False,
 ) -> Run:
     """Load a deck and run it, and return the output.
 
@@ -103,19 +109,25 @@ def run(
         The lines to type, one for each time that the program waits for the typewriter.
     starts
         The sense switches that are on whenever START is pressed after a PAUSE.
+    timed
+        Return the time of the instructions executed after loading.
 
     Raises
     ------
     Unavailable
-        If the simulator is not installed.
+        If the simulator is not installed, or does not count the time.
     Failed
         If the run takes longer than ``seconds``.
     """
-    script = ["attach -n cdp punched-0", "boot cdr", "continue"]
+    script = ["attach -n cdp punched-0", "boot cdr", *(["deposit time 0"] if timed else []), "continue"]
     for on in starts:
         script += [*(f"deposit sw{number} {int(number in on)}" for number in (1, 2, 3, 4)), "continue"]
+    script += ["examine time"] if timed else []
     log, (punched,) = _execute(script, {"deck": [*deck, *cards]}, 1, keys, core, seconds)
-    return _result(log.partition("LOAD DATA\n")[2], punched)
+    result = _result(log.partition("LOAD DATA\n")[2], punched)
+    if timed and result.milliseconds is None:
+        raise Unavailable("this simulator does not count time; apply modern/bench/ibm1962/instruction_times.patch")
+    return result
 
 
 def run_jobs(deck: Sequence[str], jobs: Sequence[Job], keys: Sequence[str] = ()) -> list[Run]:
@@ -160,12 +172,13 @@ def _execute(
 
 
 def _result(log: str, punched: Sequence[str]) -> Run:
-    trouble = _TROUBLE.search(log)
+    trouble, time_counted = _TROUBLE.search(log), _TIME.search(log)
     return Run(
-        tuple(_typed(_POSITION.sub("", log))),
+        tuple(_typed(_TIME.sub("", _POSITION.sub("", log)))),
         tuple(punched),
         {int(address): int(position, 16) for address, position in _POSITION.findall(log)},
         trouble[0] if trouble else "",
+        _UNIT * int(time_counted[1]) if time_counted else None,
     )
 
 

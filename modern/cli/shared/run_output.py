@@ -150,9 +150,11 @@ def profile_lines(program: Program, result: Result) -> Iterator[str]:
     yield f"  {'processor':<20}{'':>9}{timing.processor_seconds:>11.1f}"
     for row in timing.devices:
         yield _profile_row(row)
-    yield f"  {'sum':<20}{'':>9}{timing.seconds:>11.1f}  (less if reader and punch overlap)"
+    low, high = timing.bounds
+    yield f"  {'sum':<20}{'':>9}{timing.seconds:>11.1f}  ({low:.1f} to {high:.1f}; less if devices overlap)"
     if any(row.estimated for row in timing.processor):
         yield "  ~ includes estimated times, which no source states"
+    yield "  in parentheses: the systematic error of the processor's times"
     operations = "operations: " + ", ".join(f"{name} {count}" for name, count in timing.operations)
     yield from textwrap.wrap(operations, 80, initial_indent="  ", subsequent_indent="    ")
     most_frequent = sorted(timing.statements, key=lambda pair: -pair[1])[:_MOST_STATEMENTS]

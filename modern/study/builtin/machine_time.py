@@ -6,6 +6,7 @@ emulator/machine/timing.py.  ``samples`` counts the sets of each family and N.
 
 from dataclasses import dataclass
 
+from emulator.machine.timing import CONVERSION_MODEL, MODEL
 from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Programs, Value
 from modern.study.report import Lines, Mark, Report, Series, Table, listed, row, with_interval
@@ -54,6 +55,7 @@ class _Time:
     total: Interval
     longest: float
     operations: float
+    model: tuple[float, float]
 
 
 def _times(store: Store) -> dict[int, _Time]:
@@ -61,18 +63,19 @@ def _times(store: Store) -> dict[int, _Time]:
     sums = [*figures, " + ".join(figures)]
     moments = ", ".join(f"AVG({s}), SUM(({s}) * ({s}))" for s in sums)
     counted = " + ".join(f"json_extract(figures, '$.{name}')" for name in ("additions", "products", "quotients"))
+    model = ", ".join(f"AVG(CAST(json_extract(figures, '$.model_{end}') AS REAL))" for end in ("low", "high"))
     timed = store.query(
-        f"SELECT cell, COUNT(*), MAX({sums[-1]}), AVG({counted}), {moments} FROM runs "
+        f"SELECT cell, COUNT(*), MAX({sums[-1]}), AVG({counted}), {model}, {moments} FROM runs "
         f"WHERE outcome IN ({', '.join('?' * len(DETERMINED))}) GROUP BY cell ORDER BY cell",
         DETERMINED,
     )
     times = {}
-    for cell, count, longest, operations, *numbers in timed:
+    for cell, count, longest, operations, low, high, *numbers in timed:
         pairs = zip(numbers[::2], numbers[1::2], strict=True)
         means = [
             mean_of(count, average, max(0.0, squares - count * average**2), least=0.0) for average, squares in pairs
         ]
-        times[cell] = _Time(count, dict(zip(PARTS, means, strict=False)), means[-1], longest, operations)
+        times[cell] = _Time(count, dict(zip(PARTS, means, strict=False)), means[-1], longest, operations, (low, high))
     return times
 
 
@@ -87,6 +90,11 @@ def _in_minutes(seconds: Interval) -> Interval:
     return Interval(seconds.value / _MINUTE, seconds.low / _MINUTE, seconds.high / _MINUTE)
 
 
+def _by_model(time: _Time) -> str:
+    """Return the mean minutes with the systematic error of the processor's times."""
+    return f"{time.model[0] / _MINUTE:.2f} to {time.model[1] / _MINUTE:.2f}"
+
+
 def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float, _Time]]:
     """Return the numbers N of points and the times for one kind of set, without each N at which no set was timed."""
     return [(float(cell.key["n"]), times[k]) for k, cell in cells(plan, sets=name) if k in times]
@@ -95,15 +103,23 @@ def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float
 def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
     parts = [f"{time.parts[part].value / _MINUTE:.2f}" for part in PARTS]
     milliseconds = 1000 * time.parts["processor"].value / time.operations if time.operations else 0.0
-    minutes = (with_interval(_in_minutes(time.total)), f"{time.longest / _MINUTE:.2f}", *parts)
+    minutes = (with_interval(_in_minutes(time.total)), _by_model(time), f"{time.longest / _MINUTE:.2f}", *parts)
     return row(name, int(n), time.sets, *minutes, f"{time.operations:.0f}", f"{milliseconds:.0f}")
 
 
-_HEAD = ("sets", "N", "timed", "minutes", "longest", *PARTS, "operations", "ms an operation")
+_HEAD = ("sets", "N", "timed", "minutes", "by the model", "longest", *PARTS, "operations", "ms an operation")
 _NOTES = (
-    "In parentheses: Student's 95 % intervals of the mean, truncated at 0 minutes. Processor, reader, punch and "
-    "typewriter: mean minutes.",
+    "In parentheses: Student's 95 % intervals of the mean, truncated at 0 minutes. By the model: mean minutes if "
+    f"the processor's times are {MODEL[0]} to {MODEL[1]} of those computed ({CONVERSION_MODEL[0]} to "
+    f"{CONVERSION_MODEL[1]} for input and output), as in runs on IBM's library of 1962. Processor, reader, punch "
+    "and typewriter: mean minutes.",
     "Operations: floating-point additions, products and quotients. The last column is the processor time of one.",
+)
+
+
+_CHART_NOTE = (
+    "{} sets at each point; bars: 95 % intervals of the mean (Student's); "
+    f"systematic error of the processor's times: {MODEL[0]} to {MODEL[1]}"
 )
 
 
@@ -131,7 +147,7 @@ def _chart(plan: Plan, times: dict[int, _Time]) -> Lines:
         log_x=True,
         log_y=True,
         marks=(Mark(60, "one hour"),),
-        note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals of the mean (Student's)",
+        note=_CHART_NOTE.format(plan.cells[0].samples),
     )
 
 
@@ -147,7 +163,7 @@ def _parts(plan: Plan, times: dict[int, _Time]) -> Lines:
         series if along else (),
         log_x=True,
         log_y=True,
-        note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals of the mean (Student's)",
+        note=_CHART_NOTE.format(plan.cells[0].samples),
     )
 
 

@@ -30,6 +30,7 @@ def test_device_speeds_are_those_of_the_reference_card() -> None:
 def test_every_operation_has_a_cost() -> None:
     assert set(timing.COSTS) == set(op.NAMES)
     assert set(timing.FIELD_COSTS) == {kind + way for kind in "EFI" for way in "<>"}
+    assert set(timing.RECORD_COSTS) == {*"<>"}
 
 
 def test_a_run_executes_one_stop() -> None:
@@ -71,15 +72,34 @@ def test_processor_seconds_are_counts_times_costs() -> None:
     assert table.seconds == pytest.approx(expected)
 
 
-def test_subscripts_and_conversion_are_marked_as_estimates() -> None:
+def test_subscripts_records_and_conversion_are_counted() -> None:
     lines = ["DIMENSION X(3),A(2,2)", "READ 1,I,B", "X(I)=B", "A(I,I)=B", "PUNCH 1,I,B", "1 FORMAT(I4,E14.8)", "END"]
     table = timed(*lines, data=("   2 .10000000E+01",))
     rows = {row.cause: row for row in table.processor}
     assert rows["subscripts"].count == 2
-    assert rows["subscripts"].seconds == pytest.approx(0.009)
-    assert rows["subscripts"].estimated
-    assert rows["number conversion"].estimated
-    assert not rows["fixed point"].estimated
+    assert rows["subscripts"].seconds == pytest.approx(0.0059)
+    # A card of two numbers read and written: the records, and the conversion of E14.8 and I4.
+    assert rows["number conversion"].count == 6
+    assert rows["number conversion"].seconds == pytest.approx(0.022 + 0.319 + 0.150 + 0.041 + 0.080 + 0.032)
+    assert not any(row.estimated for row in rows.values())
+
+
+def test_functions_are_marked_as_estimates() -> None:
+    (row,) = (row for row in timed("A=SIN(1.)", "END").processor if row.cause == "floating point")
+    assert row.estimated
+
+
+def test_bounds_apply_the_systematic_error_of_each_cause_and_none_to_devices() -> None:
+    table = timed("A=2.", "PUNCH 1,A", "1 FORMAT(E14.8)", "END")
+    conversion = next(row.seconds for row in table.processor if row.cause == "number conversion")
+    rest = table.processor_seconds - conversion
+    low, high = (
+        factors[0] * conversion + factors[1] * rest
+        for factors in zip(timing.CONVERSION_MODEL, timing.MODEL, strict=True)
+    )
+    assert table.processor_bounds == pytest.approx((low, high))
+    assert table.bounds == pytest.approx((low + 0.48, high + 0.48))
+    assert low < table.processor_seconds < high
 
 
 def test_device_rows_count_cards_and_characters() -> None:

@@ -158,10 +158,11 @@ def _time(number: int) -> str:
     for name in ("program1_examples", "program2", "program3"):
         for run in runs(name):
             if run.example == number:
-                times = (f"{run.statements:,}", _seconds(run.seconds), _seconds(run.total))
+                times = (f"{run.statements:,}", _seconds(run.seconds), _seconds(run.total), run.between)
                 rows.append((link(name, "", program(name).source), *times))
-    head = ("program", "statements", "processor", "with reader, punch and typewriter, without overlap")
-    accuracy = (("how sure", "within ten per cent if IBM states the times; the other times are estimates"),)
+    whole = "with reader, punch and typewriter, without overlap"
+    head = ("program", "statements", "processor", whole, "by the model")
+    accuracy = (("how sure", "by the model: the range of the ratios to runs on IBM's library of 1962"),)
     return table(head, rows, name="Time on a 1620 Model 1") + definitions(accuracy, cls="facts")
 
 

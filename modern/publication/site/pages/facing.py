@@ -98,7 +98,7 @@ def _controls(listing: Facing) -> str:
         html += _choice("checkbox", "layer", layer, layer in shown, LAYERS[layer])
     examples = text("legend", "Executions and time: example")
     for run in runs(name):
-        times = f"{run.seconds:.0f} s of processor time, {run.total:.0f} s in total"
+        times = f"{run.seconds:.0f} s of processor time, {run.total:.0f} s in total ({run.between})"
         is_default = run is runs(name)[-1]
         examples += _choice("radio", "example", str(run.example), is_default, f"{run.statements} statements, {times}")
     html = element("fieldset", html) + element("fieldset", examples)

@@ -167,6 +167,9 @@ def seconds_of(run: Run) -> tuple[float, ...]:
     return tuple(sum(row.seconds for row in run.rows if row.cause in causes) for causes in PARTS.values())
 
 
+_CAPTION = "Seconds on a 1620 Model 1; by the model: the total with the systematic error of the processor's times"
+
+
 def _time() -> tuple[Part, ...]:
     all_runs = example_runs()
     longest = max(all_runs, key=lambda run: run.total)
@@ -175,14 +178,14 @@ def _time() -> tuple[Part, ...]:
     )
     description = (
         f"Bars of {len(all_runs)} runs; the longest is example {longest.example}, {_called(longest)}: "
-        f"{longest.total:.0f} seconds. The table has the figures."
+        f"{longest.total:.0f} ({longest.bounds[0]:.0f} to {longest.bounds[1]:.0f}) seconds. The table has the figures."
     )
     rows = []
     for run in all_runs:
         name = link(f"example{run.example}", "time", f"example {run.example}, {_called(run)}", cls="whole")
-        rows.append((name, *(f"{part:.1f}" for part in seconds_of(run)), f"{run.total:.1f}"))
+        rows.append((name, *(f"{part:.1f}" for part in seconds_of(run)), f"{run.total:.1f}", run.between))
     drawn = figure(time_svg(all_runs), "time", caption, "drawing bars", description)
-    figures = table(("run", *PARTS, "total"), rows, "Composition of running time", "Seconds on a 1620 Model 1")
+    figures = table(("run", *PARTS, "total", "by the model"), rows, "Composition of running time", _CAPTION)
     return (Part(html=drawn + figures),)
 
 

@@ -1,0 +1,187 @@
+"""Repeat a tape (emulator/machine/tape.py) in other arithmetics: longer, random, interval and exact arithmetic.
+
+The leaves of a tape are exact in all of them.  Overflow does not end a repetition, which continues with the largest
+number, as the machine does.
+"""
+
+from __future__ import annotations
+
+import decimal
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from emulator.jit.functions import Compiled, NotInstalled
+from emulator.machine.tape import ADD, DIVIDE, LEAF, MULTIPLY, NEGATE, SUBTRACT, Tape
+from emulator.numbers.accumulator import add, divide, multiply, negate, subtract
+from emulator.numbers.arithmetic import Rules, drawn
+from emulator.numbers.base import Number
+
+# Enough for every sum and product of a program without powers; a longer result is an error, not a rounded number.
+_LONG = 20_000
+# Numbers of the compiled code have at most this number of digits, because products must fit into 64 bits.
+_COMPILED_DIGITS = 9
+_ENDLESS = decimal.Decimal("9E+99999")
+Bounds = tuple[decimal.Decimal, decimal.Decimal]
+
+
+def repeat(
+    operations: Sequence[int],
+    firsts: Sequence[int],
+    seconds: Sequence[int],
+    mantissas: Any,
+    exponents: Any,
+    rules: Rules,
+) -> None:
+    """Repeat a tape in a decimal arithmetic.
+
+    ``mantissas`` and ``exponents`` hold the leaves and receive the results.  With random rounding, operation k takes
+    random number k + 1 of the seed.  The code uses only the part of Python that numba compiles.
+    """
+    for k in range(len(operations)):
+        operation = operations[k]
+        if operation == LEAF:
+            continue
+        if rules.random:
+            rules = drawn(rules, k + 1)
+        m, e = mantissas[firsts[k]], exponents[firsts[k]]
+        m2, e2 = mantissas[seconds[k]], exponents[seconds[k]]
+        _event = 0
+        if operation == ADD:
+            m, e, _event = add(m, e, m2, e2, rules)
+        elif operation == SUBTRACT:
+            m, e, _event = subtract(m, e, m2, e2, rules)
+        elif operation == MULTIPLY:
+            m, e, _event = multiply(m, e, m2, e2, rules)
+        elif operation == DIVIDE:
+            m, e, _event = divide(m, e, m2, e2, rules)
+        else:
+            m, e = negate(m, e)
+        mantissas[k] = m
+        exponents[k] = e
+
+
+@cache
+def _compiled() -> Compiled | None:
+    try:
+        return Compiled(repeat, error_model="numpy")
+    except NotInstalled:
+        return None
+
+
+def repetitions(tape: Tape, digits: int, each: Iterable[Rules]) -> Iterator[tuple[list[int], list[int]]]:
+    """Yield the mantissas and exponents of the numbers that a tape tests, repeated by each of the rules.
+
+    The tape has ``digits`` digits, and the rules at least as many.  The numbers are those of ``tape.tests``, in order.
+    """
+    compiled = _compiled()
+    code = tape.operations, tape.firsts, tape.seconds
+    places = [test.place for test in tape.tests]
+    arrays = tuple(np.array(row, np.int64) for row in (*code, tape.mantissas, tape.exponents)) if compiled else ()
+    for rules in each:
+        scale = 10 ** (rules.digits - digits)
+        if compiled and rules.digits <= _COMPILED_DIGITS:
+            arguments = (*arrays[:3], scale * arrays[3], arrays[4].copy(), rules)
+            compiled.ready(*arguments)(*arguments)
+            yield arguments[3][places].tolist(), arguments[4][places].tolist()
+        else:
+            mantissas, exponents = [scale * m for m in tape.mantissas], list(tape.exponents)
+            repeat(*code, mantissas, exponents, rules)
+            yield [mantissas[k] for k in places], [exponents[k] for k in places]
+
+
+def _leaves(tape: Tape, digits: int) -> list[decimal.Decimal]:
+    context = decimal.Context(prec=_LONG)
+    make = decimal.Decimal
+    return [
+        make(m).scaleb(e - digits, context) if m and operation == LEAF else make(0)
+        for operation, m, e in zip(tape.operations, tape.mantissas, tape.exponents, strict=True)
+    ]
+
+
+def exactly(tape: Tape, digits: int) -> list[Number]:
+    """Return all values of a tape of ``digits`` digits in exact arithmetic: Decimals, or Fractions if one has no end.
+
+    A quotient by zero is the machine's largest number, as on the machine.
+    """
+    exact = decimal.Context(prec=_LONG, Emax=decimal.MAX_EMAX, Emin=decimal.MIN_EMIN, traps=[decimal.Inexact])
+    values: list[Any] = list(_leaves(tape, digits))
+    largest = decimal.Decimal(10**digits - 1).scaleb(99 - digits)
+    try:
+        _follow(tape, values, exact.add, exact.subtract, exact.multiply, exact.divide, largest)
+    except decimal.Inexact:
+        values = [Fraction(value) for value in _leaves(tape, digits)]
+        _follow(
+            tape, values, Fraction.__add__, Fraction.__sub__, Fraction.__mul__, Fraction.__truediv__, Fraction(largest)
+        )
+    return values
+
+
+def _follow(
+    tape: Tape,
+    values: list[Any],
+    plus: Callable[[Any, Any], Any],
+    minus: Callable[[Any, Any], Any],
+    times: Callable[[Any, Any], Any],
+    over: Callable[[Any, Any], Any],
+    largest: Number,
+) -> None:
+    """Compute the values of a tape in place, from those of its leaves."""
+    for k, (operation, i, j) in enumerate(zip(tape.operations, tape.firsts, tape.seconds, strict=True)):
+        if operation == LEAF:
+            continue
+        if operation == MULTIPLY:
+            values[k] = times(values[i], values[j])
+        elif operation == ADD:
+            values[k] = plus(values[i], values[j])
+        elif operation == SUBTRACT:
+            values[k] = minus(values[i], values[j])
+        elif operation == NEGATE:
+            values[k] = -values[i]
+        else:
+            values[k] = over(values[i], values[j]) if values[j] else largest
+
+
+def enclosed(tape: Tape, digits: int) -> list[Bounds]:
+    """Return an interval around the exact value of each place of a tape of ``digits`` digits.
+
+    The bounds have as many digits and are rounded outwards.  A quotient by an interval that holds 0 is unbounded.
+    """
+    limits = {"prec": digits, "Emax": 10**6, "Emin": -(10**6), "traps": []}
+    down = decimal.Context(rounding=decimal.ROUND_FLOOR, **limits)  # type: ignore[arg-type]
+    up = decimal.Context(rounding=decimal.ROUND_CEILING, **limits)  # type: ignore[arg-type]
+    values: list[Any] = [(leaf, leaf) for leaf in _leaves(tape, digits)]
+
+    def plus(a: Bounds, b: Bounds) -> Bounds:
+        return down.add(a[0], b[0]), up.add(a[1], b[1])
+
+    def minus(a: Bounds, b: Bounds) -> Bounds:
+        return down.subtract(a[0], b[1]), up.subtract(a[1], b[0])
+
+    def times(a: Bounds, b: Bounds) -> Bounds:
+        if a[0] == a[1] and b[0] == b[1]:
+            return down.multiply(a[0], b[0]), up.multiply(a[0], b[0])
+        pairs = [(x, y) for x in a for y in b]
+        return min(down.multiply(x, y) for x, y in pairs), max(up.multiply(x, y) for x, y in pairs)
+
+    def over(a: Bounds, b: Bounds) -> Bounds:
+        if b[0] <= 0 <= b[1]:
+            return -_ENDLESS, _ENDLESS
+        pairs = [(x, y) for x in a for y in b]
+        return min(down.divide(x, y) for x, y in pairs), max(up.divide(x, y) for x, y in pairs)
+
+    for k, (operation, i, j) in enumerate(zip(tape.operations, tape.firsts, tape.seconds, strict=True)):
+        if operation == MULTIPLY:
+            values[k] = times(values[i], values[j])
+        elif operation == ADD:
+            values[k] = plus(values[i], values[j])
+        elif operation == SUBTRACT:
+            values[k] = minus(values[i], values[j])
+        elif operation == NEGATE:
+            values[k] = -values[i][1], -values[i][0]
+        elif operation == DIVIDE:
+            values[k] = over(values[i], values[j])
+    return values

@@ -1,0 +1,193 @@
+"""A tape: the floating-point operations and decisions of a run, as a program without branches that can be repeated.
+
+A run is recorded once in the machine's own arithmetic.  Repeated in another arithmetic, the same operations follow the
+branch that the machine took, whatever the other arithmetic would have decided.  So each decision can be judged
+separately: the value it tests is known in every arithmetic, for the same history (synchronous execution; J. Vignes, A
+stochastic arithmetic for reliable scientific computation, Math. Comput. Simulation 35 (1993) 233-261).
+
+The tape holds sums, differences, products, quotients and changes of sign.  A number read from a card, a constant and a
+converted integer is a leaf, which every arithmetic holds exactly as the machine holds it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from fractions import Fraction
+
+from emulator.language.cards import Deck
+from emulator.language.objectcode import IF, Program
+from emulator.machine.machine import run_with_operator
+from emulator.machine.operator import Operator
+from emulator.machine.result import Options
+from emulator.machine.session import Session
+from emulator.machine.state import Journal
+from emulator.numbers.accumulator import add, divide, multiply, subtract
+from emulator.numbers.base import Number, Numbers, Trap, Undecided
+from emulator.numbers.decimal import DecimalNumbers
+from emulator.numbers.fields import Field, Remark
+
+LEAF, ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE = range(6)
+
+# Mantissa and exponent of a number of the machine, and its place on the tape.
+Taped = tuple[int, int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Test:
+    """A decision by the sign of a number: the instruction, the place of the number on the tape, and the three targets.
+
+    The targets are those for a negative number, zero and a positive number; ``taken`` is the one the machine took.
+    """
+
+    instruction: int
+    place: int
+    targets: tuple[int, int, int]
+    taken: int
+
+    def target(self, number: Number) -> int:
+        """Return the target for a number."""
+        return self.targets[1 + (number > 0) - (number < 0)]
+
+
+@dataclass(slots=True)
+class Tape:
+    """The recorded operations: code, places of the operands, and the results in the machine's arithmetic."""
+
+    operations: list[int] = field(default_factory=list)
+    firsts: list[int] = field(default_factory=list)
+    seconds: list[int] = field(default_factory=list)
+    mantissas: list[int] = field(default_factory=list)
+    exponents: list[int] = field(default_factory=list)
+    tests: list[Test] = field(default_factory=list)
+
+    def enter(self, operation: int, first: int, second: int, mantissa: int, exponent: int) -> Taped:
+        self.operations.append(operation)
+        self.firsts.append(first)
+        self.seconds.append(second)
+        self.mantissas.append(mantissa)
+        self.exponents.append(exponent)
+        return mantissa, exponent, len(self.operations) - 1
+
+    def number(self, place: int) -> tuple[int, int]:
+        """Return the number of the machine at a place: mantissa and exponent."""
+        return self.mantissas[place], self.exponents[place]
+
+    def until(self, last: int) -> Tape:
+        """Return the part of the tape that the tests up to number ``last`` need, with these tests."""
+        tests = self.tests[: last + 1]
+        end = max((test.place for test in tests), default=-1) + 1
+        code = self.operations[:end], self.firsts[:end], self.seconds[:end]
+        return Tape(*code, self.mantissas[:end], self.exponents[:end], tests)
+
+    def is_rounded(self, exact: Sequence[Number], digits: int) -> bool:
+        """Return True if a number of the machine differs from its exact value."""
+        for operation, m, e, value in zip(self.operations, self.mantissas, self.exponents, exact, strict=False):
+            if operation != LEAF and (value != Decimal(m).scaleb(e - digits) if m else value):
+                return True
+        return False
+
+
+@dataclass(frozen=True)
+class TapeNumbers(Numbers):
+    """The numbers of a decimal profile, each with its place on a tape that records every operation."""
+
+    inner: DecimalNumbers
+    tape: Tape
+
+    @property
+    def name(self) -> str:
+        return self.inner.name
+
+    @property
+    def digits(self) -> float:
+        return self.inner.digits
+
+    @property
+    def as_1962(self) -> bool:
+        return self.inner.as_1962
+
+    def _leaf(self, pair: tuple[int, int]) -> Taped:
+        return self.tape.enter(LEAF, 0, 0, *pair)
+
+    def _done(self, operation: int, first: Taped, second: Taped, state: tuple[int, int, int]) -> Taped:
+        value = self.tape.enter(operation, first[2], second[2], state[0], state[1])
+        if state[2]:
+            raise Trap(state[2], value)
+        return value
+
+    def decimal(self, whole: int, power: int, minus: bool = False) -> Taped:
+        return self._leaf(self.inner.decimal(whole, power, minus))
+
+    def from_integer(self, value: int) -> Taped:
+        return self._leaf(self.inner.from_integer(value))
+
+    def constant(self, text: str) -> Taped:
+        return self._leaf(self.inner.constant(text))
+
+    def read(self, field: Field, columns: str) -> tuple[Taped, Remark | None]:
+        pair, remark = self.inner.read(field, columns)
+        return self._leaf(pair), remark
+
+    def add(self, first: Taped, second: Taped) -> Taped:
+        return self._done(ADD, first, second, add(first[0], first[1], second[0], second[1], self.inner.profile.rules))
+
+    def subtract(self, first: Taped, second: Taped) -> Taped:
+        state = subtract(first[0], first[1], second[0], second[1], self.inner.profile.rules)
+        return self._done(SUBTRACT, first, second, state)
+
+    def multiply(self, first: Taped, second: Taped) -> Taped:
+        state = multiply(first[0], first[1], second[0], second[1], self.inner.profile.rules)
+        return self._done(MULTIPLY, first, second, state)
+
+    def divide(self, dividend: Taped, divisor: Taped) -> Taped:
+        state = divide(dividend[0], dividend[1], divisor[0], divisor[1], self.inner.profile.rules)
+        return self._done(DIVIDE, dividend, divisor, state)
+
+    def negate(self, value: Taped) -> Taped:
+        return self.tape.enter(NEGATE, value[2], value[2], *self.inner.negate(value[:2]))
+
+    def sign(self, value: Taped) -> int:
+        return (value[0] > 0) - (value[0] < 0)
+
+    def to_integer(self, value: Taped) -> int:
+        return self.inner.to_integer(value[:2])
+
+    def exact(self, value: Taped, digits: int) -> Fraction | int:
+        return self.inner.exact(value[:2], digits)
+
+    def cut(self, value: Taped, digits: int) -> tuple[int, int]:
+        return self.inner.cut(value[:2], digits)
+
+    def write(self, field: Field, value: Taped) -> tuple[str, bool]:
+        return self.inner.write(field, value[:2])
+
+    def function(self, name: str, value: Number) -> tuple[Number, str]:
+        raise Undecided(f"a tape holds no {name}")
+
+    def power(self, base: Number, exponent: Number) -> tuple[Number, str]:
+        raise Undecided("a tape holds no powers")
+
+    def integer_power(self, base: Number, count: int) -> tuple[Number, str]:
+        raise Undecided("a tape holds no powers")
+
+
+def record(program: Program, deck: Deck, options: Options) -> Tape:
+    """Run a program on a deck in a decimal arithmetic, and return its tape.
+
+    A function or power ends the recording there.  Raise what :meth:`emulator.machine.machine.Machine.run` raises.
+    """
+    assert isinstance(options.numbers, DecimalNumbers)
+    tape, journal = Tape(), Journal(False)
+    session = Session(
+        program, deck, replace(options, numbers=TapeNumbers(options.numbers, tape)), journal=journal, keep=False
+    )
+    run_with_operator(session, Operator(), output=lambda events: None)
+    code = program.flat
+    for instruction, taken, value in journal.entries:
+        if code.operations[instruction] == IF:
+            first = code.addresses[instruction]
+            negative, zero, positive = code.targets[first : first + 3]
+            tape.tests.append(Test(instruction, value[2], (negative, zero, positive), taken))
+    return tape

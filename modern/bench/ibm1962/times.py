@@ -1,0 +1,80 @@
+"""The time of runs on IBM's library of 1962, compared with the emulator's model of time.
+
+A simulator with ``instruction_times.patch`` adds the published time of each instruction.  The results are
+kept in ``docs/ibm1962/times.csv``; :data:`emulator.machine.timing.MODEL` is the range of their ratios.
+"""
+
+import csv
+import io
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from emulator.language.cards import Deck
+from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
+from emulator.machine.timing import measure
+from emulator.objectdeck.cards import object_cards, with_library
+from modern.bench.ibm1962 import objectdecks
+from modern.bench.ibm1962.objectdecks import CORE, OPTIONS, SECONDS, library
+from modern.bench.ibm1962.simulator import run
+from modern.edition import programs
+from modern.edition.chapter6 import EXAMPLES, input_deck
+from modern.formats.deck import data_deck
+from modern.study.families import draw_sample
+from modern.study.plan import SEED, Cell, Port
+from modern.thesis.job import run_hull
+
+FILE = "docs/ibm1962/times.csv"
+HEAD = ("deck", "program", "library", "model", "ratio")
+# Random sets of the study of machine time: a family and a number of points.
+LACKING = ("l1.f", "pow.f", "pow2.f")
+SETS = tuple((family, n) for family in ("ball", "integers", "cube", "sphere") for n in (6, 12, 20, 30))
+
+
+@dataclass(frozen=True, slots=True)
+class TimedRun:
+    """The processor seconds of a run on the library and by the model."""
+
+    deck: str
+    program: str
+    library: float
+    model: float
+
+    def row(self) -> tuple[str, ...]:
+        """Return the row of the table."""
+        return self.deck, self.program, f"{self.library:.1f}", f"{self.model:.1f}", f"{self.library / self.model:.3f}"
+
+
+def subjects(sets: Sequence[tuple[str, int]] = SETS) -> Iterator[tuple[str, str, Program, Deck, float]]:
+    """Yield each run: its deck, the names of deck and program, and the processor seconds of the model."""
+    decks = [(f"example {example}", "program1_examples", input_deck(example)) for example in EXAMPLES]
+    for family, n in sets:
+        cell = Cell({"sets": family, "n": n}, family, {"digits": 2, "n": n}, (Port("port"),), 1)
+        decks.append((f"{family}, {n} points", "program1", data_deck(draw_sample(cell, SEED, 0).points, family)))
+    for name, first, deck in decks:
+        for step in run_hull(deck, programs.program, OPTIONS, first).steps:
+            seconds = measure(step.program, step.result).processor_seconds
+            if step.result.ending.kind != "limit":
+                yield name, step.name, step.program, step.deck, seconds
+    for title, program, deck, operator in objectdecks.subjects():
+        # The library lacks the functions that some programs call.
+        if title.endswith(".f") and not operator and not program.uses("ACCEPT") and title not in LACKING:
+            result = Machine(program, deck, OPTIONS).run()
+            yield deck.source, title, program, deck, measure(program, result).processor_seconds
+
+
+def timed() -> Iterator[TimedRun]:
+    """Run the subjects on the library.  Raise Unavailable if the simulator does not count time."""
+    for name, title, program, deck, seconds in subjects():
+        object_deck = with_library(object_cards(program, CORE), library(), "OBJECT_DECK")
+        cards = [card.text for card in deck.cards]
+        milliseconds = run(object_deck, core=CORE, cards=cards, seconds=SECONDS, timed=True).milliseconds
+        assert milliseconds is not None
+        yield TimedRun(name, title, milliseconds / 1000, seconds)
+
+
+def table(runs: Iterator[TimedRun]) -> str:
+    """Return the table of timed runs as CSV text."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows((HEAD, *(each.row() for each in runs)))
+    return text.getvalue()
