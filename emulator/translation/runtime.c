@@ -7,7 +7,8 @@
    -d FILE      write a line to FILE for each decision (IF, computed GO TO, end of a DO): card, outcome and value
 
    PRINT and TYPE write to standard error. Every punched record has at most 72 columns and every typed line 87.
-   Compile with -Dreal=TYPE for another type of floating-point numbers; value_of converts it to double. */
+   The code is C11 and C++. Compile with -Dreal=TYPE for another type of floating-point numbers; value_of(x) converts a
+   number to double, and logged_value(x) is the number that -d writes for an IF. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
@@ -18,6 +19,9 @@
 #ifndef real
 #define real double
 #define value_of(x) (x)
+#endif
+#ifndef logged_value
+#define logged_value(x) value_of(x)
 #endif
 
 typedef int64_t integer;
@@ -85,7 +89,7 @@ static inline void record_decision(int card, int outcome, double value) {
 static inline int sign_of(int card, real value) {
     if (value != value) refuse(card, "the sign of an undefined number decides a branch");
     int outcome = (value > 0) - (value < 0);
-    record_decision(card, outcome, value_of(value));
+    record_decision(card, outcome, logged_value(value));
     return outcome;
 }
 

@@ -69,7 +69,7 @@ def run_with_decisions(
     for pc, target, value in machine.journal.entries:
         kind, outcome = "computed GO TO", value
         if program.code[pc].operation in (op.IF, op.IFX):
-            kind = "IF"
+            kind = "IF" if program.code[pc].operation == op.IF else "fixed-point IF"
             outcome = arithmetic.sign(value) if program.code[pc].operation == op.IF else (value > 0) - (value < 0)
         elif program.code[pc].operation == op.DOTEST:
             kind, outcome = "DO", int(target == program.loops[program.code[pc].address][3])

@@ -194,8 +194,13 @@ def _export_job(parser: ArgumentParser) -> None:
 
 
 def _translate(parser: ArgumentParser) -> None:
-    _program(parser)
-    add(parser, {"--to": "write the program in this language"}, choices=("fortran", "c"), required=True)
+    document = "the program to translate, or a document whose formulas are written (thesis, appel-will, ...)"
+    add(parser, {"program PROGRAM.f": document}, type=InputFile, nargs="?")
+    layers_argument(parser)
+    upcase_argument(parser)
+    add(parser, {"--to": "write C, free-form Fortran 2018, or FPCore 2.0"}, choices=("fortran", "c", "fpcore"))
+    benchmark = "write the benchmark for authors of tools to DIR: programs, formulas, decks with exact verdicts"
+    add(parser, {"--benchmark DIR": benchmark}, type=Folder)
     output_argument(parser)
 
 
@@ -285,7 +290,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "check": ("compile a program and show the messages, or explain error numbers", _check),
     "compile": ("print the object code of a program, or punch its object deck", _compile),
     "export-job": ("write a program and its data as a job for FORTRAN II-D or PDQ FORTRAN under SIMH", _export_job),
-    "translate": ("write a program in C or modern Fortran, with its cards, FORMATs and decisions", _translate),
+    "translate": ("write a program in C, modern Fortran or FPCore, or a benchmark for numerical tools", _translate),
     "map": ("print the storage map of a program", _map),
     "listing": ("list a program with run counts, times and lost digits next to each card", _listing),
     "flowchart": ("draw the flow chart of a program as SVG", _flowchart),
