@@ -80,7 +80,7 @@ def _thesis() -> list[Formula]:
         return (v2 - v1) * (u - u1) - (u2 - u1) * (v - v1)
 
     def distance_from_line(*numbers: Number) -> Number:
-        o1, o2, o3 = moments(*_triples(numbers))  # type: ignore[arg-type]
+        o1, o2, o3 = moments(*_triples(numbers))
         return o1 * o1 + o2 * o2 + o3 * o3
 
     def squared_area(*numbers: Number) -> Number:
@@ -123,7 +123,7 @@ def _thesis() -> list[Formula]:
 
 def _papers() -> dict[str, list[Formula]]:
     def product(*numbers: Number) -> Number:
-        return triple_product(*_triples(numbers))  # type: ignore[arg-type]
+        return triple_product(*_triples(numbers))
 
     def determinant(*numbers: Number) -> Number:
         i, k, l = _triples(numbers)  # noqa: E741  # the paper's letters
@@ -134,7 +134,7 @@ def _papers() -> dict[str, list[Formula]]:
 
     def segment(*numbers: Number) -> Number:
         a, b, p = _triples(numbers)
-        return value(line_through(a, b), p)  # type: ignore[type-var]
+        return value(line_through(a, b), p)
 
     def segment_spec(*numbers: Number) -> Number:
         a, b, p = _triples(numbers)
@@ -145,7 +145,7 @@ def _papers() -> dict[str, list[Formula]]:
 
     def face(*numbers: Number) -> Number:
         p, q, r, s = (numbers[k : k + 4] for k in range(0, 16, 4))
-        return height(plane_through(p, q, r), s)  # type: ignore[arg-type]
+        return height(plane_through(p, q, r), s)
 
     def column(x: Number, y: Number, xp: Number, yp: Number, zp: Number, a: Number, b: Number, c: Number) -> Number:
         numerator, denominator = Face(((xp, yp, zp),), (a, b, c)).height(x, y)
