@@ -21,17 +21,17 @@ class Symbol:
 
     text: str
 
-    def __add__(self, other: Symbol) -> Symbol:
-        return Symbol(f"(+ {self.text} {other.text})")
+    def __add__(self, addend: Symbol) -> Symbol:
+        return Symbol(f"(+ {self.text} {addend.text})")
 
-    def __sub__(self, other: Symbol) -> Symbol:
-        return Symbol(f"(- {self.text} {other.text})")
+    def __sub__(self, subtrahend: Symbol) -> Symbol:
+        return Symbol(f"(- {self.text} {subtrahend.text})")
 
-    def __mul__(self, other: Symbol) -> Symbol:
-        return Symbol(f"(* {self.text} {other.text})")
+    def __mul__(self, factor: Symbol) -> Symbol:
+        return Symbol(f"(* {self.text} {factor.text})")
 
-    def __truediv__(self, other: Symbol) -> Symbol:
-        return Symbol(f"(/ {self.text} {other.text})")
+    def __truediv__(self, divisor: Symbol) -> Symbol:
+        return Symbol(f"(/ {self.text} {divisor.text})")
 
     def __neg__(self) -> Symbol:
         return Symbol(f"(- {self.text})")

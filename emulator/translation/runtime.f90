@@ -9,7 +9,6 @@
 ! PRINT and TYPE write to standard error. Every punched record has at most 72 columns and every typed line 87.
 module ibm_1620
   use, intrinsic :: iso_fortran_env, only: error_unit, input_unit, int64, output_unit, real64
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_quiet_nan, ieee_value
   implicit none
   private
   public :: read_cards, accept_lines, punch_cards, type_lines, real_64, int_64, undefined_integer, undefined_, zero_, start_, &
@@ -83,7 +82,7 @@ contains
   integer function sign_of_(card, value) result(outcome)
     integer, intent(in) :: card
     real(real64), intent(in) :: value
-    if (ieee_is_nan(value)) call refuse_(card, 'the sign of an undefined number decides a branch')
+    if (value /= value) call refuse_(card, 'the sign of an undefined number decides a branch')
     outcome = merge(1, 0, value > 0) - merge(1, 0, value < 0)
     if (decision_unit /= 0) call record_decision_(card, outcome, value)
   end function
@@ -150,7 +149,7 @@ contains
   integer(int64) function fixed_of_(card, value)
     integer, intent(in) :: card
     real(real64), intent(in) :: value
-    if (.not. ieee_is_finite(value)) call refuse_(card, 'no integer corresponds to an infinite or undefined number')
+    if (.not. abs(value) <= huge(value)) call refuse_(card, 'no integer corresponds to an infinite or undefined number')
     fixed_of_ = int(mod(aint(value), 10000.0_real64), int64)
   end function
 
@@ -177,7 +176,8 @@ contains
   end function
 
   real(real64) function undefined_()
-    undefined_ = ieee_value(1.0_real64, ieee_quiet_nan)
+    ! The bits of a quiet NaN. The module ieee_arithmetic would make every call save the state of the processor.
+    undefined_ = transfer(9221120237041090560_int64, 1.0_real64)
   end function
 
   subroutine pause_(card, number)
@@ -196,6 +196,17 @@ contains
     character(len=:), allocatable :: text_
     write (buffer, '(i0)') value
     text_ = trim(buffer)
+  end function
+
+  ! Return the integer in a text. This is faster than an internal READ.
+  integer function number_(text)
+    character(len=*), intent(in) :: text
+    integer :: k
+    number_ = 0
+    do k = 1, len(text)
+      if (scan(text(k:k), '+-') == 0) number_ = 10 * number_ + iachar(text(k:k)) - iachar('0')
+    end do
+    if (text(1:1) == '-') number_ = -number_
   end function
 
   ! Floating-point functions of the 1620's library, which accept a negative argument.
@@ -320,7 +331,7 @@ contains
         cycle
       end if
       if (letter == position) return
-      read (layout(position:letter - 1), *) width
+      width = number_(layout(position:letter - 1))
       position = letter + 1
       do k = 1, width
         if (device <= accept_lines) then
@@ -360,9 +371,9 @@ contains
     length = verify(layout(position + 1:) // ' ', digit // '.') - 1
     point = index(layout(position + 1:position + length), '.')
     decimals = 0
-    if (point > 0) read (layout(position + 1 + point:position + length), *) decimals
+    if (point > 0) decimals = number_(layout(position + 1 + point:position + length))
     if (point == 0) point = length + 1
-    read (layout(position + 1:position + point - 1), *) width
+    width = number_(layout(position + 1:position + point - 1))
     position = position + length + 1
     if ((letter == 'I') .neqv. is_fixed) &
       call refuse_(place, 'the field ' // letter // ' does not have the mode of its number')
@@ -468,8 +479,8 @@ contains
       if (field(k:k) /= 'E' .and. scan(field(k:k), '+-') == 0) call no_number_(field)
       k = merge(2, 1, scan(exponent // ' ', '+-') == 1)
       if (k > len(exponent) .or. verify(exponent(k:), digit) > 0) call no_number_(field)
-      if (len(exponent) > 12) call no_number_(field)
-      read (exponent, *) power
+      if (len(exponent) > 9) call no_number_(field)
+      power = number_(exponent)
     end if
     lead = verify(digits, '0')
     if (lead > 0) then
@@ -505,7 +516,7 @@ contains
     end if
     precision = index(text, 'E')
     digits = text(1:1) // text(3:precision - 1) // repeat('0', 100)
-    read (text(precision + 1:), *) exponent
+    exponent = number_(trim(text(precision + 1:)))
     exponent = merge(0, exponent + 1, value == 0)
   end subroutine
 
@@ -563,7 +574,7 @@ contains
     integer :: width, decimals
     logical :: fits
     call next_field_(.false., letter, width, decimals)
-    if (ieee_is_nan(value)) call refuse_(place, 'an undefined number cannot be written')
+    if (value /= value) call refuse_(place, 'an undefined number cannot be written')
     if (abs(value) >= 1d99 .or. (abs(value) > 0 .and. abs(value) < 1d-100)) &
       call refuse_(place, 'a number is out of a card''s range, E-99 to E+99')
     if (letter == 'E') then
