@@ -5,19 +5,24 @@ from __future__ import annotations
 import argparse
 import os
 import shutil
+import sys
 import textwrap
+from collections import Counter
 from collections.abc import Iterator
 from importlib.util import find_spec
+from multiprocessing import get_context
 from pathlib import Path
 
 from emulator.errors import quoted
-from emulator.files import read_text, source_name, write_text
+from emulator.files import read_text, source_name, write_text, writing_bytes
 from modern.claims.apparatus_checks import check_everything
-from modern.cli.shared.console import DIFFERS, OK, UsageError, print_report
+from modern.cli.shared.console import DIFFERS, OK, UsageError, print_notes, print_report, write_folder
 from modern.edition import programs
 from modern.edition.apparatus import Row
 from modern.edition.collation import collate, report, to_csv, to_json, verdicts_by_id
 from modern.edition.grounds import Proof
+from modern.edition.page_readings import READINGS, page_readings, read_sheet, write_state
+from modern.edition.sheets import sheets
 from modern.edition.sources import place
 
 _MOST_PROCESSES = 4
@@ -25,6 +30,12 @@ _MOST_PROCESSES = 4
 
 
 def main(args: argparse.Namespace) -> int:
+    if args.sheet:
+        return _read_sheets(args)
+    if args.state:
+        _use(args.state)
+    if args.sheets:
+        return _write_sheets(args.sheets)
     if args.weigh:
         from modern.edition.weight import weigh
         from modern.edition.weight_report import write_weight
@@ -77,6 +88,65 @@ def _collate(args: argparse.Namespace) -> int:
             write_text(path, written(collation))
     print_report(args, report(collation))
     return OK
+
+
+def _use(state: str) -> None:
+    """Let this process read the data of a state instead of the installed data.  Raise UsageError."""
+    if not os.path.isfile(os.path.join(state, "fortran_src", READINGS)):
+        raise UsageError(f"{state}: expected a folder that --sheet wrote; it has no fortran_src/{READINGS}")
+    if "fortran_src" in sys.modules:
+        raise UsageError("--state needs a new process")
+    sys.path.insert(0, os.path.abspath(state))
+
+
+def _write_sheets(folder: str) -> int:
+    """Write a sheet for each page as HTML and CSV, and as PDF where Typst and the fonts of the book exist."""
+    from modern.publication import proof_sheets
+    from modern.publication.building import BuildError
+
+    all_sheets = sheets({reading.item for reading in page_readings()})
+    problem = ""
+    for sheet in all_sheets:
+        texts = proof_sheets.files(sheet)
+        write_folder(folder, texts, "utf-8")
+        try:
+            if not problem:
+                with writing_bytes(os.path.join(folder, f"{next(iter(texts))[:-5]}.pdf")) as file:
+                    file.write(proof_sheets.pdf(sheet))
+        except (ImportError, BuildError) as error:
+            problem = str(error) if isinstance(error, BuildError) else "only a checkout of the project can make PDF"
+    readings = sum(len(item.variants) for sheet in all_sheets for item in sheet.items)
+    asked = sum(len(sheet.questions) for sheet in all_sheets)
+    print(f"{folder}: {len(all_sheets)} sheets with {readings} silent readings and {asked} open questions")
+    print_notes([f"note: without PDF: {problem}"] if problem else [])
+    return OK
+
+
+def _read_sheets(args: argparse.Namespace) -> int:
+    """Write the state with the answers of the sheets, and check it in a new process that reads its data."""
+    if not args.state:
+        raise UsageError("--sheet needs --state FOLDER, the folder to which the changed edition is written")
+    readings = [reading for name in args.sheet for reading in read_sheet(source_name(name), read_text(name))]
+    for item, times in Counter(reading.item for reading in readings).items():
+        if times > 1:
+            raise UsageError(f"item {item} is answered on {times} sheets")
+    stored = write_state(args.state, readings)
+    for reading in readings:
+        print(
+            f"{reading.item:<8} page {reading.page:<4} {reading.outcome:<10} {reading.card or reading.answer}".rstrip()
+        )
+    outcomes = Counter(reading.outcome for reading in stored)
+    print(f"{args.state}: {', '.join(f'{count} {outcome}' for outcome, count in outcomes.items())}")
+    child = get_context("spawn").Process(target=_check_state, args=(args.state,))
+    child.start()
+    child.join()
+    return child.exitcode or OK
+
+
+def _check_state(state: str) -> None:
+    from modern.cli.main import main as command
+
+    sys.exit(command(["apparatus", "--check", "--state", state]))
 
 
 def _line(proof: Proof) -> str:

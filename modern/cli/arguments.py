@@ -163,6 +163,14 @@ def _apparatus(parser: ArgumentParser) -> None:
     add(parser, {"--restore FOLDER": restore}, type=Folder)
     runs = "with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards; with --restore: also damage FOLDER/*.f"
     add(parser, {"--runs FOLDER": runs})
+    text = (
+        "write a proof sheet for each page to FOLDER: what only a reader of the page can decide, as HTML, CSV and PDF"
+    )
+    add(parser, {"--sheets FOLDER": text}, type=Folder)
+    text = "read filled sheets: write a changed copy of the edition to the folder of --state, and check it"
+    add(parser, {"--sheet FILE": text}, type=InputFile, nargs="+")
+    text = "with --sheet: write the state to FOLDER, or add to it; otherwise use the edition in FOLDER"
+    add(parser, {"--state FOLDER": text}, type=Folder)
     add(parser, {"--workers N": "with --weigh: use N processes (default: 1)"}, type=int, default=1)
     most = "with --weigh: try only the first N alterations (default: all); with --restore: damage N copies (default: 1)"
     add(parser, {"--most N": most}, type=int, default=0)

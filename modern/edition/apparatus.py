@@ -73,7 +73,8 @@ class Row:
     """One emendation with its documentation.
 
     ``cause`` names the origin of the error: ``ocr``, ``typist``, ``author``, ``editor`` or ``undecidable``.
-    ``page`` is derived from the witness lines of the row, and ``certainty`` from layer, kind and ground.
+    ``page`` is derived from the witness lines of the row, and ``certainty`` from layer, kind and ground.  ``confirmed``
+    is true if a reader of the page has reported the reading.
     """
 
     id: str
@@ -89,15 +90,19 @@ class Row:
     date: str = ""
     rejected: tuple[Rejected, ...] = ()
     page: str = ""
+    confirmed: bool = False
 
     @property
     def certainty(self) -> Certainty:
         """The certainty of the reading, by the first rule that applies (fortran_src/README.md).
 
+        A reading that the page confirms is certain.
         Cards added by the project and text supplied for a gap are conjectures.  A reading is probable if the error may
         be the author's or the typist's, if its cause is undecidable, or if only a similar passage supports it.  All
         other readings are certain.
         """
+        if self.confirmed:
+            return "certain"
         if self.layer in _OURS or not self.ground:
             return "conjecture"
         rests_on_likeness = self.ground["kind"] in _LIKENESS and self.kind in _ADDS
@@ -183,6 +188,11 @@ def load(folder: Traversable, name: str) -> Text:
         if times > 1:
             raise ApparatusError(f"{head['id']}: row id {row_id} is used {times} times")
     return Text(head["id"], head["title"], lines, rows, layers, tuple(head["default"]))
+
+
+def confirmed(text: Text, ids: Collection[str]) -> Text:
+    """Return a text whose rows with these ids are confirmed by the page."""
+    return replace(text, rows=tuple(replace(row, confirmed=row.id in ids) for row in text.rows)) if ids else text
 
 
 def build(

@@ -1,12 +1,13 @@
 """Check the evidence for each emendation (row of the apparatus) of the listings.
 
-The ground of a row names its evidence.  :func:`check_row` removes the row and tests the ground.  There are five kinds:
+The ground of a row names its evidence.  :func:`check_row` removes the row and tests the ground.  There are six kinds:
 
 ``parse``     without the row, the deck does not compile
 ``print``     without the row, a printed result is no longer reproduced
 ``deck``      without the row, the program punches different cards for a data deck
 ``forced``    with the row, the card equals a similar card with the names exchanged; without the row, it does not
 ``cosmetic``  the row changes only the look of a card: the object code is the same with and without the row
+``page``      a reader of the page has reported the card as the row has it
 
 If a row consists of several steps (:mod:`modern.edition.readings`), each step is also removed alone, and the test of
 the ground must have the same result.
@@ -33,6 +34,7 @@ from emulator.machine.result import LOOP_WINDOW, Options
 from modern.edition import chapter6, programs
 from modern.edition import sources as provenance
 from modern.edition.apparatus import Row, built_without
+from modern.edition.page_readings import page_readings
 from modern.edition.readings import Step, steps, without_step
 from modern.edition.reproduce import EXACT, State, reproduce
 from modern.formats.deck import exact_points
@@ -121,7 +123,14 @@ def _compiles(name: str, built: Deck, same: bool) -> bool:
 
 def check_row(row: Row) -> Proof:
     kind = str(row.ground.get("kind", ""))
-    test = {"parse": _parse, "print": _print, "deck": _deck, "forced": _forced, "cosmetic": _cosmetic}.get(kind)
+    test = {
+        "parse": _parse,
+        "print": _print,
+        "deck": _deck,
+        "forced": _forced,
+        "cosmetic": _cosmetic,
+        "page": _page,
+    }.get(kind)
     if test is None:
         return Proof(row.id, False, f"unknown kind of ground: {kind!r}")
     holds, message = test(row, None)
@@ -197,6 +206,14 @@ def _cosmetic(row: Row, step: Step | None) -> tuple[bool, str]:
         return False, f"without the row the deck does not compile: {message}"
     same = program.code == whole.code and program.formats == whole.formats
     return same, f"the object code is {'the same' if same else 'not the same'} with and without the row"
+
+
+def _page(row: Row, step: Step | None) -> tuple[bool, str]:
+    for reading in page_readings():
+        if reading.row == row.id:
+            same = reading.card == row.lemma
+            return same, f"page {reading.page}, read by {reading.reader}, {'has' if same else 'has NOT'} this card"
+    return False, "readings.csv has no reading of the page for this row"
 
 
 def _print(row: Row, step: Step | None) -> tuple[bool, str]:

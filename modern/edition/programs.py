@@ -62,9 +62,10 @@ def built_in(name: str) -> BuiltIn:
 
 @cache
 def text(name: str) -> Text:
-    from modern.edition.apparatus import load
+    from modern.edition.apparatus import confirmed, load
+    from modern.edition.page_readings import page_readings
 
-    return load(sources(), name)
+    return confirmed(load(sources(), name), {row for reading in page_readings() for row in reading.rows.split()})
 
 
 def _lines(

@@ -14,6 +14,7 @@ ones, for example ``l`` by ``1``.  The pairs that may be exchanged are listed in
 ``lost``        words, or characters of words, are inserted
 ``doubled``     words that belong to a neighbouring cell are deleted
 ``overlaid``    no rule: the heading of another table has replaced the words
+``page``        no rule: a reader of the page has reported the card (:mod:`modern.edition.page_readings`)
 ``omission``, ``conjecture`` and the kinds of cards added by the project: no rule; only their grounds support them
 
 A pair must be used by at least two rows, or its entry in the table must name other evidence.
@@ -39,7 +40,7 @@ CLASSES: Mapping[str, frozenset[Class]] = {
 }
 KEEPS = ("fused", "spacing", "columns")
 # The kinds that have a rule.
-RULED = (*CLASSES, *KEEPS, "displaced", "lost", "doubled", "overlaid")
+RULED = (*CLASSES, *KEEPS, "displaced", "lost", "doubled", "overlaid", "page")
 
 
 @dataclass(frozen=True, slots=True)

@@ -88,16 +88,17 @@ def print_report(args: argparse.Namespace, lines: Iterable[str]) -> None:
         print(line, file=report_stream(args))
 
 
-def write_folder(folder: str, texts: Mapping[str, str]) -> None:
+def write_folder(folder: str, texts: Mapping[str, str], encoding: str = "ascii") -> None:
     """Write text files by name to a folder, which is made if it does not exist.  Raise FileError."""
-    from emulator.files import reason, write_text  # imported here because --help does not need it
+    from emulator.files import reason, writing_bytes  # imported here because --help does not need it
 
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:
         raise FileError(f"{folder}: {reason(error)}") from None
     for name, text in texts.items():
-        write_text(os.path.join(folder, name), text)
+        with writing_bytes(os.path.join(folder, name)) as file:
+            file.write(text.encode(encoding, "backslashreplace"))
 
 
 def misses_numpy(error: ModuleNotFoundError) -> bool:

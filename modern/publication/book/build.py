@@ -180,30 +180,35 @@ def _picture(file: str, folder: Path) -> str:
     return name
 
 
-def build(out: Path) -> int:
-    """Typeset the book, write it, and return its size in bytes.  Raise BuildError if Typst is missing or fails."""
+def pdf(markup: str, folder: Path) -> bytes:
+    """Return a document as PDF/A; ``folder`` has its pictures.  Raise BuildError if Typst is missing or fails."""
     try:
         import typst as compiler
     except ImportError:
         raise BuildError(MISSING_TYPST) from None
+    main_file = folder / "main.typ"
+    main_file.write_text(markup, encoding="utf-8")
+    try:
+        return compiler.compile(
+            str(main_file),
+            root=str(folder),
+            font_paths=[*FONTS],
+            ignore_system_fonts=True,
+            pdf_standards=[STANDARD],
+            timestamp=datetime(2026, 1, 1, tzinfo=UTC),
+        )
+    except (RuntimeError, ValueError) as error:
+        raise BuildError(f"{main_file.name} was not typeset: {' '.join(str(error).split())[:600]}") from None
+
+
+def build(out: Path) -> int:
+    """Typeset the book, write it, and return its size in bytes.  Raise BuildError if Typst is missing or fails."""
     with tempfile.TemporaryDirectory(prefix="book-") as folder:
-        main_file = Path(folder) / "book.typ"
-        main_file.write_text(typst(Path(folder)), encoding="utf-8")
-        try:
-            pdf = compiler.compile(
-                str(main_file),
-                root=folder,
-                font_paths=[*FONTS],
-                ignore_system_fonts=True,
-                pdf_standards=[STANDARD],
-                timestamp=datetime(2026, 1, 1, tzinfo=UTC),
-            )
-        except (RuntimeError, ValueError) as error:
-            raise BuildError(f"the book was not built: {' '.join(str(error).split())[:600]}") from None
+        data = pdf(typst(Path(folder)), Path(folder))
     out.parent.mkdir(parents=True, exist_ok=True)
     with writing_bytes(str(out)) as file:
-        file.write(pdf)
-    return len(pdf)
+        file.write(data)
+    return len(data)
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -1,0 +1,187 @@
+"""Proof sheets: for each page of the thesis, the readings that only the page can decide, as questions to tick.
+
+A *silent* reading is a variant of a card that no check detects (``fortran_src/silent.csv``, written by
+:mod:`modern.edition.weight`).  An :class:`Item` asks for one token of a card, with all its silent rivals.  Each silent
+reading and each open question about the text (``fortran_src/questions.toml``) is on exactly one sheet.
+:mod:`modern.edition.page_readings` reads a filled sheet.
+"""
+
+from __future__ import annotations
+
+import csv
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from string import ascii_uppercase
+
+from emulator.language.cards import Card
+from modern.edition import programs
+from modern.edition.apparatus import build
+from modern.edition.variants import Statement, statements
+
+LETTERS = (*ascii_uppercase, *(a + b for a in ascii_uppercase for b in ascii_uppercase))
+
+DEPENDS: Mapping[str, str] = {
+    "number": "to which other statement the card refers, in a case that no printed example shows",
+    "name": "which number the card uses, in a case that no printed example shows",
+    "operator": "how the card calculates, in a case that no printed example shows",
+    "constant": "a number or the size of a table, in a case that no printed example shows",
+    "character": "a letter of a name or message; the printed results are the same either way",
+    "format": "the layout of a line or card that no printed example shows",
+    "card": "whether the card exists; the printed results are the same without it",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """A possible reading: its letter, the token, and the whole card with it (empty if the page lacks the card)."""
+
+    letter: str
+    token: str
+    card: str
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """A question about one token of a card.
+
+    ``first`` and ``last`` are the columns of the token, counted from 0, the last one excluded.  The first choice is the
+    restored reading.  ``variants`` are the keys of the silent readings that the other choices stand for.
+    """
+
+    id: str
+    program: str
+    card: int
+    how: str
+    text: str
+    first: int
+    last: int
+    choices: tuple[Choice, ...]
+    variants: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """An open question about the text of a page; the first answer makes the rows ``rows`` certain."""
+
+    id: str
+    page: str
+    ask: str
+    choices: tuple[Choice, ...]
+    depends: str
+    rows: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A page of the thesis: its cards by number, the items by card, and the questions."""
+
+    page: str
+    program: str
+    cards: tuple[Card, ...]
+    items: tuple[Item, ...]
+    questions: tuple[Question, ...]
+
+
+def sheets(answered: Iterable[str] = ()) -> tuple[Sheet, ...]:
+    """Return a sheet for each page with an item or a question, without those whose ids are in ``answered``."""
+    done = set(answered)
+    by_page: dict[tuple[str, str], tuple[list[Card], list[Item]]] = {}
+    for name in programs.TEXTS:
+        own = _items(name)
+        for card, page in pages(name):
+            cards, items = by_page.setdefault((page, name), ([], []))
+            cards.append(card)
+            items += (item for item in own.get(card.number, ()) if item.id not in done)
+    open_questions = [question for question in questions() if question.id not in done]
+    for question in open_questions:
+        if not any(page == question.page for page, _ in by_page):
+            by_page[question.page, ""] = ([], [])
+    result = []
+    for (page, name), (cards, items) in by_page.items():
+        asked = tuple(question for question in open_questions if question.page == page)
+        if items or asked:
+            result.append(Sheet(page, name, tuple(cards), tuple(items), asked))
+    return tuple(sorted(result, key=lambda sheet: int(sheet.page)))
+
+
+def pages(name: str) -> Iterator[tuple[Card, str]]:
+    """Yield the cards of a program with the pages of the thesis."""
+    lines = build(programs.text(name), programs.built_in(name).layers)
+    return ((Card(number, line.text), line.page) for number, line in enumerate(lines, 1))
+
+
+def questions() -> tuple[Question, ...]:
+    """Return the open questions about the text."""
+    data = tomllib.loads(programs.sources().joinpath("questions.toml").read_text(encoding="utf-8"))
+    return tuple(
+        Question(
+            f"Q{raw['number']}",
+            raw["page"],
+            raw["ask"],
+            tuple(Choice(letter, answer, "") for letter, answer in zip(LETTERS, raw["answers"], strict=False)),
+            raw["depends"],
+            tuple(raw["rows"]),
+        )
+        for raw in data["question"]
+    )
+
+
+def silent_readings() -> list[dict[str, str]]:
+    """Return the rows of the list of silent readings."""
+    text = programs.sources().joinpath("silent.csv").read_text(encoding="utf-8")
+    return list(csv.DictReader(text.splitlines()))
+
+
+def _items(name: str) -> dict[int, list[Item]]:
+    """Return the items of a program by card.  Variants that alter the same token are rivals in one item."""
+    by_card = {statement.card: statement for statement in statements(name)}
+    tokens: dict[tuple[int, int, int], list[tuple[str, str, str]]] = {}
+    for row in silent_readings():
+        if row["program"] != name:
+            continue
+        card, was, reads = int(row["card"]), row["was"], row["reads"]
+        if by_card[card].source.text != was:
+            continue  # The page has another card than the one that was weighed.
+        first, last, token = (
+            _altered_token(was, reads, by_card[card].source.places.indices) if reads else (0, len(was), "")
+        )
+        tokens.setdefault((card, first, last), []).append((row["how"], token, reads))
+    result: dict[int, list[Item]] = {}
+    for (card, first, last), rivals in sorted(tokens.items()):
+        items = result.setdefault(card, [])
+        number = f"{name[-1]}-{card:03}-{len(items) + 1}"
+        items.append(_item(number, name, by_card[card], first, last, rivals))
+    return result
+
+
+def _item(
+    number: str, name: str, statement: Statement, first: int, last: int, rivals: list[tuple[str, str, str]]
+) -> Item:
+    card, source = statement.source.cards[0], statement.source
+    # Translate positions in the statement, which has no blanks, to columns of the card.
+    places = source.places.indices
+    start, end = places[first], places[last - 1] + 1
+    whole = card.text.rstrip()
+    choices = [Choice("A", whole[start:end], whole)]
+    for letter, (_, token, reads) in zip(LETTERS[1:], rivals, strict=False):
+        choices.append(Choice(letter, token, whole[:start] + token + whole[end:] if reads else ""))
+    keys = tuple(f"{name} {card.number} {reads}" for _, _, reads in rivals)
+    return Item(number, name, card.number, rivals[0][0], whole, start, end, tuple(choices), keys)
+
+
+def _altered_token(was: str, reads: str, columns: Sequence[int]) -> tuple[int, int, str]:
+    """Return the span of the altered token in ``was``, and the token in ``reads``.
+
+    A token is a run of letters and digits without a blank between them on the card; ``columns`` has their columns.
+    """
+    first = next((n for n, (a, b) in enumerate(zip(was, reads, strict=False)) if a != b), min(len(was), len(reads)))
+    least = min(len(was), len(reads)) - first
+    last = len(was) - next((n for n in range(least) if was[-1 - n] != reads[-1 - n]), least)
+    while first > 0 and was[first - 1].isalnum() and columns[first - 1] + 1 == columns[min(first, len(columns) - 1)]:
+        first -= 1
+    while last < len(was) and was[last].isalnum() and columns[last - 1] + 1 == columns[last]:
+        last += 1
+    if first == last:  # Only characters were added after a special character: include that character.
+        first -= 1
+    return first, last, reads[first : len(reads) - len(was) + last]
