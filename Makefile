@@ -61,6 +61,7 @@ book: $(VENV)/.dev
 
 # Everything for an archive, as a BagIt bag: dist/hull1620-VERSION-deposit; ROWS=FOLDER adds rows of studies.
 archive: wheel pyz edition book
+	$(BIN)/python -m modern.publication.vendored dist/wheels
 	$(BIN)/python -m modern.publication.deposit dist $(if $(ROWS),--rows $(ROWS))
 
 # The site on your own computer alone; its pages open as files too, but for the machine in the page.

@@ -17,7 +17,7 @@ from importlib.resources import as_file
 from io import StringIO
 from pathlib import Path
 
-from emulator.errors import FileError
+from emulator.errors import EmulatorError, FileError
 from emulator.files import reason
 from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import compile_deck
@@ -128,8 +128,8 @@ def _answered(place: str, page: str, entry: Item | Question, answer: str, reader
         raise FileError(f"{place}: a card that the page lacks cannot be removed by a sheet; write to the maintainers")
     try:
         deck_from_lines(place, [card])
-    except ValueError as error:
-        raise FileError(f"{place}: {error}") from None
+    except EmulatorError as error:
+        raise FileError(str(error)) from None
     return replace(result, outcome="changed", card=card)
 
 

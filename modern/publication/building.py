@@ -52,6 +52,6 @@ def read_citation(text: str) -> Mapping[str, Any]:
     return fields
 
 
-def newest_wheel() -> Path | None:
+def newest_wheel(folder: Path = DIST) -> Path | None:
     """Return the wheel that was built last, or None if ``make wheel`` has not run."""
-    return max(DIST.glob("hull1620-*.whl"), key=lambda path: path.stat().st_mtime, default=None)
+    return max(folder.glob("hull1620-*.whl"), key=lambda path: path.stat().st_mtime, default=None)

@@ -1,13 +1,14 @@
 """Pack a deposit for archives: ``python -m modern.publication.deposit dist``.
 
-The deposit is a BagIt bag (RFC 8493) with the source, the wheel, the site, the book, the TEI documents and, optionally,
-the rows of studies.  It is described as an RO-Crate, by CodeMeta and by Frictionless schemas of its tables
-(:mod:`modern.publication.metadata`).  The deposit is written as a folder and as one compressed archive.  The same parts
-always give the same bytes.
+The deposit is a BagIt bag (RFC 8493) with the program as one file, the source, the wheel, the packages that it needs
+(:mod:`modern.publication.vendored`), the site, the book, the TEI documents and, optionally, the rows of studies.  It is
+described as an RO-Crate, by CodeMeta and by Frictionless schemas of its tables (:mod:`modern.publication.metadata`).
+The deposit is written as a folder and as one compressed archive.  The same parts always give the same bytes.
 """
 
 import gzip
 import hashlib
+import json
 import re
 import shutil
 import subprocess
@@ -22,20 +23,38 @@ from io import BytesIO
 from pathlib import Path
 
 from modern.edition.sources import sources
+from modern.publication import vendored
 from modern.publication.building import DIST, ROOT, BuildError, check_replaceable, newest_wheel, read_citation, run
-from modern.publication.metadata import Work, codemeta, crate, data_package, work
+from modern.publication.metadata import Part, Process, Work, codemeta, crate, data_package, work
+from modern.publication.pyz import NAME
+from modern.publication.tables import columns, csv_text
 from modern.publication.tei import archive
 
 _CACHES = {"node_modules", "__pycache__", ".mypy_cache", ".ruff_cache", ".pytest_cache"}
 _NOT_SOURCE = {".git", ".venv", "dist", "build"} | _CACHES
-# The folders of a deposit and a description of each.
-FOLDERS = {
-    "source": "all files of the project: programs in fortran_src, printed results in transcripts, tests",
-    "wheel": "the package that pip installs",
-    "site": "the edition as a website: open site/index.html",
-    "book": "the edition as a book, PDF/A",
-    "tei": "listings and printed results with their emendations, TEI P5",
-    "rows": "the results of studies, one row for each hull",
+_MIT, _CC0 = "https://spdx.org/licenses/MIT", "https://creativecommons.org/publicdomain/zero/1.0/"
+_OTHERS = "The licences of the packages, in wheels/licences; Pyodide: MPL-2.0 (pyodide/package.json)"
+_THESIS = "Text of the thesis and the papers: rights of their authors and publishers, not ours to license"
+_MIXED = "Code and documents MIT, data CC0, quoted sources not ours: source/LICENSE names the folders"
+# The folders and files of a deposit: description and licence.
+CONTENTS = {
+    "hull1620.pyz": Part("the program as one file: python3 hull1620.pyz", _MIT, "application/zip"),
+    "source/": Part("all files of the project", _MIXED),
+    "source/emulator/": Part("code: the machine", _MIT),
+    "source/modern/": Part("code: edition, exact hulls, studies, site", _MIT),
+    "source/tests/": Part("code: the tests", _MIT),
+    "source/docs/": Part("the documents; the tables of docs/studies are CC0", _MIT),
+    "source/fortran_src/apparatus/": Part("data: the emendations of the listings", _CC0),
+    "source/fortran_src/witness/": Part("the text of the listings as found", _THESIS),
+    "source/transcripts/": Part("printed results as found, with their emendations (data CC0)", _THESIS),
+    "wheel/": Part("the package that pip installs", _MIT),
+    "wheels/": Part("the packages of others that it needs", _OTHERS),
+    "pyodide/": Part("Python for browsers, which the site's machine loads", _OTHERS),
+    "site/": Part("the edition as a website: open site/index.html", _MIXED),
+    "book/": Part("the edition as a book, PDF/A", _MIXED),
+    "tei/": Part("listings and printed results with their emendations, TEI P5", _MIXED),
+    "tables/": Part("the tables of the studies, each number in a cell of its own", _CC0),
+    "rows/": Part("the results of studies, one row for each hull", _CC0),
 }
 
 
@@ -61,9 +80,19 @@ def source_files(root: Path = ROOT) -> tuple[str, ...]:
     )
 
 
-def gather(wheel: Path, site: Path, book: Path, rows: Path | None = None, root: Path = ROOT) -> Parts:
-    """Read the files of a deposit.  Raise BuildError for a missing part and name the command that builds it."""
-    for path, command in ((wheel, "make wheel"), (site / "index.html", "make edition"), (book, "make book")):
+def gather(dist: Path, rows: Path | None = None, root: Path = ROOT) -> Parts:
+    """Read the files of a deposit from the folder of the builds, and the packages of others if they are there.
+
+    Raise BuildError for a missing part and name the command that builds it.
+    """
+    wheel, site, book, pyz = (
+        newest_wheel(dist) or dist / "hull1620.whl",
+        dist / "edition",
+        dist / "hull1620.pdf",
+        dist / NAME,
+    )
+    builds = ((wheel, "wheel"), (pyz, "pyz"), (site / "index.html", "edition"), (book, "book"))
+    for path, command in ((path, f"make {target}") for path, target in builds):
         if not path.is_file():
             raise BuildError(f"{path}: no such file; {command} builds it")
     files: dict[str, bytes] = {}
@@ -72,6 +101,9 @@ def gather(wheel: Path, site: Path, book: Path, rows: Path | None = None, root: 
         files[f"source/{name}"] = (root / name).read_bytes()
         if (root / name).stat().st_mode & 0o100:
             executable.add(f"source/{name}")
+    files[NAME] = pyz.read_bytes()
+    executable.add(NAME)
+    files |= vendored.files(dist / "wheels")
     files[f"wheel/{wheel.name}"] = wheel.read_bytes()
     files[f"book/{book.name}"] = book.read_bytes()
     files |= {f"site/{name}": data for name, data in _tree(site)}
@@ -92,70 +124,156 @@ def _tree(folder: Path) -> Iterator[tuple[str, bytes]]:
 
 def described(root: Path = ROOT) -> Work:
     """Return the description of the project from its own files.  Raise ValueError if they contradict each other."""
-    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
     references = (f"{d.author}: {d.title}. {d.year}" for d in sources().documents)
-    return work(read_citation((root / "CITATION.cff").read_text(encoding="utf-8")), project, references)
+    citation = read_citation((root / "CITATION.cff").read_text(encoding="utf-8"))
+    return work(citation, project["project"], references, project["tool"]["deposit"])
 
 
 def with_descriptions(parts: Parts, root: Path = ROOT) -> Parts:
-    """Add the files that describe a deposit: README.txt, CodeMeta, the data package and the RO-Crate."""
+    """Add the files that describe a deposit: README.txt, CodeMeta, the tables with their data package, the RO-Crate."""
     about = described(root)
     files = dict(parts.files)
-    tables = {name: data.decode() for name, data in files.items() if name.endswith(".csv") and "/docs/" in name}
+    tables = {
+        f"tables/{name.partition('/docs/')[2]}": columns(name, data.decode())
+        for name, data in files.items()
+        if name.endswith(".csv") and "/docs/" in name
+    }
+    files |= {path: csv_text(table).encode() for path, table in tables.items()}
     files["datapackage.json"] = data_package(about, tables).encode()
     files["codemeta.json"] = codemeta(about).encode()
     files["README.txt"] = readme(about, Parts(files, parts.executable), root).encode()
-    folders = {name: description for name, description in FOLDERS.items() if _has_folder(files, name)}
-    kinds = {
-        "README.txt": ("the contents of the deposit and how to use them", "text/plain"),
-        "codemeta.json": ("the software, described by CodeMeta", "application/ld+json"),
-        "datapackage.json": ("the tables, described by Frictionless schemas", "application/json"),
-        **{name: ("the edition as a book", "application/pdf") for name in files if name.startswith("book/")},
-        **{name: ("the package that pip installs", "application/zip") for name in files if name.startswith("wheel/")},
+    crate_parts = {
+        "README.txt": Part("the contents of the deposit and how to use them", _MIT, "text/plain"),
+        "codemeta.json": Part("the software, described by CodeMeta", _CC0, "application/ld+json"),
+        "datapackage.json": Part("the tables, described by Frictionless schemas", _CC0, "application/json"),
+        **{name: part for name, part in CONTENTS.items() if any(file.startswith(name) for file in files)},
+        **{name: Part("a table of a study", _CC0, "text/csv") for name in tables},
+        **{
+            name: Part("the edition as a book", _MIXED, "application/pdf") for name in files if name.startswith("book/")
+        },
     }
-    files["ro-crate-metadata.json"] = crate(about, folders, kinds).encode()
+    files["ro-crate-metadata.json"] = crate(about, crate_parts, tuple(processes(files))).encode()
     return Parts(files, parts.executable)
+
+
+def processes(files: Mapping[str, bytes]) -> Iterator[Process]:
+    """Yield the run of each study, from its manifest."""
+    for name in sorted(files):
+        match = re.fullmatch(r"source/docs/studies/([\w-]+)/manifest\.json", name)
+        if not match:
+            continue
+        manifest = json.loads(files[name])
+        folder = f"tables/studies/{match[1]}/"
+        yield Process(
+            match[1],
+            manifest["plan"]["title"],
+            " ".join(manifest["command"]),
+            manifest["versions"],
+            tuple(path for path in sorted(files) if path.startswith(folder)),
+            f"{manifest['samples']} sets, seed {manifest['plan']['seed']}; decks {manifest['decks_sha256']}",
+        )
 
 
 def readme(about: Work, parts: Parts, root: Path = ROOT) -> str:
     """Return the README.txt of a deposit, for a reader who has only the deposit."""
     files = parts.files
     wheel = next(name for name in files if name.startswith("wheel/"))
-    lock = (root / "locks" / "run.lock").read_text(encoding="utf-8")
-    required = {re.split(r"[^A-Za-z0-9_-]", requirement)[0] for requirement in about.requirements}
-    pinned = [line.split(" ")[0] for line in lock.splitlines() if line.split("==")[0] in required]
-    contents = "\n".join(f"  {name + '/':<10}{text}" for name, text in FOLDERS.items() if _has_folder(files, name))
+    contents = "\n".join(
+        f"  {name:<14} {part.description}\n{'':17}rights: {part.licence.removeprefix('https://')}"
+        for name, part in CONTENTS.items()
+        if name.count("/") < 2 and any(file.startswith(name) for file in files)
+    )
+    left_out = vendored.left_out(files)
+    numpy = next((name.split("-", 2)[2] for name in files if name.startswith("wheels/numpy-")), "none")
+    hashes = "\n".join(
+        f"  {hashlib.sha256(data).hexdigest()}  {name}"
+        for name, data in sorted(files.items())
+        if name == NAME or name.endswith(".whl") or name.startswith("book/")
+    )
     source = {name.removeprefix("source/"): data for name, data in files.items() if name.startswith("source/")}
+    identifiers = "\n".join(f"  {name:<11} {value}" for name, value in about.identifiers().items())
     return f"""{about.title}
 Version {about.version}, {about.date}, by {about.author}.
 
 {about.description}.
 
-Contents (this folder is the "data" folder of a BagIt bag, RFC 8493):
+WHAT THIS IS
+
+In 1963 Karen Jensen Butler wrote a thesis at Oregon State University with three FORTRAN programs
+for the IBM 1620, which find the convex hull of points in space. This deposit restores the
+programs from a transcription, runs them on an emulated machine, and compares their results with
+those printed in the thesis.
+
+WHAT WAS NEVER SEEN, AND WHAT IS CONJECTURE
+
+Nobody who worked on this edition has seen a page of the thesis, or an image of one. The only
+witness is one OCR text of unknown origin. What no check could decide therefore remains
+conjecture: readings whose change no printed result shows (source/fortran_src/silent.csv), cards
+that were added because the printed examples need them, and the state of program 1 in which the
+examples were run (source/fortran_src/OPEN-QUESTIONS.md). The flow charts of the thesis and its
+figures are not in the OCR text.
+
+CONTENTS (this folder is the "data" folder of a BagIt bag, RFC 8493)
 
 {contents}
 
-Start with site/index.html in any browser, or with the book. source/README.md describes the
-software; source/LICENSE states the rights in each file.
+{left_out or "Nothing is left out: all parts that the project can collect are here."}
 
-To reproduce the results you need Python {about.python} and some wheels: this one and those of
-{", ".join(pinned)} (source/locks/run.lock has their hashes). Without a network:
+TO READ THE EDITION
+
+Open site/index.html in a browser, or the PDF in book/. No network is needed.
+
+TO RUN THE PROGRAM
+
+With Python 3.11 or later and nothing else:
+
+  python3 hull1620.pyz run program1 source/fortran_src/grounds/pyramid5.deck
+  python3 hull1620.pyz reproduce 1 2 3 4 5 6
+
+The second command prints a verdict for each printed card of chapter 6. Its exit code is 0 if
+every card is reproduced.
+
+To compute everything, also the later papers, the wheels must fit your Python:
 
   python3 -m venv env
-  env/bin/python -m pip install --no-index --find-links FOLDER_OF_WHEELS {wheel}
+  env/bin/python -m pip install --no-index --find-links wheels {wheel}
   env/bin/hull1620 reproduce
 
-The last command computes every result that the thesis and four later papers print. Its exit
-code is 0 if all results agree with the recorded verdicts.
+The wheel of numpy here is for {numpy}.
+For another Python or another computer, get numpy {_pinned("numpy", root)} for it. All pinned packages:
+{", ".join(vendored.locked(root))} (source/locks/run.lock has the hashes of every platform).
 
-To verify the files: manifest-sha512.txt, one folder up, has the SHA-512 of every file, and
-"python -m bagit --validate FOLDER" compares them. The source as a Software Heritage
-directory: {swhid(source, {name.removeprefix("source/") for name in parts.executable})}
+TO BUILD THE SITE AGAIN
+
+This needs Python 3.11, make, and the packages of the extra "edition" (Sphinx and others), which
+are not in this deposit: source/locks/dev.lock pins each of them with its hashes. With a package
+registry, in the folder "source":
+
+  mkdir -p docs/console/node_modules && cp -r ../pyodide docs/console/node_modules/
+  make wheel pyz edition
+
+The first command provides Pyodide; without it the pages have no running machine. The site is
+written to dist/edition. "make archive" builds this deposit again, and "make test" runs all tests.
+
+TO VERIFY THE FILES
+
+manifest-sha512.txt, one folder up, has the SHA-512 of every file: "sha512sum -c
+manifest-sha512.txt" in that folder compares them. The SHA-256 of the parts that run:
+
+{hashes}
+
+The source as a Software Heritage directory:
+  {swhid(source, {name.removeprefix("source/") for name in parts.executable})}
+
+IDENTIFIERS (pyproject.toml, [tool.deposit], is their place)
+
+{identifiers}
 """
 
 
-def _has_folder(files: Mapping[str, bytes], folder: str) -> bool:
-    return any(name.startswith(f"{folder}/") for name in files)
+def _pinned(package: str, root: Path) -> str:
+    return next((pin.partition("==")[2] for pin in vendored.locked(root) if pin.startswith(f"{package}==")), "")
 
 
 def swhid(files: Mapping[str, bytes], executable: set[str]) -> str:
@@ -238,9 +356,10 @@ def main(arguments: Sequence[str]) -> int:
     args = parser.parse_args(arguments)
 
     def summary() -> str:
-        parts = gather(newest_wheel() or DIST / "hull1620.whl", DIST / "edition", DIST / "hull1620.pdf", args.rows)
+        parts = gather(DIST, args.rows)
         bag, archive = write(args.out, parts)
-        return f"{bag}: a BagIt bag; {archive.name}: {archive.stat().st_size / 1e6:.1f} MB"
+        note = vendored.left_out(parts.files)
+        return f"{bag}: a BagIt bag; {archive.name}: {archive.stat().st_size / 1e6:.1f} MB{note and chr(10)}{note}"
 
     return run("deposit", summary)
 

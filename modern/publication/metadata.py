@@ -4,15 +4,18 @@ The module writes ``codemeta.json`` (CodeMeta 3.0), ``ro-crate-metadata.json`` (
 ``rocrate``) and ``datapackage.json`` (a Frictionless data package with a schema for every CSV table).
 """
 
-import csv
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from io import StringIO
 from typing import Any
 
+from modern.publication.tables import MISSING, Column
+
 SPDX = "https://spdx.org/licenses/"
+PROCESS = "https://w3id.org/ro/wfrun/process/0.5"
+UNKNOWN = "not known yet"
+_IDENTIFIERS = ("doi", "swhid", "repository", "person")
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,10 +33,47 @@ class Work:
     python: str
     requirements: tuple[str, ...]
     references: tuple[str, ...]
+    doi: str = ""
+    swhid: str = ""
+    repository: str = ""
+    person: str = ""
+
+    def identifiers(self) -> dict[str, str]:
+        """Return DOI, SWHID, repository and responsible person; those that are unknown say so."""
+        return {name: getattr(self, name) or UNKNOWN for name in _IDENTIFIERS}
 
 
-def work(citation: Mapping[str, Any], project: Mapping[str, Any], references: Iterable[str]) -> Work:
-    """Combine the fields of CITATION.cff with those of pyproject.toml.  Raise ValueError if they contradict."""
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A file or folder of the deposit: its description, its licence (an address or words) and its media type."""
+
+    description: str
+    licence: str = ""
+    media_type: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Process:
+    """A run of the software that produced files: its name, its command, the versions, its files and its rows."""
+
+    name: str
+    title: str
+    command: str
+    versions: Mapping[str, str]
+    results: tuple[str, ...]
+    description: str
+
+
+def work(
+    citation: Mapping[str, Any],
+    project: Mapping[str, Any],
+    references: Iterable[str],
+    identifiers: Mapping[str, str] | None = None,
+) -> Work:
+    """Combine the fields of CITATION.cff with those of pyproject.toml.  Raise ValueError if they contradict.
+
+    ``identifiers`` are the known ones of DOI, SWHID, repository and person.
+    """
     for key in ("version", "license"):
         if citation[key] != project[key]:
             raise ValueError(f"CITATION.cff has {key} {citation[key]}, pyproject.toml {project[key]}")
@@ -49,6 +89,7 @@ def work(citation: Mapping[str, Any], project: Mapping[str, Any], references: It
         project["requires-python"],
         tuple(project["dependencies"]),
         tuple(references),
+        **(identifiers or {}),
     )
 
 
@@ -69,15 +110,20 @@ def codemeta(about: Work) -> str:
             "programmingLanguage": "Python",
             "runtimePlatform": f"Python {about.python}",
             "softwareRequirements": list(about.requirements),
+            **({"codeRepository": about.repository} if about.repository else {}),
+            **({"sameAs": f"https://doi.org/{about.doi}"} if about.doi else {}),
+            **({"maintainer": {"type": "Person", "name": about.person}} if about.person else {}),
         }
     )
 
 
-def crate(about: Work, folders: Mapping[str, str], files: Mapping[str, tuple[str, str]]) -> str:
+def crate(about: Work, parts: Mapping[str, Part], processes: Sequence[Process] = ()) -> str:
     """Return ro-crate-metadata.json.
 
-    ``folders`` maps a path to its description, and ``files`` a path to its description and media type.
+    ``parts`` maps a path to its description; the path of a folder ends with a slash.  ``processes`` are the runs that
+    produced files of the deposit, described as a Process Run Crate.
     """
+    from rocrate.model.contextentity import ContextEntity
     from rocrate.model.data_entity import DataEntity
     from rocrate.model.person import Person
     from rocrate.rocrate import ROCrate
@@ -88,14 +134,46 @@ def crate(about: Work, folders: Mapping[str, str], files: Mapping[str, tuple[str
     rocrate.license = SPDX + about.license
     rocrate.keywords = ", ".join(about.keywords)
     author = rocrate.add(Person(rocrate, "#author", {"@type": "Organization", "name": about.author}))
-    rocrate.root_dataset["author"] = author
-    rocrate.root_dataset["version"] = about.version
-    rocrate.root_dataset["citation"] = list(about.references)
-    for path, description in folders.items():
-        rocrate.add(DataEntity(rocrate, f"{path}/", {"@type": "Dataset", "name": path, "description": description}))
-    for path, (description, media_type) in files.items():
-        properties = {"@type": "File", "name": path, "description": description, "encodingFormat": media_type}
+    root = rocrate.root_dataset
+    root["author"] = author
+    root["version"] = about.version
+    root["citation"] = list(about.references)
+    root["identifier"] = [
+        rocrate.add(ContextEntity(rocrate, f"#{name}", {"@type": "PropertyValue", "name": name, "value": value}))
+        for name, value in about.identifiers().items()
+    ]
+    root["conformsTo"] = rocrate.add(
+        ContextEntity(rocrate, PROCESS, {"@type": "CreativeWork", "name": "Process Run Crate", "version": "0.5"})
+    )
+    for licence in sorted({part.licence for part in parts.values()} - {""}):
+        if not licence.startswith("https:"):
+            rocrate.add(ContextEntity(rocrate, _rights(licence), {"@type": "CreativeWork", "name": licence}))
+    for path, part in parts.items():
+        kind = {"@type": "Dataset"} if path.endswith("/") else {"@type": "File", "encodingFormat": part.media_type}
+        rights = {"license": {"@id": _rights(part.licence)}} if part.licence else {}
+        properties = {**kind, "name": path.rstrip("/"), "description": part.description, **rights}
         rocrate.add(DataEntity(rocrate, path, properties))
+    software = {"@type": "SoftwareApplication", "name": about.name, "version": about.version}
+    instrument = rocrate.add(ContextEntity(rocrate, "#software", software))
+    root["mentions"] = [
+        rocrate.add(
+            ContextEntity(
+                rocrate,
+                f"#run-{process.name}",
+                {
+                    "@type": "CreateAction",
+                    "name": process.title,
+                    "description": f"{process.command}: {process.description}",
+                    "instrument": {"@id": instrument.id},
+                    "agent": {"@id": "#author"},
+                    "result": [{"@id": path} for path in process.results],
+                    "softwareRequirements": [f"{name} {version}" for name, version in process.versions.items()],
+                    "actionStatus": "http://schema.org/CompletedActionStatus",
+                },
+            )
+        )
+        for process in processes
+    ]
     document = rocrate.metadata.generate()
     # The package writes entities in the order of a set; sorting makes the file the same every time.
     document["@graph"].sort(key=lambda entity: entity["@id"])
@@ -105,8 +183,13 @@ def crate(about: Work, folders: Mapping[str, str], files: Mapping[str, tuple[str
     return _json(document)
 
 
-def data_package(about: Work, tables: Mapping[str, str]) -> str:
-    """Return datapackage.json with a resource for each CSV table. Raise ValueError for equal names of columns."""
+def _rights(licence: str) -> str:
+    """Return the id of a licence: its address, or a place in the crate for words."""
+    return licence if licence.startswith("https:") else "#" + re.sub(r"\W+", "-", licence.lower()).strip("-")[:60]
+
+
+def data_package(about: Work, tables: Mapping[str, Sequence[Column]]) -> str:
+    """Return datapackage.json with a resource for each table: its path and its described columns."""
     resources = [
         {
             "name": re.sub(r"[^a-z0-9]+", "-", path.lower().removesuffix(".csv")).strip("-"),
@@ -115,9 +198,12 @@ def data_package(about: Work, tables: Mapping[str, str]) -> str:
             "format": "csv",
             "mediatype": "text/csv",
             "encoding": "utf-8",
-            "schema": {"fields": _fields(path, text)},
+            "schema": {
+                "fields": [{"name": c.name, "type": c.kind, "description": c.description} for c in table],
+                "missingValues": list(MISSING),
+            },
         }
-        for path, text in sorted(tables.items())
+        for path, table in sorted(tables.items())
     ]
     return _json(
         {
@@ -130,22 +216,6 @@ def data_package(about: Work, tables: Mapping[str, str]) -> str:
             "resources": resources,
         }
     )
-
-
-def _fields(path: str, text: str) -> list[dict[str, str]]:
-    """Return the columns of a table with their types: the narrowest type that all cells of the column have."""
-    head, *rows = list(csv.reader(StringIO(text)))
-    if duplicates := [name for name in head if head.count(name) > 1]:
-        raise ValueError(f"{path}: two columns are called {duplicates[0]}")
-    return [{"name": name, "type": _kind([row[k] for row in rows])} for k, name in enumerate(head)]
-
-
-def _kind(cells: list[str]) -> str:
-    if cells and all(re.fullmatch(r"-?\d+", cell) for cell in cells):
-        return "integer"
-    if cells and all(re.fullmatch(r"-?\d+(\.\d+)?([eE][+-]?\d+)?", cell) for cell in cells):
-        return "number"
-    return "string"
 
 
 def _json(value: object) -> str:

@@ -1,34 +1,42 @@
 """The deposit is valid for the packages of each standard, reproducible, and detects changes."""
 
+import csv
 import json
 import re
 import subprocess
 import tarfile
 import tomllib
+import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from modern.publication import deposit
+from modern.publication import deposit, vendored
 from modern.publication.building import BuildError, citation
 from modern.publication.deposit import Parts, described, gather, source_files, swhid, write
-from modern.publication.metadata import data_package, work
+from modern.publication.metadata import codemeta, work
+from modern.publication.tables import UNDESCRIBED, columns, csv_text
 from tests.support.paths import ROOT
 
 bagit = pytest.importorskip("bagit", reason="a bag is checked by bagit")
 TABLES = {
-    "source/docs/studies/x/table.csv": b"kind,count,share\na,1,0.5\nb,2,1e-3\n",
-    "source/docs/studies/x/cards.csv": b"card,words\n1,IF\n",
+    "source/docs/studies/x/table.csv": b"kind,failed,of all sets\na,1,0.5 (0.1 to 0.9) %\nb,2,-\n",
+    "source/docs/studies/x/cards.csv": b"card,statement\n1,IF\n",
 }
 REAL = {f"source/{name}": (ROOT / name).read_bytes() for name in source_files() if re.match(r"docs/.*\.csv$", name)}
 """The tables that a deposit of the project holds."""
+STUDIES = "capacity|digits|divergence|epsilon|machine-time|rounding|seventy|translation"
+DESCRIBED = {name for name in REAL if not re.match(rf"source/docs/studies/(?!{STUDIES})", name)}
 
 
 def parts() -> Parts:
     files = {
         "source/README.md": b"# x\n",
         "source/.ci/run": b"#!/bin/sh\n",
+        "hull1620.pyz": b"#!",
         "wheel/hull1620-0.1.0-py3-none-any.whl": b"wheel",
+        "source/docs/studies/seventy/manifest.json": (ROOT / "docs/studies/seventy/manifest.json").read_bytes(),
         "book/hull1620.pdf": b"%PDF",
         "site/index.html": b"<p>",
         "tei/program1.xml": b"<TEI/>",
@@ -68,8 +76,9 @@ def test_frictionless_accepts_the_tables_and_detects_a_wrong_type(made: tuple[Pa
     report = frictionless.Package(str(data / "datapackage.json")).validate()
     assert report.valid, report.flatten(["type", "note"])
     assert len(report.tasks) == len(REAL) + 2 > 20
-    table = data / "source" / "docs" / "studies" / "x" / "table.csv"
+    table = data / "tables" / "studies" / "x" / "table.csv"
     before = table.read_text()
+    assert before.splitlines()[0] == 'kind,failed,of all sets,"of all sets, low","of all sets, high"'
     table.write_text(before.replace("b,2", "b,two"))
     try:
         assert not frictionless.Package(str(data / "datapackage.json")).validate().valid
@@ -79,14 +88,91 @@ def test_frictionless_accepts_the_tables_and_detects_a_wrong_type(made: tuple[Pa
 
 def test_duplicate_column_names_are_rejected() -> None:
     with pytest.raises(ValueError, match=r"^a/b\.csv: two columns are called found$"):
-        data_package(described(), {"a/b.csv": "n,found,found\n1,2,3\n"})
+        columns("a/b.csv", "n,found,found\n1,2,3\n")
 
 
-def test_the_type_of_a_column_fits_all_its_cells() -> None:
-    about = described()
-    made = json.loads(data_package(about, {name: data.decode() for name, data in TABLES.items()}))
-    fields = {field["name"]: field["type"] for table in made["resources"] for field in table["schema"]["fields"]}
-    assert fields == {"kind": "string", "count": "integer", "share": "number", "card": "integer", "words": "string"}
+def test_numbers_are_numbers_with_bounds_in_columns_of_their_own() -> None:
+    text = "sets,failed,of all sets,no failure at e\nball,3,0.5 (0.1 to 0.9) %,10^-3 to 10^1\ncube,4,-,10^0\n"
+    table = {column.name: column for column in columns("a.csv", text)}
+    assert {name: (column.kind, column.cells) for name, column in table.items()} == {
+        "sets": ("string", ("ball", "cube")),
+        "failed": ("integer", ("3", "4")),
+        "of all sets": ("number", ("0.5", "")),
+        "of all sets, low": ("number", ("0.1", "")),
+        "of all sets, high": ("number", ("0.9", "")),
+        "no failure at e, from": ("number", ("1e-3", "1e0")),
+        "no failure at e, to": ("number", ("1e1", "1e0")),
+    }
+    assert table["of all sets"].description == "share of all sets, in percent"
+    assert next(csv.reader([csv_text(tuple(table.values())).splitlines()[1]])) == [
+        *("ball", "3", "0.5", "0.1", "0.9", "1e-3", "1e1")
+    ]
+
+
+def test_every_column_of_every_table_is_described_and_no_interval_remains_in_a_cell() -> None:
+    described_columns = 0
+    for name, data in REAL.items():
+        for column in columns(name, data.decode()):
+            assert name not in DESCRIBED or not column.description.startswith(UNDESCRIBED), (name, column.name)
+            assert not any(re.search(r"\d \(|\d %$", cell) for cell in column.cells), (name, column.name)
+            described_columns += 1
+    assert described_columns > 200
+    (column,) = columns("docs/studies/x/table.csv", "unheard of\n1\n")
+    assert column.description == f"{UNDESCRIBED} docs/studies/x"
+
+
+def test_the_crate_states_rights_identifiers_and_the_runs_of_studies(made: tuple[Path, Path]) -> None:
+    graph = json.loads((made[0] / "data" / "ro-crate-metadata.json").read_text(encoding="utf-8"))["@graph"]
+    entities = {entity["@id"]: entity for entity in graph}
+    named = {part["@id"] for part in entities["./"]["hasPart"]}
+    assert all(
+        entities[entities[name]["license"]["@id"]]["name"] if entities[name]["license"]["@id"][0] == "#" else 1
+        for name in named
+    )
+    assert "MIT" in entities["hull1620.pyz"]["license"]["@id"]
+    assert "publicdomain" in entities["tables/studies/seventy/table.csv"]["license"]["@id"]
+    values = {e["name"]: e["value"] for e in graph if e["@type"] == "PropertyValue"}
+    assert values == dict.fromkeys(("doi", "swhid", "repository", "person"), "not known yet")
+    (run,) = (entity for entity in graph if entity["@type"] == "CreateAction")
+    assert run["instrument"] == {"@id": "#software"}
+    assert {"@id": "tables/studies/seventy/table.csv"} in run["result"]
+    assert all(result["@id"] in entities for result in run["result"])
+    assert run["description"].startswith("hull1620 study seventy: 174000 sets, seed ")
+    assert entities["./"]["conformsTo"]["@id"] in entities
+
+
+def test_known_identifiers_are_stated_everywhere() -> None:
+    about = replace(described(), doi="10.1/x", repository="https://example.org/r", person="A. Person")
+    code = json.loads(codemeta(about))
+    assert (code["sameAs"], code["codeRepository"]) == ("https://doi.org/10.1/x", "https://example.org/r")
+    assert about.identifiers() == {
+        "doi": "10.1/x",
+        "swhid": "not known yet",
+        "repository": "https://example.org/r",
+        "person": "A. Person",
+    }
+
+
+def test_codemeta_in_the_root_is_the_generated_one() -> None:
+    assert (ROOT / "codemeta.json").read_text(encoding="utf-8") == codemeta(described())
+
+
+def test_missing_packages_of_others_are_named_and_present_ones_keep_their_licences(tmp_path: Path) -> None:
+    nothing = vendored.files(tmp_path / "wheels", tmp_path / "pyodide")
+    assert nothing == {}
+    assert "LEFT OUT" in vendored.left_out(nothing)
+    assert all(pin in vendored.left_out(nothing) for pin in ("lark==", "mpmath==", "numpy==", "Pyodide"))
+    (tmp_path / "wheels").mkdir()
+    (tmp_path / "pyodide").mkdir()
+    (tmp_path / "pyodide" / "package.json").write_text("{}")
+    for pin in vendored.locked():
+        name = pin.replace("==", "-")
+        with zipfile.ZipFile(tmp_path / "wheels" / f"{name}-py3-none-any.whl", "w") as wheel:
+            wheel.writestr(f"{name}.dist-info/licenses/LICENSE.txt", "a licence")
+    found = vendored.files(tmp_path / "wheels", tmp_path / "pyodide")
+    assert vendored.left_out(found) == ""
+    assert [name for name in found if "licences" in name and "lark" in name and found[name] == b"a licence"]
+    assert not any(name.startswith("setuptools") for name in vendored.locked())
 
 
 def test_all_descriptions_agree(made: tuple[Path, Path]) -> None:
@@ -116,8 +202,8 @@ def test_two_deposits_are_identical(tmp_path: Path, made: tuple[Path, Path]) -> 
     first, second = (
         {p.relative_to(b): p.read_bytes() for p in b.rglob("*") if p.is_file()} for b in (made[0], again[0])
     )
-    first.pop(Path("data/source/docs/studies/x/table.csv"))
-    second.pop(Path("data/source/docs/studies/x/table.csv"))
+    first.pop(Path("data/tables/studies/x/table.csv"))
+    second.pop(Path("data/tables/studies/x/table.csv"))
     assert first == second
     with tarfile.open(made[1]) as archive:
         modes = {entry.name.rpartition("/data/")[2]: entry.mode for entry in archive}
@@ -155,6 +241,10 @@ def test_the_readme_names_the_required_packages(made: tuple[Path, Path]) -> None
         "numpy==",
         "wheel/hull1620-0.1.0-py3-none-any.whl",
         "hull1620 reproduce",
+        "python3 hull1620.pyz run",
+        "Nobody who worked on this edition has seen a page",
+        "LEFT OUT of this deposit",
+        "doi         not known yet",
         "swh:1:dir:",
     ):
         assert phrase in text
@@ -166,7 +256,7 @@ def test_missing_parts_and_foreign_folders_are_reported_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with pytest.raises(BuildError, match=r"hull1620\.whl: no such file; make wheel builds it"):
-        gather(tmp_path / "hull1620.whl", tmp_path, tmp_path / "x.pdf")
+        gather(tmp_path)
     about = described()
     in_the_way = tmp_path / f"{about.name}-{about.version}-deposit"
     in_the_way.mkdir()
