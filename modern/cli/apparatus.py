@@ -21,7 +21,8 @@ from modern.edition import programs
 from modern.edition.apparatus import Row
 from modern.edition.collation import collate, report, to_csv, to_json, verdicts_by_id
 from modern.edition.grounds import Proof
-from modern.edition.page_readings import READINGS, page_readings, read_sheet, write_state
+from modern.edition.page_answers import READINGS, page_readings
+from modern.edition.page_readings import read_sheet, write_state
 from modern.edition.sheets import sheets
 from modern.edition.sources import place
 
@@ -94,8 +95,9 @@ def _use(state: str) -> None:
     """Let this process read the data of a state instead of the installed data.  Raise UsageError."""
     if not os.path.isfile(os.path.join(state, "fortran_src", READINGS)):
         raise UsageError(f"{state}: expected a folder that --sheet wrote; it has no fortran_src/{READINGS}")
-    if "fortran_src" in sys.modules:
+    if programs.text.cache_info().currsize:
         raise UsageError("--state needs a new process")
+    sys.modules.pop("fortran_src", None)
     sys.path.insert(0, os.path.abspath(state))
 
 

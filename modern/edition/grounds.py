@@ -34,7 +34,7 @@ from emulator.machine.result import LOOP_WINDOW, Options
 from modern.edition import chapter6, programs
 from modern.edition import sources as provenance
 from modern.edition.apparatus import Row, built_without
-from modern.edition.page_readings import page_readings
+from modern.edition.page_answers import page_readings
 from modern.edition.readings import Step, steps, without_step
 from modern.edition.reproduce import EXACT, State, reproduce
 from modern.formats.deck import exact_points

@@ -10,9 +10,8 @@ import csv
 import re
 import shutil
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, fields, replace
-from functools import cache
+from collections.abc import Iterator, Sequence
+from dataclasses import astuple, fields, replace
 from importlib.resources import as_file
 from io import StringIO
 from pathlib import Path
@@ -24,44 +23,10 @@ from emulator.language.compiler import compile_deck
 from modern.edition import programs
 from modern.edition import sources as provenance
 from modern.edition.apparatus import ApparatusError, Line, Text, build, load
+from modern.edition.page_answers import COLUMNS, DATE, READER, READINGS, Reading, stored_readings
 from modern.edition.sheets import Item, Question, sheets
 
-READINGS = "readings.csv"
 UNREADABLE = "?"
-COLUMNS = ("item", "page", "card", "question", "choices", "answer")
-_READER, _DATE = "reader", "date"
-
-
-@dataclass(frozen=True, slots=True)
-class Reading:
-    """An answer from the page.
-
-    ``outcome`` is ``confirmed``, ``changed``, ``answered`` (an open question) or ``unreadable``.  ``card`` is the card
-    as the page has it, and ``row`` the row of the apparatus that was added for it.  ``rows`` are the rows that the
-    answer makes certain.
-    """
-
-    item: str
-    page: str
-    program: str
-    outcome: str
-    answer: str
-    card: str
-    row: str
-    rows: str
-    reader: str
-    date: str
-
-
-@cache
-def page_readings() -> tuple[Reading, ...]:
-    """Return the answers from the page that the edition includes; none as published."""
-    file = programs.sources().joinpath(READINGS)
-    return _stored(file.read_text(encoding="utf-8")) if file.is_file() else ()
-
-
-def _stored(text: str) -> tuple[Reading, ...]:
-    return tuple(Reading(**row) for row in csv.DictReader(StringIO(text, newline="")))
 
 
 def read_sheet(name: str, text: str) -> tuple[Reading, ...]:
@@ -83,15 +48,15 @@ def read_sheet(name: str, text: str) -> tuple[Reading, ...]:
         key, answer = (row[0].strip(), row[5].strip() if len(row) > 5 else "") if row else ("", "")
         if not answer:
             continue
-        if key not in items and key not in (_READER, _DATE):
+        if key not in items and key not in (READER, DATE):
             raise FileError(f"{name}: row {number}: no sheet has the item {key!r}")
         if key in answers:
             raise FileError(f"{name}: row {number}: item {key} is answered twice, first in row {answers[key][0]}")
         answers[key] = (number, answer)
-    _, reader = answers.pop(_READER, (0, ""))
-    line, day = answers.pop(_DATE, (0, ""))
+    _, reader = answers.pop(READER, (0, ""))
+    line, day = answers.pop(DATE, (0, ""))
     if answers and not reader:
-        raise FileError(f"{name}: the row {_READER} needs the name of the person who read the page")
+        raise FileError(f"{name}: the row {READER} needs the name of the person who read the page")
     if answers and not re.fullmatch(r"\d{4}-\d\d-\d\d", day):
         raise FileError(f"{name}: row {line or '(none)'}: expected a date such as 2027-03-31, found {day!r}")
     if not answers:
@@ -143,7 +108,7 @@ def write_state(folder: str, readings: Sequence[Reading]) -> tuple[Reading, ...]
     base = target / "fortran_src" if (target / "fortran_src" / READINGS).is_file() else None
     if base is None and target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise FileError(f"{folder}: expected a new folder or a state of the edition; it holds other files")
-    earlier = _stored((base / READINGS).read_text(encoding="utf-8")) if base else ()
+    earlier = stored_readings((base / READINGS).read_text(encoding="utf-8")) if base else ()
     for known in earlier:
         if any(known.item == reading.item for reading in readings):
             raise FileError(f"{folder}: item {known.item} was already answered by {known.reader} on {known.date}")
@@ -236,14 +201,3 @@ def _rebuild(data: Path) -> None:
         cards = "".join(f"{line.text}\n" for line in build(texts[entry.text], (*entry.layers, layer)))
         table = table.replace(sha, provenance.digest(cards))
     path.write_text(table, encoding="utf-8")
-
-
-def blank_table(rows: Sequence[Mapping[str, str]]) -> str:
-    """Return the CSV table of a sheet to be filled: the rows of its items, and rows for the reader and the date."""
-    table = StringIO(newline="")
-    writer = csv.DictWriter(table, COLUMNS, restval="", lineterminator="\r\n")
-    writer.writeheader()
-    writer.writerows(
-        [{"item": _READER, "question": "your name"}, {"item": _DATE, "question": "today, as 2027-03-31"}, *rows]
-    )
-    return table.getvalue()

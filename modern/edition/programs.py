@@ -63,7 +63,7 @@ def built_in(name: str) -> BuiltIn:
 @cache
 def text(name: str) -> Text:
     from modern.edition.apparatus import confirmed, load
-    from modern.edition.page_readings import page_readings
+    from modern.edition.page_answers import page_readings
 
     return confirmed(load(sources(), name), {row for reading in page_readings() for row in reading.rows.split()})
 

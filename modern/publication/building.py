@@ -53,5 +53,8 @@ def read_citation(text: str) -> Mapping[str, Any]:
 
 
 def newest_wheel(folder: Path = DIST) -> Path | None:
-    """Return the wheel that was built last, or None if ``make wheel`` has not run."""
+    """Return the wheel that was built last, or None if ``make wheel`` has not run.
+
+    folder: where the wheel is, by default the folder of all builds.
+    """
     return max(folder.glob("hull1620-*.whl"), key=lambda path: path.stat().st_mtime, default=None)

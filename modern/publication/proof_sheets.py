@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from pathlib import Path
 
-from modern.edition.page_readings import blank_table
+from modern.edition.page_answers import blank_table
 from modern.edition.sheets import DEPENDS, Item, Question, Sheet
 
 _INTRODUCTION = (

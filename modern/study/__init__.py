@@ -11,7 +11,8 @@ To add a built-in study:
    (:class:`modern.study.builtin.Study`).  Each module in that package is a study; its name has ``-`` for ``_``.
 2. Test its report in ``tests/modern/study/test_study_reports.py`` on rows made for the test.
 3. Run it at full size and commit its report, tables, charts and manifest in ``docs/studies/NAME/``; describe the result
-   in ``docs/explanation/studies.md`` and new columns in ``modern/publication/columns.toml``.  ``test_docs_studies.py`` compares the figures quoted there with the tables.
+   in ``docs/explanation/studies.md``, and new columns in ``modern/publication/columns.toml``.
+   ``test_docs_studies.py`` compares the figures quoted there with the tables.
 
 To add a family of point sets, see ``families/__init__.py``.  To add a measure (further figures of a run):
 

@@ -15,7 +15,8 @@ from emulator.errors import EmulatorError, FileError
 from emulator.language.cards import deck_from_lines
 from emulator.language.statements import sources
 from modern.edition import programs
-from modern.edition.page_readings import Reading, read_sheet, write_state
+from modern.edition.page_answers import Reading
+from modern.edition.page_readings import read_sheet, write_state
 from modern.edition.sheets import Sheet, questions, sheets, silent_readings
 from modern.publication import proof_sheets
 from modern.publication.numbered import numbered
@@ -59,7 +60,10 @@ def test_every_silent_reading_is_on_exactly_one_sheet() -> None:
 
 def test_every_open_question_about_the_text_is_on_exactly_one_sheet() -> None:
     items = numbered("fortran_src/OPEN-QUESTIONS.md")[1]
-    about_text = [f"Q{item.number}" for item in items if item.section == "The text"]
+    # A page of the thesis does not say where other copies of its text are.
+    open_items = [item for item in items if item.section == "The text" and not item.title.startswith("Other copies")]
+    about_text = [f"Q{item.number}" for item in open_items]
+    assert len(about_text) >= 8
     assert sorted(question.id for sheet in SHEETS for question in sheet.questions) == about_text
     rows = {row.id for name in programs.TEXTS for row in programs.text(name).rows}
     assert {row for question in questions() for row in question.rows} <= rows
