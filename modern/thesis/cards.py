@@ -98,7 +98,7 @@ def _canonical(hull: CardHull, oriented: bool) -> tuple[object, ...]:
     joins = Counter(
         (
             frozenset(hull.vertices[v - 1] for v in numbers if 0 < v <= len(hull.vertices)),
-            equations[e - 1] if e <= len(equations) else None,
+            equations[e - 1] if 0 < e <= len(equations) else None,
         )
         for numbers, e in hull.satisfied
     )
