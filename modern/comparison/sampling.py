@@ -14,7 +14,6 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from statistics import median
 
-from emulator.compiled.batch import run_batch
 from emulator.language import objectcode as op
 from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program
@@ -200,6 +199,8 @@ def independent(
     program: Program, deck: Deck, members: Sequence[Numbers], options: Options | None = None
 ) -> Independent:
     """Run a program once in each of several arithmetics.  Raise CardError or DeckError for a bad deck."""
+    from emulator.compiled.batch import run_batch  # not at the top, because it needs numpy
+
     base = options or Options()
     results = [run_batch(program, [deck], replace(base, numbers=member))[0] for member in members]
     runs = [records_of(result) for result in results]
