@@ -13,6 +13,7 @@ import math
 import shutil
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from fractions import Fraction
 from html import escape
 from string import Template
@@ -128,9 +129,9 @@ def _numbers(
 
 
 def _common(first: str, second: str, digits: float) -> float:
-    """Return the digits in which a number agrees with its reference."""
+    """Return the digits in which a number agrees with its reference: all, if its last printed digit differs by one."""
     a, b = Fraction(first), Fraction(second)
-    if a == b:
+    if abs(a - b) <= Fraction(10) ** int(Decimal(first).as_tuple().exponent):
         return digits
     return min(max(-math.log10(abs(a - b) / abs(b)), 0.0), digits) if b else 0.0
 
