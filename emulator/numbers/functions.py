@@ -153,7 +153,7 @@ def decimal_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> Sta
 
 
 def integer_power_steps(mantissa: int, exponent: int, count: int, rules: Rules) -> int:
-    """Return the estimated steps of :func:`integer_power` (:mod:`emulator.numbers.work`)."""
+    """Return an estimate of the steps that :func:`integer_power` takes. :mod:`emulator.numbers.work` limits steps."""
     if mantissa == 0 or -1 <= count <= 2:
         return 0
     if rules.as_1962:

@@ -50,7 +50,8 @@ class Addresses:
         call
             The first seven digits of the instruction.
         field, subscript
-            The field of the operand, and the index of its subscript or -1.
+            The number of the operand's field in storage, and the index of its subscript in the program's list of
+            subscripts.  The index is -1 if the address is fixed.
         at
             The position at which the code begins.
         """

@@ -171,7 +171,7 @@ class _Generator:
         return ends_in_branch and not self.program.line_at(pc).label
 
     def _code(self, instruction: Instruction, pc: int) -> str:
-        """Return the code of one instruction of the emulator's object code."""
+        """Return the digits of 1620 code for one instruction of the emulator's object code."""
         operation = instruction.operation
         if operation in d.PLAIN_ENTRIES:
             return self._call(f"{d.PLAIN_ENTRIES[operation]:05d}", instruction)

@@ -127,7 +127,7 @@ def _label(label: int, volume: Volume, args: argparse.Namespace) -> tuple[Row, W
 
 
 def _filled_label(label: int, volume: Volume, args: argparse.Namespace) -> tuple[Row, Write]:
-    """Return the row of a label's filled hull, and the function that writes it as an array."""
+    """Return the row of the report on a label's filled hull, and a function that writes this hull as an array."""
     hull = digital_hull(volume)
     return filled_row(label, hull, voxel_volume(volume.world)), hull.save
 

@@ -185,8 +185,9 @@ def _decision(line: Line, votes: _Votes) -> DecisionShares:
 class Independent:
     """N independent runs.
 
-    ``shares`` are the numbers of runs with each sequence of records, apart from the digits of their numbers, the most
-    frequent first.  ``printed`` holds the numbers of the runs with the most frequent sequence.
+    ``shares`` counts the runs that print each sequence of records, the most frequent first.  Sequences that differ only
+    in the digits of printed numbers count as the same.  ``printed`` holds the numbers that the runs with the most
+    frequent sequence print.
     """
 
     results: tuple[Result, ...]

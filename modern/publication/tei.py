@@ -113,7 +113,7 @@ def _pieces_of(pieces: Iterable[Piece]) -> Iterable[tuple[tuple[str, int], tuple
 
 
 def _witness(div: Element, edition: _Edition, lines: Iterable[Segments]) -> None:
-    """Write every line of the witness in order, each followed by the lines that rows insert after it."""
+    """Write every line of the witness in order, each followed by the lines that the apparatus inserts after it."""
     groups: dict[str, list[Segments]] = {}  # each line of the witness with the lines inserted after it
     last = ""
     for line in lines:

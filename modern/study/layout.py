@@ -42,7 +42,10 @@ def panels(chart: Chart) -> bool:
 
 
 def steps(chart: Lines) -> tuple[float, ...]:
-    """Return the shift of each series to the right of its x values, in points: as large as these values permit."""
+    """Return how far each series is drawn to the right of its x values, so that none hides another.
+
+    The shifts are in typographic points, and as large as the gaps between the x values allow.
+    """
     count = len(chart.series)
     positions = sorted({float(x) for series in chart.series for x, _ in series.points})
     gap = min((b - a for a, b in pairwise(_scaled(positions, WIDTH, chart.log_x))), default=WIDTH)

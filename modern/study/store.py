@@ -111,7 +111,7 @@ class Store:
         return digest.hexdigest()
 
     def counts(self, *columns: str, cell: int | None = None, route: str | None = None) -> dict[tuple[Any, ...], int]:
-        """Return the number of answers for each combination of the columns or tags (``tags.kind``), sorted."""
+        """Return how many answers have each combination of the values of columns or tags (``tags.kind``), sorted."""
         names = [_column(name) for name in columns]
         selected = {name: value for name, value in (("cell", cell), ("route", route)) if value is not None}
         condition = " AND ".join(f"runs.{name} = ?" for name in selected)

@@ -86,7 +86,7 @@ def digest(cards: Sequence[str]) -> str:
 
 
 def _means() -> str:
-    """Return the means of verification as TOML: the library's deck, the simulator, and the object programs."""
+    """Return as TOML what the cards were verified with: digests of the library and the programs, and the simulator."""
     version = subprocess.run([simulator()], input=b"quit\n", capture_output=True, check=False).stdout.decode("latin1")
     title = next((line.strip() for line in version.splitlines() if "1620" in line), "unknown")
     lines = [f'library = "{digest(library())}"', f'simulator = "{" ".join(title.split())}"', "", "[programs]"]

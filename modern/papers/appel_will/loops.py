@@ -89,7 +89,10 @@ class Intersection:
 
 
 def intersect(edges: Sequence[Pair], first: int, second: int) -> Intersection | None:
-    """Classify lines ``first`` and ``second`` (numbered from 0). Return None if they share no end (step 4)."""
+    """Return how two lines meet, or None if they share no end (step 4 of the paper).
+
+    ``first`` and ``second`` are their numbers, from 0.
+    """
     ends_1, ends_2 = edges[first], edges[second]
     for kind, (a, b) in enumerate(((0, 0), (0, 1), (1, 0), (1, 1)), 1):
         if ends_1[a] == ends_2[b]:

@@ -1,4 +1,4 @@
-"""The computed lines of each published result of Nakamae and Nishita."""
+"""The lines of text that the computation gives for each published result of Nakamae and Nishita."""
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction

@@ -92,7 +92,10 @@ def _main(counts: Summary, cells: Cells) -> Table:
         rows.append(row(d, counts.of(cell, LISTED), *shares, p, exact_zeros(d), enough(d), failures))
     needed = ("least P without failure", "zeros exact: 3d+1", "always enough: 3d+4", "failures at least P")
     head = ("digits d", "sets", "hull found, as listed", "hull found, corrected", *needed)
-    notes = (*INTERVALS, "No set failed at the least P. The interval tells how often sets could still fail there.")
+    notes = (
+        *INTERVALS,
+        "No set failed at the least P. Its interval tells how many could still fail.",
+    )
     return Table("table", "Digits of the coordinates against digits of the arithmetic", head, tuple(rows), notes)
 
 

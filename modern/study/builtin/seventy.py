@@ -291,8 +291,9 @@ def _comparison(as_listed: _Route, sheets: tuple[refusals.Sheets, ...]) -> str:
     return (
         f"Two explanations are possible. Limits of the machine, as the thesis says: {needed} of seventy sets like its "
         "data sheet are enough, and the message of a rejection names the cause. But none of the six sets that it "
-        "prints in full has a decimal. Faults of the programs: sets of small integers are enough, and "
+        "prints in full has a decimal. Faults of the programs: they occur even with small integers, and "
         f"{percent(as_listed.groups(THESIS))} of the groups of seventy have two or more failures from this cause "
         "alone. But these runs end in ERROR IN PROGRAM, in a loop or in a wrong hull, which the author would hardly "
-        "have attributed to too few digits. The thesis does not settle the question; the failures may differ in cause."
+        "have attributed to too few digits. The thesis does not say which explanation holds. The two "
+        "failures may also have different causes."
     )

@@ -73,8 +73,7 @@ def _examples() -> str:
         listed, rebuilt = (_agreement(example, state) for state in ("listing", "examples"))
         verdict = f": {listed} as listed; {rebuilt} in the rebuilt state"
         examples.append(element("li", link(f"example{example}", "", f"Example {example}") + escape(verdict)))
-    runs = "runs of program 1 as listed, and of a state that was rebuilt from these results and is weaker evidence"
-    head = text("p", f"The printed results of the six examples in chapter 6, compared with {runs}:")
+    head = text("p", "The printed results of the six examples, compared with program 1 as listed and as rebuilt:")
     return head + element("ul", "".join(examples), cls="examples")
 
 

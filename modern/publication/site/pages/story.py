@@ -42,10 +42,8 @@ def _truncation() -> str:
         "p", "Value of the plane at its own three points, of which every one should be zero:", cls="quiet"
     )
     html = summary + table(("x of the first point", *essay.HEAD), shown, "A plane's values at its own points")
-    caption = (
-        f"{essay.plane_caption()} All values are exact until D needs more than eight digits on the way. Then the plane \
-misses its own points."
-    )
+    caption = f"{essay.plane_caption()} All values are exact until an intermediate result of D needs more than eight \
+digits. Then the plane misses its own points."
     box = element("div", html, cls="slider", data_rows=json.dumps(rows))
     return element("figure", box + text("figcaption", caption))
 
