@@ -246,8 +246,7 @@ class Desk:
             self.act(f"STEP {statement - len(self._record.times)}")
         if self._loaded is None or not 1 <= statement <= len(self._record.times):
             return self._answer()
-        work, log = self._record.times[statement - 1] - 1, self._log.getvalue()
-        self._log = io.StringIO()
+        work, log, self._log = self._record.times[statement - 1] - 1, self._log.getvalue(), io.StringIO()
         session = self._begin(self._loaded, log)
         # The log stops the machine at some statements; _Unanswered ends the repetition if it waited at the last one.
         with suppress(_Unanswered):
@@ -278,9 +277,8 @@ class Desk:
         decision = comparison.first_decision
         hull = {"hull": panel.true_picture(self._record.stages)} if self._record.stages else {}
         if decision is None:
-            return hull | {
-                "lines": [comparison.apart or "exact arithmetic takes every decision of this run in the same way"]
-            }
+            same = comparison.apart or "exact arithmetic takes every decision of this run in the same way"
+            return hull | {"lines": [same]}
         lines = [f"{place_of(decision.line)}: {decision.line.text}"]
         for name, value, target in zip(("eight digits", "exact"), decision.values, decision.targets, strict=True):
             lines.append(f"{name}: {value}, goes to {place_of(target) if target else 'the end'}")
@@ -358,10 +356,9 @@ class Desk:
 
     def _keep(self, name: str, text: str) -> None:
         """Write the cards of a visitor's program or deck into the log."""
-        if self._texts.get(name) == text:
-            return
-        self._texts[name] = text
-        self._earlier += f"CARDS {name}\n" + "".join(f"CARD {card}\n" for card in text.splitlines())
+        if self._texts.get(name) != text:
+            self._texts[name] = text
+            self._earlier += f"CARDS {name}\n" + "".join(f"CARD {card}\n" for card in text.splitlines())
 
     def _see(self, events: Sequence[Event]) -> None:
         self._happened += events
@@ -372,19 +369,10 @@ class Desk:
         return measure(session.program, session.result()).seconds
 
     def _answer(self) -> Answer:
-        session, events = self._session, self._happened
-        self._happened = []
+        session, events, self._happened = self._session, self._happened, []
         if session is None:
-            return {
-                "events": [],
-                "card": 0,
-                "work": 0,
-                "seconds": 0.0,
-                "bounds": [0, 0],
-                "stands": "",
-                "waits": "",
-                "ended": False,
-            }
+            nothing: Answer = {"events": [], "card": 0, "work": 0, "seconds": 0.0, "bounds": [0, 0]}
+            return nothing | {"stands": "", "waits": "", "ended": False}
         halt = None if self._ending else session.halt
         accepts = halt is not None and halt.what == "accept"
         timing = measure(session.program, session.result())
