@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import NamedTuple
 
 from emulator.language.formats import FormatSpec
@@ -233,7 +233,6 @@ class Flat(NamedTuple):
     fields: int
 
 
-@lru_cache(maxsize=64)
 def flatten(program: Program) -> Flat:
     """Return the object code of a program in flat form."""
     targets: list[int] = []
