@@ -37,6 +37,7 @@ CALLS = {
     "run": ("one.deck",),
     "translate": ("--to", "c"),
     "diverge": ("one.deck",),
+    "digits": ("one.deck",),
 }
 """Every command that reads a user-defined program, and its other arguments."""
 
