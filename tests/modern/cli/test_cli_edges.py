@@ -191,7 +191,7 @@ def test_a_long_text_of_the_input_is_shortened(words: str, own: Path, capsys: py
         (own / f"long.{ending}").write_text(text, encoding="ascii")
     code, out, err = call(capsys, *(word.replace("LONG", LONG) for word in words.split()))
     assert code == 2
-    assert max(map(len, (out + err).splitlines())) < 420
+    assert max(map(len, (out + err).splitlines())) < 500
     assert (err or out).count("\n") == 1 or words.startswith("check")
 
 
