@@ -182,7 +182,17 @@ def epsilon_text(text: str) -> str:
 ARITHMETICS = ("truncating", "ibm1962", "float64", "float32", "exact", "mp:200")
 DOCUMENTS = ("thesis", "appel-will", "kovalevsky-schulz", "nakamae-nishita", "yau-srihari")
 PROGRAMS = ("program1", "program2", "program3", "program1_examples")
-STUDIES = ("capacity", "digits", "divergence", "epsilon", "machine-time", "rounding", "seventy", "translation")
+STUDIES = (
+    "alarms",
+    "capacity",
+    "digits",
+    "divergence",
+    "epsilon",
+    "machine-time",
+    "rounding",
+    "seventy",
+    "translation",
+)
 THEOREMS = ("4.1", "4.2", "4.8")
 SCENES = ("columns", "cuboids", "house")
 TEXTS = (

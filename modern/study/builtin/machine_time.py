@@ -110,8 +110,8 @@ def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
 _HEAD = ("sets", "N", "timed", "minutes", "by the model", "longest", *PARTS, "operations", "ms an operation")
 _NOTES = (
     "In parentheses: Student's 95 % intervals of the mean, truncated at 0 minutes. By the model: mean minutes if "
-    f"the processor's times are {MODEL[0]} to {MODEL[1]} of those computed ({CONVERSION_MODEL[0]} to "
-    f"{CONVERSION_MODEL[1]} for input and output), as in runs on IBM's library of 1962. Processor, reader, punch "
+    f"the processor's times are {MODEL[0]} to {MODEL[1]} of those computed, and {CONVERSION_MODEL[0]} to "
+    f"{CONVERSION_MODEL[1]} for input and output, as in runs on IBM's library of 1962. Processor, reader, punch "
     "and typewriter: mean minutes.",
     "Operations: floating-point additions, products and quotients. The last column is the processor time of one.",
 )

@@ -195,9 +195,9 @@ def _main(plan: Plan, pairs: list[_Pair]) -> Table:
     notes = (
         "In parentheses: Student's 95 % intervals of the mean over sets, truncated at 100 %. A negative share is a "
         "loss. Seconds: processor time with the origin kept. All time: with reader, punch and typewriter.",
-        f"The processor's times have a systematic error: on IBM's library of 1962 they are {MODEL[0]} to {MODEL[1]} of "
-        f"those computed ({CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for input and output). Shares are ratios, in "
-        "which most of it cancels.",
+        f"The processor's times have a systematic error: on IBM's library of 1962 they are {MODEL[0]} to {MODEL[1]} "
+        f"of those computed, and {CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for input and output. Shares are "
+        "ratios, in which most of it cancels.",
     )
     return Table("table", "What moving the origin to C saves", head, tuple(rows), notes)
 

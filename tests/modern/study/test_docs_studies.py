@@ -27,7 +27,7 @@ def test_committed_manifest_agrees_with_the_default_plan(name: str) -> None:
     assert manifest["plan"] == module.plan(module.SAMPLES, 1963).document()
 
 
-SECTIONS = ("seventy", "rounding", "epsilon", "translation", "capacity, machine-time, divergence")
+SECTIONS = ("seventy", "rounding", "epsilon", "translation", "capacity, machine-time, divergence", "alarms")
 
 
 @pytest.mark.parametrize("section", SECTIONS)

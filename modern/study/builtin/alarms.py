@@ -1,0 +1,329 @@
+"""Study which methods of error analysis notice that a program takes a wrong branch.
+
+Every set goes through the corrected programs in eight-digit arithmetic.  Each decision is compared with that of exact
+arithmetic on the same branch, up to the first wrong one, and with what stochastic arithmetic, intervals, sixteen digits
+and chapter 7's e say of it (modern/study/alarms.py).  ``samples`` counts the sets of each family.
+"""
+
+import json
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from functools import reduce
+from typing import Any
+
+from modern.study.alarms import ESTIMATING, METHODS
+from modern.study.plan import Cell, Plan, Programs
+from modern.study.report import (
+    INTERVALS,
+    Bars,
+    Chart,
+    Lines,
+    Report,
+    Series,
+    Table,
+    listed,
+    percent,
+    row,
+    with_interval,
+)
+from modern.study.statistics import Interval, exact, mean
+from modern.study.store import Store
+
+TITLE = "which estimates of rounding errors tell a wrong decision from a right one"
+SAMPLES = 5000
+POINTS = 6
+ROUTE = "corrected"
+NAMES: Mapping[str, str] = {
+    "cadna3": "CADNA, N = 3",
+    "cadna10": "CADNA, N = 10",
+    "parker10": "Stott Parker, N = 10",
+    "vote10": "ten samples agree",
+    "interval": "intervals",
+    "double": "sixteen digits",
+}
+SHOWN = ("cadna3", "cadna10", "parker10", "interval", "double")
+OPERATIONS = ("additions", "products", "quotients")
+DIGITS = tuple(range(9))
+# Exponents k of the tried e = 10**k.
+POWERS = tuple(range(-9, 10))
+FAMILIES: tuple[tuple[str, str, dict[str, int]], ...] = (
+    ("thesis's kind", "thesis", {}),
+    ("whole, 3 digits", "integers", {"digits": 3, "n": POINTS}),
+    ("whole, 4 digits", "integers", {"digits": 4, "n": POINTS}),
+    ("decimals, 3 digits", "decimals", {"digits": 3, "n": POINTS}),
+    ("ball, 3 digits", "ball", {"digits": 3, "n": POINTS}),
+)
+
+
+def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
+    route = Programs(ROUTE, layers=("corrected",), core=60_000, limit=20_000, measures=("alarms",))
+    cells = tuple(
+        Cell({"sets": name}, family, parameters, (route,), samples, chunk=25) for name, family, parameters in FAMILIES
+    )
+    return Plan(
+        "alarms",
+        TITLE[0].upper() + TITLE[1:],
+        "Stochastic arithmetic, intervals and higher precision estimate rounding errors without knowing the truth. How "
+        "many wrong decisions of a program do they notice, and how many alarms do they raise at right ones?",
+        cells,
+        seed,
+        (
+            "All arithmetics repeat the operations of the machine on the branch that it took, from the numbers on the "
+            "cards. Each program is judged up to its first wrong decision, so a run has at most one.",
+            f"Sets have {POINTS} points, except those of the thesis's kind, whose numbers of points vary. Six points "
+            "suffice for every kind of decision, and more points would mostly repeat them.",
+        ),
+    )
+
+
+@dataclass
+class _Group:
+    """Counts of runs: of one cell, or of several added together.
+
+    noticed, repaired, warned: runs whose first wrong decision a method notices, decides rightly, or announces by an
+    alarm at or before it.  alarmed, spoiled: sound runs (all decisions right) with an alarm, and with a decision that
+    the method would have changed.  false: alarms at right decisions.
+    """
+
+    wrong: int = 0
+    sound: int = 0
+    right_decisions: int = 0
+    noticed: Counter[str] = field(default_factory=Counter)
+    repaired: Counter[str] = field(default_factory=Counter)
+    warned: Counter[str] = field(default_factory=Counter)
+    alarmed: Counter[str] = field(default_factory=Counter)
+    spoiled: Counter[str] = field(default_factory=Counter)
+    false: Counter[str] = field(default_factory=Counter)
+
+    def add(self, figures: Mapping[str, Any]) -> None:
+        """Count a run."""
+        is_wrong = bool(figures["first"])
+        self.wrong, self.sound = self.wrong + is_wrong, self.sound + (not is_wrong)
+        self.right_decisions += figures["tests"] - is_wrong
+        for name in METHODS:
+            alarms = figures[f"{name}_false"]
+            self.false[name] += alarms
+            if is_wrong:
+                self.noticed[name] += figures[f"{name}_caught"]
+                self.repaired[name] += figures[f"{name}_repaired"]
+                self.warned[name] += bool(figures[f"{name}_caught"] or alarms)
+            else:
+                self.alarmed[name] += alarms > 0
+                self.spoiled[name] += figures[f"{name}_spoils"] > 0
+        right = {int(k): int(n) for k, n in (pair.split(":") for pair in figures["e_right"].split())}
+        for k in POWERS:
+            alarms = sum(n for power, n in right.items() if power <= k)
+            caught = is_wrong and figures["e_first"] <= k
+            self.false[e_name(k)] += alarms
+            self.noticed[e_name(k)] += caught
+            self.repaired[e_name(k)] += caught and figures["e_repaired"]
+            self.warned[e_name(k)] += is_wrong and bool(caught or alarms)
+            self.alarmed[e_name(k)] += not is_wrong and alarms > 0
+            self.spoiled[e_name(k)] += not is_wrong and alarms > 0
+
+    def __add__(self, other: "_Group") -> "_Group":
+        return _Group(*(getattr(self, part.name) + getattr(other, part.name) for part in fields(self)))
+
+    def best_e(self) -> int:
+        """Return the least power that notices the most wrong decisions."""
+        return max(POWERS, key=lambda k: self.noticed[e_name(k)])
+
+    def share(self, counter: Counter[str], name: str) -> Interval | None:
+        """Return the share of a method's runs: of those with a wrong decision, or of the sound ones."""
+        of = self.sound if counter is self.alarmed or counter is self.spoiled else self.wrong
+        return exact(counter[name], of) if of else None
+
+
+@dataclass
+class _Rows:
+    """All counts: by cell, by the statement of the first wrong decision, of digits, and of operations."""
+
+    groups: dict[int, _Group] = field(default_factory=dict)
+    places: dict[str, _Group] = field(default_factory=dict)
+    # For each method and number of true digits: the mean estimate of each run.
+    digits: dict[tuple[str, int], list[float]] = field(default_factory=dict)
+    numbers: Counter[int] = field(default_factory=Counter)
+    # For each method: the runs with an estimate, and those with one that is more than a digit too large.
+    estimated: Counter[str] = field(default_factory=Counter)
+    optimistic: Counter[str] = field(default_factory=Counter)
+    operations: Counter[str] = field(default_factory=Counter)
+
+    @property
+    def all(self) -> _Group:
+        return reduce(lambda a, b: a + b, self.groups.values())
+
+
+def e_name(power: int) -> str:
+    """Return the name of the method that compares with e = 10**power."""
+    return f"e = 10^{power}"
+
+
+def report(plan: Plan, store: Store) -> Report:
+    rows = _Rows()
+    for cell, text in store.query("SELECT cell, figures FROM runs ORDER BY cell, place"):
+        figures = json.loads(text)
+        if "tests" in figures:
+            _count(rows, cell, figures)
+    charts: tuple[Chart, ...] = (_bars(plan, rows, "noticed"), _bars(plan, rows, "alarms"), _digit_chart(rows))
+    tables = (_main(rows), _families(plan, rows), _e_table(rows), _digit_table(rows), _places(rows), _costs(rows))
+    return Report(tables, charts, _conclusions(rows))
+
+
+def _count(rows: _Rows, cell: int, figures: Mapping[str, Any]) -> None:
+    rows.groups.setdefault(cell, _Group()).add(figures)
+    if figures["first"]:
+        rows.places.setdefault(figures["first"], _Group()).add(figures)
+    for name in OPERATIONS:
+        rows.operations[name] += figures[name]
+    for name in ESTIMATING:
+        entries = [(d, figures[f"{name}_digits_{d}"].split()) for d in DIGITS if f"{name}_digits_{d}" in figures]
+        for d, (number, average, _) in entries:
+            rows.digits.setdefault((name, d), []).append(float(average))
+            rows.numbers[d] += int(number) if name == ESTIMATING[0] else 0
+        rows.estimated[name] += bool(entries)
+        rows.optimistic[name] += any(int(over) for _, (_, _, over) in entries)
+
+
+def _main(rows: _Rows) -> Table:
+    group, lines = rows.all, []
+    for name in (*METHODS, e_name(group.best_e())):
+        shares = [group.share(counter, name) for counter in (group.noticed, group.warned, group.repaired)]
+        false = [group.share(counter, name) for counter in (group.alarmed, group.spoiled)]
+        per_decision = f"{100 * group.false[name] / max(group.right_decisions, 1):.2f} %"
+        lines.append(row(NAMES.get(name, name), group.wrong, *shares, group.sound, *false, per_decision))
+    of_wrong = ("runs with a wrong decision", "noticed", "noticed or announced", "decided rightly")
+    head = ("method", *of_wrong, "sound runs", "false alarm", "would go wrong", "alarms at right decisions")
+    notes = (
+        *INTERVALS,
+        "Noticed: an alarm at the first wrong decision. Announced: at an earlier decision. Sound runs: all decisions "
+        "are right. Would go wrong: the method's own decision would be wrong somewhere in a sound run. The e is the "
+        "least that notices most, chosen on these runs.",
+    )
+    return Table("table", "Wrong decisions noticed, and false alarms", head, tuple(lines), notes)
+
+
+def _families(plan: Plan, rows: _Rows) -> Table:
+    lines = []
+    for number, group in rows.groups.items():
+        for name in (*METHODS, e_name(group.best_e())):
+            noticed, alarmed = group.share(group.noticed, name), group.share(group.alarmed, name)
+            key = plan.cells[number].key["sets"]
+            lines.append(row(key, NAMES.get(name, name), group.wrong, noticed, group.sound, alarmed))
+    head = ("sets", "method", "runs with a wrong decision", "noticed", "sound runs", "false alarm")
+    notes = (*INTERVALS, "The e is the least that notices most in the family, chosen on these runs.")
+    return Table("families", "Wrong decisions noticed, and false alarms, by family", head, tuple(lines), notes)
+
+
+def _e_table(rows: _Rows) -> Table:
+    group = rows.all
+    lines = tuple(
+        row(f"10^{k}", group.share(group.noticed, e_name(k)), group.share(group.alarmed, e_name(k))) for k in POWERS
+    )
+    return Table("e", "Chapter 7's e, all families", ("e", "noticed", "false alarm"), lines, INTERVALS)
+
+
+def _digit_table(rows: _Rows) -> Table:
+    lines = []
+    for d in DIGITS:
+        if rows.numbers[d]:
+            means = [mean(rows.digits[name, d], least=0.0, most=8.0) for name in ESTIMATING]
+            lines.append((str(d), str(rows.numbers[d]), *(with_interval(estimate) for estimate in means)))
+    for title, counts in (("more than one digit too many", rows.optimistic),):
+        shares = (percent(exact(counts[name], rows.estimated[name])) for name in ESTIMATING if rows.estimated[name])
+        lines.append((title, str(rows.estimated[ESTIMATING[0]]), *shares))
+    head = ("true digits", "numbers", *(NAMES[name] for name in ESTIMATING))
+    notes = (
+        "Numbers that a decision tests and that are not exact, by their correct digits, rounded to an integer; below, "
+        "the mean of the estimates with Student's 95 % interval over runs. Last row: runs, and the share of them with "
+        "a number whose estimate is more than one digit too large (exact 95 % interval).",
+    )
+    return Table("digits", "Digits estimated against true digits", head, tuple(lines), notes)
+
+
+def _places(rows: _Rows) -> Table:
+    ordered = sorted(rows.places.items(), key=lambda item: (-item[1].wrong, item[0]))
+    lines = tuple(
+        row(place, group.wrong, *(group.share(group.noticed, name) for name in METHODS)) for place, group in ordered
+    )
+    head = ("first wrong decision", "runs", *(NAMES[name] for name in METHODS))
+    return Table("places", "Where the first wrong decision is, and who notices it", head, lines, INTERVALS)
+
+
+def _costs(rows: _Rows) -> Table:
+    """Return the cost of the methods in the instruction times of a 1620 Model 1 (A26-5706-3)."""
+    ops = rows.operations
+
+    def microseconds(p: int) -> int:
+        product, quotient = 560 + 40 * p + 168 * p * p, 160 + 520 * p * p + 740 * p
+        return ops["additions"] * (160 + 80 * p) + ops["products"] * product + ops["quotients"] * quotient
+
+    factors = {"cadna3": 3.0, "cadna10": 10.0, "parker10": 10.0, "vote10": 10.0, "interval": 2.0}
+    factors["double"] = microseconds(16) / microseconds(8)
+    lines = tuple((NAMES[name], f"{factors[name]:.1f}") for name in METHODS)
+    notes = (
+        "Time of the digit arithmetic of a run, compared with a plain run: additions take 160 + 80 P, products 560 + "
+        "40 P + 168 P^2, quotients 160 + 740 P + 520 P^2 microseconds with P digits (A26-5706-3). Intervals: two "
+        "operations for each, which an interval that holds zero exceeds. Chapter 7's e costs a comparison.",
+    )
+    return Table("cost", "Cost relative to a plain run", ("method", "times a plain run"), lines, notes)
+
+
+def _bars(plan: Plan, rows: _Rows, name: str) -> Bars:
+    is_noticed = name == "noticed"
+    series = []
+    for method in SHOWN:
+        points: list[tuple[str, Interval]] = []
+        for number, group in rows.groups.items():
+            share = group.share(group.noticed if is_noticed else group.alarmed, method)
+            if share and group.wrong:
+                points.append((str(plan.cells[number].key["sets"]), share))
+        series.append(Series(NAMES[method], tuple(points)))
+    title = "Wrong decisions that the methods notice" if is_noticed else "Sound runs with a false alarm"
+    y = "share of runs with a wrong decision" if is_noticed else "share of sound runs"
+    note = f"{plan.cells[0].samples} sets of each family; bars: exact 95 % intervals"
+    return Bars(name, title, "", y, tuple(series), percent=True, note=note)
+
+
+def _digit_chart(rows: _Rows) -> Lines:
+    series = tuple(
+        Series(
+            NAMES[name],
+            tuple(
+                (float(d), mean(rows.digits[name, d], least=0.0, most=8.0)) for d in DIGITS if (name, d) in rows.digits
+            ),
+        )
+        for name in ESTIMATING
+    )
+    truth = Series("true", tuple((float(d), Interval(float(d), float(d), float(d))) for d in DIGITS))
+    note = "numbers tested by a decision; bars: 95 % intervals of the mean (Student's)"
+    return Lines(
+        "digits", "Estimated against true digits", "true digits", "estimated digits", (*series, truth), note=note
+    )
+
+
+def _conclusions(rows: _Rows) -> tuple[str, ...]:
+    group = rows.all
+    if not group.wrong:
+        return ("No run took a wrong decision.",)
+    # Sets without any rounding would only dilute the false alarms.
+    hard = reduce(lambda a, b: a + b, (each for each in rows.groups.values() if each.wrong))
+    e = e_name(group.best_e())
+    noticed = {name: row(group.share(group.noticed, name))[0] for name in (*METHODS, e)}
+    alarmed = {name: row(hard.share(hard.alarmed, name))[0] for name in (*METHODS, e)}
+    complete = listed(NAMES[name] for name in METHODS if group.noticed[name] == group.wrong)
+    silent = listed(NAMES[name] for name in METHODS if not group.alarmed[name])
+    fewer = group.noticed["cadna10"] < group.noticed["cadna3"]
+    optimistic = percent(exact(rows.optimistic["cadna3"], rows.estimated["cadna3"]))
+    return (
+        f"Of {group.wrong:,} runs in which eight-digit arithmetic took a wrong branch, CADNA's criterion noticed "
+        f"{noticed['cadna3']} with three samples and {noticed['cadna10']} with ten"
+        + (", fewer because more samples make the mean more certain, but not the number that decides" if fewer else "")
+        + f"; Stott Parker's criterion noticed {noticed['parker10']}. Methods that noticed all: {complete}.",
+        f"Of {hard.sound:,} runs without a wrong decision in the same families, CADNA with three samples raised an "
+        f"alarm in {alarmed['cadna3']}, intervals in {alarmed['interval']} and sixteen digits in {alarmed['double']}. "
+        f"Methods without a false alarm: {silent}.",
+        f"Chapter 7's e noticed at most {noticed[e]} of the wrong decisions, at {e}, with an alarm in {alarmed[e]} of "
+        f"the runs without one. In {optimistic} of the runs with rounding errors, CADNA with three samples claimed "
+        "more than one digit too many for some number that a decision tests.",
+    )
