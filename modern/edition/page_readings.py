@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import csv
 import re
-import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import astuple, fields, replace
-from importlib.resources import as_file
+from importlib.resources.abc import Traversable
 from io import StringIO
 from pathlib import Path
 
@@ -122,9 +121,7 @@ def write_state(folder: str, readings: Sequence[Reading]) -> tuple[Reading, ...]
         target.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".state-", dir=target.parent) as room:
             new = Path(room) / "new"
-            with as_file(programs.sources()) as installed:
-                ignore = shutil.ignore_patterns("__pycache__")
-                shutil.copytree(base or installed, new / "fortran_src", ignore=ignore)
+            _copy(base or programs.sources(), new / "fortran_src")
             stored = (*earlier, *_applied(new / "fortran_src", readings))
             table = StringIO(newline="")
             writer = csv.writer(table, lineterminator="\n")
@@ -137,6 +134,16 @@ def write_state(folder: str, readings: Sequence[Reading]) -> tuple[Reading, ...]
     except OSError as error:
         raise FileError(f"{folder}: {reason(error)}") from None
     return stored
+
+
+def _copy(source: Traversable, target: Path) -> None:
+    """Copy a folder of data files, which may be in an archive."""
+    target.mkdir(parents=True)
+    for entry in source.iterdir():
+        if entry.is_file():
+            (target / entry.name).write_bytes(entry.read_bytes())
+        elif entry.name != "__pycache__":
+            _copy(entry, target / entry.name)
 
 
 def _applied(data: Path, readings: Sequence[Reading]) -> Iterator[Reading]:
