@@ -52,9 +52,9 @@ def read_citation(text: str) -> Mapping[str, Any]:
     return fields
 
 
-def newest_wheel(folder: Path = DIST) -> Path | None:
+def newest_wheel(folder: Path | None = None) -> Path | None:
     """Return the wheel that was built last, or None if ``make wheel`` has not run.
 
     folder: where the wheel is, by default the folder of all builds.
     """
-    return max(folder.glob("hull1620-*.whl"), key=lambda path: path.stat().st_mtime, default=None)
+    return max((folder or DIST).glob("hull1620-*.whl"), key=lambda path: path.stat().st_mtime, default=None)
