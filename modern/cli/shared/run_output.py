@@ -151,7 +151,7 @@ def profile_lines(program: Program, result: Result) -> Iterator[str]:
     for row in timing.devices:
         yield _profile_row(row)
     low, high = timing.bounds
-    yield f"  {'sum':<20}{'':>9}{timing.seconds:>11.1f}  ({low:.1f} to {high:.1f}; less if devices overlap)"
+    yield f"  {'sum':<20}{'':>9}{timing.seconds:>11.1f}  ({low:.1f} to {high:.1f}; less with overlap)"
     if any(row.estimated for row in timing.processor):
         yield "  ~ includes estimated times, which no source states"
     yield "  in parentheses: the systematic error of the processor's times"
