@@ -161,7 +161,7 @@ def _apparatus(parser: ArgumentParser) -> None:
         "the originals, and write the errors by class of certainty to FOLDER"
     )
     add(parser, {"--restore FOLDER": restore}, type=Folder)
-    runs = "with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards; with --restore: also damage FOLDER/*.f"
+    runs = "with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards; with --restore: damage its programs too"
     add(parser, {"--runs FOLDER": runs})
     text = (
         "write a proof sheet for each page to FOLDER: what only a reader of the page can decide, as HTML, CSV and PDF"
