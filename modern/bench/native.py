@@ -54,7 +54,9 @@ def built(deck: Deck, fortran: Compiler, folder: Path) -> Path:
     source, program = folder / "deck.f90", folder / "deck"
     source.write_text(translated(deck, "fortran"), encoding="ascii")
     extra = _EXTRA.get(Path(fortran.command[0]).name, ())
-    process = _run([*fortran.command, "-O2", *extra, "-o", str(program), str(source)])
+    name, *arguments = fortran.command
+    path = str(Path(shutil.which(name) or name).absolute())  # the compiler runs in the folder, where it writes modules
+    process = _run([path, *arguments, "-O2", *extra, "-o", program.name, source.name], folder)
     if process.returncode:
         errors = [line for line in process.stderr.splitlines() if "rror" in line] or ["no reason given"]
         raise NoCompiler(f"{fortran.version} cannot compile the translated program: {errors[0].strip()}")
@@ -83,8 +85,8 @@ def run(program: Path, cards: Path, punched: Path) -> None:
         raise NoCompiler(f"the native program failed: {errors[0]}")
 
 
-def _run(command: list[str]) -> subprocess.CompletedProcess[str]:
+def _run(command: list[str], folder: Path | None = None) -> subprocess.CompletedProcess[str]:
     try:
-        return subprocess.run(command, capture_output=True, text=True, timeout=_PATIENCE, check=False)
+        return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=_PATIENCE, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
         raise NoCompiler(f"{command[0]} cannot be run: {error}") from None

@@ -24,8 +24,10 @@ needs_compiler = pytest.mark.skipif(GFORTRAN is None, reason="no gfortran")
 
 
 @needs_compiler
-def test_native_program_3_agrees_with_the_emulated_one(tmp_path: Path) -> None:
-    """Thirty sets in one process give the same cards, except for the printing of zeros."""
+def test_native_program_3_agrees_with_the_emulated_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Thirty sets in one process give the same cards, except for zeros. The user's folder stays empty."""
+    (tmp_path / "empty").mkdir()
+    monkeypatch.chdir(tmp_path / "empty")
     texts = middle_texts([random_points(4 + n, n) for n in range(30)])
     cards_file, punched_file = tmp_path / "cards", tmp_path / "punched"
     cards_file.write_text("".join(texts))
@@ -34,6 +36,7 @@ def test_native_program_3_agrees_with_the_emulated_one(tmp_path: Path) -> None:
     ours = [Machine(program, deck_from_lines("d", text.splitlines()), OPTIONS).run().punched for text in texts]
     agreement = compare(ours, data_sets(punched_file.read_text().splitlines()))
     assert (agreement.same, agreement.digits, agreement.different) == (30, 0, 0)
+    assert list(Path().iterdir()) == []
 
 
 def test_missing_compilers_are_reported(monkeypatch: pytest.MonkeyPatch) -> None:
