@@ -69,7 +69,7 @@ def main(args: argparse.Namespace) -> int:
         _statements(divergence, sampling),
     ]
     if args.deck:
-        tables.append(_cards(sensitivities(program, deck, truth, options)))
+        tables.append(_cards(*sensitivities(program, deck, truth, options)))
     heading = (
         f"{program.source}, {deck.source}: {options.numbers.name} against {reference.name}; {args.runs} stochastic "
         f"runs {'one by one' if runs else 'in step'} ({numbers_in_step.name})"
@@ -223,7 +223,7 @@ def _statements(divergence: Divergence, sampling: Sampling) -> Table:
     return Table("Statements", sentences, heads, rows)
 
 
-def _cards(rows: Sequence[Sensitivity]) -> Table:
+def _cards(rows: Sequence[Sensitivity], omitted: int) -> Table:
     """Return the effect of one unit in the last digit of each number on the cards, the largest first."""
 
     def size(row: Sensitivity) -> float:
@@ -235,6 +235,8 @@ def _cards(rows: Sequence[Sensitivity]) -> Table:
         line = "" if row.record is None else str(row.record)
         cells.append((str(row.card), str(row.column), row.columns.strip(), row.changed.strip(), effect, line))
     sentences = ["the largest relative change of a printed number if one number of the deck changes in its last digit"]
+    if omitted:
+        sentences.append(f"the last {omitted} numbers that the run reads were not changed")
     return Table("Input cards", sentences, ("card", "column", "number", "changed to", "change", "line"), cells)
 
 

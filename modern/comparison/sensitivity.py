@@ -52,8 +52,8 @@ def shape_of(texts: Sequence[str]) -> list[str]:
 
 def sensitivities(
     program: Program, deck: Deck, reference: Numbers, options: Options | None = None, most: int = 200
-) -> list[Sensitivity]:
-    """Return the sensitivity to each floating-point number of a deck, for at most ``most`` numbers.
+) -> tuple[list[Sensitivity], int]:
+    """Return the sensitivity to each of the first ``most`` floating-point numbers of a deck, and how many follow.
 
     Raise CardError or DeckError for a bad deck.
     """
@@ -61,7 +61,8 @@ def sensitivities(
     machine = Machine(program, deck, base)
     result = machine.run()
     rows = []
-    for card, column, width in list(dict.fromkeys(machine.devices.fields_read))[:most]:
+    fields = list(dict.fromkeys(machine.devices.fields_read))
+    for card, column, width in fields[:most]:
         text = deck.cards[card - 1].text.ljust(column - 1 + width)
         columns = text[column - 1 : column - 1 + width]
         changed = _nudged(columns)
@@ -71,7 +72,7 @@ def sensitivities(
         lines[card - 1] = text[: column - 1] + changed + text[column - 1 + width :]
         nudged = deck_from_lines(deck.source, lines)
         rows.append(_compared(program, nudged, base, result, (card, column, columns, changed)))
-    return rows
+    return rows, len(fields[most:])
 
 
 def _nudged(columns: str) -> str | None:
