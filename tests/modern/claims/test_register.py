@@ -84,7 +84,7 @@ def test_worst_verdict_of_check_and_results_counts(first: Verdict, second: Verdi
     ("document", "kind", "names"),
     [
         ("thesis", "theorem", ["4.1", "4.2", "4.3", "4.4", "4.5", "4.6", "4.7", "4.8"]),
-        ("thesis", "equation", ["(3.1)", "(3.2)", "(3.3)", "(3.4)", "(3.5)", "V compares"]),
+        ("thesis", "equation", ["(3.1)", "(3.2)", "(3.3)", "(3.4)", "(3.5)", "V_i compare"]),
         (
             "thesis",
             "figure",
