@@ -25,7 +25,7 @@ class ArgumentError(EmulatorError, ValueError):
 
 
 def expect(value: object, kind: type | tuple[type, ...], name: str) -> None:
-    """Raise ArgumentError unless the value of the argument called ``name`` has one of the given types."""
+    """Raise ArgumentError if ``value``, the argument called ``name``, has none of the given types."""
     if not isinstance(value, kind):
         kinds = kind if isinstance(kind, tuple) else (kind,)
         expected = " or ".join(each.__name__ for each in kinds)
@@ -114,7 +114,7 @@ def _also(cards: list[int]) -> str:
 
 
 class Refused(Exception):
-    """A statement or specification that the compiler rejects.  The compiler continues with the next statement.
+    """Raised for a statement or FORMAT that the compiler rejects.  The compiler then continues with the next statement.
 
     ``number`` and ``about`` have the same meaning as in :class:`Diagnostic`.
     """

@@ -101,7 +101,7 @@ def parse_toml(text: str, parse_float: Callable[[str], Any] = float) -> dict[str
 
 
 def reason(error: OSError) -> str:
-    """Return the operating system's explanation of an error, which is appended to a message."""
+    """Return the operating system's explanation of an error, for use in a message."""
     return (error.strerror or str(error)).lower()
 
 

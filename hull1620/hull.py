@@ -72,17 +72,19 @@ class Hull:
 
     @property
     def status(self) -> str:
-        """``determined``, or the message with which the programs end."""
+        """``determined`` if there is a hull, otherwise the error message that the programs of 1963 give for these
+        points.
+        """
         return self.record.status
 
     @property
     def determined(self) -> bool:
-        """True if the procedure found a hull."""
+        """True if a hull was found.  Butler's procedure fails for some points; ``exact_hull`` always finds one."""
         return self.record.determined
 
     @property
     def closes(self) -> bool:
-        """True if the procedure found a hull and its faces close to a surface, so that it has a volume."""
+        """True if a hull was found and its faces form a closed surface, so that it has a volume."""
         try:
             return bool(self._closed)
         except ExportError:
@@ -90,7 +92,7 @@ class Hull:
 
     @property
     def statement(self) -> str:
-        """Program and label of the statement in the listing that decided the status; empty for ``exact_hull``."""
+        """The program and statement number at which Butler's FORTRAN sets ``status``; empty for ``exact_hull``."""
         return self.record.statement
 
     @property
@@ -110,17 +112,17 @@ class Hull:
 
     @property
     def history(self) -> tuple[Stage, ...]:
-        """The approximations H1, H2, ... of the hull, recorded if ``convex_hull`` was called with ``history=True``."""
+        """The growing polyhedra H1, H2, ... that Butler's procedure builds, kept if ``history=True`` was given."""
         return as_tuple(self.record.history)
 
     @property
     def corrected(self) -> tuple[str, ...]:
-        """Rows of the layer ``corrected`` for which a branch differed from that of the listing."""
+        """Identifiers of the modern corrections to Butler's listings that changed a branch of this computation."""
         return self.record.corrected
 
     @cached_property
     def points(self) -> Floats:
-        """The points as numbers of the arithmetic, shape (n, 3)."""
+        """The points, rounded to the arithmetic of the hull and then to doubles, shape (n, 3)."""
         points = self.record.points
         if isinstance(points, PointTexts):
             return _read_only(points.floats())
@@ -133,7 +135,8 @@ class Hull:
 
     @cached_property
     def vertices(self) -> Indices:
-        """The indices of the vertices, in the order in which the procedure found them; ``exact_hull`` sorts them."""
+        """The indices of the vertices, in the order in which Butler's procedure finds them; ``exact_hull`` sorts them.
+        """
         return _read_only(np.array(self.record.vertices, np.intp))
 
     @cached_property
@@ -228,7 +231,7 @@ class Hull:
 
     @cached_property
     def squared_areas(self) -> tuple[Fraction, ...]:
-        """The exact square of each face's area, in the order of ``faces``; for a polygon one number."""
+        """The exact square of the area of each face, in the order of ``faces``.  A polygon has one number."""
         return self._closed.squared_areas()
 
     def coplanar(self, within: Any) -> "Hull":

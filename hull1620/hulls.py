@@ -50,10 +50,10 @@ def convex_hull(
         ``truncating1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, ``stochastic:P:SEED`` or
         ``stochastic:BITSb:SEED``.
     epsilon : number or str, optional
-        The e of chapter 7: values of an equation from -e to e count as zero.  ``"rel:1e-9"`` is relative to the
-        equation.  If e is so large that the faces do not form a closed surface, there is no hull.
+        The tolerance e of the thesis's chapter 7: values of a plane equation from -e to e count as zero.
+        ``"rel:1e-9"`` is relative to the coefficients of the equation.  If e is so large that the faces do not form a closed surface, there is no hull.
     translate : bool, optional
-        Move the origin to the point C first, as chapter 7 proposes.
+        Move the origin to a point C inside the hull first, as chapter 7 of the thesis proposes.
     history : bool, optional
         Record the approximations H1, H2, ...
     fast : bool, optional
@@ -104,7 +104,7 @@ def convex_hull(
 
 
 def exact_hull(points: Points, fast: bool | None = None) -> Hull:
-    """Compute the exact convex hull of points and prove it, by an algorithm that is independent of the procedure.
+    """Compute the exact convex hull of points and prove it, by an algorithm that is independent of Butler's.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def data_deck(points: Points, truncate: bool = False, epsilon: Epsilon = None) -
     truncate : bool, optional
         Truncate numbers after the eighth digit, which is all that a card holds.
     epsilon : number or str, optional
-        The e of chapter 7, for the layer ``epsilon``.
+        The tolerance e, which programs changed as chapter 7 proposes (layer ``epsilon``) read from the deck.
 
     Raises
     ------
@@ -215,7 +215,7 @@ def run_hull(deck: Deck, layers: Sequence[str] = (), options: Options | None = N
     deck : Deck
         One data set, for instance from ``data_deck`` or ``read_deck``.
     layers : sequence of str, optional
-        Layers of the apparatus, such as ``corrected``, that are added to the listings.
+        Optional sets of changes to the listings, such as ``corrected``, which mends faults of the originals.
     options : Options, optional
         The options of the machine: arithmetic, core memory, limit of statements, and others.
 
@@ -258,7 +258,7 @@ def load_program(name: str, layers: Sequence[str] = ()) -> Program:
     name : str
         ``program1``, ``program2``, ``program3`` or ``program1_examples``.
     layers : sequence of str, optional
-        Layers of the apparatus that are added to the listing.
+        Optional sets of changes to the listing; see ``run_hull``.
 
     Raises
     ------

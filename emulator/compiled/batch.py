@@ -87,7 +87,7 @@ def _blocks(items: Iterable[T]) -> Iterator[list[T]]:
 
 
 def _runner(program: Program, options: Options, note: Note | None) -> Runner | None:
-    """Return a runner, or None after reporting the reason to ``note``."""
+    """Return the compiled engine with this program, or None if it cannot be used; ``note`` then receives the reason."""
     reason = why_plain(options)
     if not reason:
         try:
@@ -100,7 +100,7 @@ def _runner(program: Program, options: Options, note: Note | None) -> Runner | N
 
 
 def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
-    """Return the result of a deck, built from the log and counts of its run."""
+    """Convert the numbers and the log of a compiled run to the same result that the interpreter would return."""
     lines: dict[str, list[str]] = {"P": [], "T": []}
     events: list[Event] = []
     cards = iter(deck.cards)
@@ -143,7 +143,7 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
 
 
 def _ending(program: Program, options: Options, run: Run) -> Ending:
-    """Return the ending that ``Session._stopped`` would return for the same reason."""
+    """Convert the reason for which a compiled run ended, a number, to the ending that the interpreter would report."""
     registers = run.registers
     at, decision, address = registers[kernel.AT], registers[kernel.DECISION], registers[kernel.ADDRESS]
     subscripts = registers[kernel.INDEX], registers[kernel.INDEX2]

@@ -1,4 +1,4 @@
-"""The run of a deck from its first card to its end, on integers only: the kernel together with the devices.
+"""Run a whole deck in compiled code, from its first card to its end: the kernel together with the devices.
 
 The engine supports READ, PUNCH, PRINT and TYPE with any FORMAT, SQRT, integer powers, error codes, PAUSE and the
 normal endings. A deck that needs anything else ends with NOT_HERE, and the caller runs it again on a
@@ -90,7 +90,7 @@ def run_decks(
 
 
 def load(forms: Forms, start: Start, core: Core, desk: Desk) -> None:
-    """Set core storage and desk to their state before a run."""
+    """Reset core storage, the FORMAT texts and the registers to their state before a run."""
     for k in range(len(start.mantissas)):
         core.mantissas[k] = start.mantissas[k]
         core.exponents[k] = start.exponents[k]
@@ -122,7 +122,7 @@ def run_deck(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run one deck and return the reason for its end.  The registers of the devices hold the bounds of the deck."""
+    """Run one deck and return the reason for its end.  ``desk.devices`` already holds its first and last card."""
     limit, strict, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers
     devices[dev.ANY_READ] = any_read

@@ -63,7 +63,8 @@ STAMP = 6
 # The arrays are grouped in the tuples below, so that each function receives only those it needs: numba passes an array
 # as seven or more numbers in every call.
 class Marks(NamedTuple):
-    """The parts of the object code that devices use: second operand and statement of each instruction, and verbs."""
+    """Parts of the object code that the devices use: second operand and statement of each instruction, and the verbs.
+    """
 
     seconds: Row
     statements: Row
@@ -71,7 +72,7 @@ class Marks(NamedTuple):
 
 
 class Code(NamedTuple):
-    """The object code, its parts that devices use, and for each library function 1 for SQRT or 0 for others."""
+    """The object code, the parts of it that devices use, and a flag for each library function: 1 for SQRT, else 0."""
 
     flat: Flat
     marks: Marks
@@ -79,7 +80,7 @@ class Code(NamedTuple):
 
 
 class Forms(NamedTuple):
-    """All FORMATs.
+    """All FORMAT statements of a program as flat arrays of integers.
 
     A FORMAT has FORM numbers: the bounds of its specifications, the specification at which a longer list continues,
     whether it has fields, and the work of processing it once. A specification has PART numbers. For an H or X field,
@@ -92,14 +93,16 @@ class Forms(NamedTuple):
 
 
 class Cards(NamedTuple):
-    """The decks in sequence: 80 codes for each card, and the first card of each deck."""
+    """The cards of all decks as one array, 80 character codes each, and the number of the first card of each deck."""
 
     columns: Row
     first: Row
 
 
 class Tools(NamedTuple):
-    """Working storage for all decks: texts of the FORMATs (reading changes them), registers, a line and a field."""
+    """Arrays that are reused for every deck: texts of the FORMATs (reading changes them), registers, a line and a
+    field.
+    """
 
     texts: Row
     devices: Row
@@ -108,7 +111,7 @@ class Tools(NamedTuple):
 
 
 class Desk(NamedTuple):
-    """Working storage for one deck: the tools, its rows of the report, and the log."""
+    """The arrays for the current deck: those of :class:`Tools`, its rows of the report, and the log."""
 
     texts: Row
     devices: Row
@@ -191,7 +194,7 @@ def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool)
 
 
 def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
-    """Write the text of an H or X field, or on input replace it with the columns of the card (C26-5619 p. 37)."""
+    """Write the text of an H or X field.  On input, replace the text with the columns of the card (C26-5619 p. 37)."""
     devices = desk.devices
     column = devices[COLUMN]
     devices[COLUMN] += width
@@ -207,12 +210,12 @@ def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
 
 
 def too_long(devices: Row) -> bool:
-    """Return True if the library of 1962 rejects the record so far."""
+    """Return True if the record is now longer than IBM's library of 1962 accepts."""
     return devices[AS_1962] != 0 and devices[COLUMN] > (TYPEWRITER_COLUMNS if devices[VERB] == TYPE else PUNCH_COLUMNS)
 
 
 def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
-    """End an input or output statement.
+    """End an input or output statement: process the rest of its FORMAT and write the last record.
 
     The library of 1962 writes no record for an unused field if the record is empty or the statement has no list.
     """
@@ -230,7 +233,9 @@ def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
 
 
 def finish_list(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
-    """End a READ with a list as the library of 1962 does: a slash followed by an unused field reads no record."""
+    """End a READ with a list as IBM's library of 1962 does, which reads no card for a slash followed by an unused
+    field.
+    """
     devices, specs = desk.devices, forms.specs
     status = GO_ON
     while status == GO_ON and devices[SPEC] < devices[LAST_SPEC]:
@@ -253,7 +258,7 @@ def column_of(cards: Cards, card: int, column: int) -> int:
 
 
 def end_record(marks: Marks, cards: Cards, desk: Desk) -> int:
-    """Take the next card, or write the line without trailing blanks."""
+    """End a record: advance to the next card, or write the line without trailing blanks to the log."""
     devices = desk.devices
     length = devices[COLUMN]
     devices[COLUMN] = 0
@@ -286,7 +291,7 @@ def end_record(marks: Marks, cards: Cards, desk: Desk) -> int:
 
 
 def put(letter: int, line: Row, length: int, desk: Desk) -> int:
-    """Write a letter and a line to the log."""
+    """Write a line to the log, after a letter that says which device produced it."""
     log, used = desk.log, desk.devices[USED]
     if used + length + 2 > len(log):
         return LOG_FULL
@@ -317,7 +322,7 @@ def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
 
 
 def stamp(number: int, desk: Desk) -> None:
-    """Write a number with STAMP digits to the log."""
+    """Write a number to the log, always with the number of digits STAMP."""
     used = desk.devices[USED]
     for k in range(STAMP):
         desk.log[used + STAMP - 1 - k] = DIGIT + number % 10
@@ -326,7 +331,7 @@ def stamp(number: int, desk: Desk) -> None:
 
 
 def error(number: int, marks: Marks, desk: Desk) -> int:
-    """Count an error code, and type it as the library of 1962 does."""
+    """Count an error code, and type it if the run imitates IBM's library of 1962."""
     registers = desk.registers
     desk.errors[CODES * marks.statements[registers[AT]] + number] += 1
     owe(registers, ERROR)

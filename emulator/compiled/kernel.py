@@ -41,7 +41,7 @@ class Core(NamedTuple):
 
 
 def owe(registers: Row, steps: int) -> None:
-    """Count the extra steps of a costly operation; every STEPS of them are a unit of work."""
+    """Add the extra steps of a slow operation to the work of the run, which grows by one for every STEPS steps."""
     steps += registers[OWED]
     registers[OWED] = steps % STEPS
     registers[COSTLY] += steps // STEPS
@@ -49,7 +49,8 @@ def owe(registers: Row, steps: int) -> None:
 
 
 def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit: int, most: int, strict: int) -> int:
-    """Run until there is a reason to return, and return it.  Registers and storage are changed in place.
+    """Execute instructions until one needs the caller (for input, output or an error) or the run ends.  Return the
+    reason.
 
     ``limit``, ``most``, ``strict`` and the operations are the same as in :func:`emulator.machine.interpreter.run`,
     which cites the source of each operation.

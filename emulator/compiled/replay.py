@@ -1,7 +1,7 @@
-"""Repeat a tape (emulator/machine/tape.py) in other arithmetics: longer, random, interval and exact arithmetic.
+"""Repeat the recorded operations of a run (a tape, emulator/machine/tape.py) in another arithmetic.
 
-The leaves of a tape are exact in all of them.  Overflow does not end a repetition, which continues with the largest
-number, as the machine does.
+The other arithmetic may have more digits, round at random, compute intervals or be exact.  The input numbers of the run
+are exact in all of them.  After an overflow the repetition continues with the largest number, as the machine does.
 """
 
 from __future__ import annotations
@@ -36,10 +36,10 @@ def repeat(
     exponents: Any,
     rules: Rules,
 ) -> None:
-    """Repeat a tape in a decimal arithmetic.
+    """Repeat the operations of a tape in a decimal arithmetic.
 
-    ``mantissas`` and ``exponents`` hold the leaves and receive the results.  With random rounding, operation k takes
-    random number k + 1 of the seed.  The code uses only the part of Python that numba compiles.
+    ``mantissas`` and ``exponents`` already hold the input numbers of the tape and receive the results.  With random
+    rounding, operation k uses random number k + 1 of the seed.  numba compiles this function.
     """
     for k in range(len(operations)):
         operation = operations[k]
@@ -73,9 +73,11 @@ def _compiled() -> Compiled | None:
 
 
 def repetitions(tape: Tape, digits: int, each: Iterable[Rules]) -> Iterator[tuple[list[int], list[int]]]:
-    """Yield the mantissas and exponents of the numbers that a tape tests, repeated by each of the rules.
+    """Repeat a tape by each of the given rules, and yield the mantissas and exponents of the numbers that the run
+    tested.
 
-    The tape has ``digits`` digits, and the rules at least as many.  The numbers are those of ``tape.tests``, in order.
+    The tape was recorded with ``digits`` digits; the rules have at least as many.  The numbers are in the order of
+    ``tape.tests``.
     """
     compiled = _compiled()
     code = tape.operations, tape.firsts, tape.seconds
@@ -103,9 +105,9 @@ def _leaves(tape: Tape, digits: int) -> list[decimal.Decimal]:
 
 
 def exactly(tape: Tape, digits: int) -> list[Number]:
-    """Return all values of a tape of ``digits`` digits in exact arithmetic: Decimals, or Fractions if one has no end.
+    """Return every number of a tape in exact arithmetic: as Decimals, or as Fractions if a quotient does not terminate.
 
-    A quotient by zero is the machine's largest number, as on the machine.
+    A division by zero gives the largest number of the machine, which has ``digits`` digits.
     """
     exact = decimal.Context(prec=_LONG, Emax=decimal.MAX_EMAX, Emin=decimal.MIN_EMIN, traps=[decimal.Inexact])
     values: list[Any] = list(_leaves(tape, digits))
@@ -129,7 +131,9 @@ def _follow(
     over: Callable[[Any, Any], Any],
     largest: Number,
 ) -> None:
-    """Compute the values of a tape in place, from those of its leaves."""
+    """Repeat the operations of a tape with the given functions; ``values`` holds the input numbers and receives the
+    results.
+    """
     for k, (operation, i, j) in enumerate(zip(tape.operations, tape.firsts, tape.seconds, strict=True)):
         if operation == LEAF:
             continue
@@ -146,9 +150,10 @@ def _follow(
 
 
 def enclosed(tape: Tape, digits: int) -> list[Bounds]:
-    """Return an interval around the exact value of each place of a tape of ``digits`` digits.
+    """Return an interval that contains the exact value of each number on a tape.
 
-    The bounds have as many digits and are rounded outwards.  A quotient by an interval that holds 0 is unbounded.
+    The bounds have ``digits`` digits and are rounded outwards.  A quotient is unbounded if the divisor's interval
+    contains 0.
     """
     limits = {"prec": digits, "Emax": 10**6, "Emin": -(10**6), "traps": []}
     down = decimal.Context(rounding=decimal.ROUND_FLOOR, **limits)  # type: ignore[arg-type]

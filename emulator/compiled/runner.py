@@ -1,4 +1,4 @@
-"""The compiled engine with a program.  It reads packed decks and returns one row of numbers and a log for each deck.
+"""The compiled engine for one program: it runs decks of packed cards and returns counts and a log for each deck.
 
 numba compiles :func:`emulator.compiled.deck.run_decks` and the functions it calls without changes.  Numbers have at
 most nine digits, because products must fit into 64 bits.
@@ -45,8 +45,9 @@ _CARD_CODES = "".join(sorted(CHARACTERS.difference(RECORD_MARKS))).encode("ascii
 
 
 def why_plain(options: Options) -> str:
-    """Return one line that says why these options need the interpreter, or "" if they do not. This function does not
-    test whether the machine code can be compiled or loaded, which only :class:`Runner` finds out.
+    """Return one line that says why these options need the interpreter, or "" if the compiled engine supports them.
+
+    :class:`Runner` raises NotInstalled if the machine code then cannot be compiled or loaded.
     """
     if not isinstance(options.numbers, DecimalNumbers):
         return f"the compiled engine does not support {options.numbers.name} arithmetic: {INSTEAD}"
@@ -64,7 +65,8 @@ def why_plain(options: Options) -> str:
 
 @cache
 def run_decks() -> Compiled:
-    """Return run_decks of deck.py, prepared for numba.  Raise NotInstalled if numba cannot be used."""
+    """Return the function ``run_decks`` of deck.py, ready to be compiled.  Raise NotInstalled if numba cannot be used.
+    """
     # The code never divides by zero, so numba need not check divisors (error_model).  It creates no arrays, so numba
     # need not count references to them (_nrt).  The second option is documented only in
     # numba.extending.register_jitable; without it a run takes a sixth longer, because every call counts each of its
@@ -82,12 +84,12 @@ def compile_engine() -> None:
 
 
 def packed(deck: Deck) -> bytes | None:
-    """Return 80 codes for each card, or None if a card holds a record mark or an invalid character."""
+    """Return 80 character codes for each card, or None if a card holds a record mark or an invalid character."""
     return _columns([card.text for card in deck.cards])
 
 
 def packed_text(text: str) -> bytes | None:
-    """Return 80 codes for each card of a deck's text, or None if the text is not a deck.
+    """Return 80 character codes for each card of a deck's text, or None if the text is not a valid deck.
 
     For None the caller gives the text to the interpreter, which raises the error.
     """
@@ -108,7 +110,7 @@ def _columns(lines: list[str]) -> bytes | None:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """The row of the report for a deck, as Python integers."""
+    """The counts, registers and log of one compiled run, as Python integers."""
 
     reason: int
     cards_read: int
@@ -129,7 +131,7 @@ class Run:
 
 
 class Runner:
-    """A program in core storage, ready to run over blocks of decks.
+    """A compiled program, ready to run over blocks of decks.
 
     Raise what Machine raises, and emulator.jit.functions.NotInstalled.
     """
@@ -172,7 +174,9 @@ class Runner:
         self.kernel = run_decks().ready(*self._arguments([]))
 
     def runs(self, packed: Sequence[bytes | None]) -> Iterator[Run | None]:
-        """Yield the run of each deck, or None for a deck that needs a Machine.  At most BLOCK decks."""
+        """Yield the run of each deck, or None for a deck that only the interpreter can run.  Accepts at most BLOCK
+        decks.
+        """
         at = 0
         while at < len(packed):
             # A deck that could not be packed is passed as an empty deck, to keep the order.
@@ -190,7 +194,7 @@ class Runner:
                     at += 1
 
     def _some(self, packed: list[bytes]) -> list[Run | None]:
-        """Run as many of the decks as have room in the log."""
+        """Run the decks in order until the log is full, and return the runs of those that were completed."""
         return [self._run(d) for d in range(self.kernel(*self._arguments(packed)))]
 
     def _arguments(self, packed: list[bytes]) -> tuple[Any, ...]:

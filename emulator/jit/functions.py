@@ -61,12 +61,12 @@ class Compiled:
 
     @property
     def keeps(self) -> bool:
-        """True if numba has a cache folder for the compiled code."""
+        """True if numba has a folder in which it can store the compiled code for the next process."""
         return bool(self.function.stats.cache_path)
 
     @property
     def kept(self) -> bool:
-        """True if the cache holds this function compiled for any argument types."""
+        """True if numba's cache already holds this function, compiled for any types of arguments."""
         return any(self._indexes())
 
     def ready(self, *arguments: Any) -> Function:
@@ -105,7 +105,7 @@ class Compiled:
 
 @contextmanager
 def _shown(line: str) -> Iterator[None]:
-    """Show a line on the terminal, if there is one, and erase it at the end."""
+    """Show a line on the terminal, if there is one, during the block, and erase it at the end."""
     file = sys.stderr if line and sys.stderr is not None and sys.stderr.isatty() else None
     with suppress(OSError):
         print(line, end="", file=file, flush=True) if file else None
@@ -137,7 +137,7 @@ def _refused(error: Exception) -> NotInstalled:
 
 
 def called(entry: Function) -> list[Function]:
-    """Return the function and all functions that it calls by name, directly or indirectly."""
+    """Return the function and all functions that it calls, directly or indirectly."""
     functions = [entry]
     # The list grows during the loop: a breadth-first search of the call graph.
     for function in functions:
@@ -148,7 +148,7 @@ def called(entry: Function) -> list[Function]:
 
 @cache
 def _make_callable(helper: Function) -> None:
-    """Let compiled code call the function.  Python still calls it uncompiled."""
+    """Allow compiled code to call the function.  Python still runs it uncompiled."""
     from numba.extending import register_jitable
 
     from emulator.jit import inlining
@@ -158,9 +158,7 @@ def _make_callable(helper: Function) -> None:
 
 
 def digest(entry: Function, options: str) -> str:
-    """Return a hash of everything that determines the compiled code: modules, constants and options.
-
-    It has 16 characters.
+    """Return a hash, 16 characters long, of everything that determines the compiled code: modules, constants, options.
     """
     functions = called(entry)
     text = [options]

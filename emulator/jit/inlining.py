@@ -28,20 +28,20 @@ AVAILABLE = all(hasattr(JITCodeLibrary, name) for name in _INSIDE) and hasattr(t
 
 
 class _NotInMemory:
-    """A code generator that registers no address for a function."""
+    """A code generator that does not load functions into memory, because they are never called directly."""
 
     def __init__(self, generator: Any) -> None:
         self._generator = generator
 
     def set_env(self, name: str, environment: Any) -> None:
-        """Do nothing: the environment belongs to machine code that does not exist."""
+        """Do nothing, because there is no machine code that would need numba's environment object."""
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._generator, name)
 
 
 class _Part(JITCodeLibrary):
-    """A function in LLVM's intermediate language, to be linked into its callers."""
+    """A function translated to LLVM's intermediate language, which is compiled together with its callers."""
 
     @property
     def codegen(self) -> Any:
@@ -51,7 +51,7 @@ class _Part(JITCodeLibrary):
         module.data_layout = self._codegen._data_layout
 
     def _optimize_final_module(self) -> None:
-        """Do nothing: the entry is optimised together with this function."""
+        """Do nothing, because the code is optimised together with its caller."""
 
     def _finalize_final_module(self) -> None:
         self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
@@ -64,7 +64,7 @@ class _Part(JITCodeLibrary):
 
 
 class _MakesPart(compiler_machinery.AnalysisPass):
-    """The pass that selects the library for the code of a function."""
+    """The compiler pass that stores a function's intermediate code in a library for its callers."""
 
     _name = "hull1620_makes_part"
 
@@ -82,7 +82,7 @@ compiler_machinery.register_pass(mutates_CFG=False, analysis_only=True)(_MakesPa
 
 
 class PartCompiler(compiler.CompilerBase):
-    """The compiler for functions that only compiled code calls."""
+    """The numba compiler for functions that are only called by other compiled functions."""
 
     def define_pipelines(self) -> list[Any]:
         passes = compiler.DefaultPassBuilder.define_nopython_pipeline(self.state)  # type: ignore[no-untyped-call]

@@ -1,4 +1,4 @@
-"""The flow of control in object code: successors of instructions, and warnings about branches that may be mistakes.
+"""The possible paths through object code, and warnings about branches in a program that may be mistakes.
 
 The warnings concern programs that compile.  They do not change the object code.  The 1620 gave no such warnings.
 """

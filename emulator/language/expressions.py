@@ -1,4 +1,4 @@
-"""Code for expressions: the operations, their order, and therefore the sign of every zero result.
+"""Generate code for expressions, in the order of operations that determines the sign of every zero result.
 
 The order was determined from the object code of PDQ FORTRAN, and agrees with every zero that the thesis prints and with
 IBM's compilation of 1962.  Operations run from left to right (C26-5619 p. 19).  If the right operand is itself an
@@ -34,7 +34,7 @@ _FIXED = dict(zip(_ROLES, (op.TOFIX, op.FMFIX, op.XAD, op.XSB, op.XSBR, op.XMP, 
 
 @dataclass(frozen=True, slots=True)
 class Operand:
-    """An operand of an instruction: a field, or an array element with a subscript."""
+    """An operand of an instruction: the address of a variable or constant, or an array element with its subscript."""
 
     address: int
     subscript: int = -1
@@ -42,7 +42,7 @@ class Operand:
 
 @dataclass
 class Emitter:
-    """The code, subscripts and fields of a program, collected during its translation."""
+    """The object code of a program, with its subscripts and storage fields, while the compiler generates it."""
 
     allocator: Allocator = field(default_factory=Allocator)
     code: list[Instruction] = field(default_factory=list)
@@ -66,21 +66,21 @@ class Emitter:
             self.code.append(Instruction(operation, operand.address, operand.subscript, second))
 
     def count(self, statement: int, begins: bool, what: str) -> None:
-        """Emit a COUNT: it begins a section of code that always runs from its first instruction to its last."""
+        """Emit a COUNT instruction, which begins a section of code without branches into or out of it."""
         self.counters.append(Counter(statement, begins, what))
         self.emit(op.COUNT, address=len(self.counters) - 1)
 
     def begin_statement(self) -> None:
-        """Forget the groups of the statement before.  Every statement reuses its temporary fields."""
+        """Forget the intermediate results of the previous statement, so that this one reuses their fields."""
         self.groups, self.held = 0, -1
         self.modes.clear()
 
     def group(self) -> None:
-        """Number a completed group, whose value is now in the accumulator."""
+        """Give the next number to a finished product or parenthesized sum, whose value is now in the accumulator."""
         self.held, self.groups = self.groups, self.groups + 1
 
     def temporary(self) -> Operand:
-        """Return the temporary field that belongs to the group whose value is in the accumulator."""
+        """Return the temporary field reserved for the intermediate result that is now in the accumulator."""
         if self.held < 0:
             self.group()
         return Operand(self.allocator.place("temporary", f"temporary {self.held}").first)
@@ -164,7 +164,9 @@ class Emitter:
         return int(expression.text)
 
     def fixed(self, expression: Expression) -> bool:
-        """Return True for a fixed-point expression.  Raise Refused (error type 5) if it mixes the modes."""
+        """Return True if an expression is fixed point.  Raise Refused (error type 5) if it mixes fixed and floating
+        point.
+        """
         # Every level of parentheses calls this method, so the mode is cached to keep the time for deep expressions
         # linear.
         mode = self.modes.get(id(expression))
@@ -192,11 +194,11 @@ class Emitter:
         return mode
 
     def load(self, expression: Expression) -> None:
-        """Emit code that leaves the value of ``expression`` in the accumulator of its mode."""
+        """Emit code that leaves the value of ``expression`` in the fixed or floating accumulator."""
         self.settle(self.deferred(expression), self.fixed(expression))
 
     def settle(self, negative: bool, fixed: bool) -> None:
-        """Reverse the sign of the accumulator if it holds the negative of a value."""
+        """Emit code that reverses the sign of the accumulator if it holds the negative of the value."""
         if negative:
             table, last = _FIXED if fixed else _FLOATING, self.code[-1]
             if last.operation == table["-"]:
@@ -206,7 +208,7 @@ class Emitter:
                 self.emit(table["reverse"])
 
     def deferred(self, expression: Expression) -> bool:
-        """Emit code that leaves a value or its negative in the accumulator.  Return True for the negative."""
+        """Emit code that leaves a value or its negative in the accumulator.  Return True if it is the negative."""
         table = _FIXED if self.fixed(expression) else _FLOATING
         bare, negative = _unsigned(expression)
         operand = self.simple(bare)
@@ -222,7 +224,9 @@ class Emitter:
         return negative
 
     def _part(self, expression: Expression) -> bool:
-        """Emit code for an operand like :meth:`deferred`.  Number it as a group if it is a sum (in parentheses)."""
+        """Emit code for one operand of a sum or product, like :meth:`deferred`, and number it if it is a parenthesized
+        sum.
+        """
         negative = self.deferred(expression)
         if isinstance(expression, Sum):
             self.group()
@@ -232,7 +236,7 @@ class Emitter:
         self.settle(self._part(expression), self.fixed(expression))
 
     def simple(self, expression: Expression) -> Operand | None:
-        """Return the operand of an expression that needs no computation, or None."""
+        """Return the operand of a constant, a variable or an array element, or None for any other expression."""
         if isinstance(expression, Number):
             return self.constant(expression)
         if isinstance(expression, Reference) and not function_of(expression, self.arrays):
@@ -240,7 +244,8 @@ class Emitter:
         return None
 
     def _chain(self, expression: Sum | Product, table: dict[str, int]) -> bool:
-        """Emit code for the operands of a sum or product from left to right.
+        """Emit code that combines the operands of a sum or product from left to right.  Return True if the result is
+        negated.
 
         ``waiting`` is the left operand while it is in a field.  If the right operand must be computed, it needs the
         accumulator.  The left operand then stays in a field, if necessary a temporary one, and the operation is
@@ -348,7 +353,7 @@ def unknown_function(reference: Reference) -> Refused:
 
 
 def _unsigned(expression: Expression) -> tuple[Expression, bool]:
-    """Return a factor without its minus signs, and True if their number was odd."""
+    """Strip the minus signs from a factor.  Return it, and True if the number of signs was odd."""
     if isinstance(expression, Sum) and not expression.rest:
         inner, odd = _unsigned(expression.first)
         return inner, odd ^ expression.minus

@@ -157,7 +157,7 @@ def identify(kind: str, text: str) -> ForeignStatement | None:
 
 
 def _is_logical(text: str) -> bool:
-    """Return True if an IF has a logical operator, or a statement after its parenthesis."""
+    """Return True if an IF statement contains a logical operator, or another statement after its condition."""
     if _LOGIC.search(text):
         return True
     depth = 0
@@ -169,7 +169,7 @@ def _is_logical(text: str) -> bool:
 
 
 def declared_names(statement: ForeignStatement, text: str) -> frozenset[str]:
-    """Return the names that a foreign statement declares as arrays, functions or of another mode."""
+    """Return the names that a statement of another FORTRAN declares as arrays, functions, integers or reals."""
     if not statement.declares:
         return frozenset()
     rest = re.sub(rf"^(COMMON(/\w*/)?|EXTERNAL|{_MODES}?(\*\d)?(FUNCTION)?)", "", text)
@@ -178,7 +178,9 @@ def declared_names(statement: ForeignStatement, text: str) -> frozenset[str]:
 
 
 def suggest_function(name: str, library: Sequence[str]) -> str:
-    """Return the advice for an unknown function: the library functions, and a replacement or a similar name if any."""
+    """Return advice about an unknown function: the list of functions, and a replacement or similar name if there is
+    one.
+    """
     known = f"the functions are {', '.join(library[:-1])} and {library[-1]}"
     bare = name.removesuffix("F")
     replacement = _BY_NAME.get(name) or _BY_NAME.get(bare)
@@ -201,7 +203,7 @@ _PARTS: dict[type[object], tuple[str, ...]] = {
 
 
 def references(node: object) -> list[tree.Reference]:
-    """Return every reference in a statement or a part of one, in order.  Names declared by DIMENSION are excluded."""
+    """Return every name used in an expression or statement, in order, except the names that a DIMENSION declares."""
     references_so_far: list[tree.Reference] = []
     _collect(node, references_so_far)
     return references_so_far

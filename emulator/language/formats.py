@@ -27,7 +27,7 @@ _KINDS: dict[str, FieldKind] = {"E": "E", "F": "F", "I": "I"}
 
 @dataclass(frozen=True, slots=True)
 class Literal:
-    """A Hollerith field ``wH``, or ``wX`` (blanks, with ``skip`` set): text of a record that is not a number."""
+    """Text in a FORMAT that is not a number: ``wH`` gives w characters, ``wX`` (``skip`` is set) w blanks."""
 
     text: str
     skip: bool = False
@@ -59,7 +59,7 @@ class FormatSpec:
 
     @property
     def charge(self) -> int:
-        """The work, in statements, that one pass through this FORMAT adds to the run.
+        """The cost of one pass through this FORMAT, added to the count that limits the run.  A statement costs 1.
 
         It is 0 unless the FORMAT is very long.
         """
@@ -73,7 +73,7 @@ class FormatSpec:
         return sum(texts) + 6 * sum(not isinstance(s, Literal) or s.skip for s in self.specs)
 
     def widths(self) -> Iterator[int]:
-        """Yield the width in columns of each record that the specification describes."""
+        """Yield the number of columns of each card or line that the FORMAT describes."""
         width = 0
         for spec in self.specs:
             if isinstance(spec, Slash):
@@ -85,12 +85,12 @@ class FormatSpec:
 
 
 def _refused(place: Place, message: str, number: int = 11) -> Refused:
-    """Return a rejection, by default with error type 11 for invalid specifications in general (C26-5619 p. 56)."""
+    """Return the error for an invalid FORMAT.  Type 11 is IBM's number for invalid specifications (C26-5619 p. 56)."""
     return Refused(place, message, number)
 
 
 def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]:
-    """Return the specification of a FORMAT statement and the compiler's warnings.
+    """Parse a FORMAT statement.  Return its specification and warnings.
 
     Raise Refused if the FORMAT does not parse.  If it would parse with another width of the last Hollerith field, the
     message suggests that width.
@@ -111,7 +111,7 @@ def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]
 
 
 def _suggest_width(failed: _Reader) -> Refused | None:
-    """Return a better message for a FORMAT that parses if its last Hollerith field has another width, or None.
+    """Return an error that suggests another width for the last Hollerith field, or None if no width makes it parse.
 
     A field that is too wide includes the delimiter after its text.  A field that is too narrow leaves part of its text
     unread, and the reader fails there.
@@ -215,7 +215,7 @@ class _Reader:
                 raise _refused(self.place(), f"a FORMAT has more than {self.MAX_FIELDS} fields")
 
     def one(self, depth: int) -> tuple[list[Spec], bool]:
-        """Read one specification with its repeat count.  Return it, and whether a comma must follow it."""
+        """Read one specification with its repeat count.  Return its fields, and True if a comma must follow."""
         self.peek()
         self.begun, start = self.at, self.place()
         count = self.number()

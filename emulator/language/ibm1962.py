@@ -63,7 +63,8 @@ def character_code(character: str) -> int:
 
 
 def digits(number: int, count: int, *, negative: bool = False) -> list[int]:
-    """Return ``count`` positions with a number: a flag on the first digit, and on the last if it is negative."""
+    """Return a number as ``count`` positions of storage.  The first digit has a flag, and the last if it is negative.
+    """
     positions = [int(digit) for digit in f"{number:0{count}}"]
     positions[0] |= FLAG
     positions[-1] |= FLAG if negative else 0
@@ -71,12 +72,12 @@ def digits(number: int, count: int, *, negative: bool = False) -> list[int]:
 
 
 def fixed_field(number: str) -> list[int]:
-    """Return the ten positions of a fixed-point number such as ``-12`` or ``-0``."""
+    """Return the ten storage positions that hold a fixed-point number such as ``-12`` or ``-0``."""
     return [0] * 6 + digits(abs(int(number)), 4, negative=number.startswith("-"))
 
 
 def floating_field(number: str) -> list[int]:
-    """Return the ten positions of a floating-point number such as ``-.25000000E+01``."""
+    """Return the ten storage positions that hold a floating-point number such as ``-.25000000E+01``."""
     match = _NUMBER.fullmatch(number)
     if match is None:
         raise ValueError(f"{number!r} is not a number like .25000000E+01")
@@ -85,7 +86,8 @@ def floating_field(number: str) -> list[int]:
 
 
 def field_text(positions: Sequence[int], kind: str) -> str:
-    """Return the number in ten positions: kind I as ``-0012``, kinds E and F as ``-.25000000E+01``."""
+    """Return the number in ten storage positions as text: ``-0012`` for kind I, ``-.25000000E+01`` for kinds E and F.
+    """
     text = "".join("0123456789|"[position % FLAG] for position in positions)
     if kind == "I":
         return ("-" if positions[9] & FLAG else "") + text[6:]
@@ -94,7 +96,7 @@ def field_text(positions: Sequence[int], kind: str) -> str:
 
 
 def format_positions(spec: FormatSpec) -> list[int]:
-    """Return the words of a FORMAT as positions.  They follow the position that the field of its label points to."""
+    """Return a FORMAT in the coded form that IBM's library of 1962 reads, as positions of storage."""
     return [position for word in _words(spec) for position in word]
 
 
@@ -121,7 +123,7 @@ def _literal(item: Literal) -> Iterator[list[int]]:
 
 
 def call(entry: int, address: int = 0) -> list[int]:
-    """Return the twelve positions of an instruction that calls a verb (BT), or another routine (BTM), with an address.
+    """Return the twelve positions of an instruction that calls a library routine (BTM) or an input/output verb (BT).
 
     An operation on FAC alone is called by BT with the position before its entry, so that the call changes nothing.
     """

@@ -99,14 +99,14 @@ class Subscript:
 
 
 def repeats(instruction: Instruction) -> int:
-    """Return the number of list items that an instruction transfers: the elements of an array at an ITEM, else 1."""
+    """Return how many times an instruction is executed in a row: once for each element of a whole array in a list."""
     return abs(instruction.second) if instruction.operation == ITEM else 1
 
 
 def element_after(element: int, second: int) -> int:
-    """Return the element of an ITEM's array that follows ``element`` in the list, or 0 after the last one.
+    """Return the number of the array element that a list transfers after ``element``, or 0 after the last one.
 
-    ``second`` is the second operand of the instruction.  The interpreter and the kernel both use this function.
+    ``second`` is the second operand of the ITEM instruction, the number of elements.
     """
     return element + 1 if element + 1 < abs(second) else 0
 
@@ -147,7 +147,7 @@ class Line:
 
     @property
     def name(self) -> str:
-        """The name in messages: the card, and the statement number if there is one."""
+        """The name of a statement in messages: its card, and its statement number if it has one."""
         card = f"card {self.place.card}"
         return f"statement {self.label} ({card})" if self.label else f"the statement on {card}"
 

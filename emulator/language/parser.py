@@ -123,7 +123,7 @@ def parse(deck: Deck) -> Parsed:
 
 
 def _data(deck: Deck, end: Card) -> tuple[Card, ...]:
-    """Return the data cards after END, without blank cards before them, up to a control card."""
+    """Return the data cards after the END of a program: without leading blank cards, and up to a control card."""
     after = dropwhile(lambda card: not card.text, deck.cards[end.number :])
     return tuple(takewhile(lambda card: not is_control_card(card), after))
 
@@ -145,7 +145,7 @@ def _begins_subprogram(source: Source) -> bool:
 
 
 def _column_warnings(source: Source) -> Iterator[Diagnostic]:
-    """Yield warnings about punches in columns that other compilers read differently or that no compiler reads."""
+    """Yield warnings about punches in columns that other compilers would read differently or would ignore."""
     first = source.cards[0]
     if source.label and not first.columns(1, 5).strip() and first.columns(6, 6).isdigit():
         what = f"statement number {source.label} begins in column 6, where other compilers expect a continuation mark"
@@ -244,7 +244,7 @@ def _depth(text: str) -> int:
 
 
 def _tree(text: str, kind: str) -> Tree[Token]:
-    """Return lark's tree.  Short statements are cached, because they occur again in the same and other programs."""
+    """Return lark's syntax tree of a statement.  Short statements are cached, because many programs repeat them."""
     return _short_tree(text, kind) if len(text) <= _CACHED_LENGTH else _grammar().parse(text, start=kind)
 
 
@@ -260,13 +260,14 @@ def _grammar() -> Lark:
 
 
 class _Builder:
-    """A conversion of lark's tree to ours, bottom up, with one method per grammar rule."""
+    """The converter from lark's syntax tree to the classes of tree.py, with one method per grammar rule."""
 
     def __init__(self, places: Columns) -> None:
         self._places = places
 
     def build(self, node: Tree[Token]) -> Any:
-        """Convert a node. This takes half the time that lark's Transformer needs. Raise Refused for an invalid name."""
+        """Convert a node of lark's tree.  Raise Refused for an invalid name.  (lark's Transformer takes twice as long.)
+        """
         children = [self.build(child) if isinstance(child, Tree) else child for child in node.children]
         return getattr(self, node.data)(children)
 

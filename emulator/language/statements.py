@@ -74,12 +74,13 @@ class Source:
 
 
 def is_control_card(card: Card) -> bool:
-    """Return True for a control card of a monitor, which begins with two record marks."""
+    """Return True for a control card of an operating system (a monitor), which begins with two record marks."""
     return len(RECORD_MARK.findall(card.text[:2])) == 2
 
 
 def statement_columns(card: Card, first: int = 1) -> str:
-    """Return columns ``first`` to 72 of a card, with blanks from a record mark on, because it ends the statement."""
+    """Return columns ``first`` to 72 of a card, blank from a record mark on, because that character ends a statement.
+    """
     text = card.columns(first, LAST_COLUMN)
     mark = None if is_control_card(card) else RECORD_MARK.search(text)
     return text[: mark.start()].ljust(len(text)) if mark else text
@@ -189,7 +190,9 @@ def _source(cards: tuple[Card, ...]) -> Source:
 
 
 def _place(cards: tuple[Card, ...], index: int) -> Place:
-    """Return the card and column of a position in the sequence of a statement's columns (see :class:`Columns`)."""
+    """Return the card and column of the character at ``index`` in the joined columns of a statement (see
+    :class:`Columns`).
+    """
     if index < LAST_COLUMN:
         return Place(cards[0].number, index + 1)
     card, column = divmod(index - LAST_COLUMN, LAST_COLUMN - _FIRST + 1)
@@ -197,7 +200,7 @@ def _place(cards: tuple[Card, ...], index: int) -> Place:
 
 
 def _top_level(text: str, mark: str) -> int:
-    """Return the index of the first ``mark`` outside parentheses, or -1."""
+    """Return the index of the first ``mark`` outside parentheses, or -1 if there is none."""
     depth = 0
     for i, char in enumerate(text):
         if char == "(":

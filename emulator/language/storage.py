@@ -25,7 +25,7 @@ _PROVISIONAL = 10**9
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """The storage of a name: its first field, number of fields, and dimensions (empty for a single field)."""
+    """The storage of a variable or array: its first field, number of fields, and dimensions (empty for a variable)."""
 
     name: str
     kind: str
@@ -34,7 +34,9 @@ class Entry:
     shape: tuple[int, ...] = ()
 
     def element(self, index: int) -> str:
-        """Return the name of the field ``index`` fields after the first: ``X(3)``, ``A(2,1)``, or the name alone."""
+        """Return the name of the field ``index`` places after the first: ``X(3)`` or ``A(2,1)``, or the name of a
+        variable.
+        """
         # Arrays of two dimensions are stored by columns: the first subscript varies fastest.
         if not self.shape:
             return self.name
@@ -59,7 +61,7 @@ class Storage:
 
     @property
     def length(self) -> int:
-        """The number of fields that the emulator keeps: those of the map, and the immediate constants."""
+        """The number of fields that the emulator keeps: all of the map, and the constants of DO statements."""
         return self.fields + len(self.immediates)
 
     def arrays(self) -> Iterator[Entry]:
@@ -72,7 +74,9 @@ class Storage:
         return self.entries[bisect_right(self.entries, address, key=attrgetter("first")) - 1]
 
     def fields_of(self, text: str) -> range:
-        """Return the fields of a variable or element, as ``NE``, ``X``, ``X(3)`` or ``A(2,1)``; empty if unknown."""
+        """Return the fields of a variable, array or element, written ``NE``, ``X``, ``X(3)`` or ``A(2,1)``; empty if
+        unknown.
+        """
         parts = re.fullmatch(r"([A-Z][A-Z0-9]*)(?:\((\d{1,4})(?:,(\d{1,4}))?\))?", text)
         named = (e for e in self.entries if parts and e.name == parts[1] and e.kind in ("variable", "array"))
         entry = next(named, None)
@@ -114,15 +118,17 @@ class Allocator:
     immediates: dict[str, int] = field(default_factory=dict)
 
     def immediate(self, text: str) -> int:
-        """Return a provisional address for the constant of a DO.  :meth:`final` replaces it."""
+        """Return a temporary address for the constant of a DO statement, which :meth:`final` later replaces."""
         return self.immediates.setdefault(text, _PROVISIONAL + len(self.immediates))
 
     def final(self, address: int) -> int:
-        """Return the final address for a field or provisional address, after the whole program has been translated."""
+        """Return the final address of a field or DO constant.  Call it after the whole program has been translated."""
         return address if address < _PROVISIONAL else address - _PROVISIONAL + self.used
 
     def place(self, kind: str, name: str, shape: tuple[int, ...] = ()) -> Entry:
-        """Return the entry for a name of this kind, and create it at its first appearance."""
+        """Return the storage of a name, and reserve it if the name appears for the first time.  ``kind`` is e.g.
+        ``variable``.
+        """
         key = (kind, name)
         if key not in self.entries:
             size = 1

@@ -43,7 +43,7 @@ class Power:
 
 @dataclass(frozen=True, slots=True)
 class Product:
-    """A factor followed by factors, each with ``*`` or ``/``, evaluated from left to right (p. 19)."""
+    """A factor followed by further factors, each preceded by ``*`` or ``/``; evaluated from left to right (p. 19)."""
 
     first: Expression
     rest: tuple[tuple[str, Expression], ...]
@@ -52,7 +52,7 @@ class Product:
 
 @dataclass(frozen=True, slots=True)
 class Sum:
-    """A term, negated if ``minus`` is set, followed by terms, each with ``+`` or ``-``."""
+    """A term, negated if ``minus`` is set, followed by further terms, each preceded by ``+`` or ``-``."""
 
     minus: bool
     first: Expression
@@ -65,7 +65,9 @@ Expression = Number | Reference | Power | Product | Sum
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """``variable = expression``; the mode may change across the equals sign (p. 21)."""
+    """``variable = expression``.  The value is converted to fixed or floating point if the variable requires it (p.
+    21).
+    """
 
     target: Reference
     value: Expression
@@ -171,7 +173,7 @@ class InputOutput:
 
 
 class Columns(Protocol):
-    """The place of each character of a text, by index."""
+    """The card and column of each character of a text."""
 
     def __len__(self) -> int: ...
 

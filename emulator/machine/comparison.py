@@ -1,4 +1,4 @@
-"""Compare the journals of two runs entry by entry: find values and decisions that differ, and count the digits lost.
+"""Compare the journals of two runs of one program: find differing values and decisions, and count lost digits.
 
 emulator/machine/divergence.py states the rules and runs the programs.
 """
@@ -68,7 +68,7 @@ class Loss:
 
 @dataclass
 class _Tally:
-    """The values compared for one statement: their number, and a histogram of the digits lost, in tenths of a digit."""
+    """The values of one statement that were compared: their number, and a histogram of lost digits in tenths."""
 
     times: int = 0
     differing: int = 0
@@ -76,7 +76,7 @@ class _Tally:
 
 
 class Comparison:
-    """The state of a comparison of two runs."""
+    """The results so far of a comparison of two runs."""
 
     def __init__(self, program: Program, studied: Numbers, reference: Numbers) -> None:
         self._program, self._studied, self._reference = program, studied, reference
@@ -164,14 +164,16 @@ class Comparison:
         return self._reference.error(value)
 
     def _uncertainty(self, pc: int, value: Number, bound: Fraction | None) -> str:
-        """Return the message for an IF whose value in the reference may have the wrong sign."""
+        """Return a message if rounding in the reference run may have given an IF the wrong sign, else an empty string.
+        """
         card, name, text = self._line(pc).place.card, self._reference.name, self._reference.text(value)
         size = "any amount" if bound is None else f"1E{math.ceil(_logarithm(bound)):+03d}"
         remedy = "use exact, or a reference of more digits"
         return f"at card {card} {name} has {text}, which its own rounding may have changed by {size}; {remedy}"
 
     def _lost(self, entry: Entry, reference_entry: Entry) -> tuple[float | None, float | None, bool]:
-        """Return the digits lost, the relative difference, and True if the reference's rounding explains it.
+        """Return the decimal digits lost, the relative difference, and True if the reference's rounding explains the
+        difference.
 
         The first two are None if the values are equal or rounding explains their difference.
         """
@@ -219,11 +221,11 @@ class Comparison:
         return self._program.statements[self._statement_of[pc]]
 
     def _target(self, pc: int) -> Line | None:
-        """Return the statement at an instruction, or None for the end of the program."""
+        """Return the statement that begins at an instruction, or None at the end of the program."""
         return self._line(pc) if pc < len(self._statement_of) else None
 
     def losses(self) -> tuple[Loss, ...]:
-        """Return the losses of all statements, the largest first, then in order of cards."""
+        """Return the digits lost by each statement, the largest loss first, then in order of cards."""
         lines = self._program.statements
         losses = [_loss(lines[statement], tally) for statement, tally in self._tallies.items()]
         return tuple(sorted(losses, key=lambda loss: (-loss.worst, -loss.median, loss.line.place.card)))

@@ -40,7 +40,7 @@ class Cards:
     punched: str = ""
 
     def see(self, events: Sequence[Event]) -> None:
-        """Update the cards from further events."""
+        """Remember the last card read and the last card punched among further events."""
         for event in events:
             if event.what == "read":
                 self.read = event.text

@@ -38,7 +38,7 @@ _FIXED = Field("I", 5)
 
 
 class Ended(Exception):
-    """Raised to end the run."""
+    """Raised to end the run.  It carries the ending, which holds the reason."""
 
     def __init__(self, ending: Ending) -> None:
         super().__init__(ending.kind)
@@ -50,7 +50,7 @@ class LineNeeded(Exception):
 
 
 def no_deck(program: Program) -> Deck:
-    """Return an empty deck for a program that reads no cards.  Raise DeckError if it has a READ."""
+    """Return an empty deck, for a program that reads no cards.  Raise DeckError if the program has a READ statement."""
     if program.uses("READ"):
         raise DeckError(f"{program.source}: the program reads cards: a data deck is required")
     return Deck("no deck", ())
@@ -107,7 +107,10 @@ class Devices:
         return self.program.line_at(pc)
 
     def begin(self, address: int) -> None:
-        """Begin an input or output statement, with the verb at ``address``.  Raise Ended, LineNeeded or DeckError."""
+        """Begin an input or output statement.  ``address`` is the index of its verb (READ, PUNCH, ...).
+
+        Raise Ended, LineNeeded or DeckError.
+        """
         here = self.line_at(self.state.at)
         verb = self.program.verbs[address]
         number = self.program.code[self.state.at].second
@@ -214,7 +217,10 @@ class Devices:
         return read_line("typewriter", self._lines, line.rstrip("\r\n")[:COLUMNS], "line")
 
     def expected_fields(self, begins: bool) -> list[tuple[str, int, int]]:
-        """Return code, first column and width of each field of the next line, which may begin the list."""
+        """Return the FORMAT code, first column and width of each field of the next line that the operator must type.
+
+        ``begins`` is True if the statement has not read any line yet.
+        """
         if begins or self.transfer is None:
             return self.layouts[self.program.code[self.state.at].second].record_fields(0)
         # The list continues on another line: after a slash, or where the FORMAT is repeated.
@@ -307,7 +313,7 @@ class Devices:
         self.events.append(Event("punch", text))
 
     def type(self, line: str) -> None:
-        """Type a line."""
+        """Type a line on the typewriter, and record it as an event."""
         # The typewriter stops at a record mark.
         text = self._record(RECORD_MARK.split(line)[0], TYPEWRITER_COLUMNS)
         self.characters += len(text) + 1
@@ -317,7 +323,7 @@ class Devices:
         self.events.append(Event("type", text, self.line_at(self.state.at), last))
 
     def _record(self, line: str, room: int) -> str:
-        """Return a record truncated to the columns of its device.  Each record is a unit of work."""
+        """Return a card or line truncated to the columns of its device, and add its cost to the work of the run."""
         if len(line.rstrip()) > room:
             self.note(Notice("record", self.program.source, format=self._format, width=len(line), columns=room))
         self._beside.clear()
@@ -336,9 +342,9 @@ class Devices:
         self.state.work += self.state.owe(ERROR)
 
     def note(self, notice: Notice) -> None:
-        """Add a notice, unless the same notice has been added before."""
+        """Record a warning about the run, unless the same warning was recorded before."""
         self.notices[notice] = None
 
     def ending(self, kind: Kind) -> Ending:
-        """Return an ending at the current statement."""
+        """Return an ending of the given kind at the current statement."""
         return stopped(self.program, kind, self.state.at, self.state.decision)

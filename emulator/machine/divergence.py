@@ -85,9 +85,9 @@ class Divergence:
 
     @property
     def outcomes(self) -> tuple[str, ...]:
-        """One line on the end of both runs, or one for each run if they differ.
+        """One line about the end of both runs, or one line for each run if their ends differ.
 
-        An end that ``apart`` reports is omitted.
+        A line that would only repeat ``apart`` is omitted.
         """
         first, second = (
             ending
@@ -201,7 +201,7 @@ def diverge(
 
 
 class JournaledRun:
-    """A run with a journal, which advances _STRIDE statements at a time."""
+    """A run that records a journal, and advances in steps of _STRIDE statements."""
 
     def __init__(
         self,
@@ -234,7 +234,7 @@ class JournaledRun:
 
     @property
     def record(self) -> int:
-        """The number of the next record, from 1."""
+        """The number, from 1, of the next card or line that the run will print."""
         return len(self._records) + len(_printed(self.session.devices.events)) + 1
 
     def entries(self) -> Iterator[Entry]:
@@ -262,12 +262,12 @@ def _printed(events: Sequence[Event]) -> list[str]:
 
 
 def _reached(entries: Iterator[Entry], junction: int) -> bool:
-    """Advance a run to the instruction ``junction``, and return True if it gets there."""
+    """Advance a run to the instruction ``junction``.  Return False if the run ends before it gets there."""
     return any(entry[0] == junction for entry in entries)
 
 
 def _raise_common_error(runs: list[JournaledRun]) -> None:
-    """Raise the error in the deck if both runs have found an error in it."""
+    """Raise the error that both runs found in the deck, if there is one."""
     first, second = (run.error for run in runs)
     if first is not None and second is not None:
         raise first

@@ -1,4 +1,4 @@
-"""The endings and notices of a run, as data, with the functions that build them and their messages."""
+"""The reasons why a run ended, and the warnings of a run: as data, and worded as messages."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class Ending:
 
     @property
     def outcome(self) -> str:
-        """One line that says how the run ended, normally or not."""
+        """One line that says how the run ended, for normal and other endings."""
         if self.kind == "hopper" and self.line is not None:
             return f"the hopper was empty at the READ of {self.line.name}"
         return self.message or ("STOP" if self.kind == "stop" else "the end of the program")
@@ -98,7 +98,7 @@ class Ending:
 
 
 def _trouble_in(ending: Ending, line: Line) -> str:
-    """Return the message for an ending at the statement ``line``."""
+    """Return the sentence that explains why a run ended at the statement ``line``."""
     there = f"in {line.label} {line.text}" if line.label else f"in {line.text}"
     match ending.kind:
         case "limit":
@@ -142,14 +142,14 @@ def _loop(ending: Ending) -> str:
 
 
 def too_costly(program: Program, limit: int, at: int, decision: int, costly: int) -> Ending:
-    """Return the ending of a run at an operation that needs more work than the limit allows."""
+    """Return the ending of a run whose next operation would exceed the limit of work."""
     return replace(stopped(program, "limit", at, decision), count=limit, costly=costly)
 
 
 def looped(
     program: Program, limit: int, before: Sequence[int], counts: Sequence[int], decision: int, costly: int = 0
 ) -> Ending:
-    """Return the ending of a run that reached its limit, with the loop of statements that it executed last."""
+    """Return the ending of a run that reached its limit of work, with the loop of statements that it last executed."""
     # A statement is part of the loop if its count has grown since ``before``, the counts shortly before the limit.
     ran = [
         (program.statements[counter.statement], new - old)
@@ -175,7 +175,7 @@ def out_of_bounds(program: Program, at: int, decision: int, address: int, subscr
 
 
 def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> Ending:
-    """Return the ending of a run at a field that is undefined or, according to ``kind``, has the wrong mode."""
+    """Return the ending of a run that used a field which is undefined or, according to ``kind``, has the wrong mode."""
     ending = replace(stopped(program, "undefined", at, decision), name=program.storage.name_of(address))
     if kind == UNDEFINED:
         return ending
@@ -188,7 +188,8 @@ def stopped(program: Program, kind: Kind, at: int, decision: int, subscripts: tu
 
 
 def decided(program: Program, decision: int) -> Line | None:
-    """Return the statement of the last decision.  ``decision`` counts instructions from 1; 0 means none."""
+    """Return the statement of the last IF or computed GO TO, or None if ``decision`` is 0.  Instructions count from 1.
+    """
     return program.line_at(decision - 1) if decision else None
 
 

@@ -30,7 +30,7 @@ class TooLong(Exception):
 
 @dataclass
 class Layout:
-    """A FORMAT as the object program stores it.  Reading can change its literals."""
+    """The specifications of a FORMAT in core storage.  Reading changes its text fields."""
 
     spec: FormatSpec
     literals: list[str] = field(default_factory=list)
@@ -39,7 +39,9 @@ class Layout:
         self.literals = [s.text if isinstance(s, Literal) else "" for s in self.spec.specs]
 
     def record_fields(self, first: int) -> list[tuple[str, int, int]]:
-        """Return the FORMAT code, the first column and the width of each field, from a specification to the slash."""
+        """Return the FORMAT code, first column and width of each number field from specification ``first`` to the next
+        slash.
+        """
         column, record = 1, []
         for spec in takewhile(lambda spec: not isinstance(spec, Slash), self.spec.specs[first:]):
             if isinstance(spec, Field):
@@ -58,7 +60,7 @@ class _Walk(ABC):
     again: int = field(default=0, init=False)
 
     def _to_field(self) -> Field:
-        """Advance to the next field and return it, repeating the FORMAT if it has ended.  Raise NoField."""
+        """Advance to the next number field and return it.  At its end, the FORMAT begins again.  Raise NoField."""
         spec = self._advance()
         while spec is None:
             if not self.layout.spec.has_fields:
@@ -72,11 +74,11 @@ class _Walk(ABC):
         return spec
 
     def finish(self) -> None:
-        """End the list: process literals and slashes up to the first unused field."""
+        """End the list: process text fields and slashes up to the first unused number field."""
         self._advance()
 
     def _advance(self) -> Field | None:
-        """Process literals and slashes, and return the next field, or None at the end of the FORMAT."""
+        """Process text fields and slashes, and return the next number field, or None at the end of the FORMAT."""
         # Literals and slashes take effect when they are passed, before the next number.
         specs = self.layout.spec.specs
         while self.at < len(specs):
@@ -87,7 +89,7 @@ class _Walk(ABC):
         return None
 
     def _pass_spec(self) -> None:
-        """Process a literal or a slash."""
+        """Process the current specification, which is a text field or a slash."""
         spec = self.layout.spec.specs[self.at]
         if isinstance(spec, Literal):
             self._literal(len(spec.text))
@@ -111,7 +113,7 @@ class Output(_Walk):
     _parts: list[str] = field(default_factory=list)
 
     def next_field(self) -> Field:
-        """Write literals and records up to the next field, and return the field.  Raise NoField."""
+        """Write text and complete records up to the next number field, and return the field.  Raise NoField."""
         return self._to_field()
 
     def write(self, columns: str) -> None:
@@ -141,7 +143,7 @@ class Input(_Walk):
     column: int = 1
 
     def next_field(self) -> tuple[Field, Card, int]:
-        """Return the next field, its card and its first column.  Raise NoField."""
+        """Return the next number field of the FORMAT, its card and its first column.  Raise NoField."""
         spec = self._to_field()
         column = self.column
         self.column += spec.width

@@ -46,7 +46,7 @@ _REASONS |= {op.POWER: AT_POWER, op.POWERX: AT_POWERX}
 
 
 def is_minus_zero(operation: int, first: bool, second: bool) -> bool:
-    """Return True if the library of 1962 gives a fixed-point result of zero a minus sign.
+    """Return True if IBM's library of 1962 would give a fixed-point result of zero a minus sign.
 
     A sum has the sign of the accumulator, and a product or quotient that of its operands.  ``first`` and ``second``
     tell whether the accumulator and the operand are negative.
@@ -69,7 +69,8 @@ def run(
     journal: Journal | None = None,
     enters: Sequence[bool] = (),
 ) -> int:
-    """Run until the session must act or the run ends, and return the reason.  ``state`` is changed in place.
+    """Execute instructions until the caller must act or the run ends, and return the reason.  Change ``state`` in
+    place.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """A 1620 with its operator, which runs a program from its first statement to its end.
 
-Machines share no state, so that any number of them can exist at the same time.
+Machines share no state, so any number of them can exist at the same time.
 """
 
 from __future__ import annotations

@@ -36,7 +36,7 @@ class _Line:
 
 
 class Operator:
-    """An operator who presses START and types the lines of ``keyboard``.
+    """An operator who presses START at every halt and types the lines of ``keyboard``.
 
     A subclass sets ``present`` if somebody can type a bad line again and wants to see each typed line at once
     (:class:`emulator.machine.session.Session`).
@@ -51,7 +51,9 @@ class Operator:
         """Receive the events of the devices, in order."""
 
     def attend(self, session: Session) -> Iterator[Action]:
-        """Yield the actions on a running machine, before its first slice and after each slice."""
+        """Yield the operator's actions while the machine runs.  The session calls this at the start and after each
+        slice.
+        """
         return iter(())
 
     def goal(self, session: Session) -> int:
@@ -59,7 +61,7 @@ class Operator:
         return session.state.work + SLICE
 
     def answer(self, session: Session, halt: Halt) -> Action:
-        """Return an action for a halt.  The caller repeats the call until the machine runs.
+        """Return the operator's next action for a halted machine.  The caller repeats the call until the machine runs.
 
         Raise DeckError if an ACCEPT needs a typed line and no line of ``keyboard`` is left.
         """
@@ -73,7 +75,8 @@ class Operator:
 
 @dataclass(frozen=True, slots=True)
 class Load:
-    """The lines of an operator's file for one machine, with the names of its program and its deck, or empty."""
+    """The part of an operator's file that belongs to one machine, with the names of program and deck if it gives them.
+    """
 
     program: str
     deck: str
@@ -85,7 +88,7 @@ PUNCHED = "PUNCHED"
 
 
 def read_loads(name: str, text: str) -> tuple[list[Load], dict[str, str]]:
-    """Return the machines of an operator's file, and the decks whose cards it contains.  Raise FileError.
+    """Return the parts of an operator's file, one for each machine, and the decks in the file.  Raise FileError.
 
     ``LOAD`` with the names of a program and a deck begins the lines of a machine.  ``CARDS`` with a name begins a deck,
     and each ``CARD`` line holds one of its cards.
@@ -134,11 +137,11 @@ class FromFile(Operator):
 
     @property
     def first_unused(self) -> int:
-        """The number of the first unused line, or 0."""
+        """The number of the first line of the file that was not used, or 0 if all were."""
         return self._passed or next((part[0].number for part in (self._lines, *self._parts) if part), 0)
 
     def attend(self, session: Session) -> Iterator[Action]:
-        """Yield the actions to perform now.  Settings at the head of the file are made before the run."""
+        """Yield the actions of the file that are to be performed now.  Settings at its head apply before the run."""
         if session is not self._session:
             # The next machine: continue with the lines after the next LOAD.
             if self._session is not None and self._parts:

@@ -59,7 +59,7 @@ def _order(before: Sequence[Sequence[int]], end: int) -> list[int]:
 
 
 def _joined(parent: Sequence[int], place: dict[int, int], first: int, second: int) -> int:
-    """Return the nearest common ancestor: climb from the node that is later in the order until both are the same."""
+    """Return the nearest common ancestor of two nodes: climb from the later one until both are the same."""
     while first != second:
         while place[first] > place[second]:
             first = parent[first]

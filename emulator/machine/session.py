@@ -1,4 +1,4 @@
-"""A run in slices, which can be halted and continued by any program.
+"""A run of a program that can be stopped and continued at any time, for example by a debugger or a web page.
 
 A :class:`Session` drives the interpreter and the devices.  It never waits and uses no terminal, file or thread.  The
 caller repeats: call :meth:`Session.advance`, take events with :meth:`Session.take`, answer a Halt with an Action.
@@ -122,7 +122,7 @@ class Session:
 
     @property
     def here(self) -> Line:
-        """The statement that the machine has stopped at or before."""
+        """The statement at which, or before which, the machine has stopped."""
         return self.halt.line if self.halt else self.devices.line_at(min(self.state.pc, len(self.program.code) - 1))
 
     def advance(self, goal: int) -> Halt | Ending | None:
@@ -191,7 +191,8 @@ class Session:
                 self._ending = Ending("operator", self.program.source, self.here, trouble="stopped by the operator")
 
     def places(self, action: Action) -> list[int]:
-        """Return the statements that a BREAK or CLEAR refers to, as indices into ``Program.statements``."""
+        """Return the indices of the statements at which a BREAK action sets, or a CLEAR action removes, a breakpoint.
+        """
         return [
             line.index
             for line in self.program.statements
@@ -199,7 +200,7 @@ class Session:
         ]
 
     def misfit(self, action: Action) -> str:
-        """Return the reason why a breakpoint cannot be set in the program, or an empty string."""
+        """Return the reason why the program has no place for a breakpoint, or an empty string."""
         if action.word in ("BREAK", "CLEAR") and action.name and not self.program.storage.fields_of(action.name):
             return f"{self.program.source} has no variable {action.name}"
         if action.word in ("BREAK", "CLEAR") and action.number and not self.places(action):
@@ -207,7 +208,7 @@ class Session:
         return ""
 
     def held(self, name: str) -> list[tuple[Number, int]]:
-        """Return the value and the kind of each field of a variable or element."""
+        """Return value and kind (fixed, floating or undefined) of each field of a variable or array element."""
         return [(self.state.values[field], self.state.kinds[field]) for field in self.program.storage.fields_of(name)]
 
     def expected_fields(self) -> list[tuple[str, int, int]]:
@@ -274,10 +275,7 @@ class Session:
         return self._ending or self.halt
 
     def _wait_for_line(self, trouble: str) -> None:
-        """Halt until a line is typed.
-
-        The statement continues from this point, to which it also returns after a bad line.
-        """
+        """Halt until the operator types a line.  A bad line returns here, with ``trouble`` as the reason."""
         self._checkpoint = _Checkpoint(self) if self.retypes else None
         self.halt = Halt("accept", self.devices.line_at(self.state.at), trouble=trouble)
 
@@ -297,7 +295,7 @@ class Session:
         )
 
     def _serve(self, reason: int) -> None:
-        """Perform the service that the interpreter returned for.  Raise Ended if the reason ends the run."""
+        """Do what the interpreter cannot: input, output or a library function.  Raise Ended if the run ends here."""
         state, numbers = self.state, self.options.numbers
         address = state.address
         if reason == interpreter.AT_ITEM:
@@ -326,7 +324,9 @@ class Session:
             raise Ended(self._stopped(reason, address))
 
     def _watch(self, line: Line) -> None:
-        """Call the tracer for a statement that begins, and halt if a step ends or a breakpoint is set there."""
+        """Report the beginning of a statement to the tracer, and halt if a step is complete or a breakpoint is set
+        there.
+        """
         self.last, self._begun = self._begun, line
         if self.tracer is not None:
             self.tracer(line, self)
@@ -343,7 +343,7 @@ class Session:
                 self.halt = Halt("stop", line, why=f"{name} has changed")
 
     def _stopped(self, reason: int, address: int) -> Ending:
-        """Return the ending for a reason that ends the run."""
+        """Convert the reason for which the interpreter returned to the ending of the run."""
         state = self.state
         if reason == interpreter.AT_STOP:
             return Ending("stop" if self.program.code[state.pc].second == 0 else "end")
@@ -358,7 +358,9 @@ class Session:
         return stopped(self.program, "select", state.at, state.decision, state.index)
 
     def _pay(self, operation: str, first: Number, second: Number = 0) -> None:
-        """Count the work of an operation before it begins.  Raise Ended if the work would exceed the limit by far."""
+        """Add the cost of a slow operation to the work of the run before it begins.  Raise Ended if it exceeds the
+        limit by far.
+        """
         state = self.state
         state.work += state.owe(self.options.numbers.work(operation, first, second))
         if state.work > self.options.limit + interpreter.SLACK:

@@ -99,7 +99,7 @@ class State:
     owed: int = 0
 
     def owe(self, steps: int) -> int:
-        """Add the steps of a costly operation, and return the units of work that they complete."""
+        """Add the steps of a slow operation, and return the whole units of work that they complete."""
         units, self.owed = divmod(self.owed + steps, STEPS)
         self.costly += units
         return units
@@ -114,14 +114,14 @@ def subscript_table(code: Flat) -> Table:
 
 
 def refuse_overlap(program: Program, core: int) -> None:
-    """Raise DeckError if a program and its data cannot fit a machine with ``core`` positions of storage."""
+    """Raise DeckError if a program and its data are too large for a machine with ``core`` positions of storage."""
     size = extent(program)
     if size.is_certain(core):
         raise DeckError(f"{program.source}: {size.overlap(core)}")
 
 
 def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]:
-    """Return the values and kinds of all fields before a run.  Only the constants are defined."""
+    """Return the values and kinds of all storage fields before a run, when only constants have a value."""
     values: list[Number] = [0] * program.storage.length
     kinds = [UNDEFINED] * program.storage.length
     for address, text in program.storage.constants + program.storage.immediates:

@@ -36,7 +36,7 @@ Taped = tuple[int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Test:
-    """A decision by the sign of a number: the instruction, the place of the number on the tape, and the three targets.
+    """An IF on the tape: its instruction, the index of the number that it tests, and its three targets.
 
     The targets are those for a negative number, zero and a positive number; ``taken`` is the one the machine took.
     """
@@ -47,13 +47,13 @@ class Test:
     taken: int
 
     def target(self, number: Number) -> int:
-        """Return the target for a number."""
+        """Return the target that the IF takes for this number, which may come from another arithmetic."""
         return self.targets[1 + (number > 0) - (number < 0)]
 
 
 @dataclass(slots=True)
 class Tape:
-    """The recorded operations: code, places of the operands, and the results in the machine's arithmetic."""
+    """A recorded run: its operations, the indices of their operands, and the results in the machine's arithmetic."""
 
     operations: list[int] = field(default_factory=list)
     firsts: list[int] = field(default_factory=list)
@@ -71,11 +71,11 @@ class Tape:
         return mantissa, exponent, len(self.operations) - 1
 
     def number(self, place: int) -> tuple[int, int]:
-        """Return the number of the machine at a place: mantissa and exponent."""
+        """Return the number at an index of the tape as the machine computed it: mantissa and exponent."""
         return self.mantissas[place], self.exponents[place]
 
     def until(self, last: int) -> Tape:
-        """Return the part of the tape that the tests up to number ``last`` need, with these tests."""
+        """Return the tape shortened to the operations that its first ``last`` tests depend on."""
         tests = self.tests[: last + 1]
         end = max((test.place for test in tests), default=-1) + 1
         code = self.operations[:end], self.firsts[:end], self.seconds[:end]
@@ -91,7 +91,7 @@ class Tape:
 
 @dataclass(frozen=True)
 class TapeNumbers(Numbers):
-    """The numbers of a decimal profile, each with its place on a tape that records every operation."""
+    """The numbers of a decimal arithmetic, each with its index on a tape that records every operation."""
 
     inner: DecimalNumbers
     tape: Tape
@@ -174,9 +174,10 @@ class TapeNumbers(Numbers):
 
 
 def record(program: Program, deck: Deck, options: Options) -> Tape:
-    """Run a program on a deck in a decimal arithmetic, and return its tape.
+    """Run a program on a deck in a decimal arithmetic, and return the tape of its operations.
 
-    A function or power ends the recording there.  Raise what :meth:`emulator.machine.machine.Machine.run` raises.
+    Recording stops at the first library function or power.  Raise what :meth:`emulator.machine.machine.Machine.run`
+    raises.
     """
     assert isinstance(options.numbers, DecimalNumbers)
     tape, journal = Tape(), Journal(False)

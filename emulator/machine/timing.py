@@ -100,7 +100,9 @@ class Timing:
 
     @property
     def seconds(self) -> float:
-        """The sum of all rows, an upper bound: the buffered reader and punch can overlap with the processor."""
+        """The total time in seconds: an upper bound, because the buffered reader and punch can overlap with the
+        processor.
+        """
         return self.processor_seconds + self.device_seconds
 
     @property
@@ -109,14 +111,14 @@ class Timing:
 
     @property
     def processor_bounds(self) -> tuple[float, float]:
-        """The bounds of ``processor_seconds`` by the systematic error of the model."""
+        """The least and greatest value of ``processor_seconds``, allowing for the systematic error of the model."""
         low = sum(row.seconds * (CONVERSION_MODEL if row.cause == CONVERSION else MODEL)[0] for row in self.processor)
         high = sum(row.seconds * (CONVERSION_MODEL if row.cause == CONVERSION else MODEL)[1] for row in self.processor)
         return low, high
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """The bounds of ``seconds`` by the systematic error of the model."""
+        """The least and greatest value of ``seconds``, allowing for the systematic error of the model."""
         low, high = self.processor_bounds
         return self.device_seconds + low, self.device_seconds + high
 

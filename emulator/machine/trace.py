@@ -21,7 +21,7 @@ class Tracer:
         self._machine: Session | None = None
 
     def watch(self, program: Program, machine: Session) -> None:
-        """Trace a machine from its start, after a heading with the name of its program."""
+        """Start tracing a machine, and write a heading with the name of its program."""
         self.close()
         self._machine = machine
         machine.tracer = self
@@ -42,7 +42,7 @@ class Tracer:
 
 
 def effect(machine: Session, line: Line) -> str:
-    """Return what the last statement stored, as ``X(3) = .20000000E+01``, or the value that it tested."""
+    """Return what the last statement stored, such as ``X(3) = .20000000E+01``, or the value that it tested."""
     state, name = machine.state, machine.program.storage.name_of
     if line.effect == "store":
         return f"{name(state.stored)} = {contents(machine, state.stored)}"

@@ -106,13 +106,13 @@ def halt_line(halt: Halt) -> str:
 
 
 def place_of(line: Line) -> str:
-    """Return the number, if any, and the card of a statement."""
+    """Return the card of a statement, with its statement number if it has one, as text."""
     card = f"card {line.place.card}"
     return f"statement {line.label} ({card})" if line.label else card
 
 
 def notes(program: Program, result: Result, reported: Collection[tuple[int, int]] = ()) -> Iterator[str]:
-    """Yield the warnings of a run, a note if it ended because the hopper was empty at any READ, and its error codes.
+    """Yield the messages after a run: its warnings, a note if an empty hopper ended it, and its error codes.
 
     reported: fields, as pairs of card and column, that another part of the program has already warned about.
     """

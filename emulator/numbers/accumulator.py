@@ -1,4 +1,4 @@
-"""The floating accumulator FAC of a decimal profile: zeros, signs, overflow and underflow of its operations.
+"""The 1620's floating accumulator (FAC): zeros, signs, overflow and underflow of its decimal operations.
 
 Every function accepts the mantissa and exponent in FAC, then those of the other operand (see
 emulator/numbers/arithmetic.py), and returns mantissa, exponent and event.  The event is 0, or 1 to 7 for the error
@@ -69,7 +69,10 @@ def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 
 
 def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> State:
-    """Return ``A ** J`` by repeated multiplication, as IBM's library of 1962 does: ``(1 / A) ** -J`` if J is negative.
+    """Return ``A ** J`` for an integer J by repeated multiplication, as IBM's library of 1962 computes it.
+
+    If J is negative, the result is ``(1 / A) ** -J``.  The first operation with an error ends the computation.  For J =
+    -1 to 2 the result is the exact power, truncated.
 
     The first operation with an error ends the computation.  For J = -1 to 2 the result is the exact power, truncated.
     """

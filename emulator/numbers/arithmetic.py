@@ -61,7 +61,8 @@ class Rules(NamedTuple):
 
 
 def drawn(rules: Rules, count: int) -> Rules:
-    """Return the rules of operation number ``count`` of a run: the same rules with the random number of it."""
+    """Return the rules for operation number ``count`` of a run, which differ only in their random number for rounding.
+    """
     digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, _ = rules
     number = draw(key, count)
     return Rules(digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, number)
@@ -75,7 +76,7 @@ FIXED_MINUS_ZERO = MinusZero()
 
 
 def signed_zero(negative: bool) -> int:
-    """Return the fixed-point zero of a sign."""
+    """Return the fixed-point zero, or minus zero if ``negative``."""
     return FIXED_MINUS_ZERO if negative else 0
 
 
@@ -219,7 +220,7 @@ def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
 
 
 def from_integer(value: int, rules: Rules) -> tuple[int, int]:
-    """Convert a fixed-point number to floating point.  It is exact up to P digits, and truncated beyond."""
+    """Convert a fixed-point number to floating point.  Digits beyond the first P are dropped."""
     if value == 0:
         return 0, ZERO
     size = value if value > 0 else -value

@@ -26,7 +26,8 @@ SHOWN = 20
 
 
 class Trap(Exception):
-    """The result of an operation with an error event (SUM_OVER and so on in emulator/numbers/accumulator.py).
+    """Raised for an operation that ends in an error code of the machine, numbered as in
+    emulator/numbers/accumulator.py.
 
     The run continues with ``value``.
     """
@@ -37,17 +38,18 @@ class Trap(Exception):
 
 
 class Undecided(Exception):
-    """A value the arithmetic cannot hold, or a sign it cannot determine.  ``str`` is the explanation."""
+    """Raised if an arithmetic cannot represent a value or determine a sign.  ``str`` is the explanation."""
 
 
 @lru_cache(maxsize=128)
 def lossless_rules(digits: int) -> Rules:
-    """Return truncating rules with the given number of digits, to read or write columns without loss."""
+    """Return truncating rules with so many digits that columns of a card are read and written without loss."""
     return rules_of(digits)
 
 
 class Numbers(ABC):
-    """A number system.  Instances are plain data; only random rounding has a state (:meth:`fresh`)."""
+    """An arithmetic for the object code.  Instances are plain data; only random rounding has a state (:meth:`fresh`).
+    """
 
     @property
     @abstractmethod
@@ -60,7 +62,7 @@ class Numbers(ABC):
         """The number of decimal digits of a number, infinite for exact numbers."""
 
     def fresh(self) -> Numbers:
-        """Return the system in the state in which every run begins."""
+        """Return this arithmetic in its initial state, in which every run begins."""
         return self
 
     @abstractmethod
@@ -130,7 +132,8 @@ class Numbers(ABC):
 
     @abstractmethod
     def cut(self, value: Number, digits: int) -> tuple[int, int]:
-        """Truncate to ``digits`` decimal digits.  Return mantissa and exponent as in emulator/numbers/arithmetic.py.
+        """Truncate a number to ``digits`` decimal digits.  Return mantissa and exponent as in
+        emulator/numbers/arithmetic.py.
 
         Raise Undecided if the number is not finite.
         """
@@ -152,7 +155,7 @@ class Numbers(ABC):
 
     @property
     def is_costly(self) -> bool:
-        """True if an operation, a test, or reading or punching a number can take longer than with decimal numbers."""
+        """True if operations of this arithmetic can take much longer than those of the decimal one."""
         return False
 
     def work(self, operation: str, first: Number, second: Number = 0) -> int:
@@ -181,7 +184,7 @@ class Numbers(ABC):
         return self.read(FALLBACK, text)[0]
 
     def write(self, field: Field, value: Number) -> tuple[str, bool]:
-        """Return the columns of a number, truncated to the digits of the field, and True if it overflowed to E14.8.
+        """Return the columns of a number, truncated to the field, and True if it did not fit and was written as E14.8.
 
         Raise Undecided for a number that no card can hold: below 1.E-100, or 1.E+99 and above.
         """

@@ -24,7 +24,7 @@ E_COLUMNS, E_DECIMALS = 14, 8
 
 
 def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
-    """Move a number to the left end of its field and resolve its blanks.  Return its length, and FINE or a warning.
+    """Move the characters of a number to the left end of its field and remove blanks.  Return length and status.
 
     Leading blanks are ignored.  If the field has a point or an exponent, trailing blanks are ignored too. If they
     counted as zeros, they would change nothing after the point but would multiply an exponent by ten. Blanks inside
@@ -225,7 +225,7 @@ def write_e(
 
 
 def write_exponent(columns: MutableSequence[int], end: int, shown: int, minus: bool) -> None:
-    """Write an exponent into the last four columns of an E field."""
+    """Write the exponent E, sign and two digits into the last four columns of an E field."""
     size = -shown if shown < 0 else shown
     columns[end - 4] = LETTER_E
     columns[end - 3] = MINUS if minus else PLUS

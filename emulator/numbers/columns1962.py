@@ -24,7 +24,7 @@ LEADING, MANTISSA, EXPONENT = range(3)
 
 
 def low_digit(code: int) -> int:
-    """Return the digit that the library uses for a character inside a number, or -1 if it rejects the character.
+    """Return the digit that IBM's library reads from a character inside a number, or -1 if it rejects the character.
 
     It uses the low digit of every character whose code is below that of the minus sign: a blank, $, ) and *.
     """
@@ -40,7 +40,7 @@ def low_digit(code: int) -> int:
 def read_number(
     columns: MutableSequence[int], width: int, decimals: int, kind: int, rules: Rules
 ) -> tuple[int, int, int]:
-    """Read a field.  Return mantissa, exponent and status.
+    """Read a number from a field as IBM's library does.  Return mantissa, exponent and status.
 
     The mantissa of an I field is its value, and its exponent is 0, or MINUS_ZERO for a minus zero.
 

@@ -1,4 +1,4 @@
-"""The 1620's decimal numbers as a number system over the rules of emulator/numbers/accumulator.py.
+"""The 1620's decimal arithmetic in the form that the interpreter needs, as a subclass of ``Numbers``.
 
 A number is the pair (mantissa, exponent) that emulator/numbers/arithmetic.py defines.
 """
@@ -47,7 +47,7 @@ class DecimalNumbers(Numbers):
 
     @cached_property
     def _drawn(self) -> Rules:
-        """The rules of the next operation."""
+        """The rules of the next operation, with its random number if rounding is random."""
         return self._rules
 
     def decimal(self, whole: int, power: int, minus: bool = False) -> Pair:

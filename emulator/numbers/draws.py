@@ -45,7 +45,7 @@ def mix(word: int) -> int:
 
 
 def key_of(seed: int) -> int:
-    """Return the constant of a seed that :func:`draw` expects."""
+    """Return the key of a seed, which :func:`draw` expects."""
     return mix(seed ^ 0x9E3779B9)
 
 
@@ -55,7 +55,7 @@ def draw(key: int, count: int) -> int:
 
 
 def randomly(size: int, unit: int, lost: int, rule: int, drawn: int) -> int:
-    """Return ``size / unit`` rounded to an integer by a rule and a draw.  size is not negative.
+    """Return ``size / unit``, rounded at random to one of the neighbouring integers.  ``size`` must not be negative.
 
     ``lost`` is 1 if the exact value is larger than size, but below the next multiple of ``unit / DRAWS``.
     """

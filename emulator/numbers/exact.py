@@ -188,7 +188,7 @@ def _longest(value: Exact) -> int:
 
 
 def _root_steps(operation: str, first: Exact, second: Exact) -> int:
-    """Return the steps of an operation with a sum of roots, in which each pair of terms is compared with each root."""
+    """Estimate the steps of an operation on sums of square roots, which compares each pair of terms with each root."""
     a, b, terms_first, terms_second = _longest(first), _longest(second), len(_parts(first)), len(_parts(second))
     radicands = [n.bit_length() for n, _ in (*_parts(first), *_parts(second))]
     # To find the kind of a term, one integer square root is computed for each root that the sum already contains.
@@ -204,7 +204,7 @@ def _root_steps(operation: str, first: Exact, second: Exact) -> int:
 
 
 def _power_steps(base: Exact, count: int) -> int:
-    """Return the steps of a power by squaring.  Its last products are the longest, at most twice MAX_BITS."""
+    """Estimate the steps of a power computed by squaring.  Its last products are the longest."""
     bits = min(_longest(base) * abs(count), 2 * MAX_BITS)
     if base in (0, 1, -1) or _too_long(base, count):
         return 0
@@ -222,5 +222,5 @@ def _floor(value: Exact) -> int:
 
 
 def _lowest(value: Fraction) -> Rational:
-    """Return an int if the number is an integer, because ints are faster."""
+    """Return an int if the fraction is an integer, because operations on ints are faster."""
     return value.numerator if value.denominator == 1 else value

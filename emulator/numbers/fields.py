@@ -30,7 +30,9 @@ FieldKind = Literal["E", "F", "I"]
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """A field for one number: ``Iw``, ``Fw.d`` or ``Ew.d``."""
+    """A field of a card for one number: ``Iw`` (integer), ``Fw.d`` (decimal) or ``Ew.d`` (with exponent), w columns
+    wide.
+    """
 
     kind: FieldKind
     width: int
@@ -138,7 +140,8 @@ def _remark(status: int) -> Remark | None:
 
 
 def write_as_1962(field: Field, mantissa: int, exponent: int, rules: Rules) -> tuple[str, bool]:
-    """Return the columns that IBM's library writes and False, or those of E14.8 and True if the number does not fit."""
+    """Return the columns that IBM's library of 1962 writes for a number, and True if it did not fit and became E14.8.
+    """
     codes = bytearray(field.width)
     end = columns1962.write_floating(
         codes, 0, field.kind == "E", field.width, field.decimals, mantissa, exponent, rules
@@ -149,26 +152,26 @@ def write_as_1962(field: Field, mantissa: int, exponent: int, rules: Rules) -> t
 
 
 def exponent_as_1962(field: Field, mantissa: int, exponent: int) -> str:
-    """Return the exponent that IBM's library stores before it finds an E field too narrow for its decimals."""
+    """Return the exponent that IBM's library of 1962 has already written when it finds an E field too narrow."""
     digits = 8 if field.width >= FALLBACK.width else field.width - 6
     shown = max((exponent if mantissa else ZERO) - digits + field.decimals, MIN_EXPONENT)
     return f"E{'-' if shown < 0 else '+'}{abs(shown):02}" if shown <= MAX_EXPONENT else ""
 
 
 def write_fixed_as_1962(field: Field, value: int) -> str:
-    """Return the columns of an I field as IBM's library writes it, with a column for the sign."""
+    """Return the columns that IBM's library of 1962 writes in an I field, which always has a column for the sign."""
     codes = bytearray(field.width)
     columns1962.write_fixed(codes, 0, field.width, abs(value), is_negative(value))
     return codes.decode("ascii")
 
 
 def read_fixed_as_1962(text: str) -> FieldNumber:
-    """Read an I field as IBM's library does.  Raise FieldError if the library types ERROR F7."""
+    """Read an I field as IBM's library of 1962 does.  Raise FieldError if the library would type ERROR F7."""
     return read_as_1962(Field("I", len(text)), text, rules_of(8))
 
 
 def read_as_1962(field: Field, text: str, rules: Rules) -> FieldNumber:
-    """Read any field as IBM's library does.  Raise FieldError if the library types ERROR F7."""
+    """Read a field of any kind as IBM's library of 1962 does.  Raise FieldError if the library would type ERROR F7."""
     kind = "EFI".index(field.kind)
     codes = text.encode("ascii", "replace")
     mantissa, exponent, status = columns1962.read_number(bytearray(codes), len(codes), field.decimals, kind, rules)

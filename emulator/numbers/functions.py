@@ -1,4 +1,4 @@
-"""Library functions and powers.
+"""The library functions SIN, COS, ATAN, EXP, LOG and SQRT, and powers, in decimal arithmetic.
 
 The result is the exact value, truncated to the profile's digits, or rounded if the profile rounds products (SQRT: if it
 rounds quotients) or at random.  SIN, COS, ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  Executing
@@ -111,7 +111,7 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
 
 @lru_cache(maxsize=1024)
 def _long_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> State:
-    """Return :func:`whole_power` of a number that is not zero, by machine code if a run has computed many powers."""
+    """Return :func:`whole_power` for a large exponent.  After many such powers, numba compiles the computation."""
     many = _long_chain.cache_info().misses > MANY
     chain: Callable[..., State] = _compiled_chain(rules) if many else decimal_chain
     return chain(mantissa, exponent, count, rules)
@@ -126,7 +126,7 @@ def _compiled_chain(rules: Rules) -> Callable[..., State]:
 
 
 def decimal_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> State:
-    """Return :func:`whole_power` of a number that is not zero, with the products of the module :mod:`decimal`.
+    """Return the same result as :func:`whole_power`, computed faster with Python's module :mod:`decimal`.
 
     That module also forms all digits of a product before it rounds them, so that its results are the same.
     """
@@ -153,7 +153,7 @@ def decimal_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> Sta
 
 
 def integer_power_steps(mantissa: int, exponent: int, count: int, rules: Rules) -> int:
-    """Return an estimate of the steps that :func:`integer_power` takes. :mod:`emulator.numbers.work` limits steps."""
+    """Estimate the steps that :func:`integer_power` takes.  A run counts them against its limit."""
     if mantissa == 0 or -1 <= count <= 2:
         return 0
     if rules.as_1962:
@@ -258,7 +258,7 @@ def _cut_value(compute: Callable[[Any], Any], rules: Rules, more: int) -> Value:
 
 
 def _digits(value: Any, context: Any) -> tuple[int, int]:
-    """Return an mpf as an integer of many digits and a power of ten."""
+    """Return an mpmath number as an integer of many digits and a power of ten."""
     text = context.nstr(value, context.dps, strip_zeros=False, min_fixed=1, max_fixed=0)
     body, _, power_text = text.partition("e")
     sign = -1 if body.startswith("-") else 1
@@ -267,7 +267,7 @@ def _digits(value: Any, context: Any) -> tuple[int, int]:
 
 
 def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | None:
-    """Return the value with P digits, or None if only nines or zeros follow, which leaves the rounding undecided."""
+    """Round a value to P digits, or return None if the digits that follow are all nines or zeros and do not decide."""
     if not value:
         return 0, ZERO
     number, power_of_ten = _digits(value, context)
@@ -285,7 +285,7 @@ def _decisive(rules: Rules) -> int:
 
 
 def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
-    """Return the number with the decisive digits that a value equals to within 10**-200, with P digits."""
+    """Round a value to P digits that lies within 10**-200 of a number with few digits, as if it were that number."""
     number, power_of_ten = _digits(value, context)
     text, digits = str(abs(number)), _decisive(rules)
     size = int(text[:digits]) + (text[digits] == "9")

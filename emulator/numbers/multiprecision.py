@@ -51,7 +51,7 @@ class MultiprecisionNumbers(Numbers):
         return self.nearest(whole * 10**power, 1) if power >= 0 else self.nearest(whole, 10**-power)
 
     def nearest(self, over: int, under: int) -> Any:
-        """Return the number nearest to a fraction."""
+        """Return the number of this arithmetic that is nearest to the fraction ``over / under``."""
         return self._context.make_mpf(from_rational(over, under, self.bits, round_nearest))
 
     def add(self, first: Any, second: Any) -> Any:
@@ -105,7 +105,7 @@ class MultiprecisionNumbers(Numbers):
         return getattr(context, name.lower())(value), ""
 
     def _exponential(self, value: Any) -> tuple[Any, str]:
-        """Return EXP, without computing values that are far out of range."""
+        """Return EXP of a number and its error code.  A result far out of range is not computed."""
         if value > MAX_POWER:
             return self._infinity, "F4"
         if value < -MAX_POWER:

@@ -23,7 +23,7 @@ _FIRST_BITS = 64
 
 @dataclass(frozen=True, slots=True)
 class RootSum:
-    """An irrational number as terms (radicand, coefficient).  The rational part, if any, has radicand 1."""
+    """An irrational sum of square roots, as pairs (radicand, coefficient).  A rational part has radicand 1."""
 
     terms: tuple[tuple[int, Rational], ...]
 
@@ -50,7 +50,7 @@ class RootSum:
         return -self if self.sign() < 0 else self
 
     def sign(self) -> int:
-        """Return -1 or 1.  A sum of roots with a term is never zero."""
+        """Return the sign of the sum, -1 or 1.  A sum of this class is never zero."""
         bits = _FIRST_BITS
         while True:
             low = self._low(bits)
@@ -95,7 +95,9 @@ def product(m: int, c: Rational, n: int, d: Rational) -> tuple[int, Rational]:
 
 
 def gathered(terms: Iterable[tuple[int, Rational]]) -> Rational | RootSum:
-    """Return a sum of terms with one root of each kind.  Raise Undecided for more than MAX_ROOTS kinds."""
+    """Add terms, and merge those whose roots are multiples of each other.  Raise Undecided if more than MAX_ROOTS
+    remain.
+    """
     coefficients: dict[int, Rational] = {}
     for radicand, coefficient in terms:
         if radicand in coefficients:
@@ -131,7 +133,7 @@ def square_root(value: Rational) -> Rational | RootSum:
 
 
 def quotient(dividend: Rational | RootSum, divisor: RootSum) -> Rational | RootSum | None:
-    """Return a quotient by a sum of at most two terms, or None for a longer divisor."""
+    """Return a quotient if the divisor is a sum of one or two roots, or None for a longer divisor."""
     if len(divisor.terms) > 2:
         return None
     # (a + b) * (a - b) is rational if a and b are terms of a sum of roots: multiply by the conjugate.

@@ -1,4 +1,4 @@
-"""Stochastic runs in step: every number is the tuple of its values in N runs, which follow one common branch.
+"""Several stochastic runs in step: each number holds its values in all N runs, and all runs take the same branches.
 
 The runs have different seeds and share cards and branches, as in CADNA.  By default an IF takes the branch of the mean,
 or the branch for zero if the number is a computational zero (:mod:`emulator.numbers.significance`), as CADNA's order

@@ -1,6 +1,6 @@
-"""Numbers with a shadow: each number of a program together with a much more precise estimate of its exact value.
+"""Numbers with error bounds: next to each number the program keeps a more precise value, its shadow.
 
-The shadow shows how far rounding has moved a number x.  It is a number y that the same operations compute from the
+The shadow shows how far rounding has moved a number x.  It is the number y that the same operations compute from the
 shadows of the operands, in binary floating point of 2b + 64 bits, where b is the number of bits of x.  Let t be the
 number that exact arithmetic would hold at the same place of the program.  Then
 
@@ -130,7 +130,7 @@ class ShadowedNumbers(Numbers):
     def _done(
         self, name: str, first: Shadowed, second: Shadowed, exactly: Callable[[Fraction, Fraction], Fraction | None]
     ) -> Shadowed:
-        """Apply an operation of the inner system.  Compute a shadow if the result or an operand was rounded."""
+        """Apply an operation to two numbers, and compute the shadow of the result if anything was rounded."""
         trap = None
         try:
             value = getattr(self.inner, name)(first.value, second.value)
@@ -230,7 +230,7 @@ def _length(value: Fraction) -> int:
 
 
 def _shadow_operation(operation: Callable[[Any, Any], Any], first: Any, second: Any) -> Any:
-    """Apply an operation to shadows.  Replace a result out of range by the number with which the program continues."""
+    """Apply an operation to two shadows.  A result out of range becomes the number with which the program continues."""
     try:
         return operation(first, second)
     except Trap as trap:

@@ -64,7 +64,7 @@ def estimate(values: Sequence[Fraction | int | None], digits: float) -> Estimate
 
 
 def _float(value: Fraction) -> float:
-    """Return a ratio as a float.  One beyond 1E100 is shortened, because it means that no digit is significant."""
+    """Return a ratio as a float, at most 1E100: beyond that no digit is significant anyway."""
     return float(value) if abs(value) < 10**100 else 1e100
 
 

@@ -95,7 +95,7 @@ class StochasticBinaryNumbers(MultiprecisionNumbers):
         return draw(self._key, self._taken[0])
 
     def _rounded(self, value: Any, drawn: int) -> Any:
-        """Round the tuple of an mpf."""
+        """Round an mpmath number, given as its internal tuple, with the random number ``drawn``."""
         sign, mantissa, exponent, bits = value
         excess = bits - self.bits
         if excess > 0:
@@ -160,7 +160,8 @@ def _profile(digits: int, seed: int, rule: int) -> Profile:
 
 
 def stochastic(name: str) -> StochasticNumbers | StochasticBinaryNumbers | SampledNumbers | None:
-    """Return the system of a name such as ``stochastic:8:1``, ``stochastic:53b:1:proportional``, ``stochastic:8:1-10``.
+    """Return the arithmetic called ``stochastic:8:1``, ``stochastic:53b:1:proportional``, ``stochastic:8:1-10`` or
+    similar.
 
     Return None if the name does not begin with ``stochastic``.  Raise ArgumentError for an incomplete or invalid name.
     """

@@ -1,4 +1,4 @@
-"""Estimates of the work of costly operations, from the sizes of their numbers.
+"""Estimates of the time that slow operations take, from the lengths of their numbers, for the limit of a run.
 
 A run is limited by a number of statements.  Each statement counts 1, and so does each pass of an indexed list, each
 number and each line.  A statement on one card has at most STEPS - 1 operations.  An operation that takes longer than a
@@ -36,45 +36,45 @@ _PRODUCT, _QUOTIENT, _SERIES, _DECIMAL = 8_000, 650_000, 12_000, 40_000
 
 
 def product(first: int, second: int) -> int:
-    """Return the steps of a product of two integers with the given numbers of bits."""
+    """Estimate the steps of a product of two integers with the given numbers of bits."""
     return max(first, second) * isqrt(min(first, second)) // _PRODUCT
 
 
 def quotient(bits: int, divisor: int) -> int:
-    """Return the steps of a quotient or gcd of integers with the given numbers of bits, or of a square root."""
+    """Estimate the steps of a quotient or gcd of integers with the given numbers of bits, or of a square root."""
     return bits * divisor // _QUOTIENT
 
 
 def series(bits: int) -> int:
-    """Return the steps of a library function computed to the given number of bits."""
+    """Estimate the steps of a library function computed to the given number of bits."""
     return 25 + bits * bits // _SERIES
 
 
 def decimal(bits: int) -> int:
-    """Return the steps of finding the shortest decimal of a binary number."""
+    """Estimate the steps of finding the shortest decimal of a binary number with the given number of bits."""
     return 90 + bits * bits // _DECIMAL
 
 
 def fractions(first: int, second: int) -> int:
-    """Return the steps of + - * / on fractions with the given numbers of bits: two gcds and four products."""
+    """Estimate the steps of + - * / on fractions with the given numbers of bits: two gcds and four products."""
     return 3 + 2 * quotient(first, second) + 4 * product(first, second)
 
 
 def decimal_function(exponent: int) -> int:
-    """Return the steps of SIN, COS, ATAN, EXP or LOG of a decimal number.  Tiny arguments need many more digits."""
+    """Estimate the steps of SIN, COS, ATAN, EXP or LOG of a decimal number.  Tiny arguments need many more digits."""
     return 60 + 5 * min(max(-exponent, 0), 60)
 
 
 def decimal_power(exponent: int) -> int:
-    """Return the steps of ``A**B`` of decimal numbers, where ``exponent`` is the decimal exponent of B."""
+    """Estimate the steps of ``A**B`` for decimal numbers, where ``exponent`` is the decimal exponent of B."""
     return 200 + 4 * max(-exponent, 0)
 
 
 def multiplied(count: int) -> int:
-    """Return the steps of ``A**J`` by repeated multiplication."""
+    """Estimate the steps of ``A**J`` computed by repeated multiplication."""
     return abs(count) // 2
 
 
 def squared(count: int) -> int:
-    """Return the steps of ``A**J`` of a decimal number by squaring, with some digits more than the result has."""
+    """Estimate the steps of ``A**J`` for a decimal number, computed by squaring with some additional digits."""
     return 2 * abs(count).bit_length()

@@ -1,4 +1,4 @@
-"""Operands in the object program: the address of a field, and the code that computes the address of an array element.
+"""Addresses in the object program, and the code that computes the address of an array element.
 
 Element 1 of an array has the highest address, and each element takes ten positions.  The code for a subscript writes
 the address of element 0 into the next instruction and subtracts ten times the subscript from it, by placing the
@@ -25,12 +25,12 @@ class Addresses:
     core: int
 
     def units(self, field: int) -> int:
-        """Return the position of a field's last digit."""
+        """Return the address of a field, which on the 1620 is the position of its last digit."""
         return core_address(field, self.core)
 
     @cached_property
     def labels(self) -> dict[str, int]:
-        """The position of the last digit of each statement number's field."""
+        """The address of the field of each statement number: the position of its last digit."""
         entries = self.program.storage.entries
         return {entry.name: self.units(entry.first) for entry in entries if entry.kind == "statement number"}
 
@@ -39,7 +39,7 @@ class Addresses:
         return self.labels[str(label)] - FIELD + 1
 
     def format(self, label: int) -> int:
-        """Return the position at which the address stored in the field of a FORMAT's number ends."""
+        """Return the last position of the address that is stored in the field of a FORMAT's statement number."""
         return self.labels[str(label)] - 3
 
     def operand(self, call: str, field: int, subscript: int, at: int) -> str:
@@ -75,7 +75,7 @@ class Addresses:
         return text + call + address(self.units(variable))
 
     def _steps(self, part: Subscript) -> list[tuple[str, int]]:
-        """Return the steps for a subscript: for each, code, and the position of the number that is then subtracted."""
+        """Return the steps that compute a subscript: for each, its code and the position of the number it subtracts."""
         steps = []
         if part.v2 >= 0:
             code = self._product(part.v2, part.rows * part.c2)

@@ -29,7 +29,7 @@ END_OF_CODE = "]0]0999" + "0" + d.RECORD_MARK
 
 
 def object_cards(program: Program, core: int) -> list[str]:
-    """Return the cards of a program without numbers, to be loaded into a machine with ``core`` positions.
+    """Return the object deck of a program, without card numbers, for a machine with ``core`` positions of storage.
 
     Raise DeckError if the program needs a function that neither the library nor this project supplies, or if it does
     not fit the machine.
@@ -51,7 +51,7 @@ def object_cards(program: Program, core: int) -> list[str]:
 
 
 def _code_cards(units: Sequence[Unit]) -> Iterator[str]:
-    """Yield the cards of code.  The loader stops at a record mark, so that nothing follows it on a card."""
+    """Yield the cards that hold the code.  A record mark ends a card, because the loader stops there."""
     for unit in units:
         digits = unit.digits
         while digits:
@@ -78,7 +78,7 @@ def symbol_table(program: Program, code: ObjectProgram, core: int) -> Iterator[s
 
 
 def _fields(entry: Entry, addresses: Addresses, code: ObjectProgram, formats: set[str]) -> Iterator[str]:
-    """Yield the field of an entry, or the two fields of an array."""
+    """Yield the symbol table's field for a variable, or its two fields for an array."""
     name = entry.name
     if entry.kind == "statement number":
         label = name.removeprefix("after ")
@@ -127,7 +127,7 @@ def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> l
 
 
 def numbered(cards: Sequence[str], first: int) -> list[str]:
-    """Return the cards numbered from 1 in columns 77 to 80, which replaces any other numbers there."""
+    """Return the cards numbered from ``first`` in columns 77 to 80, in place of any numbers there."""
     return [f"{card[:_NUMBER_COLUMN]:<{_NUMBER_COLUMN}}{_number(index)}" for index, card in enumerate(cards, first)]
 
 

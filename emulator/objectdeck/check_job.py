@@ -41,7 +41,7 @@ def disk(source: str, target: str) -> None:
 
 
 def join(target: str, *sources: str) -> None:
-    """Put decks behind one another."""
+    """Write several decks to one file, one after the other."""
     cards = [card for source in sources for card in deck(source)]
     with open(target, "w", encoding="latin-1", newline="\n") as file:
         file.writelines(card + "\n" for card in cards)
@@ -59,7 +59,7 @@ def numbers(card: str) -> list[str]:
 
 
 def kind(expected: str, punched: str) -> str:
-    """Return the class of a difference between two numbers."""
+    """Return the class of difference between two numbers, for example a difference in the last digit."""
     a, b = float(expected), float(punched)
     if a == b:
         return "sign of zero" if a == 0 and (expected[0] == "-") != (punched[0] == "-") else "notation"
@@ -68,7 +68,7 @@ def kind(expected: str, punched: str) -> str:
 
 
 def differences(expected: str, punched: str) -> list[str]:
-    """Return the classes of the differences of two cards."""
+    """Return the classes of all differences between two cards."""
     ours, theirs = numbers(expected), numbers(punched)
     text = [re.sub(r"[ E]", "", NUMBER.sub("", re.sub(r"E (?=\d\d)", "E+", c))) for c in (expected, punched)]
     if text[0] != text[1] or len(ours) != len(theirs):

@@ -61,7 +61,7 @@ MORE_ITEMS = 5365
 
 
 def flagged(digits: str) -> str:
-    """Return digits with a flag over the first one, which marks the high-order end of a field."""
+    """Return digits with a flag on the first one, which marks the left end of a field."""
     return FLAGGED[int(digits[0])] + digits[1:]
 
 
@@ -71,12 +71,12 @@ def address(position: int) -> str:
 
 
 def immediate(value: int) -> str:
-    """Return the Q part of an immediate instruction with a fixed-point number of four digits."""
+    """Return a fixed-point number as the second operand (Q) of an instruction that contains its operand."""
     return "0" + flagged(f"{value:04d}")
 
 
 def wide_immediate(value: int) -> str:
-    """Return an immediate number with a second flag to its left, as in the limit of a DO and in subscripts."""
+    """Return the same as :func:`immediate`, with a second flag further left, as in DO limits and subscripts."""
     return "]" + flagged(f"{value:04d}")
 
 
@@ -87,7 +87,7 @@ def floating_field(mantissa: int, exponent: int) -> str:
 
 
 def card_text(positions: Iterable[int]) -> str:
-    """Return positions of core storage, digits and flags as integers, in the code of the cards."""
+    """Return positions of core storage, given as integers, as the characters that a card holds for them."""
     return "".join((FLAGGED if position & FLAG else PLAIN)[position % FLAG] for position in positions)
 
 

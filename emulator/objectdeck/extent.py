@@ -1,4 +1,4 @@
-"""The core storage that a program and its data need, by the code of IBM's compiler.
+"""The core storage that a program and its data need if IBM's compiler of 1962 compiles it.
 
 The lengths are those of :mod:`emulator.objectdeck.generator`.  The known object deck does not show every construct, and
 the lengths of IBM's function routines are unknown.  :attr:`Extent.inferred` counts the positions without evidence.  A
@@ -19,20 +19,20 @@ _INFERRED = {op.IF: 32, op.STOP: 8}
 
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """The positions of core that data and object program need, and how many of them are inferred without evidence."""
+    """The positions of core storage for data and object program, and how many of them are inferred without evidence."""
 
     data: int
     code: int
     inferred: int
 
     def excess(self, core: int) -> int:
-        """Return the number of positions by which program and data exceed a machine; it is negative if positions
-        remain free.
+        """Return by how many positions program and data exceed the storage of a machine; negative if positions remain
+        free.
         """
         return self.data + self.code - _room(core)
 
     def overlap(self, core: int) -> str:
-        """Return the compiler's message if program and data do not fit a machine, else an empty string."""
+        """Return the compiler's error message if program and data do not fit a machine, else an empty string."""
         excess, need = self.excess(core), self.data + self.code
         if excess <= 0:
             return ""
@@ -53,7 +53,7 @@ class Extent:
 
 
 def _room(core: int) -> int:
-    """Return the number of positions between IBM's subroutines below and the names of library functions above."""
+    """Return the number of positions that are free for program and data in a machine with ``core`` positions."""
     return core - OBJECT_PROGRAM - FUNCTION_NAMES
 
 
@@ -73,5 +73,5 @@ def extent(program: Program) -> Extent:
 
 
 def _routines(code: ObjectProgram) -> int:
-    """Return the length of the function routines."""
+    """Return the total length of the library functions that the program calls."""
     return code.end - min(code.functions.values(), default=code.end)

@@ -29,7 +29,7 @@ ROUTINES = {"SQRT": square_root}
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """Digits that follow each other in core storage from an even position."""
+    """A piece of code, as digits that follow each other in core storage from an even position."""
 
     at: int
     digits: str
@@ -109,7 +109,9 @@ class _Generator:
             self.at += len(self.units[-1].digits)
 
     def _count(self, instruction: Instruction) -> None:
-        """Begin a statement: put the FORMATs that precede it, and record the position of its statement number."""
+        """Begin a statement: first output the FORMATs that precede it, then record the position of its statement
+        number.
+        """
         counter = self.program.counters[instruction.address]
         if counter.begins:
             self._formats_before(counter.statement)
@@ -140,7 +142,7 @@ class _Generator:
         self._put(code)
 
     def _with_bound(self, immediate: str, direct: str, variable: int, bound: int, wide: bool = False) -> str:
-        """Return an instruction on the variable of a DO and one of its bounds, a constant or a variable."""
+        """Return an instruction that combines the variable of a DO with a bound, which is a constant or a variable."""
         target = address(self.addresses.units(variable))
         if bound < self.program.storage.fields:
             return direct + target + address(self.addresses.units(bound))
@@ -249,7 +251,7 @@ class _Generator:
         )  # fmt: skip
 
     def _items(self, instruction: Instruction, loops: tuple[int, ...] | None) -> None:
-        """Put the calls that transfer the elements of a list item.  ``loops`` are those that end after it, or None."""
+        """Output the calls that transfer a list item.  ``loops`` are the loops that end after it, or None."""
         count = op.repeats(instruction)
         for element in range(count):
             is_last = loops is not None and element == count - 1
@@ -260,8 +262,7 @@ class _Generator:
             self._put(self.addresses.operand(call, instruction.address + element, instruction.subscript, self.at))
 
     def _last_pass(self, loops: tuple[int, ...]) -> str:
-        """Return code that tells the library that the last item of a list follows, if all ``loops`` make their last
-        pass.
+        """Return code that announces the last item of a list to the library, if all ``loops`` are in their last pass.
         """
         length = 48 * len(loops) + 12
         past = self.at + length
@@ -275,8 +276,7 @@ class _Generator:
         return text + d.TRANSMIT_FIELD_IMMEDIATE + f"{d.MORE_ITEMS:05d}" + "000]0"
 
     def _next_value(self, immediate: str, direct: str, bound: int) -> str:
-        """Return an instruction that combines a copy of a loop's variable, in the accumulator, with a bound of the
-        loop.
+        """Return an instruction that combines the loop variable, which is in the accumulator, with a bound of the loop.
         """
         if bound < self.program.storage.fields:
             return direct + _POSITION + address(self.addresses.units(bound))
@@ -285,12 +285,12 @@ class _Generator:
 
 
 def _function_entry(name: str, core: int) -> int:
-    """Return the position of the branch to a function: the first digit of the function's field above the data."""
+    """Return the position to which a program branches to call a function, in the function's field above the data."""
     return core - 20 * LIBRARY.index(name) - 10
 
 
 def _loops_closed_by_lists(program: Program) -> dict[int, tuple[int, ...]]:
-    """Map the instruction of the last item of each list to the loops within the list that end after this item."""
+    """Map the last item of each list to the loops inside the list that end after it, all as instruction indices."""
     closing: dict[int, tuple[int, ...]] = {}
     for pc, instruction in enumerate(program.code):
         if instruction.operation != op.FINISH:

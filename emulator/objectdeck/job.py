@@ -1,4 +1,4 @@
-"""Jobs for two compilers of the time: FORTRAN II-D under Monitor I, and PDQ FORTRAN.
+"""Export a program as a job for one of two compilers of the 1960s: FORTRAN II-D under Monitor I, or PDQ FORTRAN.
 
 A job is a folder of text files for the 1620 simulator of SIMH.  It contains no code of IBM's: the operator adds the
 compiler.  The program is exported card by card.  A card changes only if the compiler does not accept it as it is, and
@@ -45,7 +45,7 @@ _FOR_PDQ = {"IF(E(I))112,184,180": "IF (E(I))112,191,180"}
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A card that was changed or added: its number in the deck (0 if added), the cards of the job, and the reason."""
+    """A source card that the export changed or added: its number (0 if added), the resulting cards, and the reason."""
 
     card: int
     texts: tuple[str, ...]
@@ -135,7 +135,7 @@ def _data(deck: Deck, data: Deck) -> tuple[Card, ...]:
 
 
 def _fitted(name: str, card: Card, source: Source | None, compiler: Compiler) -> tuple[tuple[str, ...], str]:
-    """Return the cards of a statement or comment as the compiler accepts them, and the reason if they changed."""
+    """Return a statement or comment as cards that the compiler accepts, and the reason if they had to change."""
     if source is None or is_comment(card):
         text = "".join(c if c.upper() in READABLE else " " for c in card.text).rstrip()
         return (text,), "" if text == card.text else "the simulator reads only characters of the card code"
@@ -166,7 +166,7 @@ def _fitted(name: str, card: Card, source: Source | None, compiler: Compiler) ->
 
 
 def _image(name: str, card: Card) -> str:
-    """Return a card in the characters of the simulator, which have the same punches.  Raise CardError."""
+    """Return a card in the characters that the simulator reads, which have the same punches.  Raise CardError."""
     text = RECORD_MARK.sub("|", card.text).replace("'", "@")
     for column, char in enumerate(text, 1):
         if char not in READABLE:

@@ -77,7 +77,7 @@ _INSTRUCTION = 12
 
 
 def square_root(start: int) -> str:
-    """Return the digits of the routine for a place in core storage.  A program calls it at its first position."""
+    """Return the digits of the routine, to be loaded at position ``start``, which is also its entry point."""
     places = {name: start + _INSTRUCTION * index for index, (name, *_) in enumerate(_LINES)}
     at = start + _INSTRUCTION * len(_LINES)
     for name, digits in _FIELDS:

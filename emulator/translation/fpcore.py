@@ -1,4 +1,4 @@
-"""Formulas as FPCore 2.0, the format of floating-point benchmarks (https://fpbench.org).
+"""Formulas and programs in FPCore 2.0, the format of floating-point benchmarks (https://fpbench.org).
 
 A formula is a Python function of numbers.  Called with :class:`Symbol` objects, it records its operations, so that the
 FPCore has the operations of the code in their order.  The numbers of a formula are those of ``:precision``; FPCore has
@@ -17,7 +17,7 @@ from emulator.translation.steps import Assign, Begin, Constant, Expression, Fiel
 
 @dataclass(frozen=True, slots=True)
 class Symbol:
-    """An expression of FPCore, as its text."""
+    """An FPCore expression, held as text; arithmetic on symbols builds longer expressions."""
 
     text: str
 
@@ -84,7 +84,7 @@ class Formula:
 
 
 def document(formulas: Sequence[Formula], heading: str) -> str:
-    """Return a file of FPCore with a comment in front of it."""
+    """Return an FPCore file with these formulas, after ``heading`` as a comment."""
     comment = "".join(f"; {line}\n" for line in heading.splitlines())
     return comment + "".join("\n" + formula.text() for formula in formulas)
 
@@ -126,7 +126,7 @@ def _parts(node: Expression) -> Iterator[Expression]:
 
 
 def statements(program: Program) -> str:
-    """Return a program's floating-point statements as FPCore: the value of each assignment and of each IF.
+    """Translate the floating-point assignments and IFs of a program to FPCore: the value of each, as an expression.
 
     Subscripts become parts of names: ``X(2*I+1)`` is ``X_2xIp1``.  A comment names each statement that is omitted,
     because fixed-point arithmetic has no counterpart.

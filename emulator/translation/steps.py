@@ -1,4 +1,4 @@
-"""Object code as steps: assignments of expressions, decisions, and lists of numbers, in no particular language.
+"""Convert object code to steps (assignments, decisions, input and output) from which C or Fortran is written.
 
 The accumulator is followed symbolically through the instructions of a statement, so that every expression has the
 operations of the object code in their order.  The signs of zeros therefore agree with those of the emulator.
@@ -59,7 +59,7 @@ Expression = Constant | Field | Operation
 
 @dataclass(frozen=True, slots=True)
 class Begin:
-    """The beginning of a statement.  A branch reaches it at ``label``, or never if that is 0."""
+    """The beginning of a statement, with its label, or 0 if no branch leads to it."""
 
     line: Line
     label: int
@@ -76,7 +76,7 @@ class Assign:
 
 @dataclass(frozen=True, slots=True)
 class Test:
-    """An IF, with its three labels."""
+    """An IF with its expression and its three labels."""
 
     value: Expression
     labels: tuple[int, ...]
@@ -93,7 +93,7 @@ class Select:
 
 @dataclass(frozen=True, slots=True)
 class Switch:
-    """A test of a sense switch, with the labels for on and off."""
+    """A test of a sense switch (a console switch), with the labels for on and off."""
 
     number: int
     labels: tuple[int, ...]
@@ -126,7 +126,9 @@ class Repeat:
 
 @dataclass(frozen=True, slots=True)
 class List:
-    """The beginning of a list.  ``verb`` is READ, ACCEPT, PUNCH, PRINT or TYPE, and ``format`` the number of FORMAT."""
+    """The beginning of an input or output list.  ``verb`` is READ, ACCEPT, PUNCH, PRINT or TYPE; ``format`` is a
+    number.
+    """
 
     verb: str
     format: int
@@ -134,7 +136,7 @@ class List:
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """A number of a list, or all ``count`` elements of an array."""
+    """A number in an input or output list, or all ``count`` elements of an array."""
 
     target: Field
     is_input: bool
@@ -144,7 +146,7 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Simple:
-    """The end of a list, PAUSE, STOP, or the end of the deck."""
+    """A step without operands: the end of a list, PAUSE, STOP, or the end of the deck."""
 
     kind: Literal["end of list", "PAUSE", "STOP"]
     number: int = 0
@@ -161,7 +163,7 @@ _FIXED = {op.XAD: "+", op.XSB: "-", op.XSBR: "-", op.XMP: "*", op.XDV: "/", op.X
 
 @dataclass
 class _Walk:
-    """The symbolic accumulators and temporary fields during a walk through the object code."""
+    """The expressions in the accumulators and temporary fields, while the instructions are followed in order."""
 
     program: Program
     floating: Expression = field(default_factory=lambda: Constant("0."))

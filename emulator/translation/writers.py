@@ -1,4 +1,4 @@
-"""The steps of a program as C and as Fortran, with the runtime of the language in front of them.
+"""Write a program as C or Fortran source text, which begins with a runtime for devices and FORMATs.
 
 Both languages keep the statement numbers as labels.  A fixed-point result keeps four digits, a subscript is checked,
 and a decision calls a function of the runtime, which can write it to a file.  ``runtime.c`` and ``runtime.f90``, next
@@ -43,7 +43,7 @@ def is_fixed_name(name: str) -> bool:
 
 
 def layout(spec: FormatSpec, is_read: bool) -> tuple[str, int]:
-    """Return a FORMAT as flat text, and the index in it at which a longer list continues, or -1 if it has no field.
+    """Return a FORMAT as one text, and the index in it at which a longer list continues, or -1 if it has no field.
 
     If a READ or ACCEPT uses the FORMAT, its X fields become H fields, because they keep the columns that they skip.
     """
@@ -59,7 +59,7 @@ def layout(spec: FormatSpec, is_read: bool) -> tuple[str, int]:
 
 @dataclass
 class Writer(ABC):
-    """A program in a language.  ``every_read_ends`` tells whether an empty hopper is a normal end at every READ."""
+    """The text of a program in C or Fortran.  ``every_read_ends``: an empty hopper is a normal end at every READ."""
 
     program: Program
     every_read_ends: bool
@@ -108,7 +108,7 @@ class Writer(ABC):
     def call(self, function: str, operands: Sequence[str]) -> str: ...
 
     def expression(self, node: Expression, at_least: int = _SUM) -> str:
-        """Return an expression, in parentheses if an operator around it would otherwise change its order."""
+        """Return an expression as text, in parentheses if it is looser than ``at_least``, the precedence around it."""
         match node:
             case Constant(text):
                 return self.constant(text)
@@ -136,7 +136,7 @@ class Writer(ABC):
         return f"({text})" if precedence < at_least else text
 
     def divisor(self, text: str) -> str:
-        """Return a divisor in a form that compilers accept."""
+        """Return a divisor in a form that compilers accept, even if it is the constant zero."""
         return text
 
     @abstractmethod
@@ -382,7 +382,7 @@ WRITERS: dict[str, type[Writer]] = {"c": CWriter, "fortran": FortranWriter}
 
 
 def translated(deck: Deck, language: str, every_read_ends: bool = True) -> str:
-    """Return the program of a source deck in ``c`` or ``fortran``.
+    """Translate a FORTRAN deck of the 1620 to C or Fortran, and return the source text.
 
     ``every_read_ends`` tells whether an empty hopper is a normal end at every READ, or only at the one that begins a
     data set.  Raise CompileError, with card and column, for a deck that does not compile.
