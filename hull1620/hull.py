@@ -135,7 +135,8 @@ class Hull:
 
     @cached_property
     def vertices(self) -> Indices:
-        """The indices of the vertices, in the order in which Butler's procedure finds them; ``exact_hull`` sorts them.
+        """The indices of the vertices, in the order in which Butler's procedure finds them; ``exact_hull``
+        sorts them.
         """
         return _read_only(np.array(self.record.vertices, np.intp))
 

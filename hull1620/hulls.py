@@ -51,7 +51,8 @@ def convex_hull(
         ``stochastic:BITSb:SEED``.
     epsilon : number or str, optional
         The tolerance e of the thesis's chapter 7: values of a plane equation from -e to e count as zero.
-        ``"rel:1e-9"`` is relative to the coefficients of the equation.  If e is so large that the faces do not form a closed surface, there is no hull.
+        ``"rel:1e-9"`` is relative to the coefficients of the equation.  If e is so large that the faces do not form a
+        closed surface, there is no hull.
     translate : bool, optional
         Move the origin to a point C inside the hull first, as chapter 7 of the thesis proposes.
     history : bool, optional

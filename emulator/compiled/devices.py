@@ -63,7 +63,8 @@ STAMP = 6
 # The arrays are grouped in the tuples below, so that each function receives only those it needs: numba passes an array
 # as seven or more numbers in every call.
 class Marks(NamedTuple):
-    """Parts of the object code that the devices use: second operand and statement of each instruction, and the verbs.
+    """Parts of the object code that the devices use: second operand and statement of each instruction, and the
+    verbs.
     """
 
     seconds: Row

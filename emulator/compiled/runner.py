@@ -65,7 +65,8 @@ def why_plain(options: Options) -> str:
 
 @cache
 def run_decks() -> Compiled:
-    """Return the function ``run_decks`` of deck.py, ready to be compiled.  Raise NotInstalled if numba cannot be used.
+    """Return the function ``run_decks`` of deck.py, ready to be compiled.  Raise NotInstalled if numba cannot
+    be used.
     """
     # The code never divides by zero, so numba need not check divisors (error_model).  It creates no arrays, so numba
     # need not count references to them (_nrt).  The second option is documented only in

@@ -158,7 +158,8 @@ def _make_callable(helper: Function) -> None:
 
 
 def digest(entry: Function, options: str) -> str:
-    """Return a hash, 16 characters long, of everything that determines the compiled code: modules, constants, options.
+    """Return a hash, 16 characters long, of everything that determines the compiled code: modules, constants,
+    options.
     """
     functions = called(entry)
     text = [options]

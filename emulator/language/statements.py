@@ -79,7 +79,8 @@ def is_control_card(card: Card) -> bool:
 
 
 def statement_columns(card: Card, first: int = 1) -> str:
-    """Return columns ``first`` to 72 of a card, blank from a record mark on, because that character ends a statement.
+    """Return columns ``first`` to 72 of a card, blank from a record mark on, because that character ends a
+    statement.
     """
     text = card.columns(first, LAST_COLUMN)
     mark = None if is_control_card(card) else RECORD_MARK.search(text)

@@ -75,7 +75,8 @@ class Operator:
 
 @dataclass(frozen=True, slots=True)
 class Load:
-    """The part of an operator's file that belongs to one machine, with the names of program and deck if it gives them.
+    """The part of an operator's file that belongs to one machine, with the names of program and deck if it
+    gives them.
     """
 
     program: str

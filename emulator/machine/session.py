@@ -191,7 +191,8 @@ class Session:
                 self._ending = Ending("operator", self.program.source, self.here, trouble="stopped by the operator")
 
     def places(self, action: Action) -> list[int]:
-        """Return the indices of the statements at which a BREAK action sets, or a CLEAR action removes, a breakpoint.
+        """Return the indices of the statements at which a BREAK action sets, or a CLEAR action removes, a
+        breakpoint.
         """
         return [
             line.index
@@ -212,7 +213,9 @@ class Session:
         return [(self.state.values[field], self.state.kinds[field]) for field in self.program.storage.fields_of(name)]
 
     def expected_fields(self) -> list[tuple[str, int, int]]:
-        """Return the FORMAT code, the first column and the width of each field of the line that ACCEPT waits for."""
+        """Return the FORMAT code, first column and width of each field of the line that an ACCEPT statement
+        waits for.
+        """
         return self.devices.expected_fields(self._pending == interpreter.AT_BEGIN)
 
     def result(self, ending: Ending = BAD_INPUT) -> Result:

@@ -61,7 +61,8 @@ class Rules(NamedTuple):
 
 
 def drawn(rules: Rules, count: int) -> Rules:
-    """Return the rules for operation number ``count`` of a run, which differ only in their random number for rounding.
+    """Return the rules for operation number ``count`` of a run, which differ only in their random number for
+    rounding.
     """
     digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, _ = rules
     number = draw(key, count)

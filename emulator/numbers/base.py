@@ -48,7 +48,8 @@ def lossless_rules(digits: int) -> Rules:
 
 
 class Numbers(ABC):
-    """An arithmetic for the object code.  Instances are plain data; only random rounding has a state (:meth:`fresh`).
+    """An arithmetic for the object code.  Instances are plain data; only random rounding has a state
+    (:meth:`fresh`).
     """
 
     @property

@@ -140,7 +140,8 @@ def _remark(status: int) -> Remark | None:
 
 
 def write_as_1962(field: Field, mantissa: int, exponent: int, rules: Rules) -> tuple[str, bool]:
-    """Return the columns that IBM's library of 1962 writes for a number, and True if it did not fit and became E14.8.
+    """Return the columns that IBM's library of 1962 writes for a number, and True if it did not fit and became
+    E14.8.
     """
     codes = bytearray(field.width)
     end = columns1962.write_floating(

@@ -99,7 +99,8 @@ class IntervalNumbers(Numbers):
         return self._outward(getattr(self._mpmath, name.lower())(self._iv(value))), ""
 
     def _directed(self, context: Context, name: str, value: Decimal) -> Decimal:
-        """Return a square root rounded up or down as the context says, because decimal always rounds a root to nearest.
+        """Return a square root rounded up or down as the context says, because decimal always rounds a root to
+        nearest.
         """
         root = Context(2 * self.places + 4, context.rounding, MIN_EMIN, MAX_EMAX).sqrt(value)
         nudged = root

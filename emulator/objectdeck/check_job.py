@@ -59,7 +59,7 @@ def numbers(card: str) -> list[str]:
 
 
 def kind(expected: str, punched: str) -> str:
-    """Return the class of difference between two numbers, for example a difference in the last digit."""
+    """Classify the difference between two numbers: sign of zero, notation, last digits, or other."""
     a, b = float(expected), float(punched)
     if a == b:
         return "sign of zero" if a == 0 and (expected[0] == "-") != (punched[0] == "-") else "notation"

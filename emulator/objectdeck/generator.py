@@ -262,7 +262,8 @@ class _Generator:
             self._put(self.addresses.operand(call, instruction.address + element, instruction.subscript, self.at))
 
     def _last_pass(self, loops: tuple[int, ...]) -> str:
-        """Return code that announces the last item of a list to the library, if all ``loops`` are in their last pass.
+        """Return code that announces the last item of a list to the library, if all ``loops`` are in their last
+        pass.
         """
         length = 48 * len(loops) + 12
         past = self.at + length
@@ -276,7 +277,8 @@ class _Generator:
         return text + d.TRANSMIT_FIELD_IMMEDIATE + f"{d.MORE_ITEMS:05d}" + "000]0"
 
     def _next_value(self, immediate: str, direct: str, bound: int) -> str:
-        """Return an instruction that combines the loop variable, which is in the accumulator, with a bound of the loop.
+        """Return an instruction that adds a loop's step to a copy of its variable, or compares the copy with
+        the limit.
         """
         if bound < self.program.storage.fields:
             return direct + _POSITION + address(self.addresses.units(bound))

@@ -108,7 +108,7 @@ class Writer(ABC):
     def call(self, function: str, operands: Sequence[str]) -> str: ...
 
     def expression(self, node: Expression, at_least: int = _SUM) -> str:
-        """Return an expression as text, in parentheses if it is looser than ``at_least``, the precedence around it."""
+        """Return an expression as text, in parentheses if its precedence is below ``at_least``."""
         match node:
             case Constant(text):
                 return self.constant(text)

@@ -100,7 +100,8 @@ OVERFLOWING = [
     (0, OFF, 0),
     (0.5 * WIDE, 2 * OFF, 0),
 ]
-"""Long, narrow and nearly flat points. The squares of program 1 fit, because each of its triangles has a narrow side.
+"""Long, narrow and nearly flat points. The squares of program 1 fit, because each of its triangles has a narrow
+side.
 """
 
 
