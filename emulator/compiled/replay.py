@@ -7,6 +7,7 @@ are exact in all of them.  After an overflow the repetition continues with the l
 from __future__ import annotations
 
 import decimal
+import operator as o
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cache
@@ -19,13 +20,14 @@ from emulator.machine.tape import ADD, DIVIDE, LEAF, MULTIPLY, NEGATE, SUBTRACT,
 from emulator.numbers.accumulator import add, divide, multiply, negate, subtract
 from emulator.numbers.arithmetic import Rules, drawn
 from emulator.numbers.base import Number
+from emulator.numbers.interval import Interval, IntervalNumbers
 
 # Enough for every sum and product of a program without powers; a longer result is an error, not a rounded number.
 _LONG = 20_000
 # Numbers of the compiled code have at most this number of digits, because products must fit into 64 bits.
 _COMPILED_DIGITS = 9
 _ENDLESS = decimal.Decimal("9E+99999")
-Bounds = tuple[decimal.Decimal, decimal.Decimal]
+_Operation = Callable[[Any, Any], Any]
 
 
 def repeat(
@@ -72,9 +74,8 @@ def _compiled() -> Compiled | None:
         return None
 
 
-def repetitions(tape: Tape, digits: int, each: Iterable[Rules]) -> Iterator[tuple[list[int], list[int]]]:
-    """Repeat a tape by each of the given rules, and yield the mantissas and exponents of the numbers that the run
-    tested.
+def repetitions(tape: Tape, digits: int, rules_of_runs: Iterable[Rules]) -> Iterator[tuple[list[int], list[int]]]:
+    """Yield the mantissas and exponents of the numbers that a tape tests, repeated by each of the rules.
 
     The tape was recorded with ``digits`` digits; the rules have at least as many.  The numbers are in the order of
     ``tape.tests``.
@@ -83,7 +84,7 @@ def repetitions(tape: Tape, digits: int, each: Iterable[Rules]) -> Iterator[tupl
     code = tape.operations, tape.firsts, tape.seconds
     places = [test.place for test in tape.tests]
     arrays = tuple(np.array(row, np.int64) for row in (*code, tape.mantissas, tape.exponents)) if compiled else ()
-    for rules in each:
+    for rules in rules_of_runs:
         scale = 10 ** (rules.digits - digits)
         if compiled and rules.digits <= _COMPILED_DIGITS:
             arguments = (*arrays[:3], scale * arrays[3], arrays[4].copy(), rules)
@@ -113,30 +114,28 @@ def exactly(tape: Tape, digits: int) -> list[Number]:
     values: list[Any] = list(_leaves(tape, digits))
     largest = decimal.Decimal(10**digits - 1).scaleb(99 - digits)
     try:
-        _follow(tape, values, exact.add, exact.subtract, exact.multiply, exact.divide, largest)
+        _follow(tape, values, exact.add, exact.subtract, exact.multiply, _or(largest, exact.divide), exact.minus)
     except decimal.Inexact:
         values = [Fraction(value) for value in _leaves(tape, digits)]
-        _follow(
-            tape, values, Fraction.__add__, Fraction.__sub__, Fraction.__mul__, Fraction.__truediv__, Fraction(largest)
-        )
+        _follow(tape, values, o.add, o.sub, o.mul, _or(Fraction(largest), o.truediv), o.neg)
     return values
+
+
+def _or(largest: Number, divide: _Operation) -> _Operation:
+    return lambda dividend, divisor: divide(dividend, divisor) if divisor else largest
 
 
 def _follow(
     tape: Tape,
     values: list[Any],
-    plus: Callable[[Any, Any], Any],
-    minus: Callable[[Any, Any], Any],
-    times: Callable[[Any, Any], Any],
-    over: Callable[[Any, Any], Any],
-    largest: Number,
+    plus: _Operation,
+    minus: _Operation,
+    times: _Operation,
+    over: _Operation,
+    negated: Callable[[Any], Any],
 ) -> None:
-    """Repeat the operations of a tape with the given functions; ``values`` holds the input numbers and receives the
-    results.
-    """
+    """Repeat a tape with the given functions.  ``values`` holds the leaves and receives the results."""
     for k, (operation, i, j) in enumerate(zip(tape.operations, tape.firsts, tape.seconds, strict=True)):
-        if operation == LEAF:
-            continue
         if operation == MULTIPLY:
             values[k] = times(values[i], values[j])
         elif operation == ADD:
@@ -144,49 +143,22 @@ def _follow(
         elif operation == SUBTRACT:
             values[k] = minus(values[i], values[j])
         elif operation == NEGATE:
-            values[k] = -values[i]
-        else:
-            values[k] = over(values[i], values[j]) if values[j] else largest
+            values[k] = negated(values[i])
+        elif operation == DIVIDE:
+            values[k] = over(values[i], values[j])
 
 
-def enclosed(tape: Tape, digits: int) -> list[Bounds]:
-    """Return an interval that contains the exact value of each number on a tape.
+def enclosed(tape: Tape, digits: int) -> list[Interval]:
+    """Return an interval around the exact value of each place of a tape of ``digits`` digits.
 
     The bounds have ``digits`` digits and are rounded outwards.  A quotient is unbounded if the divisor's interval
     contains 0.
     """
-    limits = {"prec": digits, "Emax": 10**6, "Emin": -(10**6), "traps": []}
-    down = decimal.Context(rounding=decimal.ROUND_FLOOR, **limits)  # type: ignore[arg-type]
-    up = decimal.Context(rounding=decimal.ROUND_CEILING, **limits)  # type: ignore[arg-type]
+    system = IntervalNumbers(digits)
+
+    def over(dividend: Interval, divisor: Interval) -> Interval:
+        return (-_ENDLESS, _ENDLESS) if divisor[0] <= 0 <= divisor[1] else system.divide(dividend, divisor)
+
     values: list[Any] = [(leaf, leaf) for leaf in _leaves(tape, digits)]
-
-    def plus(a: Bounds, b: Bounds) -> Bounds:
-        return down.add(a[0], b[0]), up.add(a[1], b[1])
-
-    def minus(a: Bounds, b: Bounds) -> Bounds:
-        return down.subtract(a[0], b[1]), up.subtract(a[1], b[0])
-
-    def times(a: Bounds, b: Bounds) -> Bounds:
-        if a[0] == a[1] and b[0] == b[1]:
-            return down.multiply(a[0], b[0]), up.multiply(a[0], b[0])
-        pairs = [(x, y) for x in a for y in b]
-        return min(down.multiply(x, y) for x, y in pairs), max(up.multiply(x, y) for x, y in pairs)
-
-    def over(a: Bounds, b: Bounds) -> Bounds:
-        if b[0] <= 0 <= b[1]:
-            return -_ENDLESS, _ENDLESS
-        pairs = [(x, y) for x in a for y in b]
-        return min(down.divide(x, y) for x, y in pairs), max(up.divide(x, y) for x, y in pairs)
-
-    for k, (operation, i, j) in enumerate(zip(tape.operations, tape.firsts, tape.seconds, strict=True)):
-        if operation == MULTIPLY:
-            values[k] = times(values[i], values[j])
-        elif operation == ADD:
-            values[k] = plus(values[i], values[j])
-        elif operation == SUBTRACT:
-            values[k] = minus(values[i], values[j])
-        elif operation == NEGATE:
-            values[k] = -values[i][1], -values[i][0]
-        elif operation == DIVIDE:
-            values[k] = over(values[i], values[j])
+    _follow(tape, values, system.add, system.subtract, system.multiply, over, system.negate)
     return values

@@ -57,6 +57,8 @@ class IntervalNumbers(Numbers):
         return self._down.subtract(first[0], second[1]), self._up.subtract(first[1], second[0])
 
     def multiply(self, first: Interval, second: Interval) -> Interval:
+        if first[0] == first[1] and second[0] == second[1]:
+            return self._down.multiply(first[0], second[0]), self._up.multiply(first[0], second[0])
         pairs = [(a, b) for a in first for b in second]
         return min(self._down.multiply(a, b) for a, b in pairs), max(self._up.multiply(a, b) for a, b in pairs)
 
@@ -88,8 +90,10 @@ class IntervalNumbers(Numbers):
 
     def function(self, name: str, value: Interval) -> tuple[Interval, str]:
         if name == "SQRT":
-            low, high = sorted(map(abs, value)) if value[0] * value[1] > 0 else (Decimal(0), max(map(abs, value)))
-            return (self._directed(self._down, "sqrt", low), self._directed(self._up, "sqrt", high)), ""
+            # The machine takes the root of the absolute value.
+            ends = sorted(map(Decimal.copy_abs, value))
+            low = ends[0] if value[0] > 0 or value[1] < 0 else Decimal(0)
+            return (self._roots(low)[0], self._roots(ends[1])[1]), ""
         if name == "LOG" and value[0] <= 0:
             raise Undecided(f"interval arithmetic has no logarithm of {self.text(value)}")
         if name == "ATAN":
@@ -98,16 +102,12 @@ class IntervalNumbers(Numbers):
             return self._outward(self._mpmath.make_mpf(mpi_atan(self._iv(value)._mpi_, self._mpmath.prec))), ""
         return self._outward(getattr(self._mpmath, name.lower())(self._iv(value))), ""
 
-    def _directed(self, context: Context, name: str, value: Decimal) -> Decimal:
-        """Return a square root rounded up or down as the context says, because decimal always rounds a root to
-        nearest.
-        """
-        root = Context(2 * self.places + 4, context.rounding, MIN_EMIN, MAX_EMAX).sqrt(value)
-        nudged = root
-        if root * root != value:
-            more = Context(2 * self.places + 4, context.rounding, MIN_EMIN, MAX_EMAX)
-            nudged = more.next_minus(root) if context.rounding == ROUND_FLOOR else more.next_plus(root)
-        return context.plus(nudged)
+    def _roots(self, value: Decimal) -> tuple[Decimal, Decimal]:
+        """Return the largest number that does not exceed a root, and the smallest that is not below it."""
+        root = self._down.sqrt(value)  # decimal rounds roots to nearest in every context
+        square = Context(2 * self.places, Emin=MIN_EMIN, Emax=MAX_EMAX).multiply(root, root)
+        low = root if square <= value else self._down.next_minus(root)
+        return low, root if square >= value else self._up.next_plus(root)
 
     def power(self, base: Interval, exponent: Interval) -> tuple[Interval, str]:
         if base[0] <= 0:
@@ -116,14 +116,15 @@ class IntervalNumbers(Numbers):
         return self._outward(iv.exp(iv.log(self._iv(base)) * self._iv(exponent))), ""
 
     def integer_power(self, base: Interval, count: int) -> tuple[Interval, str]:
-        one = Decimal(1), Decimal(1)
-        power = one
+        unit = Decimal(1), Decimal(1)
+        power = unit
         if count % 2 == 0 and base[0] < 0:
             # An even power of an interval around zero begins at zero; chained products would lose that.
-            base = (Decimal(0) if base[1] > 0 else -base[1]), max(-base[0], base[1])
+            low, high = self.negate(base)
+            base = max(low, Decimal(0)), max(high, base[1])
         for _ in range(abs(count)):
             power = self.multiply(power, base)
-        return (self.divide(one, power) if count < 0 else power), ""
+        return (self.divide(unit, power) if count < 0 else power), ""
 
     @cached_property
     def _mpmath(self) -> Any:
@@ -164,7 +165,7 @@ class IntervalNumbers(Numbers):
 
     def text(self, value: Interval) -> str:
         low, high = value
-        return super().text(value) if low == high else f"[{low.normalize()}, {high.normalize()}]"
+        return super().text(value) if low == high else f"[{low.normalize(self._down)}, {high.normalize(self._up)}]"
 
     @property
     def is_costly(self) -> bool:

@@ -29,12 +29,13 @@ from typing import Any
 
 import numpy as np
 
-from emulator.compiled.replay import Bounds, enclosed, exactly, repetitions
+from emulator.compiled.replay import enclosed, exactly, repetitions
 from emulator.machine.result import Options
 from emulator.machine.tape import ADD, DIVIDE, MULTIPLY, SUBTRACT, Tape, Test, record
 from emulator.numbers import numbers
 from emulator.numbers.arithmetic import Rules, profile
 from emulator.numbers.decimal import DecimalNumbers
+from emulator.numbers.interval import Interval
 from modern.edition import programs
 from modern.study.outcomes import Figures, position
 from modern.study.sample import Sample
@@ -216,7 +217,7 @@ def _judged(tally: _Tally, test: Test, known: Mapping[str, Any], has_e: bool) ->
     return wrong
 
 
-def _count_digits(tally: _Tally, known: Mapping[str, Any], bounds: Bounds) -> None:
+def _count_digits(tally: _Tally, known: Mapping[str, Any], bounds: Interval) -> None:
     """Compare the estimated with the true number of digits, if the number has an error."""
     mantissa, exponent = known["machine"]
     ratio = float(known["exact"]) / (mantissa * 10.0 ** (exponent - DIGITS))

@@ -9,7 +9,7 @@ from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import compile_deck
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
-from emulator.machine.tape import LEAF, Tape, record
+from emulator.machine.tape import ADD, LEAF, MULTIPLY, NEGATE, Tape, record
 from emulator.numbers import numbers
 from emulator.numbers.arithmetic import Rules, profile
 
@@ -79,6 +79,21 @@ def test_intervals_enclose_the_exact_values_and_those_of_the_machine(tape: Tape)
         if tape.operations[k] == LEAF:
             assert low == high
     low, high = enclosed(tape, DIGITS)[tape.tests[0].place]
+    assert low < 0 < high
+
+
+def test_change_of_sign_is_exact_for_numbers_of_any_length() -> None:
+    """Eight digits squared three times have 64 digits, more than Python's default context."""
+    tape = Tape()
+    tape.enter(LEAF, 0, 0, 12_345_679, 1)
+    for k in range(3):
+        tape.enter(MULTIPLY, k, k, 0, 0)
+    tape.enter(NEGATE, 3, 3, 0, 0)
+    tape.enter(ADD, 3, 4, 0, 0)
+    exact = exactly(tape, DIGITS)
+    assert exact[3] == Fraction("1.2345679") ** 8
+    assert exact[5] == 0
+    low, high = enclosed(tape, DIGITS)[5]
     assert low < 0 < high
 
 

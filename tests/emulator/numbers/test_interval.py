@@ -1,0 +1,92 @@
+"""Intervals contain the exact results, for numbers of more digits than Python's default context too."""
+
+from fractions import Fraction
+from random import Random
+
+import mpmath
+import pytest
+
+from emulator.language.cards import deck_from_lines
+from emulator.language.compiler import compile_deck
+from emulator.machine.devices import no_deck
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options
+from emulator.numbers import numbers
+from emulator.numbers.interval import Interval, IntervalNumbers
+
+
+def contains(value: Interval, exact: Fraction) -> bool:
+    return Fraction(value[0]) <= exact <= Fraction(value[1])
+
+
+def random_interval(system: IntervalNumbers, random: Random) -> Interval:
+    low, high = sorted(random.randint(-(10 ** (2 * system.places)), 10 ** (2 * system.places)) for _ in range(2))
+    power = random.randint(-2 * system.places - 3, -2 * system.places + 3)
+    narrow = random.random() < 0.5
+    return system.decimal(low, power)[0], system.decimal(low if narrow else high, power)[1]
+
+
+@pytest.mark.parametrize("places", [8, 28, 29, 50])
+def test_results_contain_the_exact_results_for_both_ends(places: int) -> None:
+    system, random = IntervalNumbers(places), Random(places)
+    for _ in range(200):
+        first, second = random_interval(system, random), random_interval(system, random)
+        for a in map(Fraction, first):
+            assert contains(system.negate(first), -a)
+            assert contains(system.integer_power(first, 2)[0], a**2)
+            assert contains(system.integer_power(first, 3)[0], a**3)
+            low, high = map(Fraction, system.function("SQRT", first)[0])
+            assert low**2 <= abs(a) <= high**2
+            for b in map(Fraction, second):
+                assert contains(system.add(first, second), a + b)
+                assert contains(system.subtract(first, second), a - b)
+                assert contains(system.multiply(first, second), a * b)
+                if not second[0] <= 0 <= second[1]:
+                    assert contains(system.divide(first, second), a / b)
+
+
+@pytest.mark.parametrize("places", [8, 28, 29, 50])
+@pytest.mark.parametrize("name", ["SIN", "COS", "ATAN", "EXP", "LOG"])
+def test_functions_contain_the_exact_values(places: int, name: str) -> None:
+    system, random = IntervalNumbers(places), Random(places)
+    with mpmath.workdps(3 * places):
+        for _ in range(50):
+            value = system.decimal(random.randint(1, 10 ** (places + 1)), -places)
+            low, high = (mpmath.mpf(str(end)) for end in system.function(name, value)[0])
+            exact = getattr(mpmath, name.lower())(mpmath.mpf(str(value[0])))
+            assert low <= exact <= high or value[0] != value[1]
+
+
+def test_roots_of_squares_are_exact_and_others_are_neighbours() -> None:
+    for places in (8, 28, 29, 50):
+        system = IntervalNumbers(places)
+        root = 10**places - 7
+        assert system.function("SQRT", (system.decimal(4, 0)))[0] == system.decimal(2, 0)
+        low, high = system.function("SQRT", system.decimal(root, 0))[0]
+        assert high == low.next_plus(system._up)
+    assert system.function("SQRT", system.decimal(-4, 0))[0] == system.decimal(2, 0)
+
+
+def test_difference_of_equal_squares_takes_no_branch_with_certainty() -> None:
+    lines = [
+        "A=7.",
+        "B=A/3.",
+        "C=-B",
+        "N=2",
+        "D=C**N-B*B",
+        "IF(D)4,5,6",
+        "    4 STOP 4",
+        "    5 STOP 5",
+        "    6 STOP 6",
+    ]
+    cards = [line if line.startswith("  ") else "      " + line for line in (*lines, "END")]
+    program = compile_deck(deck_from_lines("program", cards))
+    for places in (8, 28, 29, 50):
+        ending = Machine(program, no_deck(program), Options(numbers(f"interval:{places}"))).run().ending
+        assert ending.kind == "undecided"
+
+
+def test_ends_of_an_interval_are_printed_with_all_their_digits() -> None:
+    system = IntervalNumbers(50)
+    low, high = system.divide(system.decimal(1, 0), system.decimal(3, 0))
+    assert system.text((low, high)) == f"[0.{'3' * 50}, 0.{'3' * 49}4]"
