@@ -1,1 +1,1 @@
-"""Compare hulls that the programs, the port and other routes determine for the same points with the exact hull."""
+"""Compare hulls of the same points that were computed in different ways, above all with the exact hull."""

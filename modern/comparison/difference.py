@@ -1,4 +1,4 @@
-"""Compare the hull that a route determined, or the cards that a program punched, with the exact hull.
+"""List the differences between a computed hull, or the cards that a program punched, and the exact hull.
 
 The differences are missing and extra points and equations, and numerical errors.
 """
@@ -21,7 +21,7 @@ NEAR = Fraction(1, 1000)
 
 @dataclass(frozen=True, slots=True)
 class Disagreement:
-    """The differences between the outcome of a route and the exact hull.  Points are indices into the input.
+    """The differences between a computed hull and the exact hull of the same points.  Points are input indices.
 
     ``misfiled`` points have the wrong class, boundary or inside.  ``error`` is the largest error of a coefficient among
     the matched equations, relative to the largest coefficient of x, y and z (the error of D: to the largest of all
@@ -53,7 +53,7 @@ class Disagreement:
 
 
 def disagreement(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> Disagreement:
-    """Compare the outcome of a route that determined a hull with the outcome for the exact hull."""
+    """Compare a hull that was computed in any way with the exact hull, whose data ``judge`` holds."""
     missed, added = judge.vertices - outcome.vertices, outcome.vertices - judge.vertices
     classes = dict.fromkeys(outcome.boundary, "boundary") | dict.fromkeys(outcome.inside, "inside")
     exact_classes = dict.fromkeys(judge.boundary, "boundary") | dict.fromkeys(judge.inside, "inside")
@@ -96,7 +96,7 @@ class _Match(NamedTuple):
 
 
 def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Match]:
-    """Match each equation with the nearest exact equation.  If several are equally near, choose the first."""
+    """Find the nearest exact equation for each equation; of several that are equally near, the first."""
     by_integers: dict[tuple[int, ...], int] = {}
     for place, equation in enumerate(exact):
         by_integers.setdefault(integers_of(equation), place)
@@ -118,7 +118,9 @@ def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Ma
 
 
 def _scaled(equation: Equation) -> Equation:
-    """Divide an equation by its largest coefficient of x, y, z; an equation with a zero normal is unchanged."""
+    """Divide an equation by its largest coefficient of x, y or z.  An equation whose three are all zero stays
+    unchanged.
+    """
     size = max(abs(c) for c in equation[:3])
     return equation if not size else tuple(c / size for c in equation)  # type: ignore[return-value]
 
@@ -158,12 +160,12 @@ def _root(square: Fraction) -> Fraction:
 
 
 class UnrelatedCards(EmulatorError):
-    """Cards that do not hold a hull, or that hold the hull of other points; the message is one line."""
+    """Raised for cards that hold no hull, or the hull of other points; the message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
 class CardDifferences:
-    """The vertices that punched cards lack or add, the faces of the exact hull that they lack, and false faces.
+    """The differences between a hull on punched cards and the exact hull: missing and false vertices and faces.
 
     ``polygons`` gives each false face as the vertices on its cards; ``others`` counts false faces with fewer than two.
     """
@@ -176,7 +178,9 @@ class CardDifferences:
 
 
 def card_differences(cards: CardHull, hull: Hull, source: str) -> CardDifferences:
-    """Return how the cards of the file ``source`` differ from the exact hull. Raise UnrelatedCards for other points."""
+    """Compare the cards of the file ``source`` with the exact hull.  Raise UnrelatedCards if their points are
+    others.
+    """
     if not cards.vertices:
         raise UnrelatedCards(f"{source}: these cards have no vertices; 'hull1620 hull' punches cards that have them")
     points = [tuple(Fraction(number) for number in point) for point in hull.points]
@@ -206,7 +210,7 @@ def card_differences(cards: CardHull, hull: Hull, source: str) -> CardDifference
 
 
 def _program(cards: CardHull) -> str:
-    """Return the number of the program that punched the cards: 2 punches a plane and lines, 3 planes, and 1 neither."""
+    """Return the number, 1 to 3, of Butler's program that punched the cards, judged by the kinds of cards."""
     if not cards.satisfied or not cards.equations:
         return "program1"
     return "program2" if cards.plane else "program3"

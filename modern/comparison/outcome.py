@@ -1,4 +1,4 @@
-"""One form for the hulls of all routes (programs, port, exact hull), so that any two of them can be compared exactly.
+"""A common form for hulls of any origin (Butler's programs, modern procedures, exact hull), for exact comparison.
 
 Points are indices into the input.  Equations are for the coordinates of the input: the supporting planes of a
 polyhedron, or the supporting lines of a polygon projected as in the thesis (p. 16-17).  The projection drops the first
@@ -30,7 +30,7 @@ _STATUS = {"limit": "endless", "bounds": "out of bounds", "outside": "out of bou
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """The result of one route for a point set. Points are identified by their index.
+    """The hull of a point set, computed in any way, in the form used for comparisons.  Points are input indices.
 
     ``status`` is ``determined``, or the reason why there is no hull. ``dimension`` is -1 if the hull is not determined.
     ``strange`` counts points in the result that are not in the input. ``faulty`` holds the equations of program 1 that
@@ -71,7 +71,7 @@ def from_cards(name: str, run: HullRun, points: Sequence[Vector]) -> Outcome:
 
 
 def from_card_hull(name: str, program: str, hull: CardHull, points: Sequence[Vector]) -> Outcome:
-    """Return the outcome for a hull on cards, punched by the built-in ``program`` at the end of a complete run."""
+    """Convert a hull that the built-in ``program`` punched on cards to the form for comparisons."""
     indices = places(points)
     sets, strange = [], 0
     for group in (hull.vertices, hull.boundary, hull.inside):
@@ -100,7 +100,9 @@ def from_hull(name: str, hull: Hull) -> Outcome:
 
 
 def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
-    """Return the outcome for an exact hull; the edges of a polygon are projected lines, as in the thesis."""
+    """Convert an exact hull to the form for comparisons.  The edges of a polygon become projected lines, as in the
+    thesis.
+    """
     if hull.dimension == 3:
         equations = [_four([Fraction(c) for c in hull.plane_of(facet)]) for facet in hull.facets]
     elif hull.dimension == 2:
@@ -119,7 +121,7 @@ def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
 
 
 def as_hull(judged: ExactHull) -> Hull:
-    """Convert an exact hull to the type of the port's results.  Points keep their order.
+    """Convert an exact hull to the same type as the result of Butler's procedure.  Points keep their order.
 
     Numbers are exact text.  The points of a polyhedron, and its faces except for their polygons, are made on access.
     """
@@ -162,7 +164,7 @@ def _faces(judged: ExactHull, coordinates: Coordinates) -> Sequence[Face]:
 
 
 def _polyhedral(judged: ExactHull, coordinates: Coordinates) -> Iterator[Face]:
-    """Yield the faces of a polyhedron, with the boundary points on each."""
+    """Yield the faces of an exact polyhedron, with the boundary points on each."""
     on: dict[int, list[int]] = {}
     if judged.boundary:
         planes = facet_planes(coordinates, judged.facets)
@@ -197,7 +199,7 @@ def _four(equation: Sequence[Fraction]) -> Equation:
 
 
 def _lines(hull: ExactHull, points: Sequence[Vector]) -> list[Equation]:
-    """Return the edges of a polygon as projected lines that are negative at its other vertices."""
+    """Return the edges of a polygon as lines in the projected plane, negative at the polygon's other vertices."""
     assert hull.plane is not None
     drop = next(k for k in range(3) if hull.plane[k])
     u, v = (k for k in range(3) if k != drop)

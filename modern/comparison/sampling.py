@@ -1,4 +1,5 @@
-"""The significant digits of a program's values and printed numbers, and the stability of its decisions, by sampling.
+"""Estimate the significant digits of a program's values, and the stability of its decisions, from runs with random
+rounding.
 
 :func:`in_step` executes N stochastic runs on one common branch (:mod:`emulator.numbers.sampled`).  It records at every
 store the estimated digits, and at every IF how many runs would have gone each way.  :func:`independent` executes the
@@ -30,7 +31,7 @@ from modern.comparison.sensitivity import NUMBER, records_of, shape_of
 
 @dataclass(frozen=True, slots=True)
 class StatementDigits:
-    """The digits of the values that a statement stored.
+    """The estimated significant digits of the values that one statement stored.
 
     ``worst`` and ``median`` are those of Stott Parker's estimate, and ``sure`` is the fewest by Sohier's.
     ``times`` counts the values, and ``zeros`` those that are computational zeros without being exact.
@@ -46,7 +47,7 @@ class StatementDigits:
 
 @dataclass(frozen=True, slots=True)
 class DecisionShares:
-    """An IF on floating-point numbers: its executions, and those in which the runs disagree.
+    """An IF on floating-point numbers: how often it was executed, and how often the random runs disagreed.
 
     ``shares`` are the numbers of runs with a negative, zero and positive value at the first disagreement, which is
     execution ``time``, and ``taken`` is the sign of the common branch there.
@@ -62,7 +63,9 @@ class DecisionShares:
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """A floating-point number on a printed record: its record (from 1), its columns, its values and its digits."""
+    """A number on a punched card or typed line: the number of the card or line, its columns, its values in the runs,
+    its digits.
+    """
 
     record: int
     columns: str
@@ -72,7 +75,7 @@ class Printed:
 
 @dataclass(frozen=True, slots=True)
 class Sampling:
-    """The statements, decisions and printed numbers of N runs in step, and their common ending."""
+    """The result of N random runs in step: statements, decisions, printed numbers, and their common ending."""
 
     numbers: SampledNumbers
     statements: tuple[StatementDigits, ...]
@@ -98,7 +101,7 @@ class _Votes:
 
 
 def sampled(studied: Numbers, runs: int = 10, seed: int = 1, rules: str = "") -> SampledNumbers:
-    """Return stochastic runs in step with the digits of an arithmetic, or with eight digits if it is exact.
+    """Return the arithmetic of several random runs in step, with the digits of ``studied`` (eight if that is exact).
 
     ``rules`` is the end of the name: ``:proportional``, ``:majority``, both in this order, or nothing.  Raise
     ArgumentError if a seed is out of range.
@@ -122,7 +125,7 @@ def in_step(
     options: Options | None = None,
     operator: Callable[[], Operator] = Operator,
 ) -> Sampling:
-    """Run a program in N stochastic runs that follow one branch.  Raise CardError or DeckError for a bad deck."""
+    """Run a program N times at once with random rounding; all runs follow one branch.  Raise CardError or DeckError."""
     written: list[tuple[int, str, Values]] = []
     sampled = replace(numbers, on_write=lambda columns, values: written.append((run.record, columns, values)))
     run = JournaledRun(program, deck, replace(options or Options(), numbers=sampled), True, operator(), ())
@@ -162,7 +165,7 @@ def _fraction(value: Fraction | int | None) -> Fraction | None:
 
 
 def _vote(votes: _Votes, signs: Sequence[int], branch: Sequence[int], taken: int) -> None:
-    """Count an execution of an IF, and whether the runs would take different branches."""
+    """Count an execution of an IF, and count it again as a disagreement if the runs would take different branches."""
     votes.times += 1
     if len({branch[1 + sign] for sign in signs}) > 1:
         votes.disputed += 1
@@ -183,7 +186,7 @@ def _decision(line: Line, votes: _Votes) -> DecisionShares:
 
 @dataclass(frozen=True, slots=True)
 class Independent:
-    """N independent runs.
+    """The result of N random runs that were executed separately, each with its own branches.
 
     ``shares`` counts the runs that print each sequence of records, the most frequent first.  Sequences that differ only
     in the digits of printed numbers count as the same.  ``printed`` holds the numbers that the runs with the most
@@ -199,7 +202,7 @@ class Independent:
 def independent(
     program: Program, deck: Deck, members: Sequence[Numbers], options: Options | None = None
 ) -> Independent:
-    """Run a program once in each of several arithmetics.  Raise CardError or DeckError for a bad deck."""
+    """Run a program once in each of several arithmetics.  Raise CardError or DeckError for an invalid deck."""
     from emulator.compiled.batch import run_batch  # not at the top, because it needs numpy
 
     base = options or Options()

@@ -1,4 +1,4 @@
-"""The sensitivity of a program's printed numbers to each number on its input cards.
+"""Measure how much a program's printed numbers change if a number on its input cards changes.
 
 Each floating-point number of the deck is changed in turn by one unit in its last digit, and the program runs again in
 an arithmetic that makes no or much smaller rounding errors.  The changes of the printed numbers are then due to the
@@ -25,7 +25,7 @@ _LAST = re.compile(r"(\d)(\.?\s*(?:E\s*[+-]?\s*\d*|[+-]\s*\d+)?\s*)$")
 
 @dataclass(frozen=True, slots=True)
 class Sensitivity:
-    """The effect of one unit in the last digit of a number on a card.
+    """The effect on a program's output of changing one number on a card by one unit in its last digit.
 
     ``change`` is the largest relative change of a printed number, and ``record`` the number of its record, from 1; both
     are None if nothing changes.  ``branches`` is True if the run prints other records or ends otherwise.
@@ -46,14 +46,17 @@ def records_of(result: Result) -> list[str]:
 
 
 def shape_of(texts: Sequence[str]) -> list[str]:
-    """Return the records without blanks and with a mark for each number; runs with equal shapes can be compared."""
+    """Return the cards and lines without blanks and with a mark for each number.  Only runs with equal shapes are
+    compared.
+    """
     return ["".join(NUMBER.sub("#", text).split()) for text in texts]
 
 
 def sensitivities(
     program: Program, deck: Deck, reference: Numbers, options: Options | None = None, most: int = 200
 ) -> tuple[list[Sensitivity], int]:
-    """Return the sensitivity to each of the first ``most`` floating-point numbers of a deck, and how many follow.
+    """Change each of the first ``most`` numbers of a deck in turn.  Return the effects, and how many numbers were
+    omitted.
 
     Raise CardError or DeckError for a bad deck.
     """
@@ -76,7 +79,7 @@ def sensitivities(
 
 
 def _nudged(columns: str) -> str | None:
-    """Return a number with its last digit changed by one, or None if the columns hold no digit."""
+    """Return a number, given as columns of a card, with its last digit changed by one, or None if there is no digit."""
     match = _LAST.search(columns)
     if match is None:
         return None
@@ -100,6 +103,6 @@ def _compared(
 
 
 def _changes(first: str, second: str) -> Sequence[float]:
-    """Return the relative changes of the numbers of a record that change."""
+    """Return the relative changes of those numbers of a card or line that differ between two runs."""
     pairs = zip(map(float, NUMBER.findall(first)), map(float, NUMBER.findall(second)), strict=True)
     return [abs(b - a) / abs(a) if a else 1.0 for a, b in pairs if a != b]

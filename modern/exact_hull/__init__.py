@@ -1,4 +1,4 @@
-"""The exact convex hull of points in 3-space, with a proof.  The project compares all its other hulls with it.
+"""The exact convex hull of points in space, with a proof.  The project compares all its other hulls with this one.
 
 ``exact_hull(points)`` uses integers and shares no code with the procedures that it judges.  ``certify`` proves a result
 from the points alone, with code that takes no part in constructing it.  ``exact_hull`` never returns an unproved

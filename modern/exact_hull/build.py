@@ -34,7 +34,9 @@ _FEW = 64
 
 
 def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
-    """Return a shuffled order of the points that are not in the simplex, the same in every run for the same count."""
+    """Return the points that are not in the simplex in a random order, which is the same for every run with
+    this count.
+    """
     used = set(simplex)
     order = [index for index in range(count) if index not in used]
     random.Random(SEED).shuffle(order)
@@ -44,7 +46,7 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
 def _on_facets(
     points: Coordinates, facets: Sequence[Facet], others: Ints | None = None, likely: Ints | None = None
 ) -> Ints:
-    """Return those of ``others`` (by default, all points that are not vertices) that lie in the plane of any facet.
+    """Return the points that are not vertices but lie in the plane of a facet.  ``others`` restricts the search.
 
     ``likely`` has for each of them a facet that is tried first, or -1.
     """
@@ -117,7 +119,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     facets: list[Facet] = []
 
     def classified(dimension: int, facets: Sequence[Facet], boundary: Ints) -> ExactHull:
-        """Return the result without the proof.  ``facets`` and ``boundary`` use indices of distinct points."""
+        """Return the result before it is proved.  ``facets`` and ``boundary`` use indices of distinct points."""
         vertices = sorted({index for facet in facets for index in facet.polygon} or {0})
         inside = np.ones(len(distinct), np.bool_)
         inside[vertices] = False

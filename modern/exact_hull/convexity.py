@@ -1,4 +1,4 @@
-"""Prove that a closed surface of polygons is the hull of many points, without evaluating every plane at every point.
+"""Prove that a surface of polygons is the hull of many points, without evaluating every plane at every point.
 
 ``prove`` checks the following in exact arithmetic:
 
@@ -70,12 +70,12 @@ _STEPS = 64
 
 
 class Undecided(Exception):
-    """Raised if no inner point or ray is found in float64; every plane is then evaluated at every point."""
+    """Raised if float64 is not precise enough to find an inner point or ray; the caller then evaluates every plane."""
 
 
 @dataclass(frozen=True, slots=True)
 class Cones:
-    """The triangles into which the polygons are split, and the cones that they span from the inner point o.
+    """The polygons split into triangles, and for each triangle the cone from the inner point o through it.
 
     ``corners`` (t, 3) are points. ``beyond`` (t, 3) is the neighbouring triangle at each edge. ``walls`` (t, 3, 3) is
     the normal of the plane through o and each edge; it points to the side of the triangle.
@@ -123,7 +123,9 @@ def _product(u: Floats, v: Floats) -> Floats:
 
 @dataclass
 class _Proof:
-    """The data of a proof of convexity, and the number of evaluated signs. Each is the sign of a plane at a point."""
+    """The data of a proof of convexity; ``evaluations`` counts how often the sign of a plane at a point was
+    computed.
+    """
 
     hull: ExactHull
     sides: Polygons
@@ -134,11 +136,13 @@ class _Proof:
 
     @cached_property
     def middle(self) -> tuple[IntPoint, int]:
-        """The inner point o as integers and their common divisor."""
+        """The inner point o exactly: three integers and their common divisor."""
         return self.images.exactly(self.o)
 
     def check_middle(self) -> float:
-        """Check condition c: the inner point is inside every plane. Return the radius of a ball that is inside too."""
+        """Check that the inner point is inside every plane (condition c).  Return the radius of a ball that is inside
+        too.
+        """
         bases = self.images.places[self.sides.corner[self.sides.first]]
         normals = self.planes.normals
         approximate = np.einsum("ij,ij->i", normals, self.o - bases)
@@ -152,7 +156,9 @@ class _Proof:
         return float((-approximate / np.sqrt((normals**2).sum(axis=1))).min())
 
     def check_edges(self) -> None:
-        """Check condition d: at every edge, the neighbouring polygon lies strictly inside the plane of this polygon."""
+        """Check that at every edge the neighbouring polygon is strictly inside the plane of this polygon
+        (condition d).
+        """
         sides = self.sides
         # The corner that follows the edge in the neighbouring polygon.
         beyond = sides.corner[sides.next[sides.next[sides.twin]]]
@@ -160,7 +166,10 @@ class _Proof:
             raise CertificateError(f"point {beyond[side]} is outside of facet {sides.facet[side]}, or in its plane")
 
     def wall_sign(self, triangle: int, edge: int, place: Floats | int) -> int:
-        """Return the exact sign that tells on which side of a cone's wall a point (or an image) lies."""
+        """Return the exact sign that tells on which side of a cone's wall a point lies.
+
+        ``place`` is the index of the point, or its coordinates in the unit box.
+        """
         o, weight = self.middle
         corners = self.cones.corners[triangle].tolist()
 
@@ -176,7 +185,7 @@ class _Proof:
         return (value > 0) - (value < 0)
 
     def check_cones(self) -> None:
-        """Check condition e: facets face outward, and a ray from the inner point meets only one triangle."""
+        """Check that facets face outward and that a ray from the inner point meets only one triangle (condition e)."""
         cones = self.cones
         third = self.images.places[cones.corners[:, 2]] - self.o
         size = np.einsum("ij,ij->i", cones.walls[:, 0], third)
@@ -198,7 +207,7 @@ class _Proof:
                 raise CertificateError(f"a ray from inside meets two facets: {pair}")
 
     def check_points(self, r: float) -> None:
-        """Check condition f: every other point is inside the surface, or on it if its class is boundary."""
+        """Check that every other point is inside the surface, or on it if its class is boundary (condition f)."""
         hull = self.hull
         points = np.array(hull.boundary + hull.inside, np.int64)
         expected = np.repeat([0, -1], [len(hull.boundary), len(hull.inside)])
@@ -227,7 +236,7 @@ class _Proof:
             raise CertificateError(f"point {points[row]} is {where} a facet, which contradicts its class")
 
     def _located(self, away: Floats) -> tuple[Ints, NDArray[np.bool_]]:
-        """Return for each point the triangle whose cone contains it, and True if the choice is certain."""
+        """Return, for each point, the triangle whose cone contains it, and True if float64 proves this."""
         cones = self.cones
         # Start at the triangle, in a sample of them, whose direction from o is closest to the direction of the point.
         sample = np.linspace(0, len(cones.corners) - 1, min(_STARTS, len(cones.corners))).astype(np.int64)
@@ -251,7 +260,9 @@ class _Proof:
         return at, certain
 
     def _walked(self, triangle: int, point: int) -> int:
-        """Walk by exact signs from a triangle to the one whose cone contains a point. Return -1 if the walk fails."""
+        """Walk with exact signs from ``triangle`` to the triangle whose cone contains the point; return -1 if this
+        fails.
+        """
         for _ in range(_STEPS):
             beyond = [edge for edge in range(3) if self.wall_sign(triangle, edge, point) < 0]
             if not beyond:

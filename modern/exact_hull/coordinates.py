@@ -1,4 +1,4 @@
-"""Read points exactly: arrays of integers and floats stay arrays, and integers with a common scale are made on access.
+"""Read points exactly.  Arrays of integers and floats stay arrays; integers with a common scale are made on access.
 
 :class:`Coordinates` also gives the float64 images of the points, with which the filters of the proof compute.
 """
@@ -38,10 +38,11 @@ _SMALL_BITS = 48
 
 @dataclass(frozen=True, slots=True)
 class Images:
-    """The float64 images u of points x = c + s u: ``places`` is u, ``low`` is c, ``shifts`` are exponents of s.
+    """The points moved and scaled into a unit box and rounded to float64, for quick tests with proved error bounds.
 
-    c is the least coordinate of each axis, and s a power of two greater than the difference from the largest one.  u is
-    from 0 to 1 and has an error of at most 2**-54, because only the difference x - c is rounded.
+    A point x has the image u with x = c + s u: ``places`` holds u, ``low`` holds c, and ``shifts`` the exponents of s.
+    On each axis, c is the least coordinate, and s a power of two greater than the difference from the largest one.  u
+    is from 0 to 1 and has an error of at most 2**-54, because only the difference x - c is rounded.
     """
 
     low: tuple[int, ...]
@@ -50,11 +51,13 @@ class Images:
 
     @property
     def are_small(self) -> bool:
-        """True if float64 holds all images and values of planes through the points exactly, as integers below 2**52."""
+        """True if float64 holds all images, and all values of planes through the points, exactly: as integers below
+        2**52.
+        """
         return sum(self.shifts) <= _SMALL_BITS
 
     def exactly(self, place: Floats) -> tuple[IntPoint, int]:
-        """Return the point with this image exactly, as integers and their common divisor."""
+        """Return the exact coordinates of the point with this image, as three integers and their common divisor."""
         pairs = [number.as_integer_ratio() for number in place.tolist()]
         weight = max(under for _, under in pairs)  # powers of two
         x, y, z = (
@@ -65,7 +68,8 @@ class Images:
 
 
 class Coordinates(LazyMembers[IntPoint]):
-    """Points as integer multiples of 1 / ``scale``.  It equals the tuple of these integers, which are made on access.
+    """Points as integers divided by a common ``scale``.  An instance equals the tuple of its integers, made on
+    access.
 
     ``numbers`` (n, 3) holds the integers as int64 or, if they do not fit, as Python integers.  Floats that do not fit
     in int64 with their scale, a power of two, are held as they are, in float64.
@@ -106,7 +110,9 @@ class Coordinates(LazyMembers[IntPoint]):
         return _integers(self.numbers[indices], self.scale)
 
     def floats(self) -> Floats:
-        """Return the points as the nearest doubles, or infinities beyond the largest one (n, 3)."""
+        """Return the points as the nearest doubles, shape (n, 3); numbers beyond the largest double become
+        infinities.
+        """
         if self.kind == "f":
             return np.array(self.numbers)
         if self.kind == "i" and self.scale & (self.scale - 1) == 0 and self.scale < 2**_HUGE:
@@ -154,7 +160,7 @@ class Coordinates(LazyMembers[IntPoint]):
 
     @cached_property
     def images(self) -> Images:
-        """The images of the points."""
+        """The points scaled into a unit box, in float64 (see :class:`Images`)."""
         places = np.empty((len(self), 3))
         lows, shifts = [], []
         for axis, column in enumerate(self.numbers.T):
@@ -189,13 +195,13 @@ def _integers(rows: NDArray[Any], scale: int) -> Objects:
 
 
 def _shifted(floats: Floats, exponent: int) -> Floats:
-    """Return the floats times 2**exponent, or infinities."""
+    """Return the floats multiplied by 2**exponent; an overflow gives an infinity."""
     with np.errstate(over="ignore"):
         return np.ldexp(floats, exponent)
 
 
 def nearest(over: int, under: int) -> float:
-    """Return the nearest double to a quotient, or an infinity beyond the largest one."""
+    """Return the double nearest to ``over / under``, or an infinity beyond the largest double."""
     try:
         return over / under
     except OverflowError:

@@ -1,4 +1,4 @@
-"""Integer planes and their facets, for the construction only.  The certificate does not use these functions.
+"""Integer planes and facets for the construction of the exact hull.  The proof does not use these functions.
 
 The triangles of a polyhedron that share a plane become one polygon.  Points in one line or one plane need no surface:
 their facets, the ends of a segment or the edges of a polygon, are found by sorting.
@@ -29,12 +29,15 @@ def value(plane: Plane, p: IntPoint) -> int:
 
 
 def plane_at(normal: IntPoint, p: IntPoint) -> Plane:
-    """Return the plane through ``p`` with the given normal, not reduced to lowest terms."""
+    """Return the plane through ``p`` with the given normal; its numbers may have a common divisor."""
     return (*normal, -(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]))
 
 
 def plane_through(p: IntPoint, q: IntPoint, r: IntPoint) -> Plane:
-    """Return the plane (not in lowest terms) through points that are counterclockwise seen from its positive side."""
+    """Return the plane through three points that are counterclockwise seen from its positive side.
+
+    Its numbers may have a common divisor.
+    """
     # Written out, because the construction calls it for every triangle.
     x, y, z = p
     u, v, w = q[0] - x, q[1] - y, q[2] - z
@@ -51,7 +54,7 @@ def lowest_terms(plane: Plane) -> Plane:
 
 
 def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
-    """Return the indices of affinely independent points, at most four and one more than the dimension."""
+    """Return the indices of up to four affinely independent points; their number is the dimension plus 1."""
     if len(points) == 1:
         return (0,)
     origin = points[0]
@@ -71,7 +74,7 @@ def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
 
 
 def rotated(polygon: Sequence[int]) -> tuple[int, ...]:
-    """Return the members of a cycle in the same order, beginning with the smallest member."""
+    """Return a cycle beginning with its smallest member, in the same cyclic order."""
     start = polygon.index(min(polygon))
     return (*polygon[start:], *polygon[:start])
 
@@ -86,7 +89,7 @@ def corners_only(cycle: Sequence[int], points: Sequence[IntPoint]) -> list[int]:
 
 
 def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
-    """Return the border of triangles that together fill a polygon, in the sense of rotation of the triangles."""
+    """Return the corners of the polygon that the triangles fill together, in the same sense of rotation as theirs."""
     edges = {edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))}
     # An edge inside the polygon occurs in both directions.
     following = {a: b for a, b in edges if (b, a) not in edges}
@@ -104,13 +107,13 @@ def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
 
 
 def faces(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint]) -> list[Facet]:
-    """Return the faces of a convex surface: its triangles, merged if they share a plane, in lowest terms."""
+    """Return the faces of a convex surface of triangles.  Triangles in one plane become one face."""
     reduced = [(rotated(corners), lowest_terms(plane)) for corners, plane in triangles]
     return merged([corners for corners, _ in reduced], [plane for _, plane in reduced], points)
 
 
 def merged(triangles: Sequence[tuple[int, ...]], planes: Sequence[Plane], points: Sequence[IntPoint]) -> list[Facet]:
-    """Return the faces that triangles form if those in one plane are merged; ``planes`` are already in lowest terms."""
+    """Merge triangles that lie in one plane to faces.  ``planes`` are the planes of the triangles in lowest terms."""
     if len(set(planes)) == len(planes):
         return list(map(Facet, planes, triangles))
     # Triangles with the same plane in lowest terms belong to one face.
@@ -144,7 +147,7 @@ def planes_of(triangles: Ints, points: Coordinates) -> list[Plane]:
 
 
 def segment(points: Sequence[IntPoint]) -> list[Facet]:
-    """Return the two ends of distinct points in a line."""
+    """Return the two end facets of a hull whose points all lie on a line."""
     # The lexicographic order of coordinates is the order of the points along the line.
     indices = range(len(points))
     low, high = min(indices, key=points.__getitem__), max(indices, key=points.__getitem__)
@@ -156,13 +159,13 @@ def segment(points: Sequence[IntPoint]) -> list[Facet]:
 
 
 def positive(plane: Plane) -> Plane:
-    """Return the plane in lowest terms with the first nonzero number of A, B, C positive."""
+    """Return a plane in lowest terms whose first nonzero number among A, B, C is positive."""
     a, b, c, d = lowest_terms(plane)
     return (a, b, c, d) if (a, b, c) > (0, 0, 0) else (-a, -b, -c, -d)
 
 
 def polygon(points: Sequence[IntPoint], three: Sequence[int]) -> tuple[Plane, tuple[int, ...], list[Facet]]:
-    """Return the plane of coplanar points, their vertices in cyclic order, and their edges.
+    """Return the hull of coplanar points: its plane, its vertices in cyclic order, and its edges as facets.
 
     ``three`` holds the indices of three points that are not collinear.
 

@@ -1,8 +1,8 @@
-"""The hull of points in doubles, one point at a time, in the subset of Python that numba compiles.
+"""Construct a hull of doubles by Quickhull, one point at a time, compiled by numba.
 
-This is Quickhull (Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Waiting
-points are in linked lists, each at a triangle that it sees, and the farthest point of a list is inserted next.  When a
-triangle is removed, its points are compared with the new triangles.
+The algorithm is that of Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483.  A
+point that is not yet in the hull waits in the linked list of a triangle that it sees (is outside of), and the farthest
+point of a list is inserted next.  When a triangle is removed, its points are compared with the new triangles.
 
 Signs are exact.  With h = 2**-53 a difference of doubles has a relative error of at most h.  A number of the vector
 product u x v, such as u2 v3 - u3 v2, has an error of at most 4h q, where q = |u2 v3| + |u3 v2|.  Its product with the
@@ -30,7 +30,7 @@ _TERMS = 6 * 8 * 4
 
 
 class Surface(NamedTuple):
-    """Triangles in numbered slots, which are reused after removal, and linked lists of the points waiting outside each.
+    """The growing hull: triangles in numbered slots, each with a linked list of the points outside it.
 
     places (n, 3): the points. corners, neighbours, normals (slots, 3): as in ``proposal``, but normals are vector
     products of the sides. bound: the bound for the values of each triangle's plane. first, farthest, height: for each
@@ -56,7 +56,7 @@ class Surface(NamedTuple):
 
 
 def surface(places: NDArray[np.float64], exact: bool) -> Surface:
-    """Allocate the arrays for the hull of these points: a closed surface of v corners has 2 v - 4 triangles."""
+    """Allocate a surface for the hull of these points.  A closed surface of v corners has 2 v - 4 triangles."""
     count = len(places)
     slots = 2 * count
     return Surface(
@@ -77,7 +77,8 @@ def surface(places: NDArray[np.float64], exact: bool) -> Surface:
 
 
 class Room(NamedTuple):
-    """Work arrays of a step.  The kernel itself allocates none, because numba then compiles much faster.
+    """Temporary arrays for the insertion of a point.  They are allocated once, because numba compiles faster
+    that way.
 
     ``near`` is a triangle in whose plane each point lay when it was compared last, or -1.  ``visible`` and ``fresh``
     are the visible and the new triangles of a step.  ``heads`` has the first point in the list of each visible
@@ -135,7 +136,7 @@ def place_triangle(known: Any, slot: int, a: int, b: int, c: int) -> None:
 
 
 def add(terms: Any, count: int, number: float) -> int:
-    """Add a number to the expansion of ``count`` terms. Return the new count; zeros are left out."""
+    """Add a number to an expansion, a sum of doubles that do not overlap.  Return the new count of nonzero terms."""
     size = 0
     for k in range(count):
         term = terms[k]
@@ -173,7 +174,9 @@ def difference(x: float, y: float, part: int) -> float:
 
 
 def orientation(terms: Any, places: Any, corners: Any, slot: int, p: int) -> float:
-    """Return a number with the sign of the determinant of b - a, c - a and p - a, computed as an expansion."""
+    """Return a number with the exact sign of the determinant of b - a, c - a and p - a (a, b, c: corners of
+    ``slot``).
+    """
     a, b, c = corners[slot, 0], corners[slot, 1], corners[slot, 2]
     count = 0
     for i, j, k, sign in _PRODUCTS:
@@ -194,7 +197,7 @@ def orientation(terms: Any, places: Any, corners: Any, slot: int, p: int) -> flo
 
 
 def value(known: Any, slot: int, p: int) -> float:
-    """Return the value of a triangle's plane at a point; the sign is exact."""
+    """Return the value of a triangle's plane at a point, rounded but with the exact sign."""
     places, normals, a = known.places, known.normals, known.corners[slot, 0]
     approximate = (
         normals[slot, 0] * (places[p, 0] - places[a, 0])
@@ -210,7 +213,9 @@ def value(known: Any, slot: int, p: int) -> float:
 
 
 def wait(known: Any, slot: int, p: int, height: float) -> None:
-    """Add a point to the points waiting outside a triangle, where the triangle's plane has the value ``height``."""
+    """Add the point ``p`` to the list of a triangle that it is outside of; ``height`` is the plane's value at the
+    point.
+    """
     known.following[p] = known.first[slot]
     known.first[slot] = p
     if height > known.height[slot]:
@@ -219,7 +224,10 @@ def wait(known: Any, slot: int, p: int, height: float) -> None:
 
 
 def distribute(known: Any, p: int, slots: Any, count: int) -> int:
-    """Let a point wait outside the first triangle that it sees. Otherwise return one whose plane contains it, or -1."""
+    """Add a point to the list of the first triangle that it is outside of.
+
+    Otherwise return a triangle in whose plane it lies, or -1.
+    """
     level = -1
     for k in range(count):
         height = value(known, slots[k], p)
@@ -232,7 +240,9 @@ def distribute(known: Any, p: int, slots: Any, count: int) -> int:
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
-    """Find the triangles that a point sees, from ``start`` on, and the edges around them. Return both numbers."""
+    """Find the triangles that a point is outside of, from ``start`` on, and the edges around them.  Return both
+    counts.
+    """
     mark, neighbours = known.mark, known.neighbours
     visible[0] = start
     mark[start] = 2 * step
@@ -256,7 +266,9 @@ def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) 
 
 
 def grow(known: Any, work: Any, start: NDArray[np.int64]) -> int:
-    """Grow the hull from four points, and return the number of slots used, or 0 if the surface does not close."""
+    """Grow the hull from the four points ``start``.  Return the number of slots used, or 0 if the surface does not
+    close.
+    """
     corners, neighbours = known.corners, known.neighbours
     points = len(known.places)
     near, visible, fresh, heads = work.near, work.visible, work.fresh, work.heads

@@ -1,11 +1,11 @@
-"""Signs of planes at points, exact, from a floating-point filter and integers.
+"""Exact signs of planes at points: floating point if its error bound decides, otherwise integers.
 
 The construction and the proof use these functions.  The proof computes its planes again, from its own data.
 
-The filter.  Let c be the corner of the bounding box of the points, and s for each axis a power of two greater than the
-side of the box.  The image of x is (x - c) / s, from 0 to 1.  A normal's image is (A sx, B sy, C sz) / w, where w is
-the power of two that makes the largest of them at most 1.  With e = 2**-54 all images have an error of at most e (the
-nearest float64 of the exact quotient; dividing by a power of two is exact).
+The floating-point filter.  Let c be the corner of the bounding box of the points, and s for each axis a power of two
+greater than the side of the box.  The image of x is (x - c) / s, from 0 to 1.  A normal's image is (A sx, B sy, C sz) /
+w, where w is the power of two that makes the largest of them at most 1.  With e = 2**-54 all images have an error of at
+most e (the nearest float64 of the exact quotient; dividing by a power of two is exact).
 
 A difference d of images is below 1 in absolute value and has an error of at most 3e: e for each image and e for
 rounding.  The value of a plane, N . (x - p) with a corner p, has products with errors of 3e + e + e = 5e, together 15e.
@@ -39,7 +39,7 @@ _BLOCK = 1 << 16
 
 
 def normal_images(planes: Objects, shifts: Sequence[int]) -> Floats:
-    """Return the images of the planes' normals (m, 3)."""
+    """Return the normals of planes scaled to the unit box of the points, as float64, shape (m, 3)."""
     normals = planes[:, :3]
     # A fast path for numbers of moderate size.  It has the same results as ``normal_image``.
     if abs(normals).max() < _WIDE and max(shifts) - min(shifts) < _APART:
@@ -50,7 +50,7 @@ def normal_images(planes: Objects, shifts: Sequence[int]) -> Floats:
 
 
 def normal_image(plane: Sequence[int], shifts: Sequence[int]) -> tuple[float, float, float]:
-    """Return the image of a plane's normal; the integers may have any size."""
+    """Return one plane's normal scaled to the unit box, like :func:`normal_images`; its integers may have any size."""
     a, b, c = plane[:3]
     k, l, m = shifts  # noqa: E741
     power = max(a.bit_length() + k if a else 0, b.bit_length() + l if b else 0, c.bit_length() + m if c else 0)
@@ -62,7 +62,8 @@ def normal_image(plane: Sequence[int], shifts: Sequence[int]) -> tuple[float, fl
 
 
 def long_signs(normals: Ints, differences: Ints) -> Ints:
-    """Return the exact signs of the scalar products of the rows of ``normals`` with the same rows of ``differences``.
+    """Return the exact signs of scalar products, one for each row of ``normals`` and the same row of
+    ``differences``.
 
     Normals are below 2**61 and differences below 2**30 in absolute value.
     """
@@ -76,7 +77,7 @@ def long_signs(normals: Ints, differences: Ints) -> Ints:
 
 @dataclass
 class Planes:
-    """Planes (m, 4) as integers, each with the index of a point in it (``bases``), for points that span space.
+    """Planes as integers, shape (m, 4), each with the index of a point in it (``bases``); the points span space.
 
     ``evaluations`` and ``in_integers`` count the signs computed, and those that the filter did not determine.
     """
@@ -93,7 +94,7 @@ class Planes:
 
     @cached_property
     def whole(self) -> Ints | None:
-        """The planes as int64, if no value at a point can reach 2**62."""
+        """The planes as int64 if every value at a point is below 2**62, else None."""
         if self.points.kind != "i":
             return None
         reach = [max(1, int(column.max()), -int(column.min())) for column in self.points.numbers.T]
@@ -109,7 +110,9 @@ class Planes:
 
     @cached_property
     def _small(self) -> tuple[Ints, bool] | None:
-        """The normals as int64 if signs are exact in int64: with single products (True) or with ``long_signs``."""
+        """The normals as int64 if int64 can decide every sign: by single products (True) or by ``long_signs``
+        (False).
+        """
         if self.points.kind != "i":
             return None
         sides = [1 << shift for shift in self.points.images.shifts]
@@ -145,7 +148,7 @@ class Planes:
         return signs
 
     def outside(self, facets: Ints, indices: Ints) -> Ints:
-        """Return the pairs of a facet and a point of which the facet's plane does not contain the point.
+        """Return the pairs of a facet and one of the given points that does not lie in the facet's plane.
 
         These pairs must include the facets' bases.
         """
@@ -176,9 +179,9 @@ class Planes:
         return signs
 
     def near(self, indices: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
-        """Compare each point with all planes, and yield the pairs (row of ``indices``, plane) that are not negative.
+        """Compare each point with all planes, and yield the pairs that the filter does not show to be negative.
 
-        Each block of them has the rows, the planes, and their signs, 0 or 1, or -1 if only integers showed that.
+        Each block holds rows of ``indices``, planes, and exact signs: 0, 1, or -1.
         """
         count, whole = len(self.table), self.whole
         if whole is None:
@@ -203,7 +206,9 @@ class Planes:
         self.evaluations += len(indices) * count
 
     def largest(self, indices: Ints) -> tuple[Ints, Ints]:
-        """Return for each point a facet whose plane has the largest sign at it, and this sign."""
+        """Return, for each point, a facet whose plane has the largest sign there (1 outside, 0 on it), and this
+        sign.
+        """
         facets, largest = np.zeros(len(indices), np.int64), np.full(len(indices), -1)
         for rows, columns, signs in self.near(indices):
             np.maximum.at(largest, rows, signs)
@@ -213,7 +218,7 @@ class Planes:
 
 
 def facet_planes(points: Coordinates, facets: Sequence[Facet]) -> Planes:
-    """Return the planes of facets, which contain the points of their polygons."""
+    """Return the planes of the given facets, each with a vertex of its facet as base point."""
     numbers = chain.from_iterable(facet.plane for facet in facets)
     table: Objects = np.fromiter(numbers, object, 4 * len(facets)).reshape(-1, 4)
     return Planes(points, table, np.array([facet.polygon[0] for facet in facets]))

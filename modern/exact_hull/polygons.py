@@ -1,4 +1,4 @@
-"""The polygons of a surface as arrays, and checks of the polygons and their planes (see ``convexity``)."""
+"""The polygons of a surface as arrays of directed sides, and checks of polygons and planes for the proof."""
 
 import math
 import operator
@@ -46,7 +46,7 @@ def check_convex(
 
 @dataclass(frozen=True, slots=True)
 class Polygons:
-    """The directed sides of all polygons, as arrays with one entry for each side, facet after facet.
+    """The directed sides of all polygons of a surface, as arrays with one entry for each side, facet after facet.
 
     A side of ``facet`` begins at the point ``corner``. ``next`` is the following side of the facet. ``twin`` is the
     same edge as a side of the neighbouring facet. ``first`` and ``count`` give the sides of each facet.

@@ -1,4 +1,4 @@
-"""Propose a hull quickly: triangles that the certificate then proves or refuses.
+"""Find a hull of many points quickly, as triangles that the certificate then proves or rejects.
 
 The hull grows in rounds.  In each round every triangle nominates the farthest of the points that wait outside it
 (Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Nominated points are
@@ -43,9 +43,10 @@ _DENSE = 24
 
 @dataclass(frozen=True, slots=True)
 class Proposal:
-    """Triangles (m, 3), counterclockwise seen from outside, and other points that may lie on them.
+    """A hull that is not proved yet: triangles, shape (m, 3), counterclockwise seen from outside.
 
-    ``at`` has for each of the points ``near`` a triangle whose plane probably contains it, or -1.
+    ``near`` lists other points that may lie on the surface, and ``at`` a triangle whose plane probably contains each of
+    them, or -1.
     """
 
     triangles: Ints
@@ -54,13 +55,14 @@ class Proposal:
 
 
 def _proposal(corners: Ints, alive: NDArray[np.bool_], near: Ints, at: Ints) -> Proposal:
-    """Return the proposal of all living triangles, which are numbered again."""
+    """Return the remaining triangles, numbered again without gaps, as a proposal."""
     numbers = np.where(alive, np.cumsum(alive) - 1, -1)
     return Proposal(corners[alive], near, numbers[at])
 
 
 def in_doubles(points: Coordinates) -> Floats | None:
-    """Return the points, each axis divided by a power of two, in doubles, or None if doubles do not hold them exactly.
+    """Return the points scaled by a power of two on each axis, in doubles, or None if doubles cannot hold them
+    exactly.
 
     Differences are at most 1.
     """
@@ -77,7 +79,7 @@ def in_doubles(points: Coordinates) -> Floats | None:
 
 
 def propose(points: Coordinates, basis: Sequence[int], fast: bool | None = None) -> Proposal | None:
-    """Return a hull that still has to be proved, or None.
+    """Return a hull that still has to be proved, or None if none was found.
 
     basis: four points that do not lie in a plane. fast: use compiled code; None chooses.
     """
@@ -100,7 +102,7 @@ def propose(points: Coordinates, basis: Sequence[int], fast: bool | None = None)
 
 @cache
 def load() -> Function:
-    """Return the kernel, which is compiled once (in seconds) and then loaded.  Raise NotInstalled."""
+    """Return the compiled kernel.  The first call may take seconds to compile it.  Raise NotInstalled without numba."""
     tetrahedron = np.array([(0.0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
     # The kernel allocates no array, so numba need not count references.
     known = kernels.surface(tetrahedron, True)
@@ -118,7 +120,7 @@ def _chosen(fast: bool | None, count: int) -> Function | None:
 
 
 def _simplex(points: Coordinates, basis: Sequence[int]) -> list[int]:
-    """Return four points far from each other, or else those of ``basis``; the fourth is on the inner side."""
+    """Return four points that are far from each other, or those of ``basis`` if these seem to lie in a plane."""
     # a and b are the extreme points on an axis, c is farthest from their line, d from the plane of a, b and c.
     places = points.images.places
     a, b = int(places[:, 0].argmin()), int(places[:, 0].argmax())
@@ -141,7 +143,8 @@ def _exact_planes(points: Coordinates, corners: Ints) -> Planes:
 
 
 class _Growing:
-    """The surface while it grows: triangles in arrays, in which removed ones keep their index, and the waiting points.
+    """The surface while it grows: triangles in arrays, where a removed triangle keeps its index, and the points
+    outside.
 
     ``corners`` (T, 3) are counterclockwise seen from outside. ``neighbours`` (T, 3) are the triangles beyond the edges.
     ``images`` (T, 4) are the planes with A, B and C at most 1, and ``bounds`` the bounds for errors of their values.
@@ -192,7 +195,9 @@ class _Growing:
         self.made = end
 
     def _signed(self, values: Floats, points: Ints, triangles: Ints) -> Floats:
-        """Return the values of planes at points; an uncertain value becomes its exact sign times 1e-300."""
+        """Return values of planes at points.  If rounding leaves the sign uncertain, the exact sign times 1e-300
+        replaces it.
+        """
         doubtful = np.flatnonzero(~(abs(values) > self.bounds[triangles]))
         if doubtful.size and not self.exact:
             distinct, places = np.unique(triangles[doubtful], return_inverse=True)
@@ -201,13 +206,15 @@ class _Growing:
         return values
 
     def _outside(self, points: Ints, chosen: Ints, largest: Floats) -> tuple[Ints, Ints, Floats]:
-        """Return the points that see their chosen triangle. Record those that lie in its plane."""
+        """Return the points that are outside the plane of their chosen triangle, and record those that lie in the
+        plane.
+        """
         on, outside = largest == 0, largest > 0
         self.near.append(np.stack([points[on], chosen[on]]))
         return points[outside], chosen[outside], largest[outside]
 
     def _tried_against_all(self, points: Ints, first: int) -> tuple[Ints, Ints, Floats]:
-        """Compare every point with all triangles from index ``first`` on.
+        """Compare each point with all triangles from index ``first`` on.
 
         Return the points that see one of them, the triangle with the largest value for each, and that value.
         """
@@ -225,7 +232,7 @@ class _Growing:
         return self._outside(points, chosen, largest)
 
     def _tried_against_own(self, points: Ints, remover: Ints, starts: Ints, counts: Ints) -> tuple[Ints, Ints, Floats]:
-        """Compare each point only with the new triangles of the inserted point that removed its triangle.
+        """Compare each point only with the new triangles that replaced the triangle at which it waited.
 
         These are ``counts`` triangles from ``starts`` on. The result is that of ``_tried_against_all``.
         """
@@ -243,7 +250,7 @@ class _Growing:
         return self._outside(points, chosen, largest)
 
     def round(self) -> bool:
-        """Insert some of the waiting points. Return False if the surface is no longer closed."""
+        """Insert as many waiting points as do not interfere.  Return False if the surface is no longer closed."""
         nominated, at = self._nominated()
         rank, visible, edge_rank, edge_from, edge = self._regions(nominated, at)
         beyond = self.neighbours[edge_from, edge]
@@ -282,7 +289,9 @@ class _Growing:
         return True
 
     def _nominated(self) -> tuple[Ints, Ints]:
-        """Return points that are farther outside than the points at neighbouring triangles, with their triangles."""
+        """Return the points to insert next, with their triangles: each is farther outside than any at a neighbouring
+        triangle.
+        """
         highest = np.full(self.made, -1.0)
         np.maximum.at(highest, self.home, self.height)
         top = self.height == highest[self.home]
@@ -295,9 +304,10 @@ class _Growing:
         return nominee[at], at
 
     def _regions(self, nominated: Ints, at: Ints) -> tuple[Ints, Ints, Ints, Ints, Ints]:
-        """Return the triangles that each nominated point sees, and the edges around them (its horizon).
+        """Return the triangles that each point to be inserted is outside of, and the edges around them (its
+        horizon).
 
-        Both carry the rank of the point in ``nominated``: pairs (rank, triangle) and triples (rank, triangle, edge).
+        The result has pairs (rank, triangle) and triples (rank, triangle, edge); rank is an index into ``nominated``.
         """
         # A pair is encoded as the integer rank * size + triangle, so that sets of pairs are sorted arrays.
         size = self.made
@@ -324,7 +334,9 @@ class _Growing:
         return rank, triangle, rank[row], triangle[row], edge
 
     def _reassign(self, owner: Ints, inserted: Ints, edge_rank: Ints, first: int) -> None:
-        """Let points that waited at removed triangles wait at new ones, from index ``first`` on, if they see one."""
+        """Assign points that waited at removed triangles to new triangles, from index ``first`` on, that they are
+        outside of.
+        """
         lost = ~self.alive[self.home]
         orphans, remover = self.waiting[lost], owner[self.home[lost]]
         done = np.zeros(len(self.places), np.bool_)

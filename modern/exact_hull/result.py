@@ -1,4 +1,4 @@
-"""The result of the exact hull."""
+"""The data types of an exact hull and of its proof."""
 
 import math
 from collections.abc import Sequence
@@ -10,11 +10,11 @@ Plane = tuple[int, int, int, int]
 
 
 class CertificateError(Exception):
-    """Raised if a result is not proved to be the hull of the points.  The message names the failed check and place."""
+    """Raised if a result cannot be proved to be the hull of the points.  The message names the check and the place."""
 
 
 def require(condition: bool, message: str) -> None:
-    """Raise CertificateError unless the condition holds."""
+    """Raise CertificateError with the message if the condition is false."""
     if not condition:
         raise CertificateError(message)
 
@@ -36,7 +36,8 @@ class Facet:
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """The counts of a successful proof by ``certify``; a failure raises CertificateError instead.
+    """Counts from a successful proof that a hull is correct.  If the proof fails, CertificateError is raised
+    instead.
 
     dimension, points, vertices, edges, facets: those of the hull.
     arithmetic: "int64", or "float64 and integers" if a floating-point filter was used, or "none" for a point.
@@ -85,7 +86,9 @@ class ExactHull:
     certificate: Certificate | None = field(default=None, compare=False)
 
     def plane_of(self, facet: Facet | Plane) -> Plane:
-        """Return a plane (for instance that of a facet) for unscaled coordinates, without a common divisor."""
+        """Return a plane, given for the scaled integer coordinates, for the original coordinates and in lowest
+        terms.
+        """
         a, b, c, d = facet.plane if isinstance(facet, Facet) else facet
         a, b, c = a * self.scale, b * self.scale, c * self.scale
         divisor = math.gcd(a, b, c, d)

@@ -1,4 +1,4 @@
-"""Construct a polyhedron by inserting its points one at a time into a closed convex surface of triangles.
+"""Construct an exact polyhedron by inserting points one at a time into a closed convex surface of triangles.
 
 The algorithm is the randomised insertion of Clarkson and Shor (Discrete & Computational Geometry 4 (1989), section 3),
 in the variant in which every point that waits outside remembers *one* triangle that it sees.  All signs are exact.
@@ -34,7 +34,7 @@ _Image = tuple[float, float, float, float]
 
 
 class Surface:
-    """The surface while it grows, as parallel lists indexed by triangle, in which removed triangles keep their index.
+    """The surface while it grows, as parallel lists indexed by triangle.  A removed triangle keeps its index.
 
     Corners are counterclockwise seen from outside. ``neighbours[t][k]`` is the triangle beyond edge k of triangle t.
     ``waiting`` has the points waiting outside each triangle, and ``home`` the triangle of each point, or -1. ``mark``
@@ -95,7 +95,7 @@ class Surface:
         return value(self.planes[triangle], self.points[p]) > 0
 
     def _distribute(self, points: list[int], triangles: range) -> None:
-        """Let every point wait outside one of ``triangles`` (up to the newest) that it sees; the others are inside."""
+        """Assign each point to one of ``triangles`` that it is outside of; a point without one is inside the hull."""
         if len(points) * len(triangles) <= _FEW:
             for p in points:
                 self._wait(p, next((triangle for triangle in triangles if self.sees(p, triangle)), -1))
@@ -172,7 +172,7 @@ class Surface:
 
 
 def convex_surface(points: Coordinates, simplex: Sequence[int], order: Sequence[int]) -> list[tuple[Triangle, Plane]]:
-    """Return the hull as triangles, from four affinely independent points and the others in ``order``."""
+    """Return the hull as triangles: start from four affinely independent points and insert the others in ``order``."""
     surface = Surface(points, simplex)
     for p in order:
         surface.insert(p)

@@ -1,7 +1,7 @@
-"""Joining faces that are coplanar to within a distance E, for hulls of floating-point input.
+"""Join faces of a hull that are coplanar to within a distance E, for points in binary floats.
 
-Points in binary floats are seldom exactly coplanar: the hull of a dodecahedron in doubles has 36 faces.  This module
-leaves the hull as it is and derives a second hull with joined faces from it:
+Such points are seldom exactly coplanar: the hull of a dodecahedron in doubles has 36 faces, not 12.  This module leaves
+the hull as it is and derives a second hull with joined faces from it:
 
 1. Visit the faces in order of area, from the largest to the smallest, and faces of equal area in their own order.
 2. Skip a face that already belongs to a joined face.  Otherwise join to it all faces that are connected to it through
@@ -203,7 +203,7 @@ def join_summary(joined: Joined) -> str:
 
 
 def root_text(square: Fraction) -> str:
-    """Return the square root of a number to three digits, rounded up."""
+    """Return the square root of ``square`` as text of three digits, rounded up."""
     work = Context(prec=_WORK, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
     root = work.sqrt(work.divide(Decimal(square.numerator), Decimal(square.denominator)))
     rounded = Context(prec=_SHOWN, rounding=ROUND_CEILING, Emin=MIN_EMIN, Emax=MAX_EMAX).plus(root)
@@ -235,13 +235,13 @@ def _integers(surface: Mesh) -> tuple[list[IntVector], int]:
 
 
 def _depth(points: Sequence[IntVector], normal: IntVector, base: int, indices: Sequence[int]) -> int:
-    """Return |normal|^2 times the square of the largest distance of the points from the plane through ``base``."""
+    """Return the square of the largest distance of the points from the plane through ``base``, times |normal|^2."""
     level = dot(normal, points[base])
     return max(abs(level - dot(normal, points[index])) for index in indices) ** 2
 
 
 def _loop(surface: Mesh, group: Sequence[int], within: Fraction) -> tuple[int, ...]:
-    """Return the polygon around the faces of a group.  Raise CoplanarError if it is not a simple polygon."""
+    """Return the polygon that bounds a group of faces.  Raise CoplanarError if it is not a simple polygon."""
     if len(group) == 1:
         return surface.faces[group[0]]
     edges = {edge for face in group for edge in sides(surface.faces[face])}
@@ -261,7 +261,9 @@ def _loop(surface: Mesh, group: Sequence[int], within: Fraction) -> tuple[int, .
 def _check_convex(
     points: Sequence[IntVector], scale: int, loop: Sequence[int], normal: IntVector, within: Fraction
 ) -> None:
-    """Raise CoplanarError if a corner, seen along the normal, is more than E inside the convex hull of the polygon."""
+    """Raise CoplanarError if a polygon is not convex: if, seen along the normal, a corner is more than E inside its
+    hull.
+    """
     size = dot(normal, normal)
     corners = [points[index] for index in loop]
     hull = _outer(corners, normal)
@@ -296,7 +298,7 @@ def _outer(corners: Sequence[IntVector], normal: IntVector) -> list[int]:
         return (c - a) * (f - b) > (d - b) * (e - a)
 
     def chain(indices: Sequence[int]) -> list[int]:
-        """Return half of the convex hull, as in Andrew's algorithm of monotone chains."""
+        """Return the upper or lower half of the convex hull, by Andrew's algorithm of monotone chains."""
         half: list[int] = []
         for index in indices:
             while len(half) > 1 and not turns_left(half[-2], half[-1], index):

@@ -63,7 +63,9 @@ class LazyTuple(Sequence[T]):
 
 
 class LazyMembers(LazyTuple[T]):
-    """A sequence of known length whose members are computed one at a time, unless all are accessed."""
+    """A sequence of known length whose members are computed one at a time; accessing all of them computes all
+    at once.
+    """
 
     def __init__(self, count: int, member: Callable[[int], T]) -> None:
         super().__init__(count, lambda: map(member, range(count)))
@@ -84,7 +86,7 @@ class LazyMembers(LazyTuple[T]):
 
 
 class PointTexts(LazyMembers[tuple[str, str, str]]):
-    """Points as exact text, which is made on access.
+    """Points whose coordinates are exact text, which is only made on access.
 
     ``floats`` returns a new array of the nearest doubles (n, 3).  ``numbers`` is an array of them, or None.
     """
@@ -102,7 +104,7 @@ class PointTexts(LazyMembers[tuple[str, str, str]]):
 
 
 class LazyFaces(LazyTuple["Face"]):
-    """Faces that are computed on first access, except for their polygons."""
+    """Faces of a hull that are computed on first access.  Their polygons are available at once."""
 
     def __init__(self, polygons: Sequence[tuple[int, ...]], make: Callable[[], "Iterable[Face]"]) -> None:
         super().__init__(len(polygons), make)
@@ -147,7 +149,8 @@ def polygons_of(faces: Sequence[Face]) -> Sequence[tuple[int, ...]]:
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """An approximation H_j of the construction (thesis p. 8-9, 22-33).
+    """One step in the construction of a hull: the polyhedron H_j after its j-th vertex was added (thesis p. 8-9,
+    22-33).
 
     number: j.
     added: the point that became a vertex.  For H_1 these are its initial points.
@@ -183,11 +186,11 @@ class Coplanar:
 
 @dataclass(frozen=True, slots=True)
 class Hull:
-    """A convex hull as determined by a procedure in some arithmetic.
+    """A convex hull, or the incomplete result of a procedure that found none, as exact text.
 
     arithmetic: the name of the arithmetic.
-    status: ``determined``, the message with which the programs end, ``table of planes is full`` if they would write
-        beyond their arrays, or ``the faces do not form a closed surface`` if epsilon merged too many faces.
+    status: ``determined``, the message that the programs type, ``table of planes is full`` if they would write beyond
+        their arrays, or ``the faces do not form a closed surface`` if epsilon merged too many faces.
     dimension: from 0 for a point to 3 for a polyhedron.
     points: the input as numbers of the arithmetic.
     vertices, boundary, inside: points in the order in which the programs punch them.  The programs punch only the ends
@@ -197,8 +200,8 @@ class Hull:
     plane: the plane of a polygon, as punched.
     lines: two equations for the line of a segment, or for each of the three sides of a triangle of three points.
     centre: the inner point C, for a polyhedron.
-    statement: program and label of the statement that decided the status.
-    corrected: rows of the layer ``corrected`` for which a branch differed from that of the listing.
+    statement: the program and statement number in Butler's listing at which the status was decided.
+    corrected: identifiers of the modern corrections that changed a branch of the listing.
     history: the approximations H_j, if the caller requested them.
     coplanar: a description of joined faces, or None.  The vertices of a joined face lie only near its plane.
     """
@@ -226,7 +229,7 @@ class Hull:
 
 
 class HullRefused(EmulatorError):
-    """A procedure ended without a hull in its arithmetic; ``result`` holds the incomplete result with its status."""
+    """Raised if a procedure finds no hull in its arithmetic; ``result`` holds the incomplete result with its status."""
 
     def __init__(self, result: Any) -> None:
         way = "a smaller epsilon may find" if result.status == NOT_CLOSED else "'exact' always finds"

@@ -33,7 +33,9 @@ class Mesh:
         return tuple(coordinates(point) for point in self.points)
 
     def decimals(self, digits: int | None) -> tuple[str, ...]:
-        """Return each point as a line ``x y z`` of decimals (see ``decimal_text``).  Raise ExportError."""
+        """Return each point as a line ``x y z`` of decimals.  Raise ExportError if a number needs rounding to
+        ``digits`` digits.
+        """
         lines = []
         for place, point in enumerate(self.points, 1):
             texts = []
@@ -52,7 +54,7 @@ class Mesh:
         return tuple(sorted({(min(a, b), max(a, b)) for face in self.faces for a, b in sides(face)}))
 
     def planes(self, hull: Hull) -> Iterator[tuple[Fraction, Fraction, Fraction, Fraction]]:
-        """Yield A, B, C, D of each face's plane, with outward normal.  Those of a polyhedron are in lowest terms."""
+        """Yield the plane A x + B y + C z + D = 0 of each face, with its normal pointing outward."""
         points = self.numbers()
         for order, polygon in enumerate(self.faces):
             if self.dimension == 3:
@@ -132,6 +134,6 @@ def _cycle(lines: list[tuple[int, ...]], count: int) -> tuple[int, ...]:
 
 
 def _turned(face: tuple[int, ...], points: Sequence[Vector], plane: tuple[str, ...]) -> tuple[int, ...]:
-    """Return the face counterclockwise as seen from the side to which (A, B, C) points; reverse it if necessary."""
+    """Return the face counterclockwise seen from the side to which the normal (A, B, C) of ``plane`` points."""
     normal = coordinates(plane[:3])
     return face if dot(area_vector(points, face), normal) >= 0 else (face[0], *face[:0:-1])

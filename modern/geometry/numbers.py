@@ -30,7 +30,7 @@ _SAFE_BITS = 10_000
 
 
 class PointsError(ArgumentError):
-    """Raised for a point that is invalid or does not fit an arithmetic.  The one-line message counts points from 0."""
+    """Raised for an invalid point, or one that an arithmetic cannot hold.  The message counts points from 0."""
 
 
 def split_decimal(text: str) -> tuple[bool, str, str, int]:
@@ -103,7 +103,8 @@ def real(value: object) -> Exact:
 
 
 def read_epsilon(epsilon: object) -> tuple[Fraction, bool] | None:
-    """Return the e of chapter 7, and True if it is relative (``"rel:E"``).  Return None if ``epsilon`` is None.
+    """Read a tolerance e.  Return its value, and True if it is relative (``"rel:E"``), or None if ``epsilon``
+    is None.
 
     Raise ArgumentError unless e is a real number, also as text, that is not negative.
     """
@@ -160,7 +161,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
 
 
 def sum_of_roots(squares: Iterable[Fraction], digits: int) -> Decimal:
-    """Return the sum of the square roots of numbers to ``digits`` digits.  It is exact if no root needs more digits."""
+    """Return the sum of the square roots of ``squares`` to the given digits, exactly if no root needs more."""
     work, total = Context(prec=digits + _GUARD, Emin=MIN_EMIN, Emax=MAX_EMAX), Decimal(0)
     for square in squares:
         # The quotient of two roots, unlike the root of a quotient, is exact if both roots are integers.
@@ -170,7 +171,7 @@ def sum_of_roots(squares: Iterable[Fraction], digits: int) -> Decimal:
 
 
 def decimal_places(denominator: int) -> int | None:
-    """Return the number of decimal places of 1 / denominator, or None if its decimal expansion does not end."""
+    """Return the number of decimal places of 1 / denominator, or None if its decimal expansion is infinite."""
     twos = (denominator & -denominator).bit_length() - 1
     rest, fives = denominator >> twos, 0
     while rest % 5 == 0:

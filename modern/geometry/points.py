@@ -1,4 +1,4 @@
-"""Check the container and the shape of points that are passed to functions.
+"""Check that arguments are a sequence or an array of points, with three coordinates each.
 
 Every public function that accepts points uses these checks, so that all raise the same errors.
 """
@@ -33,7 +33,7 @@ def check_array(points: NDArray[Any]) -> None:
 
 
 def point_rows(points: Any) -> Iterator[list[Any]]:
-    """Yield the three coordinates of each point, unchecked.  Raise PointsError if this is not a sequence of points."""
+    """Yield the three coordinates of each point, without checking them.  Raise PointsError for any other structure."""
     if isinstance(points, np.ndarray):
         check_array(points)
         points = points.tolist()

@@ -32,7 +32,7 @@ def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
 
 
 def whole(points: Sequence[tuple[N, N, N]]) -> tuple[int, list[tuple[int, int, int]]]:
-    """Return the least positive scale that makes all coordinates integers, and the points times this scale."""
+    """Return the least positive scale that makes all coordinates integers, and the points multiplied by it."""
     scale = math.lcm(*{number.denominator for point in points for number in point})
     rows = ([number.numerator * (scale // number.denominator) for number in point] for point in points)
     return scale, [(x, y, z) for x, y, z in rows]
@@ -47,7 +47,9 @@ def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
 
 
 def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
-    """Return a polygon's normal with twice its area as length. Seen from its tip, the corners are counterclockwise."""
+    """Return the normal of a polygon, with a length of twice its area.  The corners are counterclockwise seen from its
+    tip.
+    """
     origin = points[face[0]]
     total = minus(origin, origin)
     for here, ahead in pairwise(face[1:]):

@@ -1,4 +1,5 @@
-"""The operations that Butler's procedure needs from an arithmetic: vectors with + - *, signs, square roots, exact text.
+"""The operations that Butler's procedure needs from an arithmetic: + - * of vectors, signs, square roots, exact
+text.
 
 A vector is a numpy array of floats or of Python objects. The formulas below use its
 operators, so that the same code of the procedure serves every arithmetic. A quantity has a *degree*: 1 for
@@ -24,25 +25,27 @@ Scalar = Any
 
 
 class RangeError(EmulatorError, ValueError):
-    """A number beyond the range of an arithmetic."""
+    """Raised for a number that is too large or too small for an arithmetic."""
 
 
 class Arithmetic(ABC):
-    """A number system in which the procedure can run."""
+    """The base class of the arithmetics in which Butler's procedure can run."""
 
     dtype: Any = object
 
     @property
     @abstractmethod
     def name(self) -> str:
-        """The name that selects this arithmetic."""
+        """The name by which a user selects this arithmetic, for example ``float64``."""
 
     @abstractmethod
     def number(self, value: Exact, minus: bool = False) -> Scalar:
         """Convert a coordinate; ``minus`` marks a zero with a minus sign.  Raise RangeError if it is too large."""
 
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
-        """Convert a tolerance for values of the given degree. Raise RangeError if it does not fit."""
+        """Convert a tolerance for values of the given degree (1: coordinate, 2: product of two).  Raise RangeError if
+        too large.
+        """
         return self.number(size)
 
     @cached_property
@@ -51,14 +54,14 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def quotient(self, value: Scalar, count: int) -> Scalar:
-        """Divide the sum of ``count`` coordinates by ``count``."""
+        """Divide ``value``, a sum of ``count`` coordinates, by ``count``."""
 
     @abstractmethod
     def sign(self, values: Vector) -> NDArray[np.int8]:
         """Return -1, 0 or 1 for each value: the three branches of a FORTRAN IF."""
 
     def within(self, values: Vector, slack: Vector) -> NDArray[np.bool_]:
-        """Return for each value True if it lies in the closed interval from -slack to +slack."""
+        """Return, for each value, True if it lies in the closed interval from -slack to +slack."""
         return np.asarray(self.sign(slack - abs(values)) >= 0)
 
     @abstractmethod
@@ -67,7 +70,7 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def exact(self, value: Scalar, degree: int) -> Exact:
-        """Return the exact value of a number, which is a quantity of the given degree."""
+        """Return the exact value of a number of the given degree (see the module's docstring)."""
 
     @abstractmethod
     def text(self, value: Scalar, degree: int) -> str:
@@ -80,11 +83,11 @@ class Arithmetic(ABC):
         return [self.text(value, degree) for value in values]
 
     def keys(self, coordinates: Vector) -> Iterable[object]:
-        """Yield for each point a hashable key; equal points have equal keys."""
+        """Yield a hashable key for each point, such that equal points have equal keys."""
         return zip(*coordinates.tolist(), strict=True)
 
     def surely_distinct(self, coordinates: Vector) -> bool:
-        """Return True only if a quick test proves that no two points are equal."""
+        """Return True if a quick test proves that all points differ.  False proves nothing."""
         return False
 
     def filled(self, values: Sequence[Scalar]) -> Vector:
@@ -106,7 +109,7 @@ class Arithmetic(ABC):
         return index
 
     def descending(self, values: Vector) -> NDArray[np.intp]:
-        """Return the indices from the largest value to the smallest; among equals the last comes first."""
+        """Return the indices that sort the values from largest to smallest.  Of equal values the last comes first."""
         remaining = list(range(len(values)))
         order = []
         while remaining:
@@ -121,11 +124,13 @@ class Arithmetic(ABC):
         return not self.sign(values * values).any()
 
     def distances_add_up(self, first_square: Scalar, second_square: Scalar, total_square: Scalar) -> bool:
-        """Return True if two distances add up to a third. The arguments are the squares of the three distances."""
+        """Return True if the first two distances add up to the third.  The arguments are the squares of the
+        distances.
+        """
         return self.is_zero(self.root(first_square) + self.root(second_square) - self.root(total_square))
 
     def farthest(self, o1: Vector, o2: Vector, o3: Vector) -> int:
-        """Return the index of the largest O1**2 + O2**2 + O3**2, the last one if several are equal (thesis p. 15)."""
+        """Return the index of the largest sum O1**2 + O2**2 + O3**2; of equal sums the last (see :func:`moments`)."""
         return self.last_largest(o1 * o1 + o2 * o2 + o3 * o3)
 
 
@@ -141,7 +146,9 @@ Point = tuple[Number, Number, Number]
 
 
 def less(total: Number, product: Number) -> Number:
-    """Return total - product as the compiler's reverse subtraction computes it."""
+    """Return ``total - product`` in the order in which the 1620's compiler subtracts: product - total, sign
+    reversed.
+    """
     return -(product - total)
 
 
@@ -159,12 +166,15 @@ def plane(p: Point, q: Point, r: Point) -> tuple[Number, Number, Number, Number]
 
 
 def line(u1: Number, v1: Number, u2: Number, v2: Number, cu: Number, cv: Number) -> tuple[Number, Number, Number]:
-    """Return A, B, C of the line A u + B v + C = 0 through two points by (3.1) to (3.5); C is computed at (cu, cv)."""
+    """Return A, B, C of the line A u + B v + C = 0 through two points (thesis equations 3.1 to 3.5).
+
+    The constant C is computed from the point (cu, cv), which is one of the two.
+    """
     return v2 - v1, u1 - u2, (v1 - v2) * cu + (u2 - u1) * cv
 
 
 def at(equation: tuple[Number, ...], point: tuple[Number, ...]) -> Number:
-    """Return the value of an equation at a point: A x + B y + C z + D, or A x + B y + C."""
+    """Return the value of a plane's or line's equation at a point: A x + B y + C z + D, or A x + B y + C."""
     # The listing adds from left to right, the constant term last.
     total = equation[0] * point[0]
     for k in range(1, len(point)):
@@ -173,7 +183,9 @@ def at(equation: tuple[Number, ...], point: tuple[Number, ...]) -> Number:
 
 
 def moments(points: Point, p: Point, q: Point) -> tuple[Number, Number, Number]:
-    """Return O1, O2, O3, whose squares add up to V, a measure of the distance from the line P1 P2 (thesis p. 15)."""
+    """Return O1, O2, O3, the components of a cross product.  The sum of their squares grows with the distance of a
+    point from the line P1 P2 (thesis p. 15).
+    """
     (x, y, z), (x1, y1, z1), (x2, y2, z2) = points, p, q
     # Statements 125 to 226 of program 1: the components of the cross product of P2 - P and P2 - P1.
     o1 = less((y2 - y) * (z2 - z1), (z2 - z) * (y2 - y1))

@@ -16,7 +16,7 @@ MIN_BITS, MAX_BITS = 2, 100_000
 
 @dataclass(frozen=True)
 class FloatArithmetic(Arithmetic):
-    """IEEE 754 double or single precision. A decimal is rounded to a double, then to a single if requested."""
+    """IEEE 754 double or single precision.  Decimal input is rounded to a double, then to a single if requested."""
 
     dtype: type[np.floating[Any]]
 

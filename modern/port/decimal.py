@@ -59,7 +59,9 @@ class Number1620:
 
 @dataclass(frozen=True)
 class Arithmetic1620(Arithmetic):
-    """Vectors of :class:`Number1620` under one profile."""
+    """Butler's procedure in the decimal arithmetic of the 1620: vectors of :class:`Number1620` with the rules of a
+    profile.
+    """
 
     profile: Profile
 

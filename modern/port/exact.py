@@ -1,4 +1,4 @@
-"""The arithmetic ``exact``: integers, in a unit so small that all coordinates, also of the point C, are integers.
+"""The arithmetic ``exact``, which computes with integers in a unit that divides all coordinates.
 
 If every number of the procedure fits in 64 bits the vectors hold int64, otherwise Python's integers.
 """

@@ -1,4 +1,4 @@
-"""The kernels of program 3 compiled by numba (the extra ``fast``), and the choice between them and numpy."""
+"""The compiled version of program 3, by numba (the extra ``fast``), and the choice between it and numpy."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ _WORTH_LOADING = 5_000
 
 @dataclass(frozen=True, slots=True)
 class Steps:
-    """The two operations that the kernels replace: a stage of growth, and the search for points on each equation."""
+    """Two functions that exist in numpy and compiled form: add the next vertices; find the points on each plane."""
 
     stage: Callable[[Polyhedron, bool], growth.Grown | None]
     satisfied: Callable[[Equations, PointTable], list[NDArray[np.int64]]]
@@ -95,10 +95,10 @@ def load(name: str) -> Steps:
 
 
 def with_kernels(grow: Function, find_satisfied: Function) -> Steps:
-    """Return the steps that run the given kernels, compiled or as plain Python functions."""
+    """Wrap the kernels, compiled or as plain Python functions, as the two operations of :class:`Steps`."""
 
     def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
-        """Run one stage of growth if a caller watches the hull, otherwise as many stages as the kernel can run."""
+        """Add the next vertex to the hull, or as many as the kernel can if no caller watches the growth."""
         cloud, slots, state = _cloud(hull), _slots(hull.table, _spare(hull)), _state(hull)
         scratch = workspace.scratch_for(len(slots.alive), slots.coefficients.dtype)
         code = grow(cloud, slots, scratch, state, _rules(hull), first, 1 if hull.watch else -1)
@@ -144,7 +144,7 @@ def _cloud(hull: Polyhedron) -> Cloud:
 
 
 def _slots(table: Equations, spare: int) -> Slots:
-    """Return the table of planes as numbered slots, followed by ``spare`` empty ones."""
+    """Return the planes in the array form of the kernels, with ``spare`` empty slots after them."""
     count = len(table)
     coefficients = np.zeros((4, count + spare), table.coefficients.dtype)
     defining = np.zeros((3, count + spare), np.int64)
@@ -174,7 +174,7 @@ def _rules(hull: Polyhedron) -> Rules:
 
 
 def _store_state(hull: Polyhedron, cloud: Cloud, slots: Slots, state: NDArray[np.int64]) -> None:
-    """Copy the results of the compiled code into the hull; the slots become the serial numbers of its equations."""
+    """Copy the points and planes of the compiled code back into the hull, and number the planes by their slots."""
     count, made = state[workspace.COUNT], state[workspace.MADE]
     remaining_slots = np.flatnonzero(slots.alive[:made])
     points, table, remaining = hull.points, hull.table, hull.remaining

@@ -1,4 +1,4 @@
-"""The loop that expands the first hull H_1 to the hull of all points, in the plane or in space (thesis p. 20-33)."""
+"""The loop that adds one vertex after the other to the first hull H_1, in the plane or in space (thesis p. 20-33)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -11,7 +11,7 @@ from modern.port.table import Equations, PointTable
 
 
 class Remaining:
-    """The points that are neither eliminated nor vertices, each with an equation that is not negative at it."""
+    """The points that may still become vertices, each with a plane (or line) that proves it is not inside the hull."""
 
     def __init__(self) -> None:
         # The serial number of an equation whose value at the point is not negative; -1 if unknown.
@@ -26,7 +26,7 @@ class Remaining:
         self.tried = 0
 
     def swapped(self, index: int) -> None:
-        """Record that the first point became a vertex and that the point now at ``index`` took its position.
+        """Update the list after the first point became a vertex and the point now at ``index`` took its position.
 
         If the index is negative, the new vertex was already a vertex: rounded arithmetic can report one as outside.
         """
@@ -35,7 +35,9 @@ class Remaining:
         self.keeper = self.keeper[1:]
 
     def strike_inside(self, points: PointTable, vertices: int, table: Equations) -> list[int]:
-        """Eliminate the points inside all equations. Return their input indices, in their order in ``points``."""
+        """Remove the points that lie inside all planes or lines.  Return their input indices, in their order in
+        ``points``.
+        """
         self.eliminated_any = False
         if len(points) <= vertices:
             return []
@@ -70,7 +72,10 @@ TABLE_OF_LINES, BETWEEN, NUMBERING = "P2-023", "P2-024", "P2-025"
 
 
 class Stopped(Exception):
-    """Raised if the procedure ends without a hull, with the typed message and the label of the deciding statement."""
+    """Raised if Butler's procedure ends without a hull.  ``status`` is the message that her program types.
+
+    ``label`` is the program and the number of the statement that decides it.
+    """
 
     def __init__(self, status: str, label: str) -> None:
         super().__init__(status, label)
@@ -79,7 +84,7 @@ class Stopped(Exception):
 
 @dataclass
 class Progress:
-    """The result so far: the points eliminated as inside or boundary points, and the corrections that took effect."""
+    """The points classified so far as inside or boundary, and the modern corrections that changed a step."""
 
     inside: list[int] = field(default_factory=list)
     boundary: list[int] = field(default_factory=list)
@@ -105,10 +110,10 @@ class Growing(Protocol):
     to_check: int
 
     def outside_point(self) -> int | None:
-        """Return the index of the next vertex: a point that is outside some plane. Return None without such a point."""
+        """Return the index of the point that becomes the next vertex, or None if no point is outside the hull."""
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex, and return the number of equations that it was outside of."""
+        """Make the point at ``index`` a vertex, and return the number of planes (or lines) that it was outside of."""
 
 
 Hull = TypeVar("Hull", bound=Growing)
@@ -116,7 +121,7 @@ Hull = TypeVar("Hull", bound=Growing)
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """The result of a stage: points added and eliminated, by input index, and numbers of equations that it used."""
+    """The effect of adding a vertex: points added and eliminated, by input index, and the equations involved."""
 
     added: tuple[int, ...]
     checked: int
@@ -125,7 +130,9 @@ class Grown:
 
 
 def stage(hull: Growing, first: bool) -> Grown | None:
-    """Add the next vertex to the hull and eliminate the points inside. Return None if no point is outside the hull."""
+    """Add the next vertex to the hull and remove the points that are now inside.  Return None if no point is
+    outside.
+    """
     if first:
         added, checked, outside = hull.points.input_indices(slice(0, hull.vertices)), 0, 0
     else:
@@ -143,7 +150,9 @@ def stage(hull: Growing, first: bool) -> Grown | None:
 
 
 def grow(hull: Hull, grow_stage: Callable[[Hull, bool], Grown | None] = stage) -> None:
-    """Run ``grow_stage`` until no point lies outside. It may run several stages at once if no caller watches them."""
+    """Run ``grow_stage`` until no point is outside the hull.  One call may add several vertices if no caller
+    watches.
+    """
     hull.remaining.begin(len(hull.points) - hull.vertices)
     growth = grow_stage(hull, True)
     while growth:

@@ -1,4 +1,4 @@
-"""The port over a number system of the emulator, for arithmetics whose operations are not pure functions.
+"""Run Butler's procedure in number systems of the emulator that have a state or no pure functions.
 
 ``a op b`` is the result of the system's operation.  If it raises an error code, the result is used and no error is
 reported, as in :mod:`modern.port.decimal`.
@@ -35,7 +35,7 @@ def _operator(operation: str) -> Callable[["HostedNumber", "HostedNumber"], "Hos
 
 
 class HostedNumber:
-    """A number of a system, with the system that calculates with it."""
+    """A number of one of the emulator's number systems, with the system that computes with it."""
 
     __slots__ = ("by", "value")
 
@@ -70,7 +70,9 @@ def _read(system: Numbers, value: Exact, minus: bool) -> Any:
 
 @dataclass(frozen=True)
 class HostedArithmetic(Arithmetic):
-    """Vectors of :class:`HostedNumber` of one system."""
+    """The arithmetic of Butler's procedure for one of the emulator's number systems; vectors hold
+    :class:`HostedNumber`.
+    """
 
     system: System
 
@@ -79,7 +81,7 @@ class HostedArithmetic(Arithmetic):
         return self.system.name
 
     def number(self, value: Exact, minus: bool = False) -> HostedNumber:
-        """Return a coordinate as READ stores it in the arithmetic without random rounding."""
+        """Convert a coordinate as the machine reads it from a card, without random rounding."""
         return HostedNumber(_read(self.system, value, minus), self.system)
 
     def quotient(self, value: HostedNumber, count: int) -> HostedNumber:

@@ -1,4 +1,4 @@
-"""Program 3 from its first hull H_1 on, for floating-point numbers, in the subset of Python that numba compiles.
+"""The loop of program 3, which adds vertices to the first hull H_1, compiled by numba for floating-point numbers.
 
 The steps, decisions and numbers are those of :mod:`modern.port.growth` and :mod:`modern.port.polyhedron`, and the
 formulas are the same functions. Those modules run the exceptional stages: a stage that ends without a hull, that for
@@ -47,7 +47,9 @@ BLOCK = 256
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
-    """Return the first slot in the range whose plane has the point on it or outside, or -1 if all have it inside."""
+    """Return the first slot from ``first`` to ``last`` whose plane has the point on it or outside, or -1 if
+    none has.
+    """
     for slot in range(first, last):
         if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
             return slot
@@ -85,7 +87,7 @@ def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
 
 
 def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation: Any, above: Any) -> int:
-    """Count the points at which a plane's value exceeds ``above``.
+    """Count the points at which the value of a plane's equation exceeds ``above``.
 
     A loop without branches computes several at a time.
     """
@@ -97,8 +99,8 @@ def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation:
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
-    """Return the index of the point farthest outside a plane (of several equal ones the last), or -1 if none is
-    outside.
+    """Return the index of the point farthest outside a plane, or -1 if no point is outside.  Of equal ones the last
+    wins.
     """
     # A value within the slack counts as zero. The difference computed here is a zero of the number type of the values.
     largest = e if e > 0 else e - e
@@ -118,7 +120,7 @@ def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any,
 
 
 def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
-    """Return the index of the next vertex, -1 for none, or -2 if a plane does not contain its defining points."""
+    """Return the index of the next vertex, -1 if no point is outside, or -2 if a plane misses its defining points."""
     while state[CHECK] < state[MADE]:
         slot = state[CHECK]
         if slots.alive[slot]:
@@ -136,7 +138,8 @@ def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
 
 
 def planes_to_replace(point: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> int:
-    """List the planes that the point is outside of, in the order of replacement, and return their number.
+    """List the planes that the point is outside of, in the order in which they are replaced, and return their
+    number.
 
     The first is the plane that is being checked. No point is outside of earlier planes, because they were checked
     before.
@@ -173,7 +176,10 @@ def sort_descending(order: NDArray[np.int64], values: NDArray[Any], first: int, 
 
 
 def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, state: Any, rules: Any) -> int:
-    """Write the three planes that replace each plane into new slots. Return flags for corrections, or -1 to stop."""
+    """Write three new planes into empty slots for each plane to be replaced.
+
+    Return flags that tell which corrections of the listing this needed, or -1 if only numpy can run the stage.
+    """
     new, slot, corrections = state[VERTICES], state[MADE], 0
     point = corner(cloud.coordinates, index)
     for k in range(count):
@@ -208,7 +214,7 @@ def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, s
 
 
 def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) -> None:
-    """Find the pairs of equal planes among the new planes, which occupy the slots from ``first`` on.
+    """Find the pairs of equal planes among the new planes, which are in the slots ``first`` to ``last``.
 
     ``scratch.partner`` receives for each new plane the number of the new plane with the same three points, or -1. Of
     three equal planes the first two are a pair. A hash table holds the planes that have no partner yet.
@@ -243,7 +249,7 @@ def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) ->
 
 
 def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
-    """Return True if a deleted pair of planes leaves at most one plane after it."""
+    """Return True if, after a pair of equal planes is deleted, at most one of the planes that follow it is left."""
     remaining = count
     for k in range(count):
         if partner[k] < 0:
@@ -302,7 +308,7 @@ def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.i
 
 
 def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
-    """Run the given number of stages, or all if it is negative. ``first`` is True before the stage of hull H_1."""
+    """Add the given number of vertices, or all if it is negative.  ``first`` is True if the hull is still H_1."""
     while True:
         if not first:
             # No points remain, and the last test eliminated none (statement 103).
@@ -327,7 +333,7 @@ def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: 
 
 
 def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: Any, e: Any) -> int:
-    """Count the points on the plane, without branches as in :func:`count_above`."""
+    """Count the points on the plane, with the same loop as :func:`count_above`."""
     x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
     count = 0
     for k in range(len(x)):
@@ -336,7 +342,7 @@ def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: An
 
 
 def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], indices: NDArray[np.int64]) -> int:
-    """List the points that satisfy each equation, as far as they fit, and return the number of all of them."""
+    """List the points on each plane, as many as the arrays hold, and return the total number."""
     k, count = 0, coordinates.shape[1]
     for slot in range(len(slots.alive)):
         plane_equation, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k

@@ -1,4 +1,4 @@
-"""The opening of the procedure, program 1: find three points not on a line, then a fourth point outside their plane.
+"""Program 1: find three points that are not on a line, then a fourth point outside their plane.
 
 Thesis p. 11-17 and 29, listing p. 64-74. Numbers in parentheses are statement labels of the listing. Points are
 counted from 0 here, from 1 in the listing.
@@ -24,7 +24,7 @@ NO_FOURTH = "chapter 3, p. 29"
 
 @dataclass(frozen=True)
 class Opening:
-    """The result of program 1.
+    """The result of program 1: the kind of point set, and the planes or lines with which programs 2 and 3 begin.
 
     ``kind`` is ``point``, ``segment``, ``triangle``, ``coplanar``, ``solid`` or ``error``, and ``label`` is the
     statement that decided it. ``lines`` has two equations for each line. ``plane`` is present for three or more
@@ -46,7 +46,7 @@ def direction(arithmetic: Arithmetic, p: Point, q: Point) -> int:
 
 
 def line_equations(p: Point, q: Point, perpendicular: int, zero: Scalar) -> tuple[Four, Four]:
-    """Return two equations A x + B y + C z + D = 0 of the line through two points (statements 113 to 123)."""
+    """Return two plane equations A x + B y + C z + D = 0 that together describe a line (statements 113 to 123)."""
     equations = []
     for i, j in _PAIRS[perpendicular]:
         a, b, c = line(p[i], p[j], q[i], q[j], p[i], p[j])
@@ -70,7 +70,9 @@ def extremes(arithmetic: Arithmetic, points: PointTable) -> tuple[int, int, int]
 
 
 def bring_to_front(points: PointTable, first: int, second: int) -> None:
-    """Exchange the two extremes with the first and the second point (statements 155 to 158)."""
+    """Move the two extreme points to positions 0 and 1 by exchanging them with the points there (statements 155 to
+    158).
+    """
     points.swap(first, 0)
     # The first exchange moved point 0. If that is the second extreme, it is now where the first one was (157).
     points.swap(first if second == 0 else second, 1)
@@ -92,13 +94,13 @@ def on_the_line(arithmetic: Arithmetic, points: PointTable, perpendicular: int, 
 
 
 def all_within(arithmetic: Arithmetic, equation: tuple[Scalar, ...], values: Vector, slack: Slack) -> bool:
-    """Return True if the given values of an equation all lie between -e and +e."""
+    """Return True if all values of an equation lie between -e and +e, where e is its tolerance."""
     e = slack.of(tuple(arithmetic.filled([c]) for c in equation))
     return not arithmetic.sign(snapped(arithmetic, values, e)).any()
 
 
 def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, text: bool = False) -> Opening:
-    """Run program 1 on distinct points, which it reorders, and return the opening of the procedure.
+    """Run program 1 on distinct points, and reorder them so that the points of the first hull come first.
 
     The fourth point is the one at which the equation of the plane has the largest square, as in the listing, or if
     ``text`` is true the largest value, as in the text of the thesis (p. 29).
@@ -136,7 +138,9 @@ def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, t
 
 
 def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
-    """Return the point C, an inner point of the hull: the mean of the first points (199+1; program 2, 102+7)."""
+    """Return the point C, which is inside the hull: the mean of the first ``count`` points (199+1; program 2,
+    102+7).
+    """
     x, y, z = (row[:count] for row in points.rows)
 
     def average(row: Vector) -> Scalar:
@@ -149,7 +153,7 @@ def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
 
 
 def tetrahedron(arithmetic: Arithmetic, points: PointTable, slack: Slack | None) -> Equations:
-    """Return the four planes of the first hull H_1, whose signs are not yet fixed (statements 200 to 203)."""
+    """Return the four planes of the first hull H_1, not yet oriented (statements 200 to 203)."""
     corners = np.array([(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)]).T
     p, q, r = (points.several(row) for row in corners)
     coefficients = np.stack(plane(p, q, r))

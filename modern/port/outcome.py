@@ -1,4 +1,4 @@
-"""The conversion of the procedure's numbers to its result: exact text, faces, and stages of the construction."""
+"""Convert the state of a finished run to its result: exact text, faces, and the history of the construction."""
 
 import math
 from collections.abc import Sequence
@@ -27,7 +27,7 @@ def coefficients(arithmetic: Arithmetic, numbers: Sequence[Scalar], degrees: Seq
 
 
 def lowest(values: Sequence[Exact]) -> tuple[int, int, int, int]:
-    """Return the equation in integers without a common divisor."""
+    """Return an equation with the four given coefficients as integers without a common divisor."""
     a, b, c, d = values
     common = math.lcm(a.denominator, b.denominator, c.denominator, d.denominator)
     if common != 1:
@@ -39,20 +39,20 @@ def lowest(values: Sequence[Exact]) -> tuple[int, int, int, int]:
 
 @dataclass(frozen=True)
 class Faces:
-    """The construction of a result's faces from the points of a run."""
+    """The faces of a result, computed from the final points and equations of a run."""
 
     arithmetic: Arithmetic
     points: PointTable
 
     def whole_points(self, indices: Sequence[int]) -> "dict[int, IntPoint]":
-        """Return by index the exact coordinates of the given points, as integers in a common unit."""
+        """Return the exact coordinates of the given points as integers in a common unit, keyed by point index."""
         rows = [self.arithmetic.exacts(row[indices], 1) for row in self.points.rows]
         unit = math.lcm(*{value.denominator for row in rows for value in row})
         integers = [[value.numerator * (unit // value.denominator) for value in row] for row in rows]
         return dict(zip(indices, zip(*integers, strict=True), strict=True))
 
     def polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> Sequence[Face]:
-        """Return the faces, computed on first access, of a polyhedron; points, table and mask must not change
+        """Return the faces of a polyhedron, which are computed on first access.  The arguments must not change
         afterwards.
         """
         return LazyTuple(len(on), lambda: self._polyhedral(table, on, vertex))
@@ -84,7 +84,7 @@ class Faces:
     def edges(
         self, table: Equations, ends: NDArray[np.int64], on: list[NDArray[np.int64]], projection: int
     ) -> tuple[Face, ...]:
-        """Return the lines of a polygon as faces; the coordinate that was projected away gets the coefficient 0."""
+        """Return the sides of a polygon as faces.  The coordinate that was projected away has the coefficient 0."""
         faces = []
         zero = self.arithmetic.number(0)
         for k, satisfied in enumerate(on):
@@ -105,7 +105,7 @@ class Faces:
 
 
 class Historian:
-    """A watcher that records each approximation H_j and makes a :class:`Stage` of it on first access."""
+    """A recorder of the construction, called for each hull H_j.  ``stages`` converts the records on first access."""
 
     def __init__(self, points: PointTable) -> None:
         self.points = points
@@ -129,7 +129,7 @@ def _stage(
 
 
 def point_texts(arithmetic: Arithmetic, coordinates: Vector) -> Sequence[tuple[str, str, str]]:
-    """Return the points as the arithmetic stores them. Floating-point numbers are converted to text on access."""
+    """Return the coordinates of all points as text, as the arithmetic stores them; floats are converted on access."""
 
     def member(index: int) -> tuple[str, str, str]:
         x, y, z = texts(arithmetic, list(coordinates[:, index]), (1, 1, 1))

@@ -1,4 +1,4 @@
-"""Input points: read exactly, then converted to an arithmetic that is selected by its name."""
+"""Read input points exactly, and convert them to the arithmetic that the caller names."""
 
 from collections.abc import Iterable
 
@@ -21,7 +21,7 @@ Read = tuple[Exact, bool]
 
 
 def read_number(value: object) -> Read:
-    """Read one coordinate. Raise ValueError if it is no real number."""
+    """Read one coordinate.  Return its exact value, and True for a minus zero.  Raise ValueError for anything else."""
     number = real(value)
     if number:
         return number, False
@@ -41,7 +41,9 @@ def read_points(points: Points) -> list[Read]:
 
 
 def first_of_equals(keys: Iterable[object]) -> tuple[list[int], tuple[tuple[int, int], ...]]:
-    """Return the indices of the points that are not duplicates, and pairs (duplicate, first point equal to it)."""
+    """Return the indices of the points that repeat no earlier point, and pairs (repeated point, first point equal to
+    it).
+    """
     first_index: dict[object, int] = {}
     duplicates = []
     for index, key in enumerate(keys):
@@ -76,7 +78,7 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:
-    """Return the named arithmetic and the points as three rows of its numbers; ``wide`` avoids machine words."""
+    """Return the named arithmetic, and the points as three rows of its numbers; if ``wide``, exact ones avoid int64."""
     arithmetic = fixed_arithmetic(name)
     if isinstance(arithmetic, FloatArithmetic) and isinstance(points, np.ndarray) and points.dtype == arithmetic.dtype:
         return arithmetic, _floats(points)

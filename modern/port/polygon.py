@@ -1,4 +1,4 @@
-"""The hull of coplanar points, program 2 (thesis p. 17-28, listing p. 79-87).
+"""Program 2: the hull of points in a plane (thesis p. 17-28, listing p. 79-87).
 
 Numbers in parentheses are statement labels of the listing. Points are counted from 0 here, from 1 in the listing.
 """
@@ -21,20 +21,20 @@ _FROM, _TO, _CONSTANT = np.array([0, 1, 2]), np.array([1, 2, 0]), np.array([0, 1
 
 
 def projection(arithmetic: Arithmetic, plane: tuple[Scalar, ...]) -> int:
-    """Return the axis that is projected away: 1 for x, 2 for y, 3 for z (KPROJ; 209 to 217)."""
+    """Return the axis along which points of a plane are projected: 1 for x, 2 for y, 3 for z (KPROJ; 209 to 217)."""
     a_is_zero, b_is_zero = (arithmetic.is_zero(c) for c in plane[:2])
     return 1 if not a_is_zero else 2 if not b_is_zero else 3
 
 
 def lines(points: PointTable, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
-    """Return the equations (3.5) of lines through two points each, with the constant term computed at ``by``."""
+    """Return the equations (3.5) of lines, each through two points; the point ``by`` gives the constant term."""
     (u1, v1, _), (u2, v2, _), (cu, cv, _) = (points.several(p) for p in (first, second, by))
     return np.stack(line(u1, v1, u2, v2, cu, cv))
 
 
 @dataclass
 class Polygon:
-    """The state of program 2. The third coordinate of each point is the one that was projected away."""
+    """The state of program 2.  The third coordinate of each point is the one that the projection drops."""
 
     arithmetic: Arithmetic
     points: PointTable
@@ -58,7 +58,7 @@ class Polygon:
         return turned(self.arithmetic, lines(self.points, first, second, by), self.centre)[0]
 
     def outside_point(self) -> int | None:
-        """Return the point farthest outside the first line that has a point outside (statements 124 to 132)."""
+        """Return the point farthest outside the first line that has points outside, or None (statements 124 to 132)."""
         while self.to_check < len(self.table):
             u, v, _ = self.points.rows
             # The line's end points must satisfy its equation exactly, or the data are not acceptable (statement 126).
@@ -76,7 +76,9 @@ class Polygon:
         return None
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex. Two lines replace the line that it is outside of (133 to 135)."""
+        """Make the point at ``index`` a vertex: replace the line that it is outside of by two lines (statements 133 to
+        135).
+        """
         new = self.vertices
         self.vertices += 1
         self.points.swap(index, new)
@@ -95,7 +97,8 @@ class Polygon:
 def strike_between(
     arithmetic: Arithmetic, table: Equations, points: PointTable, progress: Progress
 ) -> tuple[NDArray[np.int64], list[int]]:
-    """Delete the points between two others of their line, and the repeated equations of a line (statements 144 to 169).
+    """Remove points that lie between two others on a side of the polygon, and repeated equations (statements 144 to
+    169).
 
     Return the end points of each remaining equation, and the deleted points in the order of their discovery. Raise
     Stopped if the procedure cannot continue.
@@ -129,7 +132,7 @@ def strike_between(
 def other_lines(
     arithmetic: Arithmetic, table: Equations, points: PointTable, ends: NDArray[np.int64], keep: int
 ) -> NDArray[np.bool_]:
-    """Return a mask without the equations that hold at both ``ends`` of a line, except ``keep`` (161 to 167).
+    """Return a mask that is False for the equations of the line through ``ends``, except for ``keep`` (161 to 167).
 
     As in the listing, the index KK is not adjusted when earlier equations are deleted. Raise Stopped if the listing
     would read beyond the end of its table.
@@ -153,7 +156,7 @@ def other_lines(
 
 
 def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, int], progress: Progress) -> int:
-    """Return the one of three points on a line that lies between the others (statements 155 to 157)."""
+    """Return the index of that of three collinear points which lies between the others (statements 155 to 157)."""
     (u1, v1, _), (u2, v2, _), (u3, v3, _) = (points.at(i) for i in three)
     a = distance_squared(u1, v1, u2, v2)
     b = distance_squared(u1, v1, u3, v3)
@@ -168,12 +171,14 @@ def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, in
 
 
 def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the vertices, counted without the points that are not vertices."""
+    """Return the numbers of the end points after all points that are not vertices have been removed from the count."""
     return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 
 def listed_numbers(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the vertices by the listing's rule, which can be wrong (statements 179+2 to 191)."""
+    """Return the numbers of the end points as the listing computes them, sometimes wrongly (statements 179+2 to
+    191).
+    """
     numbers = []
     for number in ends.ravel().tolist():
         # The listing compares with the number already lowered, so it can skip a point that is no vertex.

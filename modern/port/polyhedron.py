@@ -1,4 +1,4 @@
-"""The hull of points that are not coplanar, program 3 (thesis p. 29-33, listing p. 93-102).
+"""Program 3: the hull of points in space (thesis p. 29-33, listing p. 93-102).
 
 Numbers in parentheses are statement labels of the listing. Indices start from 0 here, from 1 in the listing.
 """
@@ -20,7 +20,9 @@ LISTED_PLANES, PLANES = 98, 193
 
 @dataclass(frozen=True)
 class Fresh:
-    """The new planes of a stage, and whether any passes through the inner point C or has only zero coefficients."""
+    """The planes that a new vertex adds, and whether one passes through the inner point C or has only zero
+    coefficients.
+    """
 
     coefficients: Vector
     defining: NDArray[np.int64]
@@ -30,7 +32,7 @@ class Fresh:
 
 @dataclass
 class Polyhedron:
-    """The state of program 3. The points and the table are changed in place."""
+    """The state of program 3.  Its table of points and its table of planes change in place."""
 
     arithmetic: Arithmetic
     points: PointTable
@@ -45,11 +47,15 @@ class Polyhedron:
     text: bool = False
 
     def run(self, grow_stage: "Callable[[Polyhedron, bool], growth.Grown | None]" = growth.stage) -> None:
-        """Expand the first tetrahedron H_1 to the hull of all points (statements 103 to 160), by ``grow_stage``."""
+        """Add vertices to the first tetrahedron H_1 with ``grow_stage`` until no point is outside (statements 103 to
+        160).
+        """
         growth.grow(self, grow_stage)
 
     def outside_point(self) -> int | None:
-        """Return the point farthest outside the first plane that has a point outside (statements 115 to 125)."""
+        """Return the point farthest outside the first plane that has points outside, or None (statements 115 to
+        125).
+        """
         while self.to_check < len(self.table):
             # Statements 116 to 119: the three defining points must satisfy the equation exactly.
             values = self.table.one_at(self.to_check, self.points.rows)
@@ -98,7 +104,9 @@ class Polyhedron:
         return max(PLANES, 4 * len(self.points) - 11)
 
     def three_planes(self, replaced: NDArray[np.int64], new: int) -> Fresh:
-        """Return the planes through the new vertex and two points of each replaced plane (statements 126 to 135)."""
+        """Return three planes for each replaced plane: through the new vertex and two of its points (statements 126 to
+        135).
+        """
         defining = np.repeat(replaced, 3, axis=1)
         columns = np.arange(defining.shape[1])
         # I123 of the listing: the new vertex takes the place of MM, then NN, then KK (statements 127 to 129).
@@ -109,7 +117,7 @@ class Polyhedron:
         return Fresh(coefficients, defining, bool(through.any()), degenerate)
 
     def note(self, fresh: Fresh, size: int) -> None:
-        """Record conditions at which the listing would have stopped: a plane through C, or a full table of planes."""
+        """Record that the listing would have stopped here: a plane passes through C, or the table of planes is full."""
         if fresh.through:
             self.progress.correct(growth.THROUGH_CENTRE)
         if size > LISTED_PLANES:
@@ -119,9 +127,9 @@ class Polyhedron:
         return self.arithmetic.sign(self.table.values(fresh.coefficients, point))
 
     def single(self, defining: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Return a mask of the new planes after each pair of equal planes is deleted (statements 141 to 160).
+        """Return a mask of the new planes that is False for every pair of equal planes (statements 141 to 160).
 
-        The new planes are compared only with each other, because no older plane contains the new vertex.
+        Such a pair lies inside the new hull.  No older plane contains the new vertex, so only new planes are compared.
         """
         retained = np.ones(defining.shape[1], np.bool_)
         if len(retained) == 3:
@@ -142,7 +150,8 @@ class Polyhedron:
         return retained
 
     def stop(self, first_equation: int, above: dict[int, Scalar], new: int) -> None:
-        """Replace one plane at a time until the arithmetic fails, and raise Stopped.
+        """Replace the planes one by one, as the listing does, to find the statement at which it fails; then raise
+        Stopped.
 
         A plane of zeros is an error. A plane through the new point that has this point outside is replaced by a copy of
         itself and two other planes, which the listing would repeat until its table is full.
@@ -174,7 +183,7 @@ On = list[NDArray[np.int64]]
 
 
 def strike_repeats(table: Equations, on: On, count: int, progress: growth.Progress) -> On:
-    """Keep only the first equation of each plane, and return the points on each (statements 164 to 174)."""
+    """Delete all equations of a plane except the first, and return the points on each plane (statements 164 to 174)."""
     mm, nn, kk = table.defining
     struck_by = np.full(len(table), -1)
     member = np.zeros(count, np.bool_)
@@ -196,7 +205,7 @@ def strike_repeats(table: Equations, on: On, count: int, progress: growth.Progre
 
 
 def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
-    """Return the equations, except the first, that hold at further points besides the three that define them."""
+    """Return the indices, except 0, of the equations that also hold at points other than the three that define them."""
     three = np.flatnonzero(np.fromiter(map(len, on), np.int64, len(on)) == 3)
     only_defining = np.zeros(len(on), np.bool_)
     if three.size:
@@ -206,6 +215,8 @@ def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
 
 
 def are_vertices(on: On, count: int, point_count: int) -> NDArray[np.bool_]:
-    """Return a mask of the vertices: those of the first ``count`` points on three or more planes (174 to 182)."""
+    """Return a mask of the vertices: those of the first ``count`` points that lie on three or more planes (174
+    to 182).
+    """
     planes_satisfied = np.bincount(np.concatenate(on), minlength=point_count)
     return np.asarray((planes_satisfied >= 3) & (np.arange(point_count) < count), dtype=np.bool_)

@@ -1,4 +1,4 @@
-"""The hull by the procedure of chapter 3, from points to result, in any arithmetic."""
+"""The entry point of Butler's procedure (thesis chapter 3): from points to their hull, in any arithmetic."""
 
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
@@ -38,15 +38,15 @@ def convex_hull(
 ) -> Hull:
     """Return the convex hull of points by Butler's procedure (thesis chapter 3; programs 1 to 3, chapter 5).
 
-    :func:`hull1620.convex_hull` describes the parameters. ``epsilon`` is chapter 7's e (thesis p. 117): the value of
-    an equation at an input point counts as zero from -e to +e, where ``"rel:E"`` is E times the equation's largest
-    coefficient A, B or C. ``translate`` moves the origin to C, so that constant terms decide how equations are
-    oriented (p. 118). ``text`` follows chapter 3 in two steps in which the listing differs: the choice of the fourth
-    point (p. 29), and the order in which the planes that a point is outside of are replaced (p. 32). The corrections of
-    the layer ``corrected`` are built in, and :attr:`Hull.corrected` names those that changed a step. Raise PointsError
-    for invalid points, HullRefused if no hull was determined (unless ``on_refusal`` is ``"return"``), RangeError if an
-    intermediate result is too large for a float, and ArgumentError for any other invalid argument or if kernels were
-    requested and numba is missing.
+    :func:`hull1620.convex_hull` describes the parameters. ``epsilon`` is the tolerance e of the thesis's chapter 7 (p.
+    117): the value of an equation at an input point counts as zero from -e to +e, where ``"rel:E"`` is E times the
+    equation's largest coefficient A, B or C. ``translate`` moves the origin to C, so that constant terms decide how
+    equations are oriented (p. 118). ``text`` follows chapter 3 in two steps in which the listing differs: the choice of
+    the fourth point (p. 29), and the order in which the planes that a point is outside of are replaced (p. 32). The
+    corrections of the layer ``corrected`` are built in, and :attr:`Hull.corrected` names those that changed a step.
+    Raise PointsError for invalid points, HullRefused if no hull was determined (unless ``on_refusal`` is ``"return"``),
+    RangeError if an intermediate result is too large for a float, and ArgumentError for any other invalid argument or
+    if kernels were requested and numba is missing.
     """
     expect(on_refusal, str, "on_refusal")
     if on_refusal not in ("raise", "return"):
@@ -67,7 +67,7 @@ def convex_hull(
 
 @dataclass
 class _Run:
-    """The state of one call of :func:`convex_hull`."""
+    """The arguments and the intermediate data of one call of :func:`convex_hull`."""
 
     arithmetic: Arithmetic
     coordinates: Vector
@@ -120,7 +120,7 @@ class _Run:
         )
 
     def solid(self, points: PointTable, opening: Opening) -> Hull:
-        """Compute the hull of points in space: the rest of program 1 from statement 199 on, then program 3."""
+        """Compute the hull of points in space: the end of program 1 (from statement 199 on), then program 3."""
         numbers, centre = self.arithmetic, opening.centre
         assert centre is not None
         self.result = replace(self.result, centre=texts(numbers, centre, (1, 1, 1)))  # type: ignore[arg-type]
@@ -154,7 +154,7 @@ class _Run:
         )
 
     def coplanar(self, points: PointTable, opening: Opening) -> Hull:
-        """Compute the hull of coplanar points: the rest of program 1 from statement 209 on, then program 2."""
+        """Compute the hull of coplanar points: the end of program 1 (from statement 209 on), then program 2."""
         numbers = self.arithmetic
         assert opening.plane is not None
         projected_axis = projection(numbers, opening.plane)
@@ -192,7 +192,7 @@ class _Run:
         )
 
     def finished(self, label: str) -> Hull:
-        """Return the result with the points and corrections recorded so far."""
+        """Return the result for the decisive statement ``label``, with the points and corrections recorded so far."""
         return replace(
             self.result,
             statement=label,
@@ -207,7 +207,10 @@ class _Run:
         return self.watcher
 
     def move(self, points: PointTable, centre: tuple[Scalar, ...]) -> tuple[Scalar, ...] | None:
-        """Move the origin to C if ``translate`` is set. Return the point that orients equations, or None."""
+        """Move the origin to the inner point C if ``translate`` is set.
+
+        Return the point from whose side equations are oriented, or None if that is now the origin.
+        """
         if not self.translate:
             return centre
         for axis, value in enumerate(centre):

@@ -1,4 +1,4 @@
-"""The data of the construction: the points in their current order, and the table of equations of planes or lines."""
+"""The data of Butler's procedure: a table of points in their current order, and a table of plane or line equations."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ from modern.port.arithmetic import Arithmetic, Scalar, Vector, at
 
 @dataclass
 class PointTable:
-    """The points in the order of the procedure: coordinates (3, n) and indices in the input."""
+    """The points in the current order of the procedure: their coordinates, shape (3, n), and their input indices."""
 
     coordinates: Vector
     input_index: NDArray[np.int64]
@@ -37,7 +37,7 @@ class PointTable:
             self.input_index[[first, second]] = self.input_index[[second, first]]
 
     def keep(self, mask: NDArray[np.bool_]) -> list[int]:
-        """Remove the points that are not in the mask, and return their input indices in the order of this table."""
+        """Remove the points for which ``mask`` is False.  Return their input indices in the order of this table."""
         removed: list[int] = self.input_index[~mask].tolist()
         self.coordinates = self.coordinates[:, mask]
         self.input_index = self.input_index[mask]
@@ -55,7 +55,7 @@ _BLOCK = 1 << 16
 
 @dataclass(frozen=True)
 class Slack:
-    """The interval from -e to +e of chapter 7, in which a value counts as zero (thesis p. 117); ``size`` is e.
+    """The tolerance e of the thesis's chapter 7: values from -e to +e count as zero (p. 117); ``size`` is e.
 
     If ``relative`` is true, e is multiplied by the largest coefficient A, B or C of the equation.
     """
@@ -81,7 +81,7 @@ class Slack:
 
 
 def snapped(arithmetic: Arithmetic, values: Vector, slack: Vector | None) -> Vector:
-    """Return the values, with those within the slack replaced by zero."""
+    """Return the values, with those inside the tolerance ``slack`` replaced by zero."""
     if slack is None:
         return values
     return np.where(arithmetic.within(values, slack), arithmetic.filled([arithmetic.number(0)])[0], values)
@@ -89,7 +89,7 @@ def snapped(arithmetic: Arithmetic, values: Vector, slack: Vector | None) -> Vec
 
 @dataclass
 class Equations:
-    """The table of equations, one in each column, in the order of the procedure.
+    """The equations of planes or lines, one in each column, in the order of the procedure.
 
     ``coefficients`` has the rows A, B, C (for lines A, B) and the constant term. ``defining`` has the points that
     define each equation, called MM, NN and KK in the listing. ``serial`` has a number for each equation, which never
@@ -147,12 +147,14 @@ class Equations:
         return snapped(self.arithmetic, at(tuple(self.coefficients), point), self.tolerances)
 
     def values(self, coefficients: Vector, point: tuple[Scalar, ...]) -> Vector:
-        """Return the values at one point of equations that are not in the table."""
+        """Return the values at one point of the given equations, which need not be in the table."""
         slack = self.slack.of(tuple(coefficients)) if self.slack else None
         return snapped(self.arithmetic, at(tuple(coefficients), point), slack)
 
     def signs(self, points: Vector, first: int = 0) -> NDArray[np.int8]:
-        """Return the signs of the equations from index ``first`` on (rows) at points (columns)."""
+        """Return the signs of equations at points: a row for each equation from index ``first`` on, a column for each
+        point.
+        """
         table = self.coefficients[:, first:, None]
         count = len(table) - 1
         slack = None if self.tolerances is None else self.tolerances[first:, None]
@@ -163,7 +165,9 @@ class Equations:
         return np.concatenate(parts, axis=1) if parts else np.empty((table.shape[1], 0), np.int8)
 
     def satisfied(self, points: Vector) -> list[NDArray[np.int64]]:
-        """Return for each equation the indices of the points (columns) that satisfy it, in order."""
+        """Return, for each equation, the indices of the points (columns of ``points``) at which it is zero, in
+        order.
+        """
         incidences = []
         start = 0
         for block in self._blocks(points, len(self)):
@@ -187,7 +191,8 @@ class Equations:
 def turned(
     arithmetic: Arithmetic, coefficients: Vector, centre: tuple[Scalar, ...] | None
 ) -> tuple[Vector, NDArray[np.bool_]]:
-    """Reverse the equations that are positive at the inner point C, and mark those that are zero there.
+    """Change the sign of equations that are positive at the inner point C; return them and a mask of those that are
+    zero.
 
     ``centre`` is None if the origin was moved to C, so that the constant term is the value at C (thesis p. 118).
     """

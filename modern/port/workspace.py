@@ -1,4 +1,4 @@
-"""The data of the compiled kernels (points, planes in slots, a vector of counters), and operations on them.
+"""The arrays of the compiled program 3: points, planes, counters, and small operations on them.
 
 Planes occupy *slots* in the order of the table. The slot of a deleted plane stays empty until :func:`pack`.
 """
@@ -25,7 +25,7 @@ THROUGH, TABLE, PAIR = 1, 2, 4
 
 
 class Cloud(NamedTuple):
-    """The points in their current order, as coordinates (3, n) and indices in the input.
+    """The points in their current order: coordinates, shape (3, n), and input indices.
 
     ``keeper`` is the slot of a plane that has the point on it or outside it, or -1. ``eliminated`` collects the
     eliminated points.
@@ -38,7 +38,7 @@ class Cloud(NamedTuple):
 
 
 class Slots(NamedTuple):
-    """The planes by slot: coefficients (4, slots), defining points (3, slots), and the e of each plane, or -1."""
+    """The planes, by slot: coefficients, shape (4, slots), three defining points, and a tolerance e or -1 for none."""
 
     coefficients: NDArray[Any]
     defining: NDArray[np.int64]
@@ -47,7 +47,7 @@ class Slots(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Scratch arrays for a stage. numba compiles the kernels much faster if they allocate no arrays.
+    """Temporary arrays that are allocated once, because numba compiles functions faster if they allocate nothing.
 
     ``order`` and ``values`` hold slots of planes and their values at a point. The others are used in
     :func:`modern.port.kernels.doubles`.
@@ -62,7 +62,7 @@ class Scratch(NamedTuple):
 
 
 def scratch_for(slots: int, number: Any) -> Scratch:
-    """Return scratch arrays for tables with the given number of slots, with coefficients of the type ``number``."""
+    """Allocate temporary arrays for a table with this number of slots and coefficients of the type of ``number``."""
     # The hash table is a power of two, at least twice as large as the number of planes.
     chains = 4
     while chains < 2 * slots:

@@ -1,4 +1,4 @@
-"""Run the hull programs on many decks: program 1 on all of them, then program 2 or 3 on the cards that it punched."""
+"""Run Butler's programs on many decks: program 1 on all of them, then program 2 or 3 on the cards that it punched."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -13,7 +13,7 @@ from modern.thesis.job import HullRun, Load, Step, punched_deck, second_program
 
 @dataclass
 class Runs:
-    """A cache of runs, because batches often share the runs of program 1 or 2. It keeps these programs alive."""
+    """A cache of finished runs, because several batches often need the same run of program 1 or 2."""
 
     done: dict[tuple[int, Options, Deck], Result | EmulatorError] = field(default_factory=dict)
     programs: dict[int, Program] = field(default_factory=dict)
@@ -42,7 +42,10 @@ def _results(program: Program, decks: Sequence[Deck], options: Options) -> Seque
 def run_hulls(
     decks: Sequence[Deck], load: Load, options: Options | None = None, first: str = "program1", runs: Runs | None = None
 ) -> list[HullRun | EmulatorError]:
-    """Return the result or error of :func:`modern.thesis.job.run_hull` for each deck; calls can share ``runs``."""
+    """Run the hull programs on each deck like :func:`modern.thesis.job.run_hull`.  Return results or errors.
+
+    Calls that pass the same ``runs`` reuse each other's results.
+    """
     options, runs = options or Options(), runs or Runs()
     program = load(first)
     hull_runs: list[HullRun | EmulatorError] = []

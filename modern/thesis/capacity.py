@@ -1,8 +1,8 @@
-"""The number of points for which the hull programs fit into the core memory of a machine.
+"""Compute for how many points the hull programs fit into the core storage of a 1620.
 
 Arrays of length 51 have one entry for each point, those of length 98 one for each plane: 2N-4 for N points in space.
-With the layer ``corrected`` the lengths are 52 and 193, that is N+1 and 4N-11 (rows P2-023, P3-028).  The length of the
-object program is that of :mod:`emulator.objectdeck.extent`.
+With the modern corrections to the listings (layer ``corrected``) the lengths are 52 and 193: N+1 and 4N-11.  The length
+of the object program is that of :mod:`emulator.objectdeck.extent`.
 """
 
 from collections.abc import Callable
@@ -22,7 +22,9 @@ _FORMULAS = {51: "N", 52: "N+1", 98: "2N-4", 193: "4N-11"}
 
 
 def data_positions(program: Program, points: int) -> int:
-    """Return the positions of core for a program's data, with arrays dimensioned for the given number of points."""
+    """Return the number of core positions for a program's data if its arrays are dimensioned for this number of
+    points.
+    """
     fields = program.storage.fields
     for entry in program.storage.arrays():
         size = _SIZES.get(entry.size)
@@ -32,7 +34,7 @@ def data_positions(program: Program, points: int) -> int:
 
 
 def largest(program: Program, core: int) -> int:
-    """Return the largest number of points whose arrays fit into core with the program, or 0 if fewer than 4 fit."""
+    """Return the largest number of points for which program and arrays fit into core, or 0 if fewer than 4 fit."""
     available = core - OBJECT_PROGRAM - FUNCTION_NAMES - code_positions(program)
     points = 0
     for candidate in range(4, 1000):

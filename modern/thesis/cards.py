@@ -28,7 +28,9 @@ SECTIONS = ("inside", "boundary", "vertices", "equations", "plane")
 
 @dataclass(frozen=True, slots=True)
 class CardHull:
-    """A hull on cards, in order. ``satisfied`` pairs numbers of vertices with the equation that they satisfy."""
+    """A hull read from punched cards, in their order.  ``satisfied`` pairs vertex numbers with an equation they
+    satisfy.
+    """
 
     inside: tuple[Point, ...]
     boundary: tuple[Point, ...]
@@ -39,7 +41,7 @@ class CardHull:
 
 
 def number(text: str) -> Fraction:
-    """Return the exact value of the text of an E field; minus zero becomes zero."""
+    """Return the exact value of a number in an E field of a card; minus zero becomes zero."""
     return Fraction(text)
 
 
@@ -49,7 +51,7 @@ def floats(card: str) -> Point:
 
 @dataclass(frozen=True, slots=True)
 class Sections:
-    """The numbers of a hull on cards as text: the rows of each section of cards, and the integers of the last."""
+    """The numbers on the cards of a hull as text, in the rows and sections in which the programs punch them."""
 
     points: Mapping[str, tuple[tuple[str, ...], ...]]
     satisfied: tuple[tuple[int, ...], ...]
@@ -89,7 +91,10 @@ def read_hull(cards: Sequence[str]) -> CardHull:
 
 
 def same_hull(first: CardHull, second: CardHull, oriented: bool) -> bool:
-    """Return True if two hulls are equal except for order and the scale of equations (positive if ``oriented``)."""
+    """Return True if two hulls differ only in the order of points and equations and in the scale of equations.
+
+    If ``oriented`` is true, the scale must be positive.
+    """
     return _canonical(first, oriented) == _canonical(second, oriented)
 
 
@@ -113,14 +118,14 @@ def _canonical(hull: CardHull, oriented: bool) -> tuple[object, ...]:
 
 
 def scaled(equation: Point, oriented: bool) -> Point:
-    """Divide an equation by its first nonzero coefficient, or by its absolute value if ``oriented`` is true."""
+    """Divide an equation by its first nonzero coefficient, or by the absolute value of it if ``oriented`` is true."""
     lead = next((c for c in equation if c), Fraction(1))
     return tuple(c / (abs(lead) if oriented else lead) for c in equation)
 
 
 @dataclass(frozen=True, slots=True)
 class IntermediateDeck:
-    """The cards that program 1 punches for program 2 or 3: N, perhaps KPROJ, points, and planes with their points."""
+    """The cards that program 1 punches as input for program 2 or 3: N, KPROJ if coplanar, points, and planes."""
 
     planes: tuple[tuple[Point, tuple[int, ...]], ...]
     count: tuple[str, ...]
@@ -138,7 +143,7 @@ def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
 
 
 def planes_hold(deck: IntermediateDeck) -> bool:
-    """Return True if each plane vanishes exactly at the points that its card names (if none, at all points)."""
+    """Return True if each plane equation is zero at the points that its card names (at all points if it names none)."""
     unprojected = _unprojected(deck)
     for plane, named in deck.planes:
         points = [unprojected[k - 1] for k in named if 1 <= k <= len(unprojected)] if named else unprojected

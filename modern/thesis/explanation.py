@@ -1,4 +1,5 @@
-"""Sentences that explain a run of the thesis programs: why there is no hull, and where exact arithmetic disagrees.
+"""Word the reason why a run of the thesis programs found no hull, and where exact arithmetic would branch
+differently.
 
 The commands ``hull`` and ``diff`` and the page of the site on points of the reader's choice print the same sentences.
 """
@@ -58,7 +59,7 @@ _DETAILS: dict[Kind, str] = {
 
 
 def digits_of(arithmetic: str) -> str:
-    """Return the term for the digits of an arithmetic, as a subject in the plural."""
+    """Return words for the digits of an arithmetic, to be used as the plural subject of a sentence."""
     return "eight digits" if arithmetic == "truncating" else f"the digits of {arithmetic}"
 
 

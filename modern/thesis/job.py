@@ -50,7 +50,7 @@ class HullRun:
 
     @property
     def refusal(self) -> str:
-        """The reason why there is no hull: the typed refusal, or how the machine stopped; empty if there is a hull."""
+        """The reason why there is no hull: the message typed, or how the machine stopped.  Empty if there is a hull."""
         endings = (step.result.ending for step in self.steps)
         return self.typed_refusal or next((ending.message for ending in endings if not ending.normal), "")
 
@@ -64,13 +64,13 @@ class HullRun:
 
 
 class Refusals:
-    """A detector of refusals, the messages with which a program stops.  It processes events of a run as they occur."""
+    """A detector of the messages with which a program rejects its data, from the events of a run as they occur."""
 
     def __init__(self) -> None:
         self._last = self._stopped = ""
 
     def see(self, events: Iterable[Event]) -> None:
-        """Process further events, in order."""
+        """Examine further events of the run, in order."""
         for event in events:
             if self._stopped:
                 return
@@ -83,19 +83,19 @@ class Refusals:
 
     @property
     def stopped(self) -> str:
-        """The refusal after which the run punched no further card for the same data set; otherwise empty."""
+        """The message after which the run punched no further card for its data set, or an empty text."""
         return self._stopped or self._last
 
 
 def refusal(result: Result) -> str:
-    """Return the refusal at which a run stopped, from the events in its result; otherwise an empty text."""
+    """Return the message with which a run rejected its data and stopped, or an empty text."""
     refusals = Refusals()
     refusals.see(result.events)
     return refusals.stopped
 
 
 def second_program(result: Result) -> int | None:
-    """Return the number of the program that reads the cards of this run, or None if no program does."""
+    """Return the number (2 or 3) of the program that reads the cards of this run of program 1, or None."""
     second = 2 if COPLANAR in result.typed else 3 if NOT_COPLANAR in result.typed else None
     return second if result.ending.normal and not refusal(result) else None
 

@@ -33,7 +33,7 @@ CORRECTED = {1: "P3-025", 2: "P3-026", 3: "P3-027", 5: "P3-028", 16: "P2-023"}
 
 @dataclass(frozen=True, slots=True)
 class Cause:
-    """The reason why one program of a run found no hull.
+    """The reason why one of the programs found no hull.
 
     ``message`` is the refusal that the program typed, if any, and ``decision`` is the last IF before it. ``fault`` is
     the number of the known fault. ``equation`` is the number of the equation, or 0. ``point`` does not satisfy the
@@ -51,7 +51,7 @@ class Cause:
 
 
 def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tuple[HullRun, Cause | None]:
-    """Return a hull run and, if it found no hull, the cause; ``run`` is ``run_hull`` without the argument ``watch``."""
+    """Run the hull programs by calling ``run``, and return the run and, if it found no hull, the cause."""
     machines: list[Machine] = []
 
     def record(program: Program, machine: Machine) -> None:
@@ -102,7 +102,7 @@ def _search(label: int) -> str:
 
 
 def _refused(step: Step, machine: Session, message: str, decision: Line | None) -> Cause:
-    """Return the cause of a refusal from the label of the IF that decided it and the values in the machine."""
+    """Return the cause of a typed message, found from the IF that led to it and from the values in the machine."""
     label = _label(step, decision)
     # A point that defines an equation does not satisfy it.
     if step.number in _MISSES:
@@ -133,13 +133,13 @@ def _refused(step: Step, machine: Session, message: str, decision: Line | None) 
 
 
 def _label(step: Step, decision: Line | None) -> int:
-    """Return the label of a statement, or the nearest label before it, or 0."""
+    """Return the number of a statement, or of the nearest numbered statement before it, or 0."""
     before = [] if decision is None else step.program.statements[: decision.index + 1]
     return next((line.label for line in reversed(before) if line.label), 0)
 
 
 def _unprojected(place: tuple[str, ...], projection: int) -> tuple[str, ...]:
-    """Return x, y, z of a point given as R, S, T in program 2, where T is the coordinate that KPROJ drops."""
+    """Return the coordinates x, y, z of a point that program 2 stores as R, S, T; its projection drops T."""
     r, s, t = place
     return {1: (t, r, s), 2: (r, t, s)}.get(projection, (r, s, t))
 
