@@ -7,7 +7,7 @@ package that names the row, or a published *result* (:mod:`modern.claims.publish
 To add a verdict on a statement:
 
 1. Add a row to ``transcripts/statements/DOCUMENT.toml`` at its place in the order of the document, with the next unused
-   number.  ``words`` quotes at most eight words of our text of the document.  A row without ``kind`` is a claim, and a
+   number.  ``words`` quotes at most eight words of the OCR text.  A row without ``kind`` is a claim, and a
    row without ``verdict`` holds.
 2. Write a check in the module of ``modern/claims/DOCUMENT/`` that deals with the subject: a function with the decorator
    ``claim`` that returns a :class:`~modern.claims.evidence.Check`.  Choose the constructor by what is computed:

@@ -63,7 +63,7 @@ class StatementError(ValueError):
 class Statement:
     """A statement of a document.
 
-    ``page`` may be a section.  ``words`` quotes at most eight words of our text of the document; ``says`` paraphrases
+    ``page`` may be a section.  ``words`` quotes at most eight words of the OCR text; ``says`` paraphrases
     the statement.  ``why`` is the condition, the reason why the statement fails, or the reason why it is not tested.
     ``results`` are ids of published results.  ``code`` names what follows a definition that is used.  ``file`` is the
     smallest known counterexample, and ``run`` the command that shows it.  ``part`` is the theorem to which a worked
