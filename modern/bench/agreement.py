@@ -1,4 +1,4 @@
-"""Comparison of the native program's cards with the emulated ones, deck by deck.
+"""Compare, deck by deck, the cards that a natively compiled program punches with those of the emulator.
 
 Two results are *the same* if they differ only in the sign of zeros. They have *different digits* if, in addition,
 numbers differ by at most TOLERANCE of the larger one, because doubles round where the 1620 truncates eight digits.
@@ -62,7 +62,7 @@ def compare(emulated: Sequence[Sequence[str]], native: Sequence[Sequence[str]]) 
 
 
 def plain(card: str) -> str:
-    """Return a card with its numbers in one canonical form."""
+    """Return a card with its numbers in one canonical notation, so that cards can be compared as text."""
     return _NUMBER.sub(lambda match: _printed(match[0]), card).rstrip()
 
 

@@ -119,7 +119,7 @@ def benchmark(sets: int = 13) -> dict[str, str]:
 
 
 def _cases(sets: int) -> Iterator[_Case]:
-    """Yield the decks: those of program 1, and the cards that program 1 punches from them in eight-digit arithmetic."""
+    """Yield the input decks: those of program 1, and those that program 1 punches from them for programs 2 and 3."""
     decks = [(f"example{n}", input_deck(n)) for n in range(1, _EXAMPLES + 1)]
     decks += [(f"set{n}", deck) for n, deck in enumerate(islice(samples(sets), sets), 1)]
     for name, deck in decks:
@@ -128,7 +128,7 @@ def _cases(sets: int) -> Iterator[_Case]:
 
 
 def _judged(case: _Case) -> tuple[str, dict[str, object]]:
-    """Return the table of a deck's decisions, and its entry in ``verdicts.json``."""
+    """Return the table of a deck's decisions as text, and the deck's entry in ``verdicts.json``."""
     result, exact = run_with_decisions(case.program, case.deck, numbers(EXACT))
     runs = {column: _compared(case, name, exact) for column, name in STUDIED.items()}
     lines = {line.place.card: line.text for line in case.program.statements}
@@ -155,7 +155,7 @@ def _judged(case: _Case) -> tuple[str, dict[str, object]]:
 
 
 def _compared(case: _Case, name: str, exact: Sequence[Decision]) -> list[tuple[object, str, str]]:
-    """Return outcome, value and verdict of an arithmetic for each decision of exact arithmetic."""
+    """Return, for each decision of exact arithmetic, outcome, value and verdict of the arithmetic called ``name``."""
     arithmetic = numbers(name)
     _, decisions = run_with_decisions(case.program, case.deck, arithmetic)
     cells: list[tuple[object, str, str]] = []

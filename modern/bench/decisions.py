@@ -1,4 +1,4 @@
-"""Every decision of a run, and the comparison of translated programs with the emulator, decision by decision.
+"""Compare compiled translations of the programs with the emulator, decision by decision (IF, computed GO TO, DO).
 
 ``python -m modern.bench.decisions 2000 FOLDER`` translates programs 1 to 3, compiles them in FOLDER with every C and
 Fortran compiler of :data:`COMPILERS`, and runs 2,000 decks from the families of the study ``divergence``.
@@ -43,7 +43,7 @@ _PATIENCE = 2
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A decision: its card, the branch taken, and the number that decided it.
+    """One decision of a run: its card, the branch taken, and the number that decided it.
 
     The outcome is -1, 0 or 1 for an IF, the number of the label for a computed GO TO, and at the end of a DO 1 if the
     loop is repeated, otherwise 0.
@@ -58,7 +58,9 @@ class Decision:
 def run_with_decisions(
     program: Program, deck: Deck, arithmetic: Numbers, limit: int = _LIMIT
 ) -> tuple[Result, list[Decision]]:
-    """Run a program and return its result and its decisions.  A bad deck is an ending of the kind ``input``."""
+    """Run a program, and return its result and its decisions.  An invalid deck becomes an ending of the kind
+    ``input``.
+    """
     machine = Machine(program, deck, Options(arithmetic, limit=limit), journal=Journal(False))
     assert machine.journal is not None
     try:
@@ -79,7 +81,7 @@ def run_with_decisions(
 
 @dataclass
 class Counts:
-    """The counts of the comparison of a compiler's programs with the emulator, and where each was first positive."""
+    """Counts of the differences between a compiler's programs and the emulator, and the first case of each kind."""
 
     counts: Counter[str] = field(default_factory=Counter)
     first: dict[str, str] = field(default_factory=dict)
@@ -95,7 +97,7 @@ class Counts:
 
 
 def compare_step(program: Path, step: Step, decisions: Sequence[Decision], counts: Counts) -> None:
-    """Run a compiled program on the deck of a step, and count its differences from the emulator."""
+    """Run a compiled program on the deck of a run of the emulator, and count the differences between both."""
     log = program.with_suffix(".decisions")
     command = [str(program), "-d", str(log)]
     where = f"{step.name}, {step.deck.source}"
@@ -124,7 +126,7 @@ def compare_step(program: Path, step: Step, decisions: Sequence[Decision], count
 
 
 def samples(count: int) -> Iterator[Deck]:
-    """Yield decks of program 1: the given number of samples, evenly from the families of the study ``divergence``."""
+    """Yield the given number of random decks for program 1, evenly from the families of the study ``divergence``."""
     cells = divergence.plan().cells
     for n in range(count):
         cell, index = cells[n % len(cells)], n // len(cells)
@@ -133,7 +135,7 @@ def samples(count: int) -> Iterator[Deck]:
 
 
 def steps_of(deck: Deck, arithmetic: Numbers) -> Iterator[tuple[Step, list[Decision]]]:
-    """Yield the runs of program 1 and of the program that it names, with their decisions."""
+    """Run program 1 on a deck, then the program that it names.  Yield both runs with their decisions."""
     number: int | None = 1
     while number is not None:
         program = programs.program(f"program{number}")

@@ -1,4 +1,4 @@
-"""The work that the benchmarks time: program 3 with the layer ``corrected`` over decks of 51 points.
+"""The input of the benchmarks: decks of 51 points for program 3, in the version without the listing's known faults.
 
 The decks are those that program 1 punches. ``python -m modern.bench.decks`` runs one deck, read from standard input, on
 the compiled engine.
@@ -39,7 +39,7 @@ def data_deck(points: Sequence[Point]) -> Deck:
 
 
 def middle_texts(sets: Sequence[Sequence[Point]]) -> list[str]:
-    """Return the decks that program 1 punches for the sets, as texts."""
+    """Return the decks that program 1 punches for these point sets as input for program 3, as texts."""
     results = run_batch(programs.program("program1"), [data_deck(points) for points in sets])
     return ["".join(card + "\n" for card in result.punched) for result in results]
 

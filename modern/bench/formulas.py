@@ -48,7 +48,7 @@ def _normal(k: int) -> Any:
 
 
 def _line_formulas(number: str, u: str, v: str) -> list[Formula]:
-    """Return the coefficients A, B and C of the line through two points in two coordinates."""
+    """Return the formulas for A, B and C of a line through two points, in the coordinates called ``u`` and ``v``."""
     names = (f"{u}1", f"{v}1", f"{u}2", f"{v}2")
 
     def coefficient(k: int) -> Any:
@@ -183,7 +183,7 @@ def _papers() -> dict[str, list[Formula]]:
 
 
 def formulas() -> Mapping[str, list[Formula]]:
-    """Return the formulas by the name of their document."""
+    """Return the formulas of each document, by the name of the document."""
     return {"thesis": _thesis(), **_papers()}
 
 

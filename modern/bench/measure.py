@@ -1,4 +1,4 @@
-"""Measure the engines in one run: plain, compiled, the port in doubles, and the same program compiled natively."""
+"""Measure the speed of the engines: interpreter, compiled engine, modern procedure in doubles, native program."""
 
 import importlib.metadata
 import os
@@ -34,7 +34,7 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A figure of the table: the seconds of its runs, and the number of decks in each run."""
+    """One line of the table: an engine, the seconds of its runs, and the number of decks in each run."""
 
     figure: Figure
     decks: int
@@ -47,7 +47,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """All results: a row for each engine, process starts, the agreement with the native program, and remarks."""
+    """All results of a measurement: the engines, process starts, agreement with the native program, and remarks."""
 
     rows: tuple[Row, ...]
     starts: tuple[Figure, ...]
@@ -60,7 +60,7 @@ class Bench:
 
 
 def measure(count: int, say: Say = lambda line: None) -> Bench:
-    """Measure with ``count`` decks. ``say`` receives lines about the progress."""
+    """Measure all engines with ``count`` decks.  ``say`` receives lines about the progress."""
     program = programs.program(PROGRAM, LAYERS)
     say(f"generating {count} decks of {POINTS} points")
     sets = [random_points(POINTS, SEED + n) for n in range(count)]
@@ -99,7 +99,7 @@ def measure(count: int, say: Say = lambda line: None) -> Bench:
 
 
 def _starts(text: str, folder: Path, say: Say) -> tuple[Figure, ...]:
-    """Time a process that has nothing compiled yet, and later processes."""
+    """Measure how long the first process takes, which has nothing compiled yet, and how long later ones take."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder / "cache")}
 
     def process() -> None:
@@ -111,7 +111,7 @@ def _starts(text: str, folder: Path, say: Say) -> tuple[Figure, ...]:
 
 
 def lines(bench: Bench) -> list[str]:
-    """Return the table as text of 78 columns, followed by one sentence in each line."""
+    """Return the results as a table 78 columns wide, followed by sentences, one on each line."""
     compiled_row, native_row = bench.row(COMPILED), bench.row(NATIVE)
     headings = " ".join(
         f"{f'/ {word}':>10}" for word, row in (("compiled", compiled_row), ("native", native_row)) if row

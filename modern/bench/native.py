@@ -1,4 +1,4 @@
-"""A modern Fortran compiler, if one is installed, and programs compiled with it."""
+"""Find a modern Fortran compiler, and build and run programs with it."""
 
 import os
 import shlex
@@ -20,12 +20,12 @@ _PATIENCE = 120
 
 
 class NoCompiler(EmulatorError):
-    """No Fortran compiler was found, or it failed. The message is one line."""
+    """Raised if no Fortran compiler is found, or if it fails.  The message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
 class Compiler:
-    """A command and the first line of its version text."""
+    """The command that runs a Fortran compiler, and the first line of its version text."""
 
     command: tuple[str, ...]
     version: str

@@ -1,4 +1,4 @@
-"""Timing: medians of five runs after one that fills caches, and plots of growth."""
+"""Measure times, as medians of five runs after a run that fills caches, and plot their growth."""
 
 import math
 import statistics
@@ -17,7 +17,7 @@ Clock = Callable[[], float]
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A measured figure: the seconds of each run, and a note with a value to compare them with."""
+    """A measured time: the seconds of each run, and a note with a value for comparison."""
 
     what: str
     seconds: tuple[float, ...]
@@ -33,7 +33,7 @@ class Figure:
 
 
 def timed_once(what: str, work: Callable[[], object], note: str = "") -> Figure:
-    """Time ``work`` once. Use this function for work that cannot be repeated or takes too long for five runs."""
+    """Time ``work`` once, because it cannot be repeated or takes too long for five runs."""
     return Figure(what, (_seconds(work),), note)
 
 
@@ -45,9 +45,9 @@ def timed(what: str, work: Callable[[], object], note: str = "") -> Figure:
 def side_by_side(
     works: Mapping[str, Callable[[], object]], note: str = "", clock: Clock = time.perf_counter, runs: int | None = None
 ) -> list[Figure]:
-    """Time several works in turn, in five rounds or the given number of them.
+    """Time several functions in turn, in five rounds or in the given number of them.
 
-    Other activity on the machine then affects all works equally.
+    Other activity on the machine then affects all functions equally.
     """
     for work in works.values():
         work()
@@ -56,7 +56,7 @@ def side_by_side(
 
 
 class Measured(float):
-    """The seconds that a work measured itself, for example a process that must first read its points."""
+    """The seconds that a function measured itself, for example in a process that first has to read its points."""
 
 
 def _seconds(work: Callable[[], object], clock: Clock = time.perf_counter) -> float:
@@ -67,13 +67,15 @@ def _seconds(work: Callable[[], object], clock: Clock = time.perf_counter) -> fl
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """The seconds by size."""
+    """Measured seconds by size of the problem, for one method."""
 
     name: str
     points: Sequence[tuple[int, float]]
 
     def slope(self, least: int = 0) -> float | None:
-        """Return the exponent of growth by least squares of the logarithms, for sizes of at least ``least``."""
+        """Return the exponent with which time grows, fitted by least squares to logarithms for sizes of at least
+        ``least``.
+        """
         logs = [(math.log(count), math.log(seconds)) for count, seconds in self.points if count >= least]
         if len(logs) < 2:
             return None
@@ -90,7 +92,7 @@ def plot(curves: Sequence[Curve], path: str, what: str) -> None:
 
 
 def plotted(curves: Sequence[Curve], path: str, what: str, least: int = 0) -> Iterator[str]:
-    """Yield a line of figures for each curve, then plot the curves with their slopes in their names."""
+    """Yield the figures of each curve as a line of text, then plot the curves with their slopes in the legend."""
     shown = []
     for curve in curves:
         slope = curve.slope(least)

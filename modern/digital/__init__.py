@@ -1,4 +1,4 @@
-"""Voxel solids: volumes from files, exact digital hulls, and measures in physical coordinates.
+"""Voxel solids: reading volumes from files, their exact digital hulls, and measures in physical coordinates.
 
 :mod:`~modern.digital.solids` defines a volume and :mod:`~modern.digital.world` its position in physical coordinates.
 :mod:`~modern.digital.volumes` reads files and :mod:`~modern.digital.scans` selects voxels by value.

@@ -1,4 +1,4 @@
-"""Arrays of numbers from the bytes of a file: NPY, NPZ, and raw data whose shape and type the user states."""
+"""Read arrays of numbers from the bytes of a file: NPY, NPZ, and raw data whose shape and type the user states."""
 
 import io
 import math
@@ -110,7 +110,7 @@ def check_size(shape: Sequence[int], source: str) -> None:
 
 
 def _as_truth(array: NDArray[Any]) -> NDArray[Any]:
-    """Normalise the bytes of truth values to 0 and 1, because numpy assumes that they have no other values."""
+    """Convert bytes that stand for truth values to 0 and 1, because numpy assumes that they have no other values."""
     return array.view(np.uint8) != 0 if array.dtype == np.bool_ else array
 
 

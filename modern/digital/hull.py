@@ -1,4 +1,4 @@
-"""The digital hull of a volume: all grid points in the convex hull of its voxels' centres, computed exactly.
+"""The digital hull of a volume: all grid points in the convex hull of its voxel centres, computed exactly.
 
 Only the two ends of a column can be vertices of the hull. Of these ends, only the vertices of the hulls of rows and
 columns are used. Planes have integer coefficients, and integers decide whether a voxel on a plane belongs to the hull.
@@ -65,7 +65,7 @@ class DigitalHull:
 
     @property
     def world(self) -> World | None:
-        """The position of the voxels of ``filled`` by index, or None if it is unknown."""
+        """The position of the filled voxels in physical coordinates, or None if it is unknown."""
         world = self.source.world
         return None if world is None else world.moved(self.source.origin)
 
@@ -128,7 +128,7 @@ def placed(
     origin: Sequence[Any] | None = None,
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> Volume:
-    """Return a volume unchanged, and an array as the volume of its nonzero values, with the given position."""
+    """Return a volume unchanged, or convert an array to the volume of its nonzero values at the given position."""
     if hasattr(volume, "GetDirection"):
         return placed(*_of_image(volume))
     if not isinstance(volume, Volume):
@@ -151,7 +151,7 @@ def _array(values: object) -> NDArray[Any]:
 
 
 def _of_image(image: Any) -> tuple[NDArray[Any], Sequence[Any], Sequence[Any], Sequence[Sequence[Any]]]:
-    """Return the array of a SimpleITK image, indexed [x, y, z], its spacing, origin and directions."""
+    """Return the array of a SimpleITK image, indexed [x, y, z], and its spacing, origin and directions."""
     from SimpleITK import GetArrayFromImage
 
     if image.GetNumberOfComponentsPerPixel() != 1:
@@ -196,7 +196,7 @@ def _hull(solid: Truth, fast: bool | None) -> tuple[int, Truth]:
 
 
 def _compile(fast: bool | None, candidates: int) -> bool:
-    """Return True if compiled code is to be used. Raise VolumeError if it was requested and is not available."""
+    """Decide whether to use compiled code.  Raise VolumeError if it was requested and is not available."""
     if not (candidates >= WORTH_COMPILING if fast is None else fast):
         return False
     try:
@@ -209,7 +209,10 @@ def _compile(fast: bool | None, candidates: int) -> bool:
 
 
 def independent(points: Grid) -> list[int]:
-    """Return up to four affinely independent points, the largest number possible, including the ends of a segment."""
+    """Return the indices of as many affinely independent points as possible, at most four.
+
+    The two ends of a segment are always among them.
+    """
     if len(points) == 1:
         return [0]
     # The points are sorted, so the first and the last are extreme.
@@ -230,7 +233,9 @@ def _fill_segment(filled: Truth, first: Grid, last: Grid) -> None:
 
 
 def _fill_polygon(filled: Truth, points: Grid, simplex: list[int]) -> None:
-    """Fill the grid points in the hull of coplanar points, projected along an axis that crosses the plane."""
+    """Mark the grid points in the hull of coplanar points, which are projected along an axis that crosses their
+    plane.
+    """
     origin = points[simplex[0]]
     normal = np.cross(points[simplex[1]] - origin, points[simplex[2]] - origin)
     normal //= np.gcd.reduce(normal)

@@ -1,4 +1,4 @@
-"""The columns of a volume: their ends, and the interval of each column that lies in a hull, computed exactly.
+"""The columns of a volume: where they begin and end, and which part of each column lies in a hull, computed exactly.
 
 A column is a line of voxels along the last axis. The hull of a volume is the hull of the ends of its columns.
 
@@ -27,7 +27,7 @@ def slabs(array: NDArray[Any]) -> list[slice]:
 
 
 def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
-    """Return the non-empty columns in raster order: indices on axes 0 and 1, lowest and highest index on axis 2."""
+    """Return the non-empty columns of a volume: their indices on axes 0 and 1, lowest and highest index on axis 2."""
     slab_ends: list[tuple[Any, Any, Any, Any]] = []
     last = volume.shape[2] - 1
     for part in slabs(volume):
@@ -41,7 +41,7 @@ def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
 
 
 def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove points on or above a chord between other points of their row or column: they are no lower vertices.
+    """Remove points that cannot be lower vertices of the hull: those on or above a chord of their row or column.
 
     The arrays x, y, z hold one point for each (x, y), in raster order, and so does the result.
     """
@@ -53,7 +53,7 @@ def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove points of lines that are on or above the chord between their two neighbours, while enough are removed."""
+    """Repeatedly remove points that lie on or above the chord between their two neighbours in the same line."""
     removed = np.ones(len(line), dtype=np.bool_)
     while len(line) > 2 and STILL_PAYS * np.count_nonzero(removed) >= len(line):
         before, after = t[1:-1] - t[:-2], t[2:] - t[1:-1]
@@ -66,7 +66,9 @@ def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def fill(low: Grid, high: Grid, depth: int) -> Truth:
-    """Return a volume in which the column (x, y) of ``depth`` voxels is filled from low[x, y] to high[x, y]."""
+    """Return a volume in which the column (x, y) is filled from low[x, y] to high[x, y]; ``depth`` is the column
+    height.
+    """
     filled = np.empty((*low.shape, depth), dtype=np.bool_)
     index = np.arange(depth, dtype=np.int32)
     for part in slabs(filled):
@@ -76,7 +78,7 @@ def fill(low: Grid, high: Grid, depth: int) -> Truth:
 
 
 def lower_chain(points: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Return the lower side of the hull of points (t, z), sorted by t with each t once, by Andrew's scan."""
+    """Return the lower side of the hull of points (t, z), which are sorted by distinct t, by Andrew's scan."""
     chain: list[tuple[int, int]] = []
     for t, z in points:
         while len(chain) > 1:
@@ -93,7 +95,7 @@ BATCH = 1 << 20
 
 
 def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]) -> tuple[Grid, Grid]:
-    """Return, for each position (x, y) of a grid of this shape, a polyhedron's lowest and highest grid point.
+    """Return the lowest and highest grid point of a polyhedron at each position (x, y) of a grid of this shape.
 
     ``points`` has the shape (n, 3). ``corner`` has three point indices for each facet, counterclockwise as seen from
     outside, and ``plane`` its four coefficients, positive outside. At a position without a grid point of the
@@ -109,9 +111,10 @@ def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]
 
 
 def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) -> None:
-    """Write into ``grid`` the rounded height of each triangle at the positions below it; later triangles overwrite.
+    """Write the height of each triangle, rounded to integers, into ``grid`` at the positions (x, y) that it covers.
 
-    ``triangles`` (n, 3, 3) are counterclockwise seen from above. ``plane`` has four coefficients, the third positive.
+    A later triangle overwrites an earlier one.  ``triangles`` (n, 3, 3) are counterclockwise seen from above. ``plane``
+    has four coefficients, the third positive.
     """
     x, y = triangles[:, :, 0], triangles[:, :, 1]
     first, rows = x.min(axis=1), np.ptp(x, axis=1) + 1
@@ -133,7 +136,9 @@ def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) ->
 
 
 def _sides(x: Grid, y: Grid, row: Grid, width: int) -> tuple[Grid, Grid]:
-    """Return the least and the greatest y of triangles in a row. Each triangle lies on the left of its three edges."""
+    """Return the least and greatest y of triangles in a row.  The edges of each triangle have its inside on
+    their left.
+    """
     least, most = np.zeros(len(row), dtype=np.int64), np.full(len(row), width - 1, dtype=np.int64)
     for k in range(3):
         run, rise = x[:, (k + 1) % 3] - x[:, k], y[:, (k + 1) % 3] - y[:, k]
@@ -161,7 +166,7 @@ def below_edges(u: Grid, v: Grid, width: int) -> tuple[Grid, Grid]:
 
 
 def _chain(u: Grid, v: Grid, places: Grid) -> Grid:
-    """Return the lower side of the points' hull, rounded up, at each position."""
+    """Return the lower side of the points' hull at each of the given positions, rounded up to an integer."""
     order = np.lexsort((v, u))
     u, v = u[order], v[order]
     lowest = np.concatenate(([True], u[1:] != u[:-1]))
@@ -176,6 +181,6 @@ def _chain(u: Grid, v: Grid, places: Grid) -> Grid:
 
 
 def in_plane(low: Grid, high: Grid, depth: int) -> Truth:
-    """Return truth values at (u, v) that are true for v from low[u] to high[u]. No v is true if low[u] > high[u]."""
+    """Return an array of truth values that is True at (u, v) if low[u] <= v <= high[u]."""
     v = np.arange(depth)
     return (low[:, None] <= v) & (v <= high[:, None])

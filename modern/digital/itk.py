@@ -1,4 +1,5 @@
-"""Volumes read by SimpleITK (the extra ``volumes``): NIfTI, MetaImage, TIFF, and DICOM files or series folders.
+"""Read volumes with SimpleITK (the extra ``volumes``): NIfTI, MetaImage, TIFF, and DICOM files or folders of a
+series.
 
 The modules of :mod:`modern.digital.integrity` check the file first, because the library accepts damaged files. The
 library runs in a separate process, ``itk_child.py``. Its output is hidden from the user, and any failure (an
@@ -95,7 +96,7 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
 
 
 def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | None, str]:
-    """Check a file by its format and return the sizes along its axes, its NIfTI header, and a note, if known.
+    """Check a file for damage.  Return, if known, the sizes of its axes, its NIfTI header, and a note for the user.
 
     Raise VolumeError if the file is damaged.
     """
@@ -140,7 +141,9 @@ def _slices(folder: str) -> dict[str, str]:
 
 
 def _slice_notes(folder: str, used: Sequence[str], remarks: Mapping[str, str]) -> list[str]:
-    """Return notes about the files that are left out. Raise VolumeError if a slice was not verified."""
+    """Return notes about files of a folder that are not part of the image.  Raise VolumeError if a slice was not
+    verified.
+    """
     for name in used:
         remark = remarks.get(name, _NOT_DICOM)
         if remark:
@@ -183,7 +186,7 @@ def _check_folder(path: str) -> None:
 
 
 def _bytes(path: str) -> int:
-    """Return an upper bound for the bytes to read: the size of the file, or of the folder that holds its data."""
+    """Return an upper bound for the bytes that will be read: the size of the file, or of the folder with its data."""
     try:
         if path.lower().endswith(".mhd"):
             path = os.path.dirname(os.path.abspath(path))
@@ -234,7 +237,7 @@ def _ended(code: int) -> str:
 
 
 def _world(facts: dict[str, Any], path: str) -> World | None:
-    """Return the position from spacing, origin and the matrix whose columns are the directions of the axes."""
+    """Return the position of the voxels from the spacing, origin and direction matrix that SimpleITK reports."""
     if not facts["placed"]:
         return None
     try:

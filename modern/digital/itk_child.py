@@ -1,4 +1,4 @@
-"""The process in which SimpleITK reads a file. It is run by path, imports nothing of the project and prints nothing.
+"""The separate process in which SimpleITK reads a file.  It imports nothing of the project and prints nothing.
 
 The arguments are the format, the path, a folder for the result, the largest number of voxels and a series identifier.
 The result is ``array.npy``, in which x varies fastest, and ``facts.json``. The latter has spacing, origin and direction
@@ -24,7 +24,7 @@ _LONGEST_MESSAGE = 160
 
 
 class Refused(Exception):
-    """An error with a message of one line for the user."""
+    """Raised for input that cannot be read as a volume; the message is one line for the user."""
 
 
 def main(arguments: Sequence[str]) -> None:
@@ -91,7 +91,7 @@ def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str
 
 
 def _check(size: Sequence[int], numbers: int, most: int) -> None:
-    """Raise Refused before the data of an image are read, if it is not a volume with one number per voxel."""
+    """Raise Refused, before the data are read, if an image is not a volume with one number for each voxel."""
     count = 1
     for side in size:
         count *= side
@@ -153,7 +153,7 @@ def _floats(text: str) -> list[float]:
 
 
 def _message_of(error: Exception) -> str:
-    """Return the last part of a library's message, without locations in its source and in memory."""
+    """Return the essential part of a library's error message, without locations in its source or in memory."""
     message = " ".join(str(error).split())
     message = re.split(r"(?:itk::|sitk::|ITK )ERROR: ", message)[-1]
     message = re.sub(r"\b\w+\((?:0x)?[0-9a-fA-F]+\): ", "", message)
@@ -163,7 +163,7 @@ def _message_of(error: Exception) -> str:
 
 
 def _limit() -> None:
-    """Disable core files and limit memory to that of the machine, because a damaged header may request any amount."""
+    """Disable core dumps and limit memory to that of the machine, because a damaged header may request any amount."""
     with contextlib.suppress(ImportError, OSError, ValueError):
         import resource
 

@@ -46,11 +46,11 @@ class Measures:
 def measures(
     voxels: int, points: Sequence[Whole], faces: Iterable[Sequence[int]], world: World | None = None
 ) -> Measures:
-    """Return the measures of a solid with ``voxels`` voxels and of the hull with these vertices and faces.
+    """Return the measures of a solid with ``voxels`` voxels and of its hull.
 
-    ``points`` have integer coordinates. ``faces`` list indices of ``points`` in cyclic order: all faces of a
-    polyhedron, in the same orientation, the only face of a polygon, and none for other hulls. ``world`` has three
-    steps in a space with three axes.
+    ``points`` are the vertices of the hull, with integer coordinates. ``faces`` list indices of ``points`` in cyclic
+    order: all faces of a polyhedron, in the same orientation, the only face of a polygon, and none for other hulls.
+    ``world`` has three steps in a space with three axes.
     """
     polygons = [tuple(face) for face in faces]
     six = six_volumes(points, polygons) if len(polygons) > 1 else 0

@@ -1,4 +1,4 @@
-"""NRRD files (Kindlmann, "Definition of NRRD File Format", teem.sourceforge.net/nrrd/format.html): volumes as arrays.
+"""Read and write NRRD files (Kindlmann, "Definition of NRRD File Format", teem.sourceforge.net/nrrd/format.html).
 
 The reader accepts arrays with two or three axes of the standard number types, encoded raw or gzip, with the data after
 the header or in one file that a detached header names (``data file: NAME``). The first axis is the fastest, so the
@@ -100,7 +100,7 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
 
 
 def write_nrrd(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
-    """Write truth values and the position of a volume as NRRD.
+    """Write an array of truth values, with the position of a volume, as an NRRD file.
 
     Raise VolumeError if a number of the position has no finite decimal.
     """
@@ -188,7 +188,7 @@ def _read_data_file(source: str, line: int, name: str) -> bytes:
 
 
 def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -> tuple[World | None, tuple[str, ...]]:
-    """Return the position, or None if the header does not state it, and notes on ignored fields."""
+    """Return the position of the voxels, or None if the header does not state it, and notes on ignored fields."""
     notes = [
         f"{source}: line {fields[name][0]}: {name} is ignored; space origin states the position"
         for name in _IGNORED
@@ -220,7 +220,7 @@ def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -
 def _steps(
     fields: Mapping[str, tuple[int, str]], dimension: int, source: str
 ) -> tuple[int, tuple[Position, ...] | None]:
-    """Return the number of the line that states the steps (0 if there is none), and the steps (None if unknown)."""
+    """Return the line of the header that states the vectors between voxels (0 if none), and the vectors, or None."""
     if "space directions" not in fields:
         if "spacings" not in fields:
             return 0, None
@@ -266,7 +266,7 @@ def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | N
 
 
 def _lengths(texts: Sequence[str], count: int, what: str) -> list[Fraction | None]:
-    """Read ``count`` numbers. Return None for nan."""
+    """Read ``count`` numbers of a header; a nan becomes None."""
     if len(texts) != count:
         raise VolumeError(f"{what}: expected {count} numbers, found {len(texts)}")
     try:

@@ -1,4 +1,4 @@
-"""The convex polyhedron of grid points, computed exactly: quickhull with integers.
+"""The convex hull of grid points that span space, computed exactly by quickhull with integers.
 
 The distance of a point outside a facet is measured by the value of the facet's plane, an integer. A point on the plane
 is not outside, so coplanar points leave a face divided into triangles. No triangle is degenerate: an edge of the
@@ -23,7 +23,7 @@ Grid = NDArray[np.int64]
 
 
 class Points(NamedTuple):
-    """Coordinates, one sequence for each axis."""
+    """Integer coordinates of points, as one sequence for each axis."""
 
     x: Sequence[int]
     y: Sequence[int]
@@ -31,7 +31,7 @@ class Points(NamedTuple):
 
 
 class Surface(NamedTuple):
-    """Facets under construction, in numbered slots, and the points outside them.
+    """A polyhedron under construction: facets in numbered slots, each with a linked list of points outside it.
 
     ``corner`` has three points for each facet, counterclockwise as seen from outside, the first -1 in an empty slot.
     ``across`` has the three facets beyond the edges from each corner to the next. ``plane`` has four coefficients,
@@ -72,7 +72,10 @@ def set_facet(at: Points, surface: Surface, f: int, p: int, q: int, r: int) -> N
 
 
 def distribute(at: Points, surface: Surface, first: int, chosen: Integers, count: int) -> None:
-    """Assign each point of the list that starts at ``first`` to one of the chosen facets that it sees, or drop it."""
+    """Add each point of a linked list to the list of one of the chosen facets that it is outside of, or drop it.
+
+    ``first`` is the first point of the linked list.
+    """
     head, after, depth = surface.head, surface.after, surface.depth
     p = first
     while p >= 0:
@@ -91,7 +94,11 @@ def distribute(at: Points, surface: Surface, first: int, chosen: Integers, count
 
 
 def find_visible(at: Points, surface: Surface, p: int, first: int) -> tuple[int, int]:
-    """Find the facets that ``p`` sees, from ``first`` on, and the horizon; return the numbers of both."""
+    """Find the facets that point ``p`` is outside of, starting at facet ``first``, and the edges around them (the
+    horizon).
+
+    Return the numbers of both.
+    """
     visible, mark, across, horizon = surface.visible, surface.mark, surface.across, surface.horizon
     mark[first], visible[0] = p + 1, first
     count, edges, at_facet = 1, 0, 0
@@ -115,7 +122,9 @@ def find_visible(at: Points, surface: Surface, p: int, first: int) -> tuple[int,
 
 
 def cone(at: Points, surface: Surface, p: int, slots: Integers, edges: int) -> None:
-    """Create, in the given slots, a facet from ``p`` to each edge of the horizon, and link it to its neighbours."""
+    """Create a new facet from ``p`` to each edge of the horizon, in the given slots, and link the facets with each
+    other.
+    """
     corner, across, horizon, starting = surface.corner, surface.across, surface.horizon, surface.starting
     for k in range(edges):
         a, b, g = horizon[3 * k], horizon[3 * k + 1], horizon[3 * k + 2]
@@ -177,7 +186,10 @@ def grow(at: Points, surface: Surface, used: int) -> int:
 
 
 def hull(at: Points, surface: Surface, a: int, b: int, c: int, d: int) -> int:
-    """Grow the polyhedron from a tetrahedron with d below the plane of a, b, c. Return the number of slots used."""
+    """Grow the polyhedron from the tetrahedron a, b, c, d, where d is below the plane of a, b, c.
+
+    Return the number of slots used.
+    """
     set_facet(at, surface, 0, a, b, c)
     set_facet(at, surface, 1, b, a, d)
     set_facet(at, surface, 2, c, b, d)

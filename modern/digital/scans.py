@@ -1,4 +1,4 @@
-"""Scans: arrays of values, and the selection of voxels that are not 0, at or above a threshold, or have a label.
+"""Arrays of values from a file, and the selection of voxels: all but 0, from a threshold on, or by label.
 
 Nothing is rounded. A threshold is a decimal, and the exact value of a binary floating-point number is compared with it.
 """
@@ -50,7 +50,9 @@ class Scan:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The selected values: at least ``threshold``, or equal to one of ``labels``. If neither is given, all except 0."""
+    """A selection of voxels by value: at least ``threshold``, or one of ``labels``; if neither is given, all
+    except 0.
+    """
 
     threshold: Fraction | None = None
     labels: tuple[int, ...] = ()
@@ -110,7 +112,7 @@ def labels_of(scan: Scan) -> tuple[int, ...]:
 
 
 def label_notes(scan: Scan) -> tuple[str, ...]:
-    """Return a note about the voxels that have no label because their values are not integers."""
+    """Return a note that counts the voxels whose values are not integers and therefore no labels."""
     if scan.values.dtype.kind != "f":
         return ()
     count, distinct = 0, np.empty(0, scan.values.dtype)
@@ -125,7 +127,7 @@ def label_notes(scan: Scan) -> tuple[str, ...]:
 
 
 def label_boxes(scan: Scan, labels: Sequence[int] = ()) -> dict[int, tuple[slice, ...]]:
-    """Return the box of indices around each label, or around the given labels. Raise NoVoxels for an absent label."""
+    """Return, for each label, the slices that enclose its voxels.  Raise NoVoxels for a given label that is absent."""
     sides: dict[int, list[slice]] = {}
     for axis in range(scan.values.ndim):
         first: dict[int, int] = {}
@@ -195,7 +197,7 @@ def _at_least(values: NDArray[Any], threshold: Fraction) -> NDArray[np.bool_]:
 
 
 def _least(kind: Any, threshold: Fraction) -> Any:
-    """Return the least number of a binary type that is at least the threshold."""
+    """Return the least number of a binary floating-point type that is not below the threshold."""
     text = finite_decimal(threshold)
     try:
         near = kind(float(threshold) if text is None else text)
@@ -229,7 +231,7 @@ def _text(number: Fraction | None) -> str:
 
 
 def listed_labels(labels: Sequence[int]) -> str:
-    """Return ``1, 2, 3, 7``, or for many labels the first ones, the last and their number."""
+    """Return labels as text, such as ``1, 2, 3, 7``; of many labels only the first ones, the last and their number."""
     if len(labels) <= 12:
         return ", ".join(map(str, labels))
     return f"{', '.join(map(str, labels[:4]))}, ... {labels[-1]} ({len(labels)} labels)"

@@ -1,4 +1,4 @@
-"""Voxel solids: the type, volumes from arrays and from lists of coordinates, digital balls and half-balls.
+"""Voxel solids: the class Volume, volumes from arrays and from lists of coordinates, digital balls and half-balls.
 
 A voxel is identified by its integer coordinates (x, y, z). Its centre is that point, and as a cube it extends half a
 unit in each direction. The pixels of a plane picture are voxels with two coordinates.
@@ -81,7 +81,7 @@ def as_volume(volume: Volume | Voxels) -> Volume:
 
 
 def listed(coordinates: Sequence[Sequence[int]] | NDArray[np.integer[Any]], source: str = "volume") -> Volume:
-    """Return the volume of the voxels with these integer coordinates, in any order, shape (n, 2) or (n, 3).
+    """Return the volume of the voxels with these integer coordinates, given in any order; shape (n, 2) or (n, 3).
 
     Repeated voxels count once and are reported in a note. Raise VolumeError for coordinates of another shape or type
     or with more than ``DIGITS`` digits, and for voxels in a box of more than ``MAX_CELLS``. Raise NoVoxels for an

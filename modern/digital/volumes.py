@@ -1,4 +1,4 @@
-"""Read volumes from files and from names of digital balls, and write arrays.
+"""Read volumes from files, create digital balls by name, and write arrays.
 
 NPY, NPZ, NRRD, raw data and lists of coordinates are read here. SimpleITK (the extra ``volumes``) reads NIfTI,
 MetaImage, TIFF and DICOM, see :mod:`modern.digital.itk`. The coordinates of an array's voxels are its indices from 0,
@@ -37,7 +37,7 @@ _PAIR = (".hdr", ".img", ".hdr.gz", ".img.gz")
 
 @dataclass(frozen=True, slots=True)
 class Stated:
-    """Facts that the user states because a file does not.
+    """Facts about a file that the user states on the command line because the file does not contain them.
 
     ``shape`` and ``dtype`` describe raw data, x fastest (``uint8`` if only the shape is given). ``array`` selects one
     of several arrays (NPZ) and ``series`` one of several DICOM series. ``spacing`` and ``origin`` have one number for
@@ -98,7 +98,7 @@ def read_volume(
 
 
 def read_scan(path: str, stated: Stated | None = None) -> Scan:
-    """Read the values of a file, a folder or a ball before voxels are selected; see ``read_volume``."""
+    """Read the values of a file, a folder or a ball, without selecting voxels yet; see ``read_volume``."""
     stated = stated or Stated()
     ball_name = _BALL.fullmatch(path)
     if ball_name:
@@ -131,7 +131,7 @@ def write_npy(path: str, array: NDArray[Any]) -> None:
 
 
 def write_array(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
-    """Write truth values of a volume's shape as NRRD, which stores the volume's position, or as NPY, which does not.
+    """Write truth values as NRRD, which stores the volume's position, or as NPY, which does not.
 
     Raise FileError, and VolumeError for another file name extension and as ``write_nrrd`` does.
     """
@@ -188,7 +188,7 @@ def _scan(volume: Volume) -> Scan:
 
 
 def _with_position(scan: Scan, stated: Stated) -> Scan:
-    """Return the scan with the position the user states. Raise VolumeError if the file states one."""
+    """Return the scan at the position that the user states.  Raise VolumeError if the file states a position too."""
     if stated.spacing is None and stated.origin is None:
         return scan
     if scan.world is not None:

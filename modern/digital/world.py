@@ -26,11 +26,11 @@ _MOST_DIGITS, _MOST_EXPONENT = 100, 400
 
 
 class VolumeError(EmulatorError):
-    """An error in reading or creating a volume. The message names the file and the place in it."""
+    """Raised for an invalid volume or file of a volume.  The message names the file and the place in it."""
 
 
 class NoVoxels(VolumeError, PointsError):
-    """A volume without voxels, which has no hull."""
+    """Raised for a volume without voxels, which has no hull."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ class World:
             raise VolumeError("the spacing of an axis is 0, or the directions of the axes are linearly dependent")
 
     def place(self, voxel: Sequence[Exact]) -> Position:
-        """Return the position of a voxel's centre, or of a corner, whose coordinates are half-integers."""
+        """Return the physical coordinates of a voxel's centre, or of a corner, whose indices are half-integers."""
         return tuple(
             sum((step[k] * number for step, number in zip(self.steps, voxel, strict=True)), start)
             for k, start in enumerate(self.origin)
@@ -64,7 +64,7 @@ class World:
 
     @property
     def mirrors(self) -> bool:
-        """True if three steps reverse the orientation of space."""
+        """True if the three axes of the array form a left-handed system in space."""
         return len(self.steps) == len(self.origin) == 3 and determinant(self.steps) < 0
 
     def moved(self, voxel: Sequence[int]) -> "World":
@@ -72,7 +72,9 @@ class World:
         return replace(self, origin=self.place(voxel))
 
     def turned(self, space: str) -> "World":
-        """Return the same position in another anatomical space. Raise VolumeError if either space is not anatomical."""
+        """Return the same position in the axes of another anatomical space.  Raise VolumeError if a space is not
+        anatomical.
+        """
         if space not in ANATOMICAL or self.space not in ANATOMICAL or len(self.origin) != 3:
             raise VolumeError(f"expected one of the spaces {', '.join(ANATOMICAL)}, found {self.space or 'none'}")
         signs = [
@@ -87,7 +89,10 @@ class World:
         return tuple(_length(step) for step in self.steps)
 
     def bearings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the anatomical direction of each axis, and True if it is exact; empty if the space has none."""
+        """Return the anatomical direction of each axis, such as ``left``, and True if the axis points exactly there.
+
+        The result is empty if the space is not anatomical.
+        """
         if self.space not in ANATOMICAL or len(self.steps) != 3:
             return ()
         names = self.space.split("-")
@@ -106,7 +111,7 @@ def world_of(
     directions: Sequence[Sequence[object]] | None = None,
     unit: str = "",
 ) -> World | None:
-    """Return the position of an array with ``dimension`` axes, or None if no argument is given.
+    """Return the position of the voxels of an array from the given numbers, or None if no argument is given.
 
     ``spacing`` is a length for each axis (default 1), ``origin`` the position of the first voxel's centre (default 0),
     and ``directions`` a vector for each axis, which is multiplied by its spacing (default along x, y, z). Numbers may

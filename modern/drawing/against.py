@@ -1,4 +1,4 @@
-"""The differences between a claimed hull and the true hull in one picture, distinguished by shape and brightness."""
+"""Draw a hull and a wrong one for the same points in one picture; shape and brightness distinguish the differences."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -32,7 +32,9 @@ def draw_against(
     width: int | None = None,
     show: Show | None = None,
 ) -> str:
-    """Return a true hull and the differences of a claimed one as an SVG file, with the parameters of ``draw_svg``."""
+    """Draw a true hull and the differences of a claimed one.  Return an SVG file; the parameters are those of
+    ``draw_svg``.
+    """
     show = replace(show or Show(), points=True)
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)
     width = width_of(picture, width)
@@ -76,7 +78,7 @@ def _points(hull: Hull, claim: CardDifferences, at: Mapping[int, Pixel]) -> Iter
 
 
 def _around(corners: Sequence[Pixel]) -> list[Pixel]:
-    """Return coplanar points in their order around their centre, so that no two sides cross."""
+    """Return coplanar points in the order in which they surround their centre, so that no two sides cross."""
     count = len(corners)
     x, y = sum(corner.x for corner in corners), sum(corner.y for corner in corners)
     return sorted(corners, key=lambda corner: atan2(count * corner.y - y, count * corner.x - x))

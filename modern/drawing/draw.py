@@ -34,7 +34,7 @@ Labels = Literal["none", "programs", "input"]
 
 @dataclass(frozen=True, slots=True)
 class Show:
-    """The parts of a picture: the numbers, hidden edges and points, and points that are not vertices."""
+    """The user's choice of parts to draw: numbers, hidden edges and points, and points that are not vertices."""
 
     labels: Labels = "programs"
     hidden: bool = True
@@ -104,7 +104,7 @@ def _points(picture: Scene) -> int:
 
 
 def scene_items(hull: Hull, picture: Scene, layout: Layout) -> list[str]:
-    """Return faces, edges and marks, the hidden ones first."""
+    """Return the SVG elements for faces, edges and points, the hidden ones first."""
     small = _points(picture) > _MANY
 
     def edges(style: svg.Style, hidden: bool) -> list[str]:
@@ -150,7 +150,7 @@ def _faces(picture: Scene, layout: Layout) -> list[str]:
 
 
 def number_items(hull: Hull, picture: Scene, layout: Layout, which: Labels) -> list[str]:
-    """Return the numbers of the vertices as labels; a label is grey if all of its vertices are hidden."""
+    """Return the numbers of the vertices as SVG elements; a number is grey if all its vertices are hidden."""
     count = _points(picture)
     size = HEIGHT if count <= _MANY else 10.0 if count <= _CROWD else 9.0
     behind = picture.behind and count <= _CROWD

@@ -1,4 +1,4 @@
-"""The placement of numbers: next to their vertices, clear of lines and of each other as far as space permits.
+"""Place the numbers of vertices in a picture so that they are clear of lines and of each other, if there is space.
 
 Every label has a fixed set of candidate positions around its vertex. The cheapest is chosen, and all labels are
 reconsidered until nothing changes. Only sums, products and quotients are used, so that every machine produces the same
@@ -28,7 +28,7 @@ _ON_LABEL, _ON_MARK, _OUTSIDE, _ON_LINE, _NEARER, _FARTHER, _INWARD = 60.0, 25.0
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A text and the position of the point that it labels, in pixels, with y downward."""
+    """A text to be placed, and the point next to which it belongs, in pixels with y downward."""
 
     x: float
     y: float
@@ -45,7 +45,7 @@ class Label:
 def place_labels(
     labels: Sequence[Label], lines: Sequence[Line], marks: Sequence[Place], size: Place
 ) -> tuple[Place, ...]:
-    """Return the centre of each label. ``marks`` are further points to avoid; ``size`` is that of the picture."""
+    """Return the centre of each label.  ``marks`` are points to avoid; ``size`` is the size of the picture."""
     if not labels:
         return ()
     middle = (sum(label.x for label in labels) / len(labels), sum(label.y for label in labels) / len(labels))
@@ -86,7 +86,7 @@ def _near(a: Label, b: Label) -> bool:
 def _candidates(
     label: Label, lines: Sequence[Line], marks: Sequence[Place], middle: Place, size: Place
 ) -> list[tuple[Place, float]]:
-    """Return every candidate position of a label with its cost, ignoring the other labels."""
+    """Return all possible positions of a label, each with its cost, as if there were no other labels."""
     half = label.half
     reach = _GAPS[-1] + 2 * half[0] + HEIGHT
     around = (label.x - reach, label.y - reach, label.x + reach, label.y + reach)
@@ -124,7 +124,7 @@ def _overlap(a: _Box, b: _Box) -> bool:
 
 
 def crosses(line: Line, box: _Box) -> bool:
-    """Return True if some part of a line is in a box (Liang and Barsky, ACM Transactions on Graphics 3 (1984))."""
+    """Return True if part of a line is inside a box (Liang and Barsky, ACM Transactions on Graphics 3 (1984))."""
     (x, y), (to_x, to_y) = line
     first, last = 0.0, 1.0
     for step, low, high in ((to_x - x, box[0] - x, box[2] - x), (to_y - y, box[1] - y, box[3] - y)):

@@ -1,4 +1,4 @@
-"""The layout of a picture: the exact images of points, converted to integers in hundredths of a pixel."""
+"""Convert the exact positions of points in a picture to integers, in hundredths of a pixel."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ class Pixel:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """The positions of all points of a scene, and the size of the picture in pixels with its margins."""
+    """The positions of all points of a picture, and the size of the picture in pixels, including its margins."""
 
     width: int
     height: int
@@ -57,7 +57,7 @@ def lay_out(picture: Scene, width: int) -> Layout:
 
 
 def fit(images: Sequence[Flat], width: int, highest: int, margin: int = MARGIN) -> tuple[Callable[[Flat], Pixel], int]:
-    """Return a function from images to pixels such that all images fit the width and height with the margins."""
+    """Return a function that converts positions to pixels so that all fit the width and height, and the height used."""
     x_min, x_max = _ends(image[0] for image in images)
     y_min, y_max = _ends(image[1] for image in images)
     available = width - 2 * margin

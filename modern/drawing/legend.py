@@ -1,4 +1,4 @@
-"""The band below a picture: its caption, the meaning of its marks and the directions of the axes."""
+"""Draw the legend below a picture: its caption, the meaning of its marks, and the directions of the axes."""
 
 from collections.abc import Iterator
 from fractions import Fraction
@@ -87,7 +87,7 @@ def _styles(picture: Scene) -> list[Style]:
 
 
 def _rows(picture: Scene, width: int) -> list[list[tuple[int, Style]]]:
-    """Return the marks and their horizontal positions, in as many rows as they need next to the axes."""
+    """Return the marks of the legend and their horizontal positions, in rows that leave room for the axes."""
     rows: list[list[tuple[int, Style]]] = []
     x = width
     for style in _styles(picture):
@@ -101,7 +101,7 @@ def _rows(picture: Scene, width: int) -> list[list[tuple[int, Style]]]:
 
 
 def _axes(picture: Scene, centre: Pixel) -> Iterator[str]:
-    """Yield the directions of x, y and z, except one that points nearly at the eye."""
+    """Yield arrows for the directions of x, y and z; an axis that points nearly at the eye is omitted."""
     view = picture.view
     length = view.stretch * root(Fraction(dot(view.right, view.right)))
     for unit, name in zip(_UNITS, "xyz", strict=True):

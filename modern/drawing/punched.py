@@ -1,4 +1,4 @@
-"""Punched cards as a picture: holes, the characters that the 026 prints along the top edge, and the blank form.
+"""Draw punched cards: the form, the holes, and the characters that the IBM 026 card punch prints along the top edge.
 
 The scale is 96 pixels to the inch. A card is 7 3/8 by 3 1/4 inches. Holes are .055 by .125, columns .087 apart and
 rows .25 apart. The first ones are .251 and .250 from the edges (ANSI X3.21-1967, rectangular holes in twelve-row
@@ -44,7 +44,7 @@ def column_centre(column: int) -> int:
 
 
 def row_centre(row: str) -> int:
-    """Return the distance of a row from the top edge in hundredths of a pixel."""
+    """Return the distance of a row of holes from the top edge in hundredths of a pixel; ``row`` is its name."""
     return _INCH // 4 * (ROWS.index(row) + 1)
 
 
@@ -112,7 +112,7 @@ def _card(card: Card, x: int, y: int) -> Iterator[str]:
 
 
 def _printed(text: str) -> str:
-    """Return the characters above their columns as one line of text with a position for each character."""
+    """Return the characters printed on a card, each above its column, as one SVG text."""
     # 330 is half the width of a letter of this font. Each position is that of a left edge, so blanks keep theirs too.
     places = " ".join(svg.number(column_centre(column) - 330) for column in range(1, len(text) + 1))
     return f'<text class="words" xml:space="preserve" x="{places}" y="15" {_PRINT}>{svg.escape(text)}</text>'

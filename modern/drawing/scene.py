@@ -1,4 +1,6 @@
-"""The scene of a picture: images of points, and the edges visible and hidden by the method of Nakamae and Nishita."""
+"""Project a hull for a picture: positions of its points, and its visible and hidden edges (Nakamae and Nishita's
+method).
+"""
 
 from collections import defaultdict
 from collections.abc import Sequence
@@ -27,7 +29,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A boundary or inside point: its index in the input, its image, and True if it lies behind the visible faces."""
+    """A point that is not a vertex: its input index, its position in the picture, and True if a face hides it."""
 
     index: int
     image: Flat
@@ -36,7 +38,7 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Pane:
-    """A visible face: its corners, and the light that falls on it, from 0 to 1."""
+    """A visible face of a picture: its corners, and its brightness from 0 to 1."""
 
     corners: tuple[int, ...]
     light: Fraction
@@ -44,7 +46,7 @@ class Pane:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A picture without a size. ``images`` and ``hidden`` are in the order of ``Hull.vertices``."""
+    """All parts of a picture before it has a size.  ``images`` and ``hidden`` are in the order of ``Hull.vertices``."""
 
     dimension: int
     view: View
@@ -61,7 +63,7 @@ class Scene:
 
 
 def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
-    """Return the scene of a hull seen from a direction, or from a suitable one if ``eye`` is None.
+    """Project a hull along a direction of view, or along a suitable one if ``eye`` is None.
 
     Raise ExportError if there is no hull, or if the direction is zero or shows a polygon or segment edge-on.
     """
@@ -104,7 +106,7 @@ def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
 
 
 def _away(signs: Sequence[int]) -> bool:
-    """Return True if all faces are turned away. An edge-on face is not, because its points lie on the outline."""
+    """Return True if every face is turned away from the eye.  An edge-on face does not count as turned away."""
     return bool(signs) and all(sign < 0 for sign in signs)
 
 
@@ -131,7 +133,7 @@ def _direction(
 def _edges(
     surface: Mesh, faces: Sequence[tuple[int, ...]], normals: Sequence[Vector], signs: Sequence[int]
 ) -> tuple[Edge, ...]:
-    """Return every edge between faces of different planes, and the only edge of a segment."""
+    """Return every edge between faces of different planes, each with its visibility, or the only edge of a segment."""
     if surface.dimension < 2:
         return tuple(Edge(a, b, False) for a, b in surface.edges() if surface.dimension)
     classified = classify(faces, signs, lambda a, b: _parallel(normals[a], normals[b]))
@@ -160,7 +162,10 @@ def _behind(
 
 
 def _light(normal: Vector, sight: View) -> Fraction:
-    """Return (1 + cosine) / 2 of the angle between a normal and a lamp at the left shoulder of the viewer."""
+    """Return the brightness of a face, (1 + cosine) / 2 of the angle between its normal and the direction of a lamp.
+
+    The lamp is at the left shoulder of the viewer.
+    """
     length = sight.stretch
     level = root(Fraction(dot(sight.right, sight.right)))
     tall = level * length

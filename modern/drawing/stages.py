@@ -1,4 +1,4 @@
-"""The construction H_1 to H_f (thesis p. 22-33) in pictures: a strip of stages, or an animation."""
+"""Draw how the hull grows, from the first polyhedron H_1 to the last (thesis p. 22-33), as a strip or an animation."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -25,7 +25,7 @@ WAITING = svg.Style("waiting", "not tested yet", "dot", 'fill="#fff" stroke="#77
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One stage: its picture, the positions of all points, and its caption."""
+    """The picture of one stage of the construction, with the positions of all points and its caption."""
 
     stage: Stage
     hull: Hull
@@ -46,7 +46,9 @@ class Frame:
 
 
 def frames(hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int = _CELL) -> tuple[Frame, ...]:
-    """Return the stages of a hull determined with its history. Raise ExportError if it needed no construction."""
+    """Return a picture of each stage of a hull, which must have its history.  Raise ExportError if there is one stage
+    only.
+    """
     if not hull.determined:
         raise ExportError(f"there is no hull: {hull.status}")
     if not hull.history:
@@ -95,7 +97,7 @@ def strip(all_frames: Sequence[Frame], title: str = "") -> str:
 
 
 def played(all_frames: Sequence[Frame], title: str = "") -> str:
-    """Return an endless animation of the stages as an SVG file.
+    """Return an SVG file that shows the stages one after the other, endlessly.
 
     If the viewer's system asks for reduced motion, only the last stage is shown.
     """

@@ -1,4 +1,4 @@
-"""The elements of an SVG file as ASCII text; the marks of a picture differ in shape and in grey, never in colour.
+"""Write SVG elements and files as ASCII text; marks differ in shape and in grey, never in colour.
 
 ``write_picture`` writes an SVG file, or converts it to PDF or PNG.
 """
@@ -23,7 +23,7 @@ _PIXELS_PER_INCH = 192  # A PNG has two pixels for each pixel of the SVG.
 
 
 def number(hundredths: int) -> str:
-    """Return hundredths of a pixel as text: 1250 is ``12.5``."""
+    """Return a number of hundredths of a pixel as text in pixels: 1250 is ``12.5``."""
     whole, rest = divmod(abs(hundredths), 100)
     text = f"{whole}.{rest:02d}".rstrip("0").rstrip(".")
     return f"-{text}" if hundredths < 0 and text != "0" else text
@@ -77,7 +77,7 @@ def group(name: str, attributes: str, items: Iterable[str]) -> list[str]:
 
 
 def page(width: int, height: int, title: str, items: Iterable[str], description: str = "") -> str:
-    """Return a complete SVG file with a white background; with a description, screen readers can read its text."""
+    """Return a complete SVG file with a white background.  A description makes its text readable for screen readers."""
     role = "graphics-document document" if description else "img"
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
@@ -128,7 +128,7 @@ def point_mark(style: Style, at: Pixel, title: str = "", attributes: str = "", s
 
 
 def sample(style: Style, at: Pixel) -> str:
-    """Return the mark as a legend shows it, with its attributes."""
+    """Return the mark of a style as the legend shows it."""
     if style.shape == "line":
         return line(Pixel(at.x - 900, at.y), Pixel(at.x + 900, at.y), style.attributes)
     return point_mark(style, at, attributes=style.attributes)

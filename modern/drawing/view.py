@@ -1,4 +1,4 @@
-"""Parallel projection along a direction, exactly, and the choice of a direction.
+"""Project points along a direction, exactly, and choose a good direction of view.
 
 The direction points from the solid to the eye. The x axis of the image is ``z x eye`` and its y axis ``eye x (z x
 eye)``, so that the z axis of space is upright. Seen along z itself, x points right and y is upright.
@@ -59,7 +59,7 @@ class View:
     stretch: Fraction
 
     def project(self, point: Vector) -> Flat:
-        """Return the image of a point, in the same scale along both axes."""
+        """Return the exact position of a point in the picture, in the same scale along both axes."""
         return along(self.right, point) * self.stretch, along(self.up, point)
 
 
@@ -69,7 +69,7 @@ def view(eye: Eye) -> View:
 
 
 def root(square: Fraction) -> Fraction:
-    """Return the square root of a number of at least 1, truncated to 15 decimals."""
+    """Return the square root of ``square``, which is at least 1, truncated to 15 decimals."""
     return Fraction(math.isqrt(square.numerator * _ROOT * _ROOT // square.denominator), _ROOT)
 
 
@@ -101,7 +101,9 @@ def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
 
 
 def across(line: Vector) -> Eye:
-    """Return a horizontal direction of view, from the front, at right angles to the direction ``line`` of a segment."""
+    """Return a horizontal direction of view at right angles to a segment, whose direction is ``line``, from the
+    front.
+    """
     if not (line[0] or line[1]):
         return 0, -1, 0
     x, y, _ = lowest((line[1], -line[0], Fraction(0)))

@@ -1,4 +1,4 @@
-"""Visible and hidden faces, inner and contour edges, and the contour line (Nakamae and Nishita 1972, section 3.1).
+"""Decide which faces and edges of a solid are visible, and find its contour (Nakamae and Nishita 1972, section 3.1).
 
 Images are homogeneous, (x, y, w) for the point (x/w, y/w) with w > 0, y upward. Faces list the indices of their
 vertices, clockwise as seen from outside, as in the paper (section 2). All numbers are integers or fractions.
@@ -39,12 +39,12 @@ class Edge:
 
 
 def line_through(a: tuple[N, N, N], b: tuple[N, N, N]) -> tuple[N, N, N]:
-    """Return the coefficients a, b, c of formula (1) for the segment from one image to another."""
+    """Return the coefficients a, b, c of the paper's formula (1), the line from one projected point to another."""
     return a[2] * b[1] - a[1] * b[2], a[0] * b[2] - a[2] * b[0], a[1] * b[0] - a[0] * b[1]
 
 
 def value(line: tuple[N, N, N], point: tuple[N, N, N]) -> N:
-    """Return the value of formula (1), which is positive if the point is on the right of the segment."""
+    """Return the value of the paper's formula (1), which is positive if the point is to the right of the line."""
     return line[0] * point[0] + line[1] * point[1] + line[2] * point[2]
 
 
@@ -53,10 +53,10 @@ def sign(number: int | Fraction) -> int:
 
 
 def facing(corners: Sequence[tuple[N, N, N]]) -> int:
-    """Return 1 if a face with these images, clockwise from outside, is visible, -1 if it is turned away, 0 if edge-on.
+    """Return 1 if a face is visible, -1 if it is turned away from the eye, 0 if it is edge-on.
 
-    The paper evaluates formula (1) for one triangle of the face, which gives 0 for collinear corners. Here the values
-    of all triangles are added, which gives the same sign.
+    ``corners`` are projected, clockwise as seen from outside. The paper evaluates formula (1) for one triangle of the
+    face, which gives 0 for collinear corners. Here the values of all triangles are added, which gives the same sign.
     """
     first = corners[0]
     return sign(sum(value(line_through(first, corners[k]), corners[k + 1]) for k in range(1, len(corners) - 1)))
@@ -65,7 +65,7 @@ def facing(corners: Sequence[tuple[N, N, N]]) -> int:
 def classify(
     faces: Sequence[tuple[int, ...]], signs: Sequence[int], flat: Callable[[int, int], bool]
 ) -> tuple[Edge, ...]:
-    """Return every edge once, sorted, with its kind.
+    """Return every edge of a solid once, sorted, with its kind (see ``Kind``).
 
     ``signs`` has the result of ``facing`` for each face. ``flat`` returns True for two coplanar faces.
     """
@@ -80,7 +80,8 @@ def classify(
 
 
 def contour(faces: Sequence[tuple[int, ...]], signs: Sequence[int]) -> tuple[int, ...]:
-    """Return the contour as a chain of vertices, clockwise in the image; it is empty for a plate seen edge-on.
+    """Return the contour of a solid in the picture as a chain of vertices, clockwise; empty for a plate seen
+    edge-on.
 
     The contour consists of the sides of visible faces that have no visible face on the other side.
     """

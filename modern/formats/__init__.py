@@ -1,4 +1,4 @@
-"""File formats of points and hulls, one module for each format: decks, CSV, OFF, OBJ, PLY, STL, JSON, HTML.
+"""File formats of points and hulls, one module for each: decks, CSV, OFF, OBJ, PLY, STL, JSON, HTML.
 
 This module only names the formats, so that the help of the commands can list them without importing their modules.
 

@@ -1,4 +1,4 @@
-"""Lists of points: rows of three decimal numbers, separated by commas, semicolons, tabs or blanks."""
+"""Read lists of points: rows of three decimal numbers, separated by commas, semicolons, tabs or blanks."""
 
 import csv
 import re
@@ -36,7 +36,7 @@ def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def _normalised(line: str, separator: str) -> str:
-    """Return a line for the csv reader. A comment becomes empty; blanks that separate fields become single blanks."""
+    """Return a line in the form that the csv module reads: a comment becomes empty, a run of blanks one blank."""
     if line.lstrip().startswith("#"):
         return ""
     return line if separator else " ".join(line.split())

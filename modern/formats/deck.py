@@ -1,4 +1,4 @@
-"""Data decks of the hull programs: punched from points, checked before a run, and read as exact points.
+"""Decks of cards with points, the input of Butler's hull programs: write them, check them, and read their points.
 
 A data set is a card with N, the number of points, in columns 1-2, followed by N cards with x, y, z in columns 1-14,
 15-28, 29-42 (thesis p. 58-59; its data sheet gives columns 29 to 52 to z, but the FORMAT reads 29 to 42).  A deck may
@@ -30,7 +30,7 @@ _RULES = profile(f"truncating:{_DIGITS}").rules
 
 @dataclass(frozen=True, slots=True)
 class DataSet:
-    """A data set: the number of points N, and its cards in the deck, of which the first is the card with N."""
+    """One point set in a deck: the number of points N, and its cards, of which the first is the card with N."""
 
     n: int
     cards: tuple[Card, ...]
@@ -58,7 +58,7 @@ class DeckWarning:
 
 @dataclass(frozen=True, slots=True)
 class CheckedDeck:
-    """The data sets of a valid deck, and warnings about its cards."""
+    """The result of a check: the data sets of a valid deck, and warnings about its cards."""
 
     source: str
     sets: tuple[DataSet, ...]
@@ -74,7 +74,8 @@ class TooManyDigits(ArgumentError):
 
 
 def coordinate_field(text: str, truncate: bool = False) -> str:
-    """Return a decimal number in the 14 columns of E14.8, as on the thesis's data sheet: ``+.20000000E+01``.
+    """Format a decimal number for the 14 columns of a field E14.8, as on the thesis's data sheet:
+    ``+.20000000E+01``.
 
     Raise TooManyDigits for more than eight significant digits unless ``truncate`` is true, and ValueError for other
     text and an exponent outside -99 to 99.
@@ -93,7 +94,7 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
 
 
 class UnfitPoint(ArgumentError):
-    """A coordinate that no card can hold. ``point`` and ``field`` number the point and its coordinate from 1."""
+    """Raised for a coordinate that no card can hold; ``point`` and ``field`` number the point and coordinate from 1."""
 
     def __init__(self, point: int, field: int, why: str, digits: bool) -> None:
         super().__init__(f"point {point}, field {field}: {why}")
@@ -120,7 +121,10 @@ def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = Fal
 
 
 def with_epsilon(deck: Deck, epsilon: object) -> Deck:
-    """Return the deck with e punched after N for the layer ``epsilon``. Raise ArgumentError if e does not fit."""
+    """Return the deck with the tolerance e punched after N, for programs changed to use it (layer ``epsilon``).
+
+    Raise ArgumentError if e does not fit.
+    """
     size = read_epsilon(epsilon)
     if size is None or size[1]:
         raise ArgumentError("epsilon: a card holds an absolute e, not a relative one (rel:)")
@@ -236,7 +240,7 @@ def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning])
 
 
 def _point(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) -> tuple[tuple[int, int], ...]:
-    """Check a card and return the mantissa and exponent of each of its numbers, which are the same for +0 and -0."""
+    """Check a card, and return mantissa and exponent of its three numbers, which are the same for +0 and -0."""
     numbers = []
     for axis, (first, columns) in zip("xyz", _fields(card), strict=True):
         try:

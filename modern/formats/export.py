@@ -26,7 +26,7 @@ def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
 
 
 def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:
-    """Return a surface as the text of a file in one of the formats ``MESHES``; see ``export_text`` for ``digits``."""
+    """Return a surface as the text of a file in one of the formats ``MESHES``; ``digits`` is as in ``export_text``."""
     if form not in MESHES:
         raise ExportError(f"{quoted(form)} is not a mesh format; the formats are {', '.join(MESHES)}")
     text: str = import_module(f"modern.formats.{form}").write(surface, digits)

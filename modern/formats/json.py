@@ -16,7 +16,7 @@ from modern.geometry.numbers import Point, integer_text, number
 
 
 def document(hull: Hull) -> dict[str, Any]:
-    """Return the hull as plain data.  A refused hull is allowed: its ``status`` gives the reason."""
+    """Return the hull as dictionaries and lists.  If no hull was found, ``status`` gives the reason."""
     return {
         "type": "hull",
         "arithmetic": hull.arithmetic,
@@ -39,7 +39,7 @@ def document(hull: Hull) -> dict[str, Any]:
 
 
 def write(hull: Hull) -> str:
-    """Return the text of a JSON file with a line for each member, and for each item of lists of lists or of objects."""
+    """Return the hull as JSON text, with one line for each member and for each item of a long list."""
     members = ",\n".join(f" {json.dumps(name)}: {_member(value)}" for name, value in document(hull).items())
     return "{\n" + members + "\n}\n"
 

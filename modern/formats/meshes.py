@@ -1,4 +1,4 @@
-"""Surfaces read from OFF, OBJ, PLY and STL files (PLY and STL also binary).  ``modern.formats.points`` recognises them.
+"""Read surfaces, points with faces, from OFF, OBJ, PLY and STL files, of which PLY and STL may be binary.
 
 The result holds the points and faces of the file.  The caller decides whether the faces close and what they enclose.
 Equal corners of an STL file are one point; every vertex of OFF, OBJ and PLY is a separate point.
@@ -12,7 +12,10 @@ from modern.formats.tokens import FileMesh
 
 
 def surface_kind(data: bytes, source: str) -> str:
-    """Return the format of a file that is one of ``MESHES``, "" for other formats of points, or raise FileError."""
+    """Return the format of a file with a surface, one of ``MESHES``, or "" if its format holds only points.
+
+    Raise FileError if the format is unknown.
+    """
     kind = kind_of(data, source)
     return kind if kind in MESHES else ""
 

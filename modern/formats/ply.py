@@ -46,7 +46,10 @@ _MOST_HEADER = 1 << 16
 
 @dataclass(frozen=True, slots=True)
 class _Element:
-    """An element of a header: for each property its name, its struct code, and for a list that of its length or ""."""
+    """A kind of item in a PLY file (vertex or face), with its properties.
+
+    For each property: its name, its struct code, and for a list the struct code of its length, else "".
+    """
 
     name: str
     count: int
@@ -73,7 +76,7 @@ def parse(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]
 
 
 def surface(data: bytes, source: str, with_faces: bool = True) -> FileMesh:
-    """Return the exact vertices and the faces of a PLY file.  If ``with_faces`` is false, do not read the faces."""
+    """Return the exact vertices of a PLY file, and its faces unless ``with_faces`` is false."""
     end = data.find(_END, 0, _MOST_HEADER)
     if end < 0:
         raise FileError(f"{source}: line 1, column 1: the header has no line end_header")

@@ -1,4 +1,4 @@
-"""Points read from files of every supported format: decks, lists, OFF, OBJ, PLY, STL, JSON and NPY.
+"""Read points from files of every supported format: decks, CSV lists, OFF, OBJ, PLY, STL, JSON and NPY.
 
 Numbers are exact: a decimal has the value of its text, a binary float the value it stores.  All digits of a deck's
 field are read, whereas the programs on the machine would truncate it after the eighth digit.  The format of a file is
@@ -23,7 +23,7 @@ _NPY, _DOUBLE = b"\x93NUMPY", 8
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """The points of a file as decimal text, their ``places`` (such as ``card 3``), and warnings for the user.
+    """The points of a file as decimal text, the place of each in the file (such as ``card 3``), and warnings.
 
     The texts of an array are made on access.
     """
@@ -76,7 +76,7 @@ def kind_of(data: bytes, source: str) -> str:
 
 
 def deck_or_points(data: bytes, source: str) -> str:
-    """Return the format of a file of points, or "deck" for every file that is not clearly one of the other formats.
+    """Return the format of a file of points; "deck" if it is not clearly one of the other formats.
 
     The reader of decks then reports what is wrong with it.  A line of several words is a list only if it holds three
     numbers, because the card with N may also hold e.

@@ -1,4 +1,4 @@
-"""ASCII and binary STL (3D Systems, "StereoLithography Interface Specification", 1989): triangles only.
+"""Read ASCII and binary STL files, write ASCII ones (3D Systems, "StereoLithography Interface Specification", 1989).
 
 Writing: each face is split into triangles from its first vertex.  Corners are exact decimal text, and a vertex always
 has the same text.  Unit normals have no finite decimal and are truncated to nine decimals.  A polygon becomes a
@@ -40,7 +40,7 @@ def write(mesh: Mesh, digits: int | None = None) -> str:
 
 
 def unit_text(vector: Vector) -> str:
-    """Return the unit vector in this direction, truncated to nine decimals, by integers; zero remains zero."""
+    """Return the unit vector in this direction as text, truncated to nine decimals; a zero vector remains zero."""
     square = dot(vector, vector)
     return " ".join(_truncated_quotient(component, square) for component in vector)
 
@@ -60,7 +60,9 @@ def is_binary(data: bytes) -> bool:
 
 
 def surface_binary(data: bytes, source: str) -> FileMesh:
-    """Return the triangles of a binary file as exact decimals.  A point's "line" is its first triangle."""
+    """Return the triangles of a binary STL file as exact decimals.  As its line, a point has its first triangle's
+    number.
+    """
     indices: dict[Point, int] = {}
     first_triangles: list[int] = []
     faces = []

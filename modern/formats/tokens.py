@@ -1,4 +1,4 @@
-"""Tokens of a text file with their lines and columns, for the readers of OFF, OBJ, PLY and STL."""
+"""Split a text file into tokens with their lines and columns, for the readers of OFF, OBJ, PLY and STL."""
 
 import re
 from collections.abc import Iterator
@@ -15,7 +15,9 @@ Line = tuple[int, list[Token]]
 
 @dataclass(frozen=True, slots=True)
 class FileMesh:
-    """The surface in a file: points as decimal text with their lines (or triangles), and faces as indices."""
+    """The surface in a file: points as decimal text with their lines (or triangle numbers), and faces as point
+    indices.
+    """
 
     source: str
     points: tuple[Point, ...]
@@ -46,7 +48,7 @@ def take(rows: Iterator[Line], count: int, source: str, last: int, what: str) ->
 
 
 def vertex(source: str, line: int, tokens: list[Token], first: int = 0, allow_more: bool = False) -> Point:
-    """Return the three coordinates that begin at token ``first``.
+    """Return the three coordinates of a vertex, which begin at token ``first`` of a line.
 
     Raise FileError if they are invalid, or if more tokens follow and ``allow_more`` is false.
     """

@@ -1,4 +1,4 @@
-"""``python -m modern.bench.ibm1962``: execute statements and object decks with IBM's library of 1962."""
+"""``python -m modern.bench.ibm1962``: run statements and object decks on IBM's library of 1962."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def show(options: argparse.Namespace) -> int:
-    """Execute one statement and print its outcome."""
+    """Execute one input or output statement on the library, and print its outcome."""
     statement = Statement(options.verb, options.format, options.values.split())
     (outcome,) = execute([(statement, options.card)], object_deck())
     for what, lines in (("typed", outcome.typed), ("punched", outcome.punched), ("number", outcome.numbers)):
@@ -76,13 +76,15 @@ def show(options: argparse.Namespace) -> int:
 
 
 def run_chapter6(options: argparse.Namespace) -> int:
-    """Run chapter 6, and write the results or compare them with the committed files.  Return 1 if they differ."""
+    """Run the examples of the thesis's chapter 6 on the library, and write or compare the results.  Return 1 if they
+    differ.
+    """
     library()
     return max(_committed(f"{FOLDER}/{name}", text, options.write) for name, text in results().items())
 
 
 def _committed(path: str, text: str, write: bool) -> int:
-    """Write a result, or compare it with the committed file.  Return 1 if they differ."""
+    """Write a result to its committed file, or compare it with that file.  Return 1 if they differ."""
     if write:
         write_text(path, text)
     same = read_text(path) == text
@@ -106,7 +108,9 @@ def run_programs() -> int:
 
 
 def run_measure(options: argparse.Namespace) -> int:
-    """Repeat the measured statements.  Return 1 if the library or the emulator gives another result."""
+    """Execute the recorded statements again.  Return 1 if the library or the emulator gives another result than
+    recorded.
+    """
     deck, vectors = object_deck(), load()
     again = measure([(vector.statement, vector.cards) for vector in vectors], deck)
     changed = sum(not same(first.outcome, second.outcome) for first, second in zip(vectors, again, strict=True))
@@ -126,7 +130,7 @@ def run_measure(options: argparse.Namespace) -> int:
 
 
 def run_compile(options: argparse.Namespace) -> int:
-    """Compare a source with the program in the deck.  Return 1 if the object programs differ."""
+    """Compare the object code of a source deck with the program in IBM's object deck.  Return 1 if they differ."""
     positions, different, cards = against_deck(compile_deck(read_deck(options.source)), object_deck())
     print(f"object program: {positions} positions, {different} different; symbol table: {cards} cards different")
     return int(bool(different or cards))

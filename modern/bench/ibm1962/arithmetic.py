@@ -1,4 +1,4 @@
-"""Operations of the library, compared with those of the profile ``ibm1962``."""
+"""Compare arithmetic operations of IBM's library of 1962 with those of the emulated arithmetic ``ibm1962``."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ Case = tuple[str, str, str]
 
 
 def executed(cases: Sequence[Case], deck: Sequence[str]) -> list[tuple[str, str]]:
-    """Return the result and the error codes of each case, as the library computes them."""
+    """Return the result and the error codes of each operation as IBM's library computes them."""
     results = []
     for case, output in zip(cases, run_jobs(deck, [_job(case) for case in cases]), strict=True):
         kind = "I" if case[0] in FIXED or case[0] == "FIX" else "E"
@@ -74,7 +74,7 @@ def _field(number: str) -> list[int]:
 
 
 def emulated(case: Case) -> tuple[str, str]:
-    """Return the result and the error code that the emulator computes."""
+    """Return the result and the error code of an operation as the emulator computes them."""
     operation, first, second = case
     rules = IBM1962.rules
     event = 0
@@ -104,7 +104,7 @@ def _program(expression: str) -> Program:
 
 
 def pair(number: str) -> tuple[int, int]:
-    """Return mantissa and exponent of a number such as ``-.25000000E+01``."""
+    """Return mantissa and exponent of a number in the notation ``-.25000000E+01``."""
     size, negative = int(number[-12:-4]), number.startswith("-")
     if size == 0:
         return 0, MINUS_ZERO if negative else ZERO
@@ -112,7 +112,7 @@ def pair(number: str) -> tuple[int, int]:
 
 
 def number_text(mantissa: int, exponent: int) -> str:
-    """Return a number as its field in core holds it, such as ``-.25000000E+01``."""
+    """Return a floating-point number in the notation of a storage field, such as ``-.25000000E+01``."""
     minus = "-" if mantissa < 0 or exponent == MINUS_ZERO else ""
     exponent = ZERO if mantissa == 0 else exponent
     return f"{minus}.{abs(mantissa):08}E{'-' if exponent < 0 else '+'}{abs(exponent):02}"

@@ -1,4 +1,5 @@
-"""Chapter 6 on IBM's library: every card that the programs punch is compared with the print.
+"""Run the examples of the thesis's chapter 6 on IBM's library of 1962, and compare every punched card with the
+print.
 
 The programs are those that produced the examples.  Programs 2 and 3 read the cards that program 1 has punched on the
 library.  The verdicts are in ``docs/ibm1962``, together with the hashes with which they can be verified.
@@ -37,7 +38,7 @@ class CardVerdict:
 
 
 def verdicts(examples: Sequence[int] = EXAMPLES) -> Iterator[CardVerdict]:
-    """Run examples and yield the verdict on each printed card."""
+    """Run the given examples on the library, and yield the verdict on each printed card."""
     for example in examples:
         for printed in prints(example):
             if printed.device == "punch":
@@ -46,7 +47,7 @@ def verdicts(examples: Sequence[int] = EXAMPLES) -> Iterator[CardVerdict]:
 
 
 def _judged(example: int, printed: Print, cards: Sequence[str]) -> Iterator[CardVerdict]:
-    """Yield the verdict on each printed card, and on the first card beyond them."""
+    """Yield the verdict on each printed card, and on the first punched card after the last printed one, if any."""
     for number in range(1, max(len(printed.lines), len(cards)) + 1):
         pair = [lines[number - 1].rstrip() if number <= len(lines) else None for lines in (printed.lines, cards)]
         yield CardVerdict(example, printed.program, number, SAME if pair[0] == pair[1] else DIFFERENT)
@@ -54,7 +55,7 @@ def _judged(example: int, printed: Print, cards: Sequence[str]) -> Iterator[Card
 
 @cache
 def _cards(example: int, name: str) -> tuple[str, ...]:
-    """Return the cards that a program punches on the library from the cards that program 1 has punched."""
+    """Return the cards that a program punches on the library; programs 2 and 3 read the cards of program 1."""
     return punched(execute(programs.program(name), _input(example, name)))
 
 
@@ -64,7 +65,9 @@ def _input(example: int, name: str) -> Sequence[str]:
 
 
 def results() -> dict[str, str]:
-    """Run everything and return the committed files by name: the verdicts, the rows of the apparatus, and the means."""
+    """Run all examples, and return the files to be committed by name: verdicts, tests of emendations, and means
+    used.
+    """
     cards = [(row.example, row.program, row.card, row.verdict) for row in verdicts()]
     rows = [(name, *answer) for name in NAMES for answer in confirmed(name)]
     return {
@@ -86,7 +89,7 @@ def digest(cards: Sequence[str]) -> str:
 
 
 def _means() -> str:
-    """Return as TOML what the cards were verified with: digests of the library and the programs, and the simulator."""
+    """Return TOML text that identifies the means: digests of the library and the programs, and the simulator."""
     version = subprocess.run([simulator()], input=b"quit\n", capture_output=True, check=False).stdout.decode("latin1")
     title = next((line.strip() for line in version.splitlines() if "1620" in line), "unknown")
     lines = [f'library = "{digest(library())}"', f'simulator = "{" ".join(title.split())}"', "", "[programs]"]
@@ -100,7 +103,7 @@ def program_digest(name: str) -> str:
 
 
 def confirmed(name: str) -> Iterator[tuple[str, str]]:
-    """Yield each row of a program's apparatus and what the library answers if the row is left out.
+    """Remove each emendation of a program in turn, and yield its identifier and what the library then does.
 
     The answers are ``compiler`` (the deck does not compile), ``no change`` (of the object program), ``library`` (the
     cards differ from the print, or the run does not end), and ``nothing``.

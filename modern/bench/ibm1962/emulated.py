@@ -1,4 +1,4 @@
-"""The same statement executed by the emulator in the profile ``ibm1962``, to compare it with the library."""
+"""Execute an input or output statement with the emulator's arithmetic ``ibm1962``, for comparison with the library."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ STATEMENT = 66
 
 
 def source(statement: Statement) -> list[str]:
-    """Return the cards of a program that reads the numbers of the list and executes the statement once."""
+    """Return the cards of a program that reads the numbers of the statement's list and executes the statement once."""
     names = [("A" if "." in value else "K") + str(k) for k, value in enumerate(statement.values)]
     lines = [f"      READ {2 if name[0] == 'A' else 3},{name}" for name in names]
     lines += _cards("", f"{statement.verb} 1" + "".join(f",{name}" for name in names))
@@ -64,7 +64,7 @@ def _texts(program: Program, session: Session, count: int) -> Iterator[str]:
 
 
 def floating_text(mantissa: int, exponent: int) -> str:
-    """Return a number as its field in core holds it, such as ``-.25000000E+01``."""
+    """Return a floating-point number in the notation of a storage field, such as ``-.25000000E+01``."""
     minus = "-" if mantissa < 0 or exponent == MINUS_ZERO else ""
     exponent = ZERO if mantissa == 0 else exponent
     return f"{minus}.{abs(mantissa):0{DIGITS}}E{'-' if exponent < 0 else '+'}{abs(exponent):02}"

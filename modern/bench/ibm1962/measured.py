@@ -1,4 +1,4 @@
-"""Input and output statements with the results that IBM's library of 1962 was measured to give.
+"""Recorded input and output statements, with the results that IBM's library of 1962 gave in the simulator.
 
 ``tests/data/vectors/ibm1962.tsv`` has a line for each statement: its verb, its FORMAT, the numbers of its list before
 it was executed, its cards, the lines that it typed, the cards that it punched (without sequence numbers), and the
@@ -23,14 +23,14 @@ SEQUENCE = 77
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A statement, its cards, and the outcome of the library."""
+    """A recorded statement: its data cards and the result of IBM's library."""
 
     statement: Statement
     cards: tuple[str, ...]
     outcome: Outcome
 
     def line(self) -> str:
-        """Return the line of the file."""
+        """Return the statement and its result as a line of the recording's file."""
         statement, outcome = self.statement, self.outcome
         punched = [card[:SEQUENCE].rstrip() for card in outcome.punched]
         typed = [line.rstrip() for line in outcome.typed]
@@ -47,7 +47,7 @@ def measure(cases: Sequence[tuple[Statement, tuple[str, ...]]], deck: Sequence[s
 
 
 def load() -> list[Measured]:
-    """Return the measured statements."""
+    """Return the recorded statements."""
     return [_parsed(line) for line in FILE.read_text(encoding="ascii").splitlines()]
 
 
@@ -58,7 +58,7 @@ def _parsed(line: str) -> Measured:
 
 
 def same(first: Outcome, second: Outcome) -> bool:
-    """Return True if two outcomes agree.
+    """Return True if two outcomes agree, apart from insignificant differences.
 
     Blank typed lines do not count, because the carriage returns before a line.  The sign of an exponent of zero in core
     has no effect.
@@ -84,7 +84,10 @@ def fields_at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
 
 
 def at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
-    """Yield random statements with their cards, without end: fields, literals, skips, slashes, groups and errors."""
+    """Yield an endless sequence of random statements with their data cards.
+
+    They contain fields, literals, skips, slashes, groups and errors.
+    """
     r = random.Random(seed)
     while True:
         items = [_group(r) if r.random() < 0.2 else _spec(r) for _ in range(r.randint(1, 6))]

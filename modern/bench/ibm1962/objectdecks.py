@@ -1,4 +1,4 @@
-"""Object decks of the project's programs, run on IBM's library and compared with the emulator."""
+"""Run object decks of the project's programs on IBM's library of 1962, and compare the output with the emulator's."""
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
@@ -48,7 +48,7 @@ _PROBE = [
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """The cards and lines that the library and the emulator write, and the error if one of them did not run.
+    """The cards and lines that a program writes on IBM's library and on the emulator, or the error of either.
 
     Blanks at the ends of cards and lines are removed.
     """
@@ -68,7 +68,9 @@ class Comparison:
 
 @cache
 def library() -> tuple[str, ...]:
-    """Return the cards of the library's object deck.  Raise Unavailable if it or a suitable simulator is missing.
+    """Return the cards of IBM's object deck, which contains the library.
+
+    Raise Unavailable if the deck or a suitable simulator is missing.
 
     Before 2015 the simulator's compare instruction set the overflow indicator, which the library's addition tests.
     """
@@ -92,12 +94,13 @@ def execute(
 
 
 def punched(result: Run | Result) -> tuple[str, ...]:
-    """Return the punched cards without their numbers."""
+    """Return the punched cards of a run without their sequence numbers."""
     return tuple(card[:COLUMNS].rstrip() for card in result.punched)
 
 
 def answers(operator: str) -> tuple[list[str], list[str], list[Collection[int]]]:
-    """Return the actions of an operator that are possible on the simulator, the typed lines, and the switches at START.
+    """Translate the actions of an operator to the simulator: the actions possible there, typed lines, switches at each
+    START.
 
     The simulator cannot be interrupted while it waits for a typed line, so that switches are set at a PAUSE only.
     """
@@ -144,7 +147,7 @@ def compare(name: str, program: Program, deck: Deck, operator: str = "") -> Comp
 
 
 def subjects() -> Iterator[tuple[str, Program, Deck, str]]:
-    """Yield the programs of the repository, each with an input deck and the actions of its operator."""
+    """Yield the programs to compare, each with its name, an input deck and the actions of its operator."""
     decks = {f"example {example}": input_deck(example) for example in EXAMPLES}
     decks |= {path.name: read_deck(str(path)) for path in sorted(Path(COUNTEREXAMPLES).glob("*.deck"))}
     for first in ("program1_examples", "program1"):

@@ -1,4 +1,4 @@
-"""The simulator ``i1620`` of SIMH: load a deck, set positions of core storage, run, and return what the run wrote."""
+"""Control SIMH's simulator of the 1620, ``i1620``: load a deck, set core storage, run, and return the output."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ _TROUBLE = re.compile(r"^(?:Invalid|No card in|Step expired) ?[^\n]*$", re.MULTI
 
 
 class Unavailable(Exception):
-    """The simulator or the object deck is missing.  The message says how to provide it."""
+    """Raised if the simulator or IBM's object deck is missing.  The message says how to provide it."""
 
 
 class Failed(Exception):
-    """The simulator did not finish a run."""
+    """Raised if the simulator did not finish a run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,13 +54,15 @@ class Run:
     milliseconds: float | None = None
 
     def field(self, address: int) -> list[int]:
-        """Return ten examined digits, those of the field whose low-order position is ``address``."""
+        """Return the ten digits of the storage field whose last digit is at ``address``."""
         return [self.core[position] for position in range(address - 9, address + 1)]
 
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """An object program for a loaded library: where it starts, positions to set, data cards, positions to return."""
+    """An object program to run after the library is loaded: start, positions to set, data cards, positions to
+    return.
+    """
 
     start: int
     stored: Mapping[int, Sequence[int]]

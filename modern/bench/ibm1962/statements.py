@@ -1,4 +1,4 @@
-"""One input or output statement, executed by the library: its object code, its data, and the numbers that it stores."""
+"""Execute a single input or output statement on IBM's library of 1962: its object code, its data, and its effects."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ BEFORE = {"I": "5555", "E": ".55555555E+55"}
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """``verb`` with a FORMAT and the values of its list, such as ``12`` or ``-.25000000E+01``."""
+    """An input or output statement: a verb such as READ, a FORMAT, and the values of its list as text."""
 
     verb: str
     text: str
@@ -49,7 +49,7 @@ class Statement:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """The effects of a statement: typed lines, punched cards, and the numbers of the list."""
+    """The effects of a statement: lines typed, cards punched, and the numbers of its list afterwards."""
 
     typed: tuple[str, ...]
     punched: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""The time of runs on IBM's library of 1962, compared with the emulator's model of time.
+"""Measure runs on IBM's library of 1962 in simulated time, and compare them with the emulator's model of time.
 
 A simulator with ``instruction_times.patch`` adds the published time of each instruction.  The results are
 kept in ``docs/ibm1962/times.csv``; :data:`emulator.machine.timing.MODEL` is the range of their ratios.
@@ -33,7 +33,7 @@ SETS = tuple((family, n) for family in ("ball", "integers", "cube", "sphere") fo
 
 @dataclass(frozen=True, slots=True)
 class TimedRun:
-    """The processor seconds of a run on the library and by the model."""
+    """The processor seconds of one run, measured on the library and computed by the emulator's model."""
 
     deck: str
     program: str
@@ -41,12 +41,12 @@ class TimedRun:
     model: float
 
     def row(self) -> tuple[str, ...]:
-        """Return the row of the table."""
+        """Return the run as a row of the table."""
         return self.deck, self.program, f"{self.library:.1f}", f"{self.model:.1f}", f"{self.library / self.model:.3f}"
 
 
 def subjects(sets: Sequence[tuple[str, int]] = SETS) -> Iterator[tuple[str, str, Program, Deck, float]]:
-    """Yield each run: its deck, the names of deck and program, and the processor seconds of the model."""
+    """Yield the runs to be measured: names of deck and program, program, deck, and the model's processor seconds."""
     decks = [(f"example {example}", "program1_examples", input_deck(example)) for example in EXAMPLES]
     for family, n in sets:
         cell = Cell({"sets": family, "n": n}, family, {"digits": 2, "n": n}, (Port("port"),), 1)
@@ -64,7 +64,7 @@ def subjects(sets: Sequence[tuple[str, int]] = SETS) -> Iterator[tuple[str, str,
 
 
 def timed() -> Iterator[TimedRun]:
-    """Run the subjects on the library.  Raise Unavailable if the simulator does not count time."""
+    """Measure each run on the library.  Raise Unavailable if the simulator does not count time."""
     for name, title, program, deck, seconds in subjects():
         object_deck = with_library(object_cards(program, CORE), library(), "OBJECT_DECK")
         cards = [card.text for card in deck.cards]

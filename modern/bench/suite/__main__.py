@@ -1,4 +1,4 @@
-"""The benchmarks of the project: median, minimum and maximum of each figure, and a value to compare it with."""
+"""Run the benchmarks of the project, and print median, minimum and maximum of each, with a value for comparison."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""Digital hulls: the filled hull of balls compared with scikit-image, its memory, the octree hull and the cell list.
+"""Benchmarks of digital hulls of balls: time compared with scikit-image, memory, octree hull and cell list.
 
 ``python -m modern.bench.suite.digital FILE.svg`` measures the growth of time with the number of voxels and plots it
 with the slope of each curve (extra ``plot``).
@@ -100,7 +100,7 @@ def process_of(name: str, diameter: int) -> Work:
 
 
 def works(volume: Volume) -> dict[str, Work]:
-    """Return the functions to time, which compute hulls of a solid's voxel centres, by their name in table and plot."""
+    """Return the functions to be timed, which compute hulls of a solid's voxel centres, by name."""
     return {
         OCTREE: lambda: octree_hull(volume),
         CELLS: lambda: voxel_hull(volume, CENTRES),
@@ -109,7 +109,7 @@ def works(volume: Volume) -> dict[str, Work]:
 
 
 def table(volume: Volume, slow: bool) -> Table:
-    """Measure the hulls of a solid in turn in processor seconds. ``slow`` adds one run of scikit-image."""
+    """Time the hulls of a solid in turn, in processor seconds.  If ``slow``, run scikit-image once too."""
     rows = side_by_side(works(volume), clock=time.process_time)
     peers = [FILLED]
     filled = digital_hull(volume).filled
@@ -127,7 +127,7 @@ def table(volume: Volume, slow: bool) -> Table:
 
 
 def growth(diameters: Sequence[int] = DIAMETERS) -> list[Curve]:
-    """Return median seconds by method and number of voxels for balls. scikit-image runs once, on small ones."""
+    """Measure median seconds for balls of growing size, as one curve for each method."""
     points_by_way: dict[str, list[tuple[int, float]]] = {}
     for diameter in diameters:
         volume = ball(diameter)
@@ -153,13 +153,17 @@ def by_scikit_image(array: Any) -> Any:
 
 
 def memory(side: int, way: str) -> str:
-    """Return, as text, the peak memory of a process that creates a ball and fills its hull, and the limit for it."""
+    """Measure the peak memory of a process that fills the hull of a ball.  Return it as text, with the allowed
+    limit.
+    """
     size, most = peak(side, way)
     return f"{most / 1e6:.0f} MB, bar {(4 * size + 300e6) / 1e6:.0f} MB"
 
 
 def peak(side: int, way: str) -> tuple[int, float]:
-    """Return the voxels in the box of a ball and the peak memory, in bytes, of such a process (median of three)."""
+    """Return the number of voxels in a ball's box, and the peak memory in bytes of filling its hull (median of
+    three).
+    """
     runs = []
     for _ in range(3):
         run = subprocess.run([sys.executable, "-c", PEAK, str(side), way], check=True, capture_output=True, text=True)

@@ -1,4 +1,4 @@
-"""Hidden lines by Nakamae and Nishita: all three steps, and the growth of time with the number of cuboids.
+"""Benchmarks of hidden-line drawings by Nakamae and Nishita's method, also with growing numbers of cuboids.
 
 ``python -m modern.bench.suite.hidden_line FILE.svg`` measures the growth and plots it (extra ``plot``).
 """
@@ -39,7 +39,7 @@ def block(count: int) -> list[Polyhedron]:
 
 
 def drawn(polyhedra: list[Polyhedron]) -> Drawing:
-    """Run steps II and III, including the proof that no two polyhedra intersect."""
+    """Draw the polyhedra by steps II and III of the paper, including the proof that no two polyhedra intersect."""
     return draw(polyhedra, parallel(EYE))
 
 
@@ -52,7 +52,7 @@ def figures() -> Iterator[Figure]:
 
 
 def growth() -> dict[str, list[tuple[int, float, int]]]:
-    """Return, by arrangement and size, the median seconds of all steps and the number of overlapping pairs."""
+    """Measure the median seconds of all steps and the number of overlapping pairs, by arrangement and size."""
     rows_by_arrangement: dict[str, list[tuple[int, float, int]]] = {}
     for name, arrangement in (("in a grid of three dimensions", block), ("on a floor, few overlap", field)):
         rows_by_arrangement[name] = [

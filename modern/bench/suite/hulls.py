@@ -1,4 +1,4 @@
-"""Hulls: the exact judge and the port in float64, compared with Qhull and CGAL in the same run.
+"""Benchmarks of convex hulls: the exact hull and Butler's procedure in float64, compared with Qhull and CGAL.
 
 ``python -m modern.bench.suite.hulls FILE.svg`` measures the growth of time with the number of points and plots it with
 the slope of each curve (extra ``plot``).
@@ -65,7 +65,7 @@ def lattice(side: int) -> Any:
 
 
 def exact_in_doubles(points: Any) -> Any:
-    """Scale coordinates in [-1, 1] to integers up to 80,000, because the port needs determinants exact in float64."""
+    """Scale coordinates in [-1, 1] to integers up to 80,000, so that Butler's determinants are exact in float64."""
     return np.rint(points * 80_000)
 
 
@@ -74,9 +74,9 @@ def eight_digits(points: Any) -> Any:
 
 
 def judge(points: Any) -> dict[str, Work]:
-    """Return ways to run the exact hull: with numpy alone and, if numba is installed, with compiled proposals.
+    """Return functions that compute the exact hull: with numpy alone and, if numba is installed, with compiled code.
 
-    The result has vertices, triangles and the certificate.
+    Their results have vertices, triangles and the certificate.
     """
     works: dict[str, Work] = {"judge, numpy": lambda: mesh(as_hull(exact_hull(points, fast=False))).triangles()}
     if find_spec("numba"):
@@ -85,7 +85,7 @@ def judge(points: Any) -> dict[str, Work]:
 
 
 def port(points: Any) -> dict[str, Work]:
-    """Return ways to run the port in float64: with numpy alone and, if numba is installed, with compiled kernels."""
+    """Return functions that run Butler's procedure in float64: with numpy alone and, with numba, compiled."""
     works: dict[str, Work] = {"port, numpy": lambda: convex_hull(points, "float64", fast=False)}
     if find_spec("numba"):
         works["port, fast"] = lambda: convex_hull(points, "float64", fast=True)
@@ -95,7 +95,7 @@ def port(points: Any) -> dict[str, Work]:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Functions that compute hulls of one set of points, timed in turn in processor seconds; the peers come last."""
+    """Hull functions to compare on one point set, timed in turn in processor seconds; programs of others come last."""
 
     points: str
     rows: tuple[Figure, ...]
@@ -150,7 +150,7 @@ def lines(largest: int = 1_000_000) -> Iterator[str]:
 
 
 def starts() -> Iterator[Figure]:
-    """Measure processes that compute one small hull: without kernels, with them, and with compilation."""
+    """Time whole processes that compute one small hull: without compiled code, with it, and with compilation."""
     if not find_spec("numba"):
         return
     yield timed("a process with one small hull, numpy", small_hull(False))
@@ -160,7 +160,10 @@ def starts() -> Iterator[Figure]:
 
 
 def small_hull(fast: bool, cache: str = "") -> Callable[[], object]:
-    """Return a process that computes the hull of a cube. ``cache`` replaces the user's folder of machine code."""
+    """Return a function that starts a process for the hull of a cube.
+
+    ``cache``, if given, replaces the user's folder of compiled code.
+    """
     script = "import numpy as np; from modern.port import convex_hull; p = np.indices((2, 2, 2)).reshape(3, 8).T * 2.0;"
     script += f"convex_hull(p, 'float64', fast={fast})"
     environment = {**os.environ, "NUMBA_CACHE_DIR": cache} if cache else dict(os.environ)
@@ -168,7 +171,7 @@ def small_hull(fast: bool, cache: str = "") -> Callable[[], object]:
 
 
 def growth(peers: Peers, counts: Sequence[int] = COUNTS) -> list[Curve]:
-    """Return median seconds by method and number of points in a ball.  The exact hull and the peers get floats."""
+    """Measure median seconds for points in a ball, as one curve for each method, over the number of points."""
     points_by_route: dict[str, list[tuple[int, float]]] = {}
     for count in counts:
         points = ball(count)

@@ -1,4 +1,4 @@
-"""Benchmarks of the later papers: Appel and Will's convex edges compared with the exact hull, hidden lines, cell lists.
+"""Benchmarks of the later papers: Appel and Will's convex edges, hidden lines, Kovalevsky and Schulz's cell lists.
 
 The hull of 60 points by Appel and Will's method is computed exactly, with sorted star polygons and with the test in
 one pass. For Kovalevsky and Schulz's cell list, the table gives seconds, and microseconds for each inserted local
@@ -48,7 +48,7 @@ def figures() -> Iterator[Figure]:
 
 
 def on_sphere(count: int, seed: int = 3) -> list[tuple[int, int, int]]:
-    """Return points of eight digits close to a sphere. All are vertices, which gives the largest number of edges."""
+    """Return points of eight digits close to a sphere.  All are vertices of their hull, so it has the most edges."""
     directions = np.random.default_rng(seed).normal(size=(count, 3))
     return [tuple(p) for p in eight_digits(directions / np.linalg.norm(directions, axis=1)[:, None]).tolist()]
 
@@ -76,7 +76,7 @@ def convex_edges() -> Iterator[Figure]:
 
 
 def cell_lists(largest: int = LARGEST_BALL) -> Iterator[Figure]:
-    """Measure cell lists of volumes with diameters 32, 64, ..., and the local corners alone."""
+    """Measure the cell lists of balls with diameters 32, 64, ..., and their local corners alone."""
     diameter = BAR
     while diameter <= largest:
         volume = solids.ball(diameter)
@@ -87,7 +87,7 @@ def cell_lists(largest: int = LARGEST_BALL) -> Iterator[Figure]:
 
 
 def cell_list(volume: solids.Volume, of: Of, neighbours: int, coplanar: Coplanar, bar: str) -> Figure:
-    """Measure the cell list of a solid's hull. The note of the figure gives the time for each local corner."""
+    """Measure the cell list of a solid's hull, with the time for each local corner in the figure's note."""
     corners = len(local_corners(volume, of, neighbours))
     figure = timed(
         f"cell list, {volume.source}, {of}, {neighbours}, {coplanar}",

@@ -1,4 +1,4 @@
-"""The programs that hulls are compared with: Qhull through scipy, and CGAL through a short C++ program."""
+"""Other programs for comparison of speed: Qhull through scipy, and CGAL through a short C++ program."""
 
 import os
 import shlex
@@ -66,11 +66,11 @@ class Peers(AbstractContextManager["Peers"]):
 
 
 class Missing(Exception):
-    """A peer that is not installed. The message gives the reason."""
+    """Raised if a program to compare with is not installed.  The message gives the reason."""
 
 
 def qhull() -> Peer:
-    """Return Qhull on the points as doubles. Raise Missing if scipy is not installed."""
+    """Return a function that prepares a Qhull run on doubles.  Raise Missing if scipy is not installed."""
     try:
         from scipy.spatial import ConvexHull
     except ImportError:
@@ -84,7 +84,7 @@ def qhull() -> Peer:
 
 
 def cgal(folder: Path) -> Peer:
-    """Return CGAL on the points as doubles, in a separate process. Raise Missing if it cannot be compiled."""
+    """Return a function that prepares a CGAL run on doubles in a process.  Raise Missing if it cannot be compiled."""
     command_of_cxx = shlex.split(os.environ.get("CXX", ""))
     command = command_of_cxx or next(([name] for name in COMPILERS if shutil.which(name)), [])
     if not command or not shutil.which(command[0]):

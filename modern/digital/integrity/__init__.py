@@ -1,4 +1,4 @@
-"""Checks of the files that SimpleITK reads, before it reads them.
+"""Checks of medical and microscopy files for damage, before SimpleITK reads them.
 
 SimpleITK fills missing data with zeros or with uninitialised memory, and it ignores most checksums. Each module checks
 one format against the format's definition: the header, the length of the data, and the checksum of compressed data.

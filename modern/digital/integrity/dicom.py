@@ -1,7 +1,8 @@
-"""Check a DICOM file (PS3.5 and PS3.10): every element to the end of the file, and the length of the pixel data.
+"""Check a DICOM file for damage (PS3.5 and PS3.10): every element to the end of the file, and the pixel data's
+length.
 
-SimpleITK leaves files that are truncated early out of a series. Pixel data in a compressed transfer syntax have no
-checksum and are rejected.
+SimpleITK silently omits a file from a series if it is truncated early. Pixel data in a compressed transfer syntax have
+no checksum and are rejected.
 """
 
 import os
@@ -32,7 +33,7 @@ _DEEPEST = 32
 
 
 class Unverifiable(VolumeError):
-    """Pixel data that are compressed without a checksum."""
+    """Raised for pixel data that are compressed without a checksum, so that damage could not be noticed."""
 
 
 @dataclass(slots=True)
@@ -65,7 +66,7 @@ class _Elements:
         return group, element
 
     def length(self, tag: tuple[int, int]) -> tuple[bytes, int]:
-        """Return the type and the length of the value that follows."""
+        """Read the type and the length of the next value."""
         if self.is_implicit or tag[0] == 0xFFFE:
             return b"", struct.unpack(f"{self.order}I", self.read(4))[0]
         kind = self.read(2)

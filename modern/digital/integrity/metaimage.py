@@ -1,4 +1,5 @@
-"""Check a MetaImage file (``.mha``, ``.mhd``): its header, and the length and checksum of the data it names.
+"""Check a MetaImage file (``.mha``, ``.mhd``): its header, and length and checksum of the data that the header
+names.
 
 The data follow the header (``ElementDataFile = LOCAL``) or are in one file or in several: a ``LIST`` of names, one on
 each line, or a pattern ``NAME%03d.raw FIRST LAST STEP``. SimpleITK leaves memory uninitialised if a list is too short.
@@ -28,7 +29,7 @@ _LONGEST_HEADER = 1 << 20
 
 
 def check_metaimage(path: str) -> tuple[tuple[int, ...], str]:
-    """Return the number of voxels along each axis, and a note on data outside the folder of the header, or "".
+    """Return the number of voxels along each axis, and a note if data are outside the header's folder, else "".
 
     Raise VolumeError if the header or the data are damaged.
     """
@@ -63,7 +64,7 @@ def check_metaimage(path: str) -> tuple[tuple[int, ...], str]:
 
 
 def _check_data(source: str, path: str, start: int, expected: int, fields: Mapping[str, str]) -> None:
-    """Check the data in one file. They begin at ``start`` unless the header states their position."""
+    """Check one file of data, which begin at byte ``start`` unless the header states their position."""
     skipped = _integer(fields, "HeaderSize", source, 0)
     is_packed = _flag(fields, "CompressedData", source)
     try:

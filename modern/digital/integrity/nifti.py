@@ -1,4 +1,4 @@
-"""Check a NIfTI-1 file (nifti1.h): its header, the length of its data, and the consistency of its positions.
+"""Check a NIfTI-1 image file (nifti1.h): its header, the length of its data, and whether its positions agree.
 
 SimpleITK replaces invalid sizes, offsets and spacings. It also applies ``scl_inter`` if ``scl_slope`` is 0, although
 the standard says that values are then not scaled. Such headers are rejected. If ``qform`` and ``sform`` differ, or the
@@ -44,7 +44,7 @@ Affine = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class NiftiHeader:
-    """The sizes of a NIfTI header, its positions by name (qform, sform), and a note about scaled values or ""."""
+    """The facts from a NIfTI header: sizes, positions by name (qform, sform), and a note about scaled values or ""."""
 
     sizes: tuple[int, ...]
     spacing: tuple[float, ...]
@@ -142,7 +142,7 @@ def _forms(
 
 
 def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
-    """Return notes on positions in the header that contradict each other; the notes say which one ``world`` has."""
+    """Return notes for the user if the positions in the header disagree; the notes name the one that ``world`` uses."""
     if world is None or len(world.steps) != 3:
         return []
     used = np.array([[float(number) for number in vector] for vector in (*world.steps, world.origin)]).T
@@ -161,7 +161,7 @@ def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
 
 
 def _distance(first: Affine, second: Affine, header: NiftiHeader, spacing: bool = True) -> float:
-    """Return the largest distance between the positions of a corner of the volume, or 0 if it is negligible.
+    """Return how far apart two positions place a corner of the volume, at most; 0 if the distance is negligible.
 
     If ``spacing`` is false, only directions and origins are compared: both positions are given the steps of ``pixdim``.
     """

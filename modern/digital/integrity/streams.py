@@ -1,4 +1,4 @@
-"""Lengths of data, and decompression that verifies a checksum without keeping the data."""
+"""Check the length of data, and decompress data to verify their checksum without keeping them."""
 
 import gzip
 import math
@@ -32,7 +32,7 @@ def check_sizes(source: str, sizes: Sequence[int]) -> None:
 
 
 def outside_note(header: str, name: str) -> str:
-    """Return a note if a header names a file of data that is not in its folder, otherwise an empty string."""
+    """Return a note if a header names a data file outside its own folder, otherwise an empty string."""
     folder = os.path.abspath(os.path.dirname(header))
     data = os.path.normpath(os.path.join(folder, name))
     outside = os.path.commonpath((folder, data)) != folder
@@ -77,7 +77,8 @@ def check_compressed(source: str, file: BinaryIO, stored: int, expected: int) ->
 
 
 def read_gzip(source: str, stored: str | BinaryIO, most: int, keep: int) -> tuple[bytes, int]:
-    """Return the first ``keep`` decompressed bytes of a gzip stream, and the length of all up to ``most`` + 1.
+    """Return the first ``keep`` decompressed bytes of a gzip stream, and its whole length, counted up to
+    ``most`` + 1.
 
     Raise VolumeError if it is damaged. The checksum is verified unless there are more than ``most`` bytes.
     """

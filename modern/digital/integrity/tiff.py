@@ -146,7 +146,7 @@ class _Reader:
 
 
 def _one(page: Tags, tag: int, source: str, default: int = 0) -> int:
-    """Return the only value of a tag; all values must be equal if the tag is repeated for each sample."""
+    """Return the only value of a TIFF tag.  If the tag has a value for each colour sample, all must be equal."""
     values = page.get(tag, (default,))
     if not values or isinstance(values, bytes) or len(set(values)) != 1 or not isinstance(values[0], int):
         raise VolumeError(f"{source}: damaged: tag {tag} has no valid value")
@@ -154,7 +154,7 @@ def _one(page: Tags, tag: int, source: str, default: int = 0) -> int:
 
 
 def _images(page: Tags) -> int:
-    """Return the number of images that ImageJ states in the description, or 0.
+    """Return the number of images that ImageJ states in the description of a TIFF page, or 0.
 
     ImageJ writes more than 4 GB of images as one page.
     """
