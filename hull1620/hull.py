@@ -72,9 +72,7 @@ class Hull:
 
     @property
     def status(self) -> str:
-        """``determined`` if there is a hull, otherwise the error message that the programs of 1963 give for these
-        points.
-        """
+        """``determined`` if there is a hull, otherwise the error message of the programs of 1963."""
         return self.record.status
 
     @property
@@ -135,9 +133,7 @@ class Hull:
 
     @cached_property
     def vertices(self) -> Indices:
-        """The indices of the vertices, in the order in which Butler's procedure finds them; ``exact_hull``
-        sorts them.
-        """
+        """The indices of the vertices, in the order of Butler's procedure; ``exact_hull`` sorts them."""
         return _read_only(np.array(self.record.vertices, np.intp))
 
     @cached_property

@@ -63,9 +63,7 @@ STAMP = 6
 # The arrays are grouped in the tuples below, so that each function receives only those it needs: numba passes an array
 # as seven or more numbers in every call.
 class Marks(NamedTuple):
-    """Parts of the object code that the devices use: second operand and statement of each instruction, and the
-    verbs.
-    """
+    """Parts of the object code that the devices use: second operand and statement of each instruction, verbs."""
 
     seconds: Row
     statements: Row
@@ -101,9 +99,7 @@ class Cards(NamedTuple):
 
 
 class Tools(NamedTuple):
-    """Arrays that are reused for every deck: texts of the FORMATs (reading changes them), registers, a line and a
-    field.
-    """
+    """Arrays reused for every deck: texts of the FORMATs (changed by reading), registers, a line and a field."""
 
     texts: Row
     devices: Row
@@ -234,9 +230,7 @@ def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
 
 
 def finish_list(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
-    """End a READ with a list as IBM's library of 1962 does, which reads no card for a slash followed by an unused
-    field.
-    """
+    """End a READ with a list as IBM's library of 1962 does: a slash before an unused field reads no card."""
     devices, specs = desk.devices, forms.specs
     status = GO_ON
     while status == GO_ON and devices[SPEC] < devices[LAST_SPEC]:

@@ -65,9 +65,7 @@ def why_plain(options: Options) -> str:
 
 @cache
 def run_decks() -> Compiled:
-    """Return the function ``run_decks`` of deck.py, ready to be compiled.  Raise NotInstalled if numba cannot
-    be used.
-    """
+    """Return the function ``run_decks`` of deck.py, to be compiled.  Raise NotInstalled if numba cannot be used."""
     # The code never divides by zero, so numba need not check divisors (error_model).  It creates no arrays, so numba
     # need not count references to them (_nrt).  The second option is documented only in
     # numba.extending.register_jitable; without it a run takes a sixth longer, because every call counts each of its
@@ -175,9 +173,7 @@ class Runner:
         self.kernel = run_decks().ready(*self._arguments([]))
 
     def runs(self, packed: Sequence[bytes | None]) -> Iterator[Run | None]:
-        """Yield the run of each deck, or None for a deck that only the interpreter can run.  Accepts at most BLOCK
-        decks.
-        """
+        """Yield the run of each deck, or None for a deck that only the interpreter can run.  At most BLOCK decks."""
         at = 0
         while at < len(packed):
             # A deck that could not be packed is passed as an empty deck, to keep the order.

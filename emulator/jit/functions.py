@@ -118,9 +118,7 @@ def _shown(line: str) -> Iterator[None]:
 
 @contextmanager
 def _without_collecting() -> Iterator[None]:
-    """Turn off the garbage collector during the block. The collector would make compiling a sixth slower, because the
-    compiler creates millions of objects.
-    """
+    """Turn off the garbage collector during the block, because compiling is then a sixth faster."""
     on = gc.isenabled()
     gc.disable()
     try:
@@ -158,9 +156,7 @@ def _make_callable(helper: Function) -> None:
 
 
 def digest(entry: Function, options: str) -> str:
-    """Return a hash, 16 characters long, of everything that determines the compiled code: modules, constants,
-    options.
-    """
+    """Return a hash of 16 characters of everything that determines the compiled code: modules, constants, options."""
     functions = called(entry)
     text = [options]
     # numba compiles globals into the code as constants, so that their values count as well as the source.

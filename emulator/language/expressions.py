@@ -164,9 +164,7 @@ class Emitter:
         return int(expression.text)
 
     def fixed(self, expression: Expression) -> bool:
-        """Return True if an expression is fixed point.  Raise Refused (error type 5) if it mixes fixed and floating
-        point.
-        """
+        """Return True for a fixed-point expression.  Raise Refused (error type 5) if it mixes both modes."""
         # Every level of parentheses calls this method, so the mode is cached to keep the time for deep expressions
         # linear.
         mode = self.modes.get(id(expression))
@@ -224,9 +222,7 @@ class Emitter:
         return negative
 
     def _part(self, expression: Expression) -> bool:
-        """Emit code for one operand of a sum or product, like :meth:`deferred`, and number it if it is a parenthesized
-        sum.
-        """
+        """Emit code for an operand, like :meth:`deferred`.  A parenthesized sum gets a number."""
         negative = self.deferred(expression)
         if isinstance(expression, Sum):
             self.group()

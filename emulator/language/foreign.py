@@ -178,9 +178,7 @@ def declared_names(statement: ForeignStatement, text: str) -> frozenset[str]:
 
 
 def suggest_function(name: str, library: Sequence[str]) -> str:
-    """Return advice about an unknown function: the list of functions, and a replacement or similar name if there is
-    one.
-    """
+    """Return advice about an unknown function: the list of functions, and a replacement or similar name."""
     known = f"the functions are {', '.join(library[:-1])} and {library[-1]}"
     bare = name.removesuffix("F")
     replacement = _BY_NAME.get(name) or _BY_NAME.get(bare)

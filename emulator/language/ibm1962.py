@@ -63,9 +63,7 @@ def character_code(character: str) -> int:
 
 
 def digits(number: int, count: int, *, negative: bool = False) -> list[int]:
-    """Return a number as ``count`` positions of storage.  The first digit has a flag, and the last if it is
-    negative.
-    """
+    """Return a number as ``count`` positions of storage.  The first digit has a flag, the last too if negative."""
     positions = [int(digit) for digit in f"{number:0{count}}"]
     positions[0] |= FLAG
     positions[-1] |= FLAG if negative else 0
@@ -87,9 +85,7 @@ def floating_field(number: str) -> list[int]:
 
 
 def field_text(positions: Sequence[int], kind: str) -> str:
-    """Return the number in ten storage positions as text: ``-0012`` for kind I, ``-.25000000E+01`` for kinds E
-    and F.
-    """
+    """Return the number in ten positions as text: ``-0012`` for kind I, ``-.25000000E+01`` for kinds E and F."""
     text = "".join("0123456789|"[position % FLAG] for position in positions)
     if kind == "I":
         return ("-" if positions[9] & FLAG else "") + text[6:]

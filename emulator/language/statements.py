@@ -79,9 +79,7 @@ def is_control_card(card: Card) -> bool:
 
 
 def statement_columns(card: Card, first: int = 1) -> str:
-    """Return columns ``first`` to 72 of a card, blank from a record mark on, because that character ends a
-    statement.
-    """
+    """Return columns ``first`` to 72 of a card, blank from a record mark on, which ends a statement."""
     text = card.columns(first, LAST_COLUMN)
     mark = None if is_control_card(card) else RECORD_MARK.search(text)
     return text[: mark.start()].ljust(len(text)) if mark else text
@@ -191,9 +189,7 @@ def _source(cards: tuple[Card, ...]) -> Source:
 
 
 def _place(cards: tuple[Card, ...], index: int) -> Place:
-    """Return the card and column of the character at ``index`` in the joined columns of a statement (see
-    :class:`Columns`).
-    """
+    """Return the card and column of the character at ``index`` in the joined columns (see :class:`Columns`)."""
     if index < LAST_COLUMN:
         return Place(cards[0].number, index + 1)
     card, column = divmod(index - LAST_COLUMN, LAST_COLUMN - _FIRST + 1)

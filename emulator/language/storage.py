@@ -34,9 +34,7 @@ class Entry:
     shape: tuple[int, ...] = ()
 
     def element(self, index: int) -> str:
-        """Return the name of the field ``index`` places after the first: ``X(3)`` or ``A(2,1)``, or the name of a
-        variable.
-        """
+        """Return the name of the field ``index`` places after the first: ``X(3)``, ``A(2,1)``, or a variable."""
         # Arrays of two dimensions are stored by columns: the first subscript varies fastest.
         if not self.shape:
             return self.name
@@ -74,9 +72,7 @@ class Storage:
         return self.entries[bisect_right(self.entries, address, key=attrgetter("first")) - 1]
 
     def fields_of(self, text: str) -> range:
-        """Return the fields of a variable, array or element, written ``NE``, ``X``, ``X(3)`` or ``A(2,1)``; empty if
-        unknown.
-        """
+        """Return the fields of a variable, array or elementsuch as ``X`` or ``A(2,1)``; empty if unknown."""
         parts = re.fullmatch(r"([A-Z][A-Z0-9]*)(?:\((\d{1,4})(?:,(\d{1,4}))?\))?", text)
         named = (e for e in self.entries if parts and e.name == parts[1] and e.kind in ("variable", "array"))
         entry = next(named, None)
@@ -126,9 +122,7 @@ class Allocator:
         return address if address < _PROVISIONAL else address - _PROVISIONAL + self.used
 
     def place(self, kind: str, name: str, shape: tuple[int, ...] = ()) -> Entry:
-        """Return the storage of a name, and reserve it if the name appears for the first time.  ``kind`` is e.g.
-        ``variable``.
-        """
+        """Return the storage of a name, which is reserved when it first appears. ``kind`` is e.g. ``variable``."""
         key = (kind, name)
         if key not in self.entries:
             size = 1

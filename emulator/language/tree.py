@@ -65,9 +65,7 @@ Expression = Number | Reference | Power | Product | Sum
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """``variable = expression``.  The value is converted to fixed or floating point if the variable requires it (p.
-    21).
-    """
+    """``variable = expression``.  The value is converted to the mode of the variable (p. 21)."""
 
     target: Reference
     value: Expression

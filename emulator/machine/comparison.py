@@ -164,9 +164,7 @@ class Comparison:
         return self._reference.error(value)
 
     def _uncertainty(self, pc: int, value: Number, bound: Fraction | None) -> str:
-        """Return a message if rounding in the reference run may have given an IF the wrong sign, else an empty
-        string.
-        """
+        """Return a message if rounding in the reference run may have given an IF the wrong sign, else ""."""
         card, name, text = self._line(pc).place.card, self._reference.name, self._reference.text(value)
         size = "any amount" if bound is None else f"1E{math.ceil(_logarithm(bound)):+03d}"
         remedy = "use exact, or a reference of more digits"

@@ -188,9 +188,7 @@ def stopped(program: Program, kind: Kind, at: int, decision: int, subscripts: tu
 
 
 def decided(program: Program, decision: int) -> Line | None:
-    """Return the statement of the last IF or computed GO TO, or None if ``decision`` is 0.  Instructions count
-    from 1.
-    """
+    """Return the last IF or computed GO TO, or None if ``decision`` is 0.  Instructions count from 1."""
     return program.line_at(decision - 1) if decision else None
 
 

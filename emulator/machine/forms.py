@@ -39,9 +39,7 @@ class Layout:
         self.literals = [s.text if isinstance(s, Literal) else "" for s in self.spec.specs]
 
     def record_fields(self, first: int) -> list[tuple[str, int, int]]:
-        """Return the FORMAT code, first column and width of each number field from specification ``first`` to the next
-        slash.
-        """
+        """Return code, first column and width of the number fields from specification ``first`` to the next slash."""
         column, record = 1, []
         for spec in takewhile(lambda spec: not isinstance(spec, Slash), self.spec.specs[first:]):
             if isinstance(spec, Field):

@@ -51,9 +51,7 @@ class Operator:
         """Receive the events of the devices, in order."""
 
     def attend(self, session: Session) -> Iterator[Action]:
-        """Yield the operator's actions while the machine runs.  The session calls this at the start and after each
-        slice.
-        """
+        """Yield the operator's actions while the machine runs.  Called at the start and after each slice."""
         return iter(())
 
     def goal(self, session: Session) -> int:
@@ -75,9 +73,7 @@ class Operator:
 
 @dataclass(frozen=True, slots=True)
 class Load:
-    """The part of an operator's file that belongs to one machine, with the names of program and deck if it
-    gives them.
-    """
+    """The part of an operator's file that belongs to one machine, perhaps with names of program and deck."""
 
     program: str
     deck: str

@@ -69,9 +69,7 @@ def _joined(parent: Sequence[int], place: dict[int, int], first: int, second: in
 
 
 def meeting(parents: Sequence[int], first: int, second: int) -> int:
-    """Return the first instruction that lies on every path from both of two instructions, or -1 if the paths join only
-    at the end.
-    """
+    """Return the first instruction on every path from both of two instructions, or -1 if that is the end."""
     end = len(parents) - 1
     path = set()
     while first >= 0 and first not in path:

@@ -191,9 +191,7 @@ class Session:
                 self._ending = Ending("operator", self.program.source, self.here, trouble="stopped by the operator")
 
     def places(self, action: Action) -> list[int]:
-        """Return the indices of the statements at which a BREAK action sets, or a CLEAR action removes, a
-        breakpoint.
-        """
+        """Return the indices of the statements at which a BREAK or CLEAR sets or removes a breakpoint."""
         return [
             line.index
             for line in self.program.statements
@@ -213,9 +211,7 @@ class Session:
         return [(self.state.values[field], self.state.kinds[field]) for field in self.program.storage.fields_of(name)]
 
     def expected_fields(self) -> list[tuple[str, int, int]]:
-        """Return the FORMAT code, first column and width of each field of the line that an ACCEPT statement
-        waits for.
-        """
+        """Return FORMAT code, first column and width of each field of the line for which an ACCEPT waits."""
         return self.devices.expected_fields(self._pending == interpreter.AT_BEGIN)
 
     def result(self, ending: Ending = BAD_INPUT) -> Result:
@@ -327,9 +323,7 @@ class Session:
             raise Ended(self._stopped(reason, address))
 
     def _watch(self, line: Line) -> None:
-        """Report the beginning of a statement to the tracer, and halt if a step is complete or a breakpoint is set
-        there.
-        """
+        """Report a statement that begins to the tracer, and halt after a step or at a breakpoint."""
         self.last, self._begun = self._begun, line
         if self.tracer is not None:
             self.tracer(line, self)
@@ -361,9 +355,7 @@ class Session:
         return stopped(self.program, "select", state.at, state.decision, state.index)
 
     def _pay(self, operation: str, first: Number, second: Number = 0) -> None:
-        """Add the cost of a slow operation to the work of the run before it begins.  Raise Ended if it exceeds the
-        limit by far.
-        """
+        """Add the cost of a slow operation to the work of the run.  Raise Ended if it exceeds the limit by far."""
         state = self.state
         state.work += state.owe(self.options.numbers.work(operation, first, second))
         if state.work > self.options.limit + interpreter.SLACK:

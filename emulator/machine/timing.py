@@ -100,9 +100,7 @@ class Timing:
 
     @property
     def seconds(self) -> float:
-        """The total time in seconds: an upper bound, because the buffered reader and punch can overlap with the
-        processor.
-        """
+        """The total time, an upper bound: the buffered reader and punch can overlap with the processor."""
         return self.processor_seconds + self.device_seconds
 
     @property

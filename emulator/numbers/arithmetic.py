@@ -61,9 +61,7 @@ class Rules(NamedTuple):
 
 
 def drawn(rules: Rules, count: int) -> Rules:
-    """Return the rules for operation number ``count`` of a run, which differ only in their random number for
-    rounding.
-    """
+    """Return the rules for operation number ``count`` of a run, with its random number for rounding."""
     digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, _ = rules
     number = draw(key, count)
     return Rules(digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, number)
@@ -236,9 +234,7 @@ def from_integer(value: int, rules: Rules) -> tuple[int, int]:
 
 
 def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
-    """Convert a number to fixed point: keep the four digits immediately left of the decimal point, and the sign
-    (C26-5619 p. 21).
-    """
+    """Convert to fixed point: keep the sign and the four digits left of the decimal point (C26-5619 p. 21)."""
     if exponent <= 0:
         return 0
     size: int = mantissa if mantissa > 0 else -mantissa

@@ -48,9 +48,7 @@ def lossless_rules(digits: int) -> Rules:
 
 
 class Numbers(ABC):
-    """An arithmetic for the object code.  Instances are plain data; only random rounding has a state
-    (:meth:`fresh`).
-    """
+    """An arithmetic for the object code.  Only random rounding has a state (:meth:`fresh`)."""
 
     @property
     @abstractmethod
@@ -111,9 +109,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def to_integer(self, value: Number) -> int:
-        """Return the four digits immediately left of the decimal point with the sign, as FIX does (C26-5619 p. 21).
-        May raise Undecided.
-        """
+        """Return the sign and the four digits left of the decimal point, as FIX does (p. 21).  May raise Undecided."""
 
     @abstractmethod
     def function(self, name: str, value: Number) -> tuple[Number, str]:

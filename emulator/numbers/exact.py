@@ -167,9 +167,7 @@ class ExactNumbers(Numbers):
 
 
 def _too_long(base: Exact, count: int) -> bool:
-    """Return True if a power of a rational number is certainly too long. The test uses that an integer of n bits is at
-    least 2**(n - 1).
-    """
+    """Return True if a power is certainly too long: an integer of n bits is at least 2**(n - 1)."""
     return not isinstance(base, RootSum) and (_longest(base) - 1) * abs(count) > MAX_BITS
 
 

@@ -30,9 +30,7 @@ FieldKind = Literal["E", "F", "I"]
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """A field of a card for one number: ``Iw`` (integer), ``Fw.d`` (decimal) or ``Ew.d`` (with exponent), w columns
-    wide.
-    """
+    """A field of w columns for one number: ``Iw`` (integer), ``Fw.d`` (decimal) or ``Ew.d`` (with exponent)."""
 
     kind: FieldKind
     width: int
@@ -140,9 +138,7 @@ def _remark(status: int) -> Remark | None:
 
 
 def write_as_1962(field: Field, mantissa: int, exponent: int, rules: Rules) -> tuple[str, bool]:
-    """Return the columns that IBM's library of 1962 writes for a number, and True if it did not fit and became
-    E14.8.
-    """
+    """Return the columns that IBM's library of 1962 writes, and True if the number did not fit and became E14.8."""
     codes = bytearray(field.width)
     end = columns1962.write_floating(
         codes, 0, field.kind == "E", field.width, field.decimals, mantissa, exponent, rules

@@ -95,9 +95,7 @@ def product(m: int, c: Rational, n: int, d: Rational) -> tuple[int, Rational]:
 
 
 def gathered(terms: Iterable[tuple[int, Rational]]) -> Rational | RootSum:
-    """Add terms, and merge those whose roots are multiples of each other.  Raise Undecided if more than MAX_ROOTS
-    remain.
-    """
+    """Add terms; merge those whose roots are multiples of each other.  Raise Undecided for more than MAX_ROOTS."""
     coefficients: dict[int, Rational] = {}
     for radicand, coefficient in terms:
         if radicand in coefficients:

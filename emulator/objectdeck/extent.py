@@ -26,9 +26,7 @@ class Extent:
     inferred: int
 
     def excess(self, core: int) -> int:
-        """Return by how many positions program and data exceed the storage of a machine; negative if positions remain
-        free.
-        """
+        """Return the positions by which program and data exceed a machine; negative if some remain free."""
         return self.data + self.code - _room(core)
 
     def overlap(self, core: int) -> str:

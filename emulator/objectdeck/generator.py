@@ -109,9 +109,7 @@ class _Generator:
             self.at += len(self.units[-1].digits)
 
     def _count(self, instruction: Instruction) -> None:
-        """Begin a statement: first output the FORMATs that precede it, then record the position of its statement
-        number.
-        """
+        """Begin a statement: output the FORMATs before it, and record the position of its number."""
         counter = self.program.counters[instruction.address]
         if counter.begins:
             self._formats_before(counter.statement)
@@ -262,9 +260,7 @@ class _Generator:
             self._put(self.addresses.operand(call, instruction.address + element, instruction.subscript, self.at))
 
     def _last_pass(self, loops: tuple[int, ...]) -> str:
-        """Return code that announces the last item of a list to the library, if all ``loops`` are in their last
-        pass.
-        """
+        """Return code that announces a list's last item to the library if all ``loops`` are in their last pass."""
         length = 48 * len(loops) + 12
         past = self.at + length
         text = ""
@@ -277,9 +273,7 @@ class _Generator:
         return text + d.TRANSMIT_FIELD_IMMEDIATE + f"{d.MORE_ITEMS:05d}" + "000]0"
 
     def _next_value(self, immediate: str, direct: str, bound: int) -> str:
-        """Return an instruction that adds a loop's step to a copy of its variable, or compares the copy with
-        the limit.
-        """
+        """Return an instruction that adds a loop's step to a copy of its variable, or compares it with the limit."""
         if bound < self.program.storage.fields:
             return direct + _POSITION + address(self.addresses.units(bound))
         value = int(self.program.storage.immediates[bound - self.program.storage.fields][1])

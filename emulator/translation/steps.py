@@ -126,9 +126,7 @@ class Repeat:
 
 @dataclass(frozen=True, slots=True)
 class List:
-    """The beginning of an input or output list.  ``verb`` is READ, ACCEPT, PUNCH, PRINT or TYPE; ``format`` is a
-    number.
-    """
+    """The beginning of an input or output list. ``verb`` is READ, ACCEPT, PUNCH, PRINT or TYPE, ``format`` a number."""
 
     verb: str
     format: int

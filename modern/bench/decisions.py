@@ -58,9 +58,7 @@ class Decision:
 def run_with_decisions(
     program: Program, deck: Deck, arithmetic: Numbers, limit: int = _LIMIT
 ) -> tuple[Result, list[Decision]]:
-    """Run a program, and return its result and its decisions.  An invalid deck becomes an ending of the kind
-    ``input``.
-    """
+    """Run a program; return its result and decisions.  An invalid deck becomes an ending of the kind ``input``."""
     machine = Machine(program, deck, Options(arithmetic, limit=limit), journal=Journal(False))
     assert machine.journal is not None
     try:

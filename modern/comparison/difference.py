@@ -118,9 +118,7 @@ def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Ma
 
 
 def _scaled(equation: Equation) -> Equation:
-    """Divide an equation by its largest coefficient of x, y or z.  An equation whose three are all zero stays
-    unchanged.
-    """
+    """Divide an equation by its largest coefficient of x, y or z.  If these are all zero, it stays unchanged."""
     size = max(abs(c) for c in equation[:3])
     return equation if not size else tuple(c / size for c in equation)  # type: ignore[return-value]
 
@@ -178,9 +176,7 @@ class CardDifferences:
 
 
 def card_differences(cards: CardHull, hull: Hull, source: str) -> CardDifferences:
-    """Compare the cards of the file ``source`` with the exact hull.  Raise UnrelatedCards if their points are
-    others.
-    """
+    """Compare the cards of the file ``source`` with the exact hull.  Raise UnrelatedCards for other points."""
     if not cards.vertices:
         raise UnrelatedCards(f"{source}: these cards have no vertices; 'hull1620 hull' punches cards that have them")
     points = [tuple(Fraction(number) for number in point) for point in hull.points]

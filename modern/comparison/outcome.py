@@ -100,9 +100,7 @@ def from_hull(name: str, hull: Hull) -> Outcome:
 
 
 def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
-    """Convert an exact hull to the form for comparisons.  The edges of a polygon become projected lines, as in the
-    thesis.
-    """
+    """Convert an exact hull to the form for comparisons.  A polygon's edges become projected lines."""
     if hull.dimension == 3:
         equations = [_four([Fraction(c) for c in hull.plane_of(facet)]) for facet in hull.facets]
     elif hull.dimension == 2:

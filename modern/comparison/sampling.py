@@ -63,9 +63,7 @@ class DecisionShares:
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """A number on a punched card or typed line: the number of the card or line, its columns, its values in the runs,
-    its digits.
-    """
+    """A number on a card or typed line (a record): record, columns, values in the runs, significant digits."""
 
     record: int
     columns: str

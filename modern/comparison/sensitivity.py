@@ -46,9 +46,7 @@ def records_of(result: Result) -> list[str]:
 
 
 def shape_of(texts: Sequence[str]) -> list[str]:
-    """Return the cards and lines without blanks and with a mark for each number.  Only runs with equal shapes are
-    compared.
-    """
+    """Return cards and lines with a mark for each number and without blanks, to compare their layout."""
     return ["".join(NUMBER.sub("#", text).split()) for text in texts]
 
 

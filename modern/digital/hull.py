@@ -233,9 +233,7 @@ def _fill_segment(filled: Truth, first: Grid, last: Grid) -> None:
 
 
 def _fill_polygon(filled: Truth, points: Grid, simplex: list[int]) -> None:
-    """Mark the grid points in the hull of coplanar points, which are projected along an axis that crosses their
-    plane.
-    """
+    """Mark the grid points in the hull of coplanar points, projected along an axis that crosses their plane."""
     origin = points[simplex[0]]
     normal = np.cross(points[simplex[1]] - origin, points[simplex[2]] - origin)
     normal //= np.gcd.reduce(normal)

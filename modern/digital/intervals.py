@@ -66,9 +66,7 @@ def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def fill(low: Grid, high: Grid, depth: int) -> Truth:
-    """Return a volume in which the column (x, y) is filled from low[x, y] to high[x, y]; ``depth`` is the column
-    height.
-    """
+    """Return a volume in which the column (x, y) is filled from low[x, y] to high[x, y], of ``depth`` voxels."""
     filled = np.empty((*low.shape, depth), dtype=np.bool_)
     index = np.arange(depth, dtype=np.int32)
     for part in slabs(filled):
@@ -136,9 +134,7 @@ def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) ->
 
 
 def _sides(x: Grid, y: Grid, row: Grid, width: int) -> tuple[Grid, Grid]:
-    """Return the least and greatest y of triangles in a row.  The edges of each triangle have its inside on
-    their left.
-    """
+    """Return the least and greatest y of triangles in a row.  Each triangle is on the left of its edges."""
     least, most = np.zeros(len(row), dtype=np.int64), np.full(len(row), width - 1, dtype=np.int64)
     for k in range(3):
         run, rise = x[:, (k + 1) % 3] - x[:, k], y[:, (k + 1) % 3] - y[:, k]

@@ -141,9 +141,7 @@ def _slices(folder: str) -> dict[str, str]:
 
 
 def _slice_notes(folder: str, used: Sequence[str], remarks: Mapping[str, str]) -> list[str]:
-    """Return notes about files of a folder that are not part of the image.  Raise VolumeError if a slice was not
-    verified.
-    """
+    """Return notes about files that are not part of the image.  Raise VolumeError if a slice was not verified."""
     for name in used:
         remark = remarks.get(name, _NOT_DICOM)
         if remark:

@@ -122,9 +122,7 @@ def find_visible(at: Points, surface: Surface, p: int, first: int) -> tuple[int,
 
 
 def cone(at: Points, surface: Surface, p: int, slots: Integers, edges: int) -> None:
-    """Create a new facet from ``p`` to each edge of the horizon, in the given slots, and link the facets with each
-    other.
-    """
+    """Create a facet from ``p`` to each edge of the horizon, in the given slots, and link all facets."""
     corner, across, horizon, starting = surface.corner, surface.across, surface.horizon, surface.starting
     for k in range(edges):
         a, b, g = horizon[3 * k], horizon[3 * k + 1], horizon[3 * k + 2]

@@ -50,9 +50,7 @@ class Scan:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A selection of voxels by value: at least ``threshold``, or one of ``labels``; if neither is given, all
-    except 0.
-    """
+    """A selection of voxels by value: at least ``threshold``, or one of ``labels``; else all except 0."""
 
     threshold: Fraction | None = None
     labels: tuple[int, ...] = ()

@@ -72,9 +72,7 @@ class World:
         return replace(self, origin=self.place(voxel))
 
     def turned(self, space: str) -> "World":
-        """Return the same position in the axes of another anatomical space.  Raise VolumeError if a space is not
-        anatomical.
-        """
+        """Return the same position in another anatomical space.  Raise VolumeError if a space is not anatomical."""
         if space not in ANATOMICAL or self.space not in ANATOMICAL or len(self.origin) != 3:
             raise VolumeError(f"expected one of the spaces {', '.join(ANATOMICAL)}, found {self.space or 'none'}")
         signs = [

@@ -32,9 +32,7 @@ def draw_against(
     width: int | None = None,
     show: Show | None = None,
 ) -> str:
-    """Draw a true hull and the differences of a claimed one.  Return an SVG file; the parameters are those of
-    ``draw_svg``.
-    """
+    """Draw a true hull and the differences of a claimed one.  Return an SVG file; parameters as in ``draw_svg``."""
     show = replace(show or Show(), points=True)
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)
     width = width_of(picture, width)

@@ -1,6 +1,4 @@
-"""Project a hull for a picture: positions of its points, and its visible and hidden edges (Nakamae and Nishita's
-method).
-"""
+"""Project a hull for a picture, and find its visible and hidden edges by Nakamae and Nishita's method."""
 
 from collections import defaultdict
 from collections.abc import Sequence

@@ -46,9 +46,7 @@ class Frame:
 
 
 def frames(hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int = _CELL) -> tuple[Frame, ...]:
-    """Return a picture of each stage of a hull, which must have its history.  Raise ExportError if there is one stage
-    only.
-    """
+    """Return a picture of each stage of a hull with its history.  Raise ExportError if there are no stages."""
     if not hull.determined:
         raise ExportError(f"there is no hull: {hull.status}")
     if not hull.history:

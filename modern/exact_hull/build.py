@@ -34,9 +34,7 @@ _FEW = 64
 
 
 def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
-    """Return the points that are not in the simplex in a random order, which is the same for every run with
-    this count.
-    """
+    """Return the points outside the simplex in a random order, which is always the same for one ``count``."""
     used = set(simplex)
     order = [index for index in range(count) if index not in used]
     random.Random(SEED).shuffle(order)

@@ -218,9 +218,7 @@ def _check_segment(hull: ExactHull) -> int:
 
 
 def _proved(hull: ExactHull) -> tuple[int, Planes, str]:
-    """Check facets and classes of a hull of dimension 1 to 3.  Return the number of edges, the planes, and how it was
-    proved.
-    """
+    """Check facets and classes of a hull of dimension 1 to 3.  Return the number of edges, planes, arithmetic."""
     # For many points and facets, prove convexity from the edges, unless the surface is too thin for float64.
     if hull.dimension == 3 and len(hull.scaled) * len(hull.facets) >= MANY:
         with suppress(Undecided):  # in that case every plane is evaluated at every point, below

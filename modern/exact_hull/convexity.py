@@ -123,9 +123,7 @@ def _product(u: Floats, v: Floats) -> Floats:
 
 @dataclass
 class _Proof:
-    """The data of a proof of convexity; ``evaluations`` counts how often the sign of a plane at a point was
-    computed.
-    """
+    """The data of a proof of convexity; ``evaluations`` counts the computed signs of planes at points."""
 
     hull: ExactHull
     sides: Polygons
@@ -140,9 +138,7 @@ class _Proof:
         return self.images.exactly(self.o)
 
     def check_middle(self) -> float:
-        """Check that the inner point is inside every plane (condition c).  Return the radius of a ball that is inside
-        too.
-        """
+        """Check that the inner point is inside every plane (condition c).  Return the radius of a ball inside."""
         bases = self.images.places[self.sides.corner[self.sides.first]]
         normals = self.planes.normals
         approximate = np.einsum("ij,ij->i", normals, self.o - bases)
@@ -156,9 +152,7 @@ class _Proof:
         return float((-approximate / np.sqrt((normals**2).sum(axis=1))).min())
 
     def check_edges(self) -> None:
-        """Check that at every edge the neighbouring polygon is strictly inside the plane of this polygon
-        (condition d).
-        """
+        """Check that each polygon's neighbours are strictly inside its plane (condition d)."""
         sides = self.sides
         # The corner that follows the edge in the neighbouring polygon.
         beyond = sides.corner[sides.next[sides.next[sides.twin]]]
@@ -260,9 +254,7 @@ class _Proof:
         return at, certain
 
     def _walked(self, triangle: int, point: int) -> int:
-        """Walk with exact signs from ``triangle`` to the triangle whose cone contains the point; return -1 if this
-        fails.
-        """
+        """Walk with exact signs from ``triangle`` to that whose cone contains the point; return -1 on failure."""
         for _ in range(_STEPS):
             beyond = [edge for edge in range(3) if self.wall_sign(triangle, edge, point) < 0]
             if not beyond:

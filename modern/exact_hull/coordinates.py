@@ -51,9 +51,7 @@ class Images:
 
     @property
     def are_small(self) -> bool:
-        """True if float64 holds all images, and all values of planes through the points, exactly: as integers below
-        2**52.
-        """
+        """True if float64 holds images and values of planes exactly: as integers below 2**52."""
         return sum(self.shifts) <= _SMALL_BITS
 
     def exactly(self, place: Floats) -> tuple[IntPoint, int]:
@@ -110,9 +108,7 @@ class Coordinates(LazyMembers[IntPoint]):
         return _integers(self.numbers[indices], self.scale)
 
     def floats(self) -> Floats:
-        """Return the points as the nearest doubles, shape (n, 3); numbers beyond the largest double become
-        infinities.
-        """
+        """Return the points as the nearest doubles, or infinities beyond the largest one; shape (n, 3)."""
         if self.kind == "f":
             return np.array(self.numbers)
         if self.kind == "i" and self.scale & (self.scale - 1) == 0 and self.scale < 2**_HUGE:

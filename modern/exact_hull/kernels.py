@@ -174,9 +174,7 @@ def difference(x: float, y: float, part: int) -> float:
 
 
 def orientation(terms: Any, places: Any, corners: Any, slot: int, p: int) -> float:
-    """Return a number with the exact sign of the determinant of b - a, c - a and p - a (a, b, c: corners of
-    ``slot``).
-    """
+    """Return a number with the sign of the determinant of b - a, c - a, p - a for corners a, b, c."""
     a, b, c = corners[slot, 0], corners[slot, 1], corners[slot, 2]
     count = 0
     for i, j, k, sign in _PRODUCTS:
@@ -213,9 +211,7 @@ def value(known: Any, slot: int, p: int) -> float:
 
 
 def wait(known: Any, slot: int, p: int, height: float) -> None:
-    """Add the point ``p`` to the list of a triangle that it is outside of; ``height`` is the plane's value at the
-    point.
-    """
+    """Add a point to the list of a triangle that it is outside of; ``height`` is the plane's value there."""
     known.following[p] = known.first[slot]
     known.first[slot] = p
     if height > known.height[slot]:
@@ -240,9 +236,7 @@ def distribute(known: Any, p: int, slots: Any, count: int) -> int:
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
-    """Find the triangles that a point is outside of, from ``start`` on, and the edges around them.  Return both
-    counts.
-    """
+    """Find the triangles that a point is outside of, from ``start`` on, and their outer edges.  Return both counts."""
     mark, neighbours = known.mark, known.neighbours
     visible[0] = start
     mark[start] = 2 * step
@@ -266,9 +260,7 @@ def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) 
 
 
 def grow(known: Any, work: Any, start: NDArray[np.int64]) -> int:
-    """Grow the hull from the four points ``start``.  Return the number of slots used, or 0 if the surface does not
-    close.
-    """
+    """Grow the hull from the points ``start``.  Return the slots used, or 0 if the surface does not close."""
     corners, neighbours = known.corners, known.neighbours
     points = len(known.places)
     near, visible, fresh, heads = work.near, work.visible, work.fresh, work.heads

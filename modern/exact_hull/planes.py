@@ -110,9 +110,7 @@ class Planes:
 
     @cached_property
     def _small(self) -> tuple[Ints, bool] | None:
-        """The normals as int64 if int64 can decide every sign: by single products (True) or by ``long_signs``
-        (False).
-        """
+        """The normals as int64 if that decides every sign: by single products (True) or ``long_signs`` (False)."""
         if self.points.kind != "i":
             return None
         sides = [1 << shift for shift in self.points.images.shifts]
@@ -206,9 +204,7 @@ class Planes:
         self.evaluations += len(indices) * count
 
     def largest(self, indices: Ints) -> tuple[Ints, Ints]:
-        """Return, for each point, a facet whose plane has the largest sign there (1 outside, 0 on it), and this
-        sign.
-        """
+        """Return for each point a facet whose plane has the largest sign there (1: outside), and this sign."""
         facets, largest = np.zeros(len(indices), np.int64), np.full(len(indices), -1)
         for rows, columns, signs in self.near(indices):
             np.maximum.at(largest, rows, signs)

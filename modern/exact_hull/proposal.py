@@ -195,9 +195,7 @@ class _Growing:
         self.made = end
 
     def _signed(self, values: Floats, points: Ints, triangles: Ints) -> Floats:
-        """Return values of planes at points.  If rounding leaves the sign uncertain, the exact sign times 1e-300
-        replaces it.
-        """
+        """Return values of planes at points.  The exact sign times 1e-300 replaces a value of uncertain sign."""
         doubtful = np.flatnonzero(~(abs(values) > self.bounds[triangles]))
         if doubtful.size and not self.exact:
             distinct, places = np.unique(triangles[doubtful], return_inverse=True)
@@ -206,9 +204,7 @@ class _Growing:
         return values
 
     def _outside(self, points: Ints, chosen: Ints, largest: Floats) -> tuple[Ints, Ints, Floats]:
-        """Return the points that are outside the plane of their chosen triangle, and record those that lie in the
-        plane.
-        """
+        """Return the points outside the plane of their chosen triangle, and record those in the plane."""
         on, outside = largest == 0, largest > 0
         self.near.append(np.stack([points[on], chosen[on]]))
         return points[outside], chosen[outside], largest[outside]
@@ -289,9 +285,7 @@ class _Growing:
         return True
 
     def _nominated(self) -> tuple[Ints, Ints]:
-        """Return the points to insert next, with their triangles: each is farther outside than any at a neighbouring
-        triangle.
-        """
+        """Return points, with their triangles, that are farther outside than those at neighbouring triangles."""
         highest = np.full(self.made, -1.0)
         np.maximum.at(highest, self.home, self.height)
         top = self.height == highest[self.home]
@@ -334,9 +328,7 @@ class _Growing:
         return rank, triangle, rank[row], triangle[row], edge
 
     def _reassign(self, owner: Ints, inserted: Ints, edge_rank: Ints, first: int) -> None:
-        """Assign points that waited at removed triangles to new triangles, from index ``first`` on, that they are
-        outside of.
-        """
+        """Assign points of removed triangles to new ones, from index ``first`` on, that they are outside of."""
         lost = ~self.alive[self.home]
         orphans, remover = self.waiting[lost], owner[self.home[lost]]
         done = np.zeros(len(self.places), np.bool_)

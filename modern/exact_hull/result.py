@@ -86,9 +86,7 @@ class ExactHull:
     certificate: Certificate | None = field(default=None, compare=False)
 
     def plane_of(self, facet: Facet | Plane) -> Plane:
-        """Return a plane, given for the scaled integer coordinates, for the original coordinates and in lowest
-        terms.
-        """
+        """Convert a plane from the scaled to the original coordinates, in lowest terms."""
         a, b, c, d = facet.plane if isinstance(facet, Facet) else facet
         a, b, c = a * self.scale, b * self.scale, c * self.scale
         divisor = math.gcd(a, b, c, d)

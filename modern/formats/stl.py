@@ -60,9 +60,7 @@ def is_binary(data: bytes) -> bool:
 
 
 def surface_binary(data: bytes, source: str) -> FileMesh:
-    """Return the triangles of a binary STL file as exact decimals.  As its line, a point has its first triangle's
-    number.
-    """
+    """Return the triangles of a binary STL file as exact decimals.  A point's "line" is its first triangle."""
     indices: dict[Point, int] = {}
     first_triangles: list[int] = []
     faces = []

@@ -261,9 +261,7 @@ def _loop(surface: Mesh, group: Sequence[int], within: Fraction) -> tuple[int, .
 def _check_convex(
     points: Sequence[IntVector], scale: int, loop: Sequence[int], normal: IntVector, within: Fraction
 ) -> None:
-    """Raise CoplanarError if a polygon is not convex: if, seen along the normal, a corner is more than E inside its
-    hull.
-    """
+    """Raise CoplanarError if a corner, seen along the normal, is more than E inside the polygon's hull."""
     size = dot(normal, normal)
     corners = [points[index] for index in loop]
     hull = _outer(corners, normal)

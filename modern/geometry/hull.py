@@ -63,9 +63,7 @@ class LazyTuple(Sequence[T]):
 
 
 class LazyMembers(LazyTuple[T]):
-    """A sequence of known length whose members are computed one at a time; accessing all of them computes all
-    at once.
-    """
+    """A sequence of known length whose members are computed one at a time, or all at once."""
 
     def __init__(self, count: int, member: Callable[[int], T]) -> None:
         super().__init__(count, lambda: map(member, range(count)))

@@ -33,9 +33,7 @@ class Mesh:
         return tuple(coordinates(point) for point in self.points)
 
     def decimals(self, digits: int | None) -> tuple[str, ...]:
-        """Return each point as a line ``x y z`` of decimals.  Raise ExportError if a number needs rounding to
-        ``digits`` digits.
-        """
+        """Return each point as a line ``x y z`` of decimals, rounded to ``digits`` if necessary."""
         lines = []
         for place, point in enumerate(self.points, 1):
             texts = []

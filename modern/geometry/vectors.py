@@ -47,9 +47,7 @@ def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
 
 
 def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
-    """Return the normal of a polygon, with a length of twice its area.  The corners are counterclockwise seen from its
-    tip.
-    """
+    """Return a polygon's normal, twice its area long.  Seen from its tip, the corners are counterclockwise."""
     origin = points[face[0]]
     total = minus(origin, origin)
     for here, ahead in pairwise(face[1:]):

@@ -43,9 +43,7 @@ class Arithmetic(ABC):
         """Convert a coordinate; ``minus`` marks a zero with a minus sign.  Raise RangeError if it is too large."""
 
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
-        """Convert a tolerance for values of the given degree (1: coordinate, 2: product of two).  Raise RangeError if
-        too large.
-        """
+        """Convert a tolerance for values of the given degree.  Raise RangeError if it is too large."""
         return self.number(size)
 
     @cached_property
@@ -124,9 +122,7 @@ class Arithmetic(ABC):
         return not self.sign(values * values).any()
 
     def distances_add_up(self, first_square: Scalar, second_square: Scalar, total_square: Scalar) -> bool:
-        """Return True if the first two distances add up to the third.  The arguments are the squares of the
-        distances.
-        """
+        """Return True if the first two distances add up to the third.  The arguments are their squares."""
         return self.is_zero(self.root(first_square) + self.root(second_square) - self.root(total_square))
 
     def farthest(self, o1: Vector, o2: Vector, o3: Vector) -> int:
@@ -146,9 +142,7 @@ Point = tuple[Number, Number, Number]
 
 
 def less(total: Number, product: Number) -> Number:
-    """Return ``total - product`` in the order in which the 1620's compiler subtracts: product - total, sign
-    reversed.
-    """
+    """Return ``total - product`` as the 1620's compiler computes it: product - total, sign reversed."""
     return -(product - total)
 
 
@@ -183,9 +177,7 @@ def at(equation: tuple[Number, ...], point: tuple[Number, ...]) -> Number:
 
 
 def moments(points: Point, p: Point, q: Point) -> tuple[Number, Number, Number]:
-    """Return O1, O2, O3, the components of a cross product.  The sum of their squares grows with the distance of a
-    point from the line P1 P2 (thesis p. 15).
-    """
+    """Return O1, O2, O3, whose sum of squares grows with the distance from the line P1 P2 (thesis p. 15)."""
     (x, y, z), (x1, y1, z1), (x2, y2, z2) = points, p, q
     # Statements 125 to 226 of program 1: the components of the cross product of P2 - P and P2 - P1.
     o1 = less((y2 - y) * (z2 - z1), (z2 - z) * (y2 - y1))

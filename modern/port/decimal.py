@@ -59,9 +59,7 @@ class Number1620:
 
 @dataclass(frozen=True)
 class Arithmetic1620(Arithmetic):
-    """Butler's procedure in the decimal arithmetic of the 1620: vectors of :class:`Number1620` with the rules of a
-    profile.
-    """
+    """The arithmetic of the 1620 for Butler's procedure: vectors of :class:`Number1620` under one profile."""
 
     profile: Profile
 

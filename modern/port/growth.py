@@ -35,9 +35,7 @@ class Remaining:
         self.keeper = self.keeper[1:]
 
     def strike_inside(self, points: PointTable, vertices: int, table: Equations) -> list[int]:
-        """Remove the points that lie inside all planes or lines.  Return their input indices, in their order in
-        ``points``.
-        """
+        """Remove the points inside all planes or lines.  Return their input indices, in the order of ``points``."""
         self.eliminated_any = False
         if len(points) <= vertices:
             return []
@@ -130,9 +128,7 @@ class Grown:
 
 
 def stage(hull: Growing, first: bool) -> Grown | None:
-    """Add the next vertex to the hull and remove the points that are now inside.  Return None if no point is
-    outside.
-    """
+    """Add the next vertex to the hull and remove the points now inside.  Return None if no point is outside."""
     if first:
         added, checked, outside = hull.points.input_indices(slice(0, hull.vertices)), 0, 0
     else:
@@ -150,9 +146,7 @@ def stage(hull: Growing, first: bool) -> Grown | None:
 
 
 def grow(hull: Hull, grow_stage: Callable[[Hull, bool], Grown | None] = stage) -> None:
-    """Run ``grow_stage`` until no point is outside the hull.  One call may add several vertices if no caller
-    watches.
-    """
+    """Run ``grow_stage`` until no point is outside.  One call may add several vertices if no caller watches."""
     hull.remaining.begin(len(hull.points) - hull.vertices)
     growth = grow_stage(hull, True)
     while growth:

@@ -70,9 +70,7 @@ def _read(system: Numbers, value: Exact, minus: bool) -> Any:
 
 @dataclass(frozen=True)
 class HostedArithmetic(Arithmetic):
-    """The arithmetic of Butler's procedure for one of the emulator's number systems; vectors hold
-    :class:`HostedNumber`.
-    """
+    """A number system of the emulator for Butler's procedure; vectors hold :class:`HostedNumber`."""
 
     system: System
 

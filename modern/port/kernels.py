@@ -47,9 +47,7 @@ BLOCK = 256
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
-    """Return the first slot from ``first`` to ``last`` whose plane has the point on it or outside, or -1 if
-    none has.
-    """
+    """Return the first slot from ``first`` to ``last`` whose plane has the point on it or outside, or -1."""
     for slot in range(first, last):
         if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
             return slot
@@ -99,9 +97,7 @@ def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation:
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
-    """Return the index of the point farthest outside a plane, or -1 if no point is outside.  Of equal ones the last
-    wins.
-    """
+    """Return the index of the point farthest outside a plane (of several the last), or -1 if none is outside."""
     # A value within the slack counts as zero. The difference computed here is a zero of the number type of the values.
     largest = e if e > 0 else e - e
     index = -1

@@ -70,9 +70,7 @@ def extremes(arithmetic: Arithmetic, points: PointTable) -> tuple[int, int, int]
 
 
 def bring_to_front(points: PointTable, first: int, second: int) -> None:
-    """Move the two extreme points to positions 0 and 1 by exchanging them with the points there (statements 155 to
-    158).
-    """
+    """Exchange the two extreme points with those at positions 0 and 1 (statements 155 to 158)."""
     points.swap(first, 0)
     # The first exchange moved point 0. If that is the second extreme, it is now where the first one was (157).
     points.swap(first if second == 0 else second, 1)
@@ -138,9 +136,7 @@ def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, t
 
 
 def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
-    """Return the point C, which is inside the hull: the mean of the first ``count`` points (199+1; program 2,
-    102+7).
-    """
+    """Return C, a point inside the hull: the mean of the first ``count`` points (199+1; program 2, 102+7)."""
     x, y, z = (row[:count] for row in points.rows)
 
     def average(row: Vector) -> Scalar:

@@ -52,9 +52,7 @@ class Faces:
         return dict(zip(indices, zip(*integers, strict=True), strict=True))
 
     def polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> Sequence[Face]:
-        """Return the faces of a polyhedron, which are computed on first access.  The arguments must not change
-        afterwards.
-        """
+        """Return the faces of a polyhedron, computed on first access.  The arguments must not change afterwards."""
         return LazyTuple(len(on), lambda: self._polyhedral(table, on, vertex))
 
     def _polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> list[Face]:

@@ -41,9 +41,7 @@ def read_points(points: Points) -> list[Read]:
 
 
 def first_of_equals(keys: Iterable[object]) -> tuple[list[int], tuple[tuple[int, int], ...]]:
-    """Return the indices of the points that repeat no earlier point, and pairs (repeated point, first point equal to
-    it).
-    """
+    """Return the indices of points that repeat no earlier one, and pairs (repeated point, equal first point)."""
     first_index: dict[object, int] = {}
     duplicates = []
     for index, key in enumerate(keys):

@@ -76,9 +76,7 @@ class Polygon:
         return None
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex: replace the line that it is outside of by two lines (statements 133 to
-        135).
-        """
+        """Make the point at ``index`` a vertex: two lines replace that which it is outside of (133 to 135)."""
         new = self.vertices
         self.vertices += 1
         self.points.swap(index, new)
@@ -176,9 +174,7 @@ def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
 
 
 def listed_numbers(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the end points as the listing computes them, sometimes wrongly (statements 179+2 to
-    191).
-    """
+    """Return the numbers of the end points as the listing computes them, at times wrongly (statements 179+2 to 191)."""
     numbers = []
     for number in ends.ravel().tolist():
         # The listing compares with the number already lowered, so it can skip a point that is no vertex.

@@ -20,9 +20,7 @@ LISTED_PLANES, PLANES = 98, 193
 
 @dataclass(frozen=True)
 class Fresh:
-    """The planes that a new vertex adds, and whether one passes through the inner point C or has only zero
-    coefficients.
-    """
+    """The planes that a new vertex adds, and flags for a plane through the point C or with only zeros."""
 
     coefficients: Vector
     defining: NDArray[np.int64]
@@ -47,15 +45,11 @@ class Polyhedron:
     text: bool = False
 
     def run(self, grow_stage: "Callable[[Polyhedron, bool], growth.Grown | None]" = growth.stage) -> None:
-        """Add vertices to the first tetrahedron H_1 with ``grow_stage`` until no point is outside (statements 103 to
-        160).
-        """
+        """Add vertices to the tetrahedron H_1 with ``grow_stage`` until no point is outside (103 to 160)."""
         growth.grow(self, grow_stage)
 
     def outside_point(self) -> int | None:
-        """Return the point farthest outside the first plane that has points outside, or None (statements 115 to
-        125).
-        """
+        """Return the point farthest outside the first plane that has points outside, or None (115 to 125)."""
         while self.to_check < len(self.table):
             # Statements 116 to 119: the three defining points must satisfy the equation exactly.
             values = self.table.one_at(self.to_check, self.points.rows)
@@ -104,9 +98,7 @@ class Polyhedron:
         return max(PLANES, 4 * len(self.points) - 11)
 
     def three_planes(self, replaced: NDArray[np.int64], new: int) -> Fresh:
-        """Return three planes for each replaced plane: through the new vertex and two of its points (statements 126 to
-        135).
-        """
+        """Return three planes for each replaced one: through the new vertex and two of its points (126 to 135)."""
         defining = np.repeat(replaced, 3, axis=1)
         columns = np.arange(defining.shape[1])
         # I123 of the listing: the new vertex takes the place of MM, then NN, then KK (statements 127 to 129).
@@ -215,8 +207,6 @@ def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
 
 
 def are_vertices(on: On, count: int, point_count: int) -> NDArray[np.bool_]:
-    """Return a mask of the vertices: those of the first ``count`` points that lie on three or more planes (174
-    to 182).
-    """
+    """Return a mask of the vertices: the first ``count`` points, if on three or more planes (174 to 182)."""
     planes_satisfied = np.bincount(np.concatenate(on), minlength=point_count)
     return np.asarray((planes_satisfied >= 3) & (np.arange(point_count) < count), dtype=np.bool_)

@@ -152,9 +152,7 @@ class Equations:
         return snapped(self.arithmetic, at(tuple(coefficients), point), slack)
 
     def signs(self, points: Vector, first: int = 0) -> NDArray[np.int8]:
-        """Return the signs of equations at points: a row for each equation from index ``first`` on, a column for each
-        point.
-        """
+        """Return the signs at points (columns) of the equations from index ``first`` on (rows)."""
         table = self.coefficients[:, first:, None]
         count = len(table) - 1
         slack = None if self.tolerances is None else self.tolerances[first:, None]
@@ -165,9 +163,7 @@ class Equations:
         return np.concatenate(parts, axis=1) if parts else np.empty((table.shape[1], 0), np.int8)
 
     def satisfied(self, points: Vector) -> list[NDArray[np.int64]]:
-        """Return, for each equation, the indices of the points (columns of ``points``) at which it is zero, in
-        order.
-        """
+        """Return, for each equation, the indices of the points (columns of ``points``) that satisfy it, in order."""
         incidences = []
         start = 0
         for block in self._blocks(points, len(self)):

@@ -22,9 +22,7 @@ _FORMULAS = {51: "N", 52: "N+1", 98: "2N-4", 193: "4N-11"}
 
 
 def data_positions(program: Program, points: int) -> int:
-    """Return the number of core positions for a program's data if its arrays are dimensioned for this number of
-    points.
-    """
+    """Return the core positions for a program's data if its arrays have room for this number of points."""
     fields = program.storage.fields
     for entry in program.storage.arrays():
         size = _SIZES.get(entry.size)

@@ -28,9 +28,7 @@ SECTIONS = ("inside", "boundary", "vertices", "equations", "plane")
 
 @dataclass(frozen=True, slots=True)
 class CardHull:
-    """A hull read from punched cards, in their order.  ``satisfied`` pairs vertex numbers with an equation they
-    satisfy.
-    """
+    """A hull read from punched cards. ``satisfied`` pairs vertex numbers with an equation they satisfy."""
 
     inside: tuple[Point, ...]
     boundary: tuple[Point, ...]

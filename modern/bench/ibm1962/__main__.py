@@ -76,9 +76,7 @@ def show(options: argparse.Namespace) -> int:
 
 
 def run_chapter6(options: argparse.Namespace) -> int:
-    """Run the examples of the thesis's chapter 6 on the library, and write or compare the results.  Return 1 if they
-    differ.
-    """
+    """Run the examples of the thesis's chapter 6 on the library.  Return 1 if the results differ."""
     library()
     return max(_committed(f"{FOLDER}/{name}", text, options.write) for name, text in results().items())
 
@@ -108,9 +106,7 @@ def run_programs() -> int:
 
 
 def run_measure(options: argparse.Namespace) -> int:
-    """Execute the recorded statements again.  Return 1 if the library or the emulator gives another result than
-    recorded.
-    """
+    """Execute the recorded statements again.  Return 1 if the library or the emulator differs."""
     deck, vectors = object_deck(), load()
     again = measure([(vector.statement, vector.cards) for vector in vectors], deck)
     changed = sum(not same(first.outcome, second.outcome) for first, second in zip(vectors, again, strict=True))

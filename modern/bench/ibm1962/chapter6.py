@@ -65,9 +65,7 @@ def _input(example: int, name: str) -> Sequence[str]:
 
 
 def results() -> dict[str, str]:
-    """Run all examples, and return the files to be committed by name: verdicts, tests of emendations, and means
-    used.
-    """
+    """Run all examples, and return the files to be committed by name: verdicts, tests of emendations, means."""
     cards = [(row.example, row.program, row.card, row.verdict) for row in verdicts()]
     rows = [(name, *answer) for name in NAMES for answer in confirmed(name)]
     return {

@@ -60,9 +60,7 @@ class Run:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """An object program to run after the library is loaded: start, positions to set, data cards, positions to
-    return.
-    """
+    """An object program for the loaded library: start, positions to set, data cards, positions to return."""
 
     start: int
     stored: Mapping[int, Sequence[int]]

@@ -153,17 +153,13 @@ def by_scikit_image(array: Any) -> Any:
 
 
 def memory(side: int, way: str) -> str:
-    """Measure the peak memory of a process that fills the hull of a ball.  Return it as text, with the allowed
-    limit.
-    """
+    """Measure the peak memory of a process that fills the hull of a ball.  Return it as text, with the limit."""
     size, most = peak(side, way)
     return f"{most / 1e6:.0f} MB, bar {(4 * size + 300e6) / 1e6:.0f} MB"
 
 
 def peak(side: int, way: str) -> tuple[int, float]:
-    """Return the number of voxels in a ball's box, and the peak memory in bytes of filling its hull (median of
-    three).
-    """
+    """Return the voxels in a ball's box, and the peak memory in bytes of filling its hull (median of three)."""
     runs = []
     for _ in range(3):
         run = subprocess.run([sys.executable, "-c", PEAK, str(side), way], check=True, capture_output=True, text=True)

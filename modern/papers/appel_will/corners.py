@@ -1,4 +1,4 @@
-"""Inside corners: points that are found not to be vertices of the hull before any projection (Figs. 15, 16 and 18)."""
+"""Find points that cannot be vertices of the hull because an edge at them is reentrant (Figs. 15, 16 and 18)."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -18,10 +18,11 @@ PLANES = 3
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """A line and the scalar triple product [IKL] of its direction and the normals of its two surfaces (Fig. 18).
+    """An edge of the polyhedron and a number whose sign tells if the edge is reentrant (Fig. 18).
 
-    All three vectors are in lowest terms and the normals point into the solid. The product is negative for an inside
-    corner (a reentrant edge), positive for an outside corner, and 0 if both surfaces lie in one plane.
+    The number is the triple product [IKL] of the edge's direction and the normals of its two surfaces. All three
+    vectors are in lowest terms and the normals point into the solid. The product is negative for an inside corner (a
+    reentrant edge), positive for an outside corner, and 0 if both surfaces lie in one plane.
     """
 
     line: Line
@@ -30,7 +31,7 @@ class Corner:
 
 @dataclass(frozen=True, slots=True)
 class Preprocessing:
-    """The points deleted before the projections, and the rule that deleted them."""
+    """The points deleted before the projections, and the name of the rule that deleted them."""
 
     rule: Rule
     inside: tuple[Corner, ...]
@@ -40,17 +41,17 @@ class Preprocessing:
 
 
 def triple_product(i: IntPoint, k: IntPoint, l: IntPoint) -> int:  # noqa: E741  # the paper's letters
-    """Return [IKL], the determinant with the columns I, K and L."""
+    """Return the triple product [IKL], the determinant with the columns I, K and L."""
     return dot(i, cross(k, l))
 
 
 def corners(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[Corner, ...]:
-    """Compute the triple product of every line of oriented surfaces."""
+    """Compute the triple product [IKL] of every edge of oriented surfaces."""
     return tuple(Corner(line, triple_product(*vectors(points, surfaces, line))) for line in lines(surfaces))
 
 
 def vectors(points: Sequence[IntPoint], surfaces: Sequence[Surface], line: Line) -> tuple[IntPoint, IntPoint, IntPoint]:
-    """Return I, K and L of a line: its direction and the inward normals of its two surfaces, all in lowest terms."""
+    """Return three vectors of an edge, in lowest terms: its direction, and the inward normals of its two surfaces."""
     direction = lowest(minus(points[line.ends[1]], points[line.ends[0]]))
     return direction, _inward(points, surfaces[line.on]), _inward(points, surfaces[line.beyond])
 

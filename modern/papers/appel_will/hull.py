@@ -1,4 +1,4 @@
-"""Appel and Will's complete method: inside corners are deleted, convex edges found, loops and map assembled."""
+"""Appel and Will's complete method: delete points, find the convex edges, and assemble them to the hull's faces."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from modern.papers.appel_will.surfaces import Fates, Surface, check_surfaces, fa
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """A choice of the star polygon test, the reading of the appendix and, optionally, the rule for inside corners."""
+    """Options: the star polygon test, the reading of the appendix, and a rule to delete points."""
 
     star: StarTest = in_one_pass
     rules: Rules = PREFERRED
@@ -28,7 +28,7 @@ PRINTED = ("star", "step3", "step5", "step7", "step9", "step10")
 
 
 def printed(*names: str) -> Method:
-    """Return the method with the named rules as printed and the others corrected.
+    """Return the method with the named rules as the paper prints them, although wrong, and all others corrected.
 
     ``star``: two images on one ray put C outside of the star polygon. ``step3``: the first admissible L2 is taken, and
     none is preferred. ``step5``, ``step7``, ``step9``, ``step10``: see
@@ -76,7 +76,7 @@ class Assembled:
 
     @property
     def fault(self) -> str:
-        """The reason why edges and loops are not a hull (only rules as printed can cause one), or an empty string."""
+        """The reason why the result is no hull, or an empty string.  Only rules used as printed can cause one."""
         v, e, f = len(self.vertices), len(self.edges), len(self.surfaces)
         if self.table.stopped:
             return self.table.stopped
@@ -89,7 +89,7 @@ class Assembled:
         return ""
 
     def outward(self) -> tuple[Surface, ...]:
-        """Return the map with every surface counterclockwise as seen from outside; a polygon stays as it is."""
+        """Return the faces with their points counterclockwise as seen from outside; a polygon stays as it is."""
         counterclockwise = []
         for points in self.surfaces:
             normal, origin = area_vector(self.points, points), self.points[points[0]]
@@ -99,7 +99,7 @@ class Assembled:
         return tuple(counterclockwise)
 
     def fates(self, original: Sequence[Surface]) -> Fates:
-        """Compare the surfaces of the given polyhedron with those of the hull (Fig. 4)."""
+        """Compare the surfaces of the given polyhedron with the faces of the hull (Fig. 4)."""
         return fates(self.points, original, self.surfaces)
 
 
@@ -107,8 +107,8 @@ def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method 
     """Compute the hull of at least one point by Appel and Will's method, in exact arithmetic.
 
     Coordinates are ints, Fractions, decimal strings, or floats (taken as the exact binary numbers they are).
-    ``surfaces`` is the topological map of the polyhedron, which only the rules for inside corners need. Raise
-    PointsError for invalid points and MapError for invalid surfaces.
+    ``surfaces`` lists the points around each surface of the polyhedron, which only the rules for inside corners need.
+    Raise PointsError for invalid points and MapError for invalid surfaces.
     """
     coordinates = read_points(points)
     scale, scaled = coordinates.scale, coordinates.all()

@@ -1,4 +1,4 @@
-"""Assembly of the convex edges into loops (appendix, steps 1 to 10) and the topological map (Fig. 23).
+"""Assemble convex edges into loops, the borders of faces (appendix, steps 1 to 10; Fig. 23).
 
 A line is an edge of the convex edge list. Lines are numbered L from 1 and have the ends LC1(L) < LC2(L). A loop lists L
 if it runs along the line from LC1 to LC2, otherwise -L.
@@ -16,7 +16,7 @@ TIMES = 2
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """A reading of the appendix.
+    """Options for steps of the paper's appendix that are wrong or unclear as printed.
 
     ``dot_condition``: of the admissible lines L2, prefer one whose direction has a positive dot product with that of
     L1 (the condition of the main text for two lines that define a plane), otherwise take the first. If False, the
@@ -42,7 +42,7 @@ PREFERRED = Rules()
 
 @dataclass(frozen=True, slots=True)
 class Loop:
-    """A loop and the state of the table when it was closed.
+    """The border of a face, as a list of edges, and the state of the search when the loop was closed.
 
     ``entries`` are LUP(N, 1), LUP(N, 2) and so on. ``kind`` is the type of the first intersection (Fig. 20). ``start``
     and ``match`` are the points SP and MP of step 8. ``uses`` are the counts IUC(1), IUC(2) and so on after the loop.
@@ -57,7 +57,7 @@ class Loop:
 
 @dataclass(frozen=True, slots=True)
 class LoopTable:
-    """All loops in the order of the search. ``stopped`` is the reason for a premature end, otherwise empty."""
+    """All loops in the order in which they were found. ``stopped`` says why the search failed, or is empty."""
 
     loops: tuple[Loop, ...]
     uses: tuple[int, ...]
@@ -65,13 +65,14 @@ class LoopTable:
 
     @property
     def closed(self) -> bool:
-        """True if every edge is used twice."""
+        """True if every edge belongs to two loops."""
         return bool(self.uses) and all(count == TIMES for count in self.uses)
 
 
 @dataclass(frozen=True, slots=True)
 class Intersection:
-    """Lines L1 and L2 with a common point, their type (Fig. 20) and the two loop entries they give (Fig. 21).
+    """Two edges L1 and L2 with a common end point, the type of their meeting (Fig. 20), and their loop entries (Fig.
+    21).
 
     In type 1 both lines begin at the common point. In type 2 L1 begins and L2 ends there, in type 3 L1 ends and L2
     begins there, and in type 4 both end there. The drawings of Figs. 20 and 21 are lost. Type 1 and its signs are
@@ -89,7 +90,7 @@ class Intersection:
 
 
 def intersect(edges: Sequence[Pair], first: int, second: int) -> Intersection | None:
-    """Return how two lines meet, or None if they share no end (step 4 of the paper).
+    """Return how two edges meet at a common end point, or None if they share none (step 4 of the paper).
 
     ``first`` and ``second`` are their numbers, from 0.
     """
@@ -104,7 +105,7 @@ def intersect(edges: Sequence[Pair], first: int, second: int) -> Intersection | 
 
 
 def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) -> LoopTable:
-    """Find the loops by steps 1 to 10 of the appendix, among the points at which convex edges end."""
+    """Find the loops of convex edges by steps 1 to 10 of the appendix."""
     vertices = sorted({end for edge in edges for end in edge})
     uses = [0] * len(edges)  # step 1: all counts IUC are 0
     table = _Table(points, vertices, edges, uses, [], rules)
@@ -128,13 +129,13 @@ def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) 
 
 
 def surface(entries: Sequence[int], edges: Sequence[Pair]) -> tuple[int, ...]:
-    """List the points of a loop: LC1 of each positive entry and LC2 of each negative one (Fig. 23)."""
+    """List the points around a face: the start LC1 of each positive entry, the end LC2 of each negative one."""
     return tuple(edges[abs(entry) - 1][0 if entry > 0 else 1] for entry in entries)
 
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """The state of the search: the reduced vertex list, the uses of the edges and the points on loops."""
+    """The state of the search for loops: the edges with their points, and how often each was used."""
 
     points: Sequence[IntPoint]
     vertices: Sequence[int]
@@ -145,7 +146,7 @@ class _Table:
 
 
 def _begin(table: _Table) -> Intersection | None:
-    """Find the first two lines of the next loop (steps 2 to 8), or return None if step 2 has gone through all edges."""
+    """Find the first two edges of the next loop (steps 2 to 8).  Return None if all edges have been tried."""
     for first in range(len(table.edges)):
         if table.uses[first] == TIMES:
             continue
@@ -161,7 +162,7 @@ def _begin(table: _Table) -> Intersection | None:
 
 
 def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
-    """Yield the lines that define a plane of the hull with line ``first`` and have no loop on it (steps 3 to 7)."""
+    """Yield the edges that span a new face of the hull together with edge ``first`` (steps 3 to 7)."""
     for second in range(len(table.edges)):
         if second == first or table.uses[second] == TIMES:
             continue
@@ -180,7 +181,7 @@ def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
 
 
 def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
-    """Return True if all points lie in the plane of the two lines or on one side of it (steps 6 and 7)."""
+    """Return True if no points are on one side of the plane of the two edges (steps 6 and 7)."""
     normal, origin = _plane(table.points, crossing)
     heights = (dot(normal, minus(table.points[p], origin)) for p in table.vertices)
     sides = {(height > 0) - (height < 0) for height in heights}
@@ -188,7 +189,7 @@ def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
 
 
 def _follow(table: _Table, crossing: Intersection) -> list[int] | None:
-    """Complete the loop that two lines begin (steps 9 and 10). Return its entries, or None if it does not close.
+    """Complete the loop that two edges begin (steps 9 and 10).  Return its entries, or None if it does not close.
 
     The edge list is searched at most once for each line, as the appendix advises.
     """
@@ -218,12 +219,12 @@ def _follow(table: _Table, crossing: Intersection) -> list[int] | None:
 
 
 def _plane(points: Sequence[IntPoint], crossing: Intersection) -> tuple[IntPoint, IntPoint]:
-    """Return a normal of the plane of two lines and their common point (step 6)."""
+    """Return a normal of the plane of two intersecting edges, and their common point (step 6)."""
     origin = points[crossing.common]
     return cross(minus(points[crossing.start], origin), minus(points[crossing.match], origin)), origin
 
 
 def _acute(table: _Table, crossing: Intersection) -> bool:
-    """Return True if the lines, directed from LC1 to LC2, make an acute angle: a_k a_l + b_k b_l + c_k c_l > 0."""
+    """Return True if two edges, directed from LC1 to LC2, form an acute angle: their scalar product is positive."""
     points, (p, q), (r, s) = table.points, table.edges[crossing.first], table.edges[crossing.second]
     return dot(minus(points[q], points[p]), minus(points[s], points[r])) > 0

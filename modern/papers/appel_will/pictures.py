@@ -1,4 +1,4 @@
-"""Pictures of the method: the hull with its convex edges, and the star polygon of one line.
+"""Draw results of Appel and Will's method: the hull with its convex edges, and the star polygon of an edge.
 
 Points have their numbers in the input, convex edges their numbers L in the convex edge list. All decisions are made
 in integers. Floating point only places the labels.
@@ -47,7 +47,7 @@ CENTRE = Style("centre", "C", "dot", 'fill="#fff" stroke="#000" stroke-width="1.
 
 
 class PictureError(ExportError):
-    """A picture cannot be drawn of this hull; the message of one line says why."""
+    """Raised if a picture cannot be drawn; the message, of one line, gives the reason."""
 
 
 def solid_svg(
@@ -101,7 +101,7 @@ def as_mesh(hull: Assembled, points: Sequence[Point]) -> Mesh:
 
 
 def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = None) -> Record:
-    """Return the assembled hull as a record that can be drawn. Raise PictureError if edges and loops are not a hull."""
+    """Convert the assembled hull to the project's general type for hulls.  Raise PictureError if it is not a hull."""
     if hull.fault:
         raise PictureError(f"there is no hull to draw: {hull.fault}")
     surfaces = hull.outward() if joined is None else joined_surfaces(hull, joined)
@@ -136,18 +136,19 @@ def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = 
 
 
 def joined_surfaces(hull: Assembled, joined: Joined) -> tuple[Surface, ...]:
-    """Return the surfaces after faces of ``as_mesh(hull)`` were merged, as indices of input points."""
+    """Return the faces of the hull, after some faces of ``as_mesh(hull)`` were merged, as indices of input points."""
     return tuple(tuple(hull.vertices[place] for place in loop) for loop in joined.loops)
 
 
 def joined_points(hull: Assembled, joined: Joined) -> list[tuple[int, ...]]:
-    """List the points of every merged face, including those within it."""
+    """List the points of each merged face, including those in its interior."""
     return [tuple(index for face in group for index in hull.surfaces[face]) for group in joined.groups]
 
 
 @dataclass(frozen=True, slots=True)
 class Star:
-    """The star polygon of a line (Figs. 8 to 12).
+    """The star polygon of a line through two points: the test whether the line is an edge of the hull (Figs. 8
+    to 12).
 
     C is the image of the line, seen along it. ``line`` lists the points on the line from end to end, ``order`` the
     points off it by the angle of their images about C, and ``images`` those images relative to C. ``outside`` is True
@@ -163,7 +164,7 @@ class Star:
 
 
 def star(hull: Assembled, pair: Pair) -> Star:
-    """Compute the star polygon of two points. Raise PictureError if they are equal or deleted, or do not exist."""
+    """Compute the star polygon for the line through two points.  Raise PictureError if the points do not define one."""
     a, b = pair
     reason = {
         entry.point: f"it lies between {entry.between[0] + 1} and {entry.between[1] + 1}" for entry in hull.deleted
@@ -253,7 +254,7 @@ def numbers(
     size: tuple[int, int],
     occupied: Sequence[tuple[float, float]] = (),
 ) -> Iterator[str]:
-    """Draw the numbers of points and, in italics, of lines; keep them off ``edges`` and ``occupied`` if possible."""
+    """Draw the numbers of points, and of lines in italics, clear of ``edges`` and ``occupied`` if possible."""
     together: dict[Pixel, list[int]] = {}
     for index, place in sorted(at.items()):
         together.setdefault(place, []).append(index)
@@ -273,7 +274,7 @@ def texts(labels: Sequence[Label], places: Sequence[tuple[float, float]]) -> Ite
 
 
 def sample_row(style: Style) -> Row:
-    """Return a legend row with a sample of a style and its name."""
+    """Return a row of the legend with a sample of a line or mark and its name."""
 
     def row(base: int) -> Iterator[str]:
         yield svg.sample(style, Pixel((MARGIN + 9) * 100, base * 100 - 450))

@@ -1,4 +1,4 @@
-"""A planar drawing of the topological map: every surface is a region, and the largest surface is the outside.
+"""Draw a polyhedron as a planar map: each face becomes a region, and the face with most points surrounds all others.
 
 This is Tutte's embedding. The points of the outer surface lie on a circle, and every other point lies at a weighted
 mean of its neighbours. For any positive weights no two lines cross and every region is convex. Here the weights of
@@ -44,7 +44,7 @@ _SURFACES = f'font-family="{svg.FONT}" font-size="15" fill="#999" text-anchor="m
 
 
 def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "", width: int | None = None) -> str:
-    """Draw the map of a polyhedron, or of a single polygon, with its points, lines and surfaces numbered.
+    """Draw the planar map of a polyhedron, or of a single polygon, with numbers for its points, lines and faces.
 
     ``edges`` is the convex edge list, from which the lines take their numbers. If it has more than ``MOST_LINES``
     lines, they are not numbered. ``width`` is in pixels; the default is 640, or 1000 for more than ``CROWD`` points.
@@ -91,9 +91,10 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
 
 
 def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
-    """Place the points of the map; the outer surface is on the unit circle and has its first line at the bottom.
+    """Place the points of a planar map: those of the face ``outer`` on the unit circle, all others inside.
 
-    The surfaces may run in either sense. Every line must be on two of them.
+    The first side of ``outer`` is at the bottom. The surfaces may run in either sense. Every line must be on two of
+    them.
     """
     border = surfaces[outer]
     count = len(border)

@@ -1,4 +1,4 @@
-"""The computed lines of each published result of Appel and Will, in the words of the print.
+"""Compute each published result of Appel and Will, as lines in the words of the print.
 
 The object of Fig. 4 is read from the corrected print. The paper draws the other objects without coordinates; those that
 this project chose for them are in ``coordinates.toml`` next to the print.
@@ -31,7 +31,7 @@ FIG_18_LINES = {5: (1, 2), 7: (2, 3), 6: (4, 3)}
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """An object of a figure: its points and, if it has a map, its surfaces as indices from 0."""
+    """A polyhedron shown in a figure: its points, and the points around each surface, if known, as indices from 0."""
 
     points: tuple[IntPoint, ...]
     surfaces: tuple[Surface, ...] = ()
@@ -39,7 +39,10 @@ class Solid:
 
 @cache
 def found_solid(name: str) -> Solid:
-    """Return the object of a figure, such as ``fig14``, with this project's coordinates. Raise KeyError if unknown."""
+    """Return the polyhedron of a figure, such as ``fig14``, with coordinates chosen by this project.
+
+    Raise KeyError for an unknown figure.
+    """
     text = files("transcripts").joinpath(FOLDER, "coordinates.toml").read_text(encoding="utf-8")
     entry = {entry["id"]: entry for entry in tomllib.loads(text)["solid"]}[name]
     points = tuple((int(x), int(y), int(z)) for x, y, z in entry["points"])
@@ -47,7 +50,7 @@ def found_solid(name: str) -> Solid:
 
 
 def printed_solid(printed: Lines) -> Solid:
-    """Return the object of Fig. 4 from the corrected print."""
+    """Return the polyhedron of Fig. 4, read from the printed coordinates after correction."""
     rows = [[int(number) for number in line.split()] for line in printed["fig4-vertex-list"]]
     points = tuple((x, y, z) for _, x, y, z in rows)
     maps = [line.split()[1] for line in printed["fig4-topological-map"]]
@@ -82,7 +85,7 @@ def produced(printed: Lines) -> Lines:
 
 
 def _vertex_list(solid: Solid) -> Iterator[str]:
-    """Compute each point as the intersection of its three surfaces.
+    """Compute each point of Fig. 4 as the intersection of its three surfaces, to confirm the printed coordinates.
 
     The plane of each surface comes from its other points, so that a misread coordinate cannot confirm its own value.
     """
@@ -126,7 +129,7 @@ def _changes(fig4: Solid, hull: Assembled) -> Iterator[str]:
 
 
 def _parallel_lines(points: Sequence[IntPoint], pair: Pair) -> Iterator[str]:
-    """Find the lines parallel to the line of ``pair``, and tell which of them are convex edges (Fig. 5)."""
+    """Find the lines parallel to the line of ``pair``, and report which of them are edges of the hull (Fig. 5)."""
     along = minus(points[pair[1]], points[pair[0]])
     lines = [
         (i, j) for i, j in combinations(range(len(points)), 2) if not any(cross(along, minus(points[j], points[i])))
@@ -165,7 +168,7 @@ def _determinants(solid: Solid) -> Iterator[str]:
 
 
 def _first_three(hull: Assembled) -> Iterator[str]:
-    """Compute the upper half of Fig. 22: the entries of three loops, then a row for each edge."""
+    """Compute the upper half of the table in Fig. 22: the entries of three loops, then a row for each edge."""
     # Fig. 22 prints each loop next to the counts IUC of all edges after it.
     loops = hull.table.loops[:3]
     yield " ".join(f"{_numbers(len(loop.entries))} {_joined(loop.entries)}" for loop in loops)
@@ -174,7 +177,7 @@ def _first_three(hull: Assembled) -> Iterator[str]:
 
 
 def _last_two(hull: Assembled) -> Iterator[str]:
-    """Compute the lower half of Fig. 22 with its rows grouped as in the OCR: line 1, lines 2 to 6, lines 7 to 9."""
+    """Compute the lower half of the table in Fig. 22, its rows grouped as in the scanned text: 1, 2 to 6, 7 to 9."""
     loops = hull.table.loops[3:]
     yield " ".join(f"{_numbers(len(loop.entries))} {_joined(loop.entries)}" for loop in loops)
     for first, last in ((1, 1), (2, 6), (7, 9)):
@@ -184,21 +187,21 @@ def _last_two(hull: Assembled) -> Iterator[str]:
 
 
 def _loop_rows(hull: Assembled, groups: Iterable[Pair]) -> Iterator[str]:
-    """Compute the loop table of Fig. 23 with its rows grouped as in the OCR."""
+    """Compute the table of loops in Fig. 23, with its rows grouped as in the scanned text."""
     for first, last in groups:
         cells = (_joined(loop.entries[first:last]) for loop in hull.table.loops)
         yield f"{_numbers(last, first + 1)} {' '.join(cells)}"
 
 
 def _map_rows(hull: Assembled) -> Iterator[str]:
-    """Compute the topological map of Fig. 23, which has a column for each surface."""
+    """Compute the table of surfaces and their points in Fig. 23, which has a column for each surface."""
     for row in range(max(map(len, hull.surfaces))):
         cells = (str(surface[row] + 1) for surface in hull.surfaces if row < len(surface))
         yield " ".join((str(row + 1), *cells))
 
 
 def _from_lowest(surface: Surface) -> Surface:
-    """List a surface from its lowest point towards the lower of that point's two neighbours."""
+    """Return the points of a surface from its lowest number, towards the lower of the two neighbouring numbers."""
     start = surface.index(min(surface))
     cycle = surface[start:] + surface[:start]
     return cycle if cycle[1] < cycle[-1] else (cycle[0], *cycle[:0:-1])
@@ -209,7 +212,7 @@ def _named(indices: Iterable[int]) -> list[str]:
 
 
 def _listed(names: Iterable[str]) -> str:
-    """Join names as the print does: ``3 and 4``, or ``2, 3, 6, and 7``."""
+    """Join names as the paper prints lists: ``3 and 4``, or ``2, 3, 6, and 7``."""
     *front, last = names
     return f"{', '.join(front)}{',' if len(front) > 1 else ''} and {last}" if front else last
 

@@ -1,4 +1,5 @@
-"""The convex edges of a polyhedron, found by the star polygon test in a projection parallel to every pair of points.
+"""Find the edges of the hull by the star polygon test, in a projection parallel to the line through each pair of
+points.
 
 The test (section "Polygon star test") receives the images of points relative to C as pairs of integers, none of them at
 C. It returns True if C is outside, that is, a corner of the hull of the images and C. The edge whose image is C is then
@@ -15,22 +16,22 @@ StarTest = Callable[[Sequence[Image]], bool]
 
 
 def vorticity(a: Image, b: Image) -> int:
-    """Return twice the area of the triangle C, a, b, positive for a counterclockwise rotation (Fig. 8)."""
+    """Return twice the area of the triangle C, a, b, positive if it runs counterclockwise (Fig. 8); C is the origin."""
     return a[0] * b[1] - a[1] * b[0]
 
 
 def on_one_ray(a: Image, b: Image) -> bool:
-    """Return True if a and b lie in the same direction from C (I and II of Fig. 12), not in opposite ones (III)."""
+    """Return True if a and b lie in the same direction from the origin C (I and II of Fig. 12), not opposite."""
     return vorticity(a, b) == 0 and a[0] * b[0] + a[1] * b[1] > 0
 
 
 def star_polygon(images: Sequence[Image]) -> list[Image]:
-    """Sort the images by increasing polar angle about C, from 0 to below 360 degrees (Figs. 10 and 11)."""
+    """Sort projected points by polar angle about the origin C, from 0 to below 360 degrees (Figs. 10, 11)."""
     return sorted(images, key=cmp_to_key(_angle))
 
 
 def as_printed(images: Sequence[Image]) -> bool:
-    """Apply the test as printed: C is outside if a side turns clockwise *or if two images are on one ray*.
+    """Apply the test as printed: C is outside if a side turns clockwise *or if two projected points are on one ray*.
 
     The second condition ("In instances I and II ... the point being tested is considered as being outside") is wrong.
     For a cube it makes the diagonals of all faces convex edges.
@@ -40,7 +41,7 @@ def as_printed(images: Sequence[Image]) -> bool:
 
 
 def as_corrected(images: Sequence[Image]) -> bool:
-    """Apply the corrected test: C is outside if a side turns clockwise, or if all images are on one ray.
+    """Apply the corrected test: C is outside if a side turns clockwise, or if all projected points are on one ray.
 
     A side of exactly 180 degrees (possibility III of Fig. 12) contains C, so C is not a corner.
     """
@@ -80,7 +81,7 @@ def _sides(star: Sequence[Image]) -> list[tuple[Image, Image]]:
 
 
 def _angle(a: Image, b: Image) -> int:
-    """Compare by polar angle: the angles from 0 to below 180 degrees come first."""
+    """Compare two projected points by polar angle, for sorting: negative if ``a`` comes first."""
     lower_a, lower_b = _is_lower(a), _is_lower(b)
     return lower_a - lower_b if lower_a != lower_b else -vorticity(a, b)
 
@@ -103,7 +104,7 @@ class Deleted:
 
 @dataclass(frozen=True, slots=True)
 class Edges:
-    """The convex edges (i, j), i < j, in the order of the tests, the deleted points and the number of projections."""
+    """The result of all tests: edges (i, j) with i < j, deleted points, and the number of projections."""
 
     edges: tuple[Pair, ...]
     deleted: tuple[Deleted, ...]
@@ -152,11 +153,11 @@ def project(points: Sequence[IntPoint], pair: Pair, live: Iterable[int]) -> Proj
 
 
 def convex_edges(points: Sequence[IntPoint], live: Iterable[int], outside: StarTest) -> Edges:
-    """Test all pairs of the points ``live``, which must be distinct, in the order of their numbers.
+    """Test all pairs of the points ``live`` in order, and return those that are edges of the hull.
 
-    Points between the ends of a line are deleted as soon as a pair on that line is projected, so the pair that is
-    tested spans the whole line. Edges found earlier at a point that is deleted later are dropped at the end. Only the
-    star polygon test as printed produces such edges.
+    The points must be distinct. Points between the ends of a line are deleted as soon as a pair on that line is
+    projected, so the pair that is tested spans the whole line. Edges found earlier at a point that is deleted later are
+    dropped at the end. Only the star polygon test as printed produces such edges.
     """
     remaining = dict.fromkeys(sorted(live))
     order = list(remaining)

@@ -1,4 +1,4 @@
-"""The surfaces of the given polyhedron (Fig. 4): their orientation, their normals and their fate on the hull."""
+"""The surfaces of the given polyhedron (Fig. 4): orientation, normals, and what becomes of them on the hull."""
 
 from collections import defaultdict
 from collections.abc import Callable, Collection, Sequence
@@ -14,7 +14,7 @@ Surface = tuple[int, ...]
 
 
 class MapError(EmulatorError):
-    """A topological map that does not describe a polyhedron. The message names the surface, from 1, and its points."""
+    """Raised if lists of points do not describe a polyhedron.  The message names the surface and its points."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Fates:
-    """The fate of the given surfaces on the hull (Fig. 4).
+    """What becomes of each surface of the given polyhedron on the hull (Fig. 4).
 
     ``of`` gives for every given surface the number, from 0, of the hull's surface in whose plane it lies, or None if
     the surface is deleted. ``unchanged`` holds the given surfaces that are identical with a surface of the hull.
@@ -45,7 +45,7 @@ def fates(points: Sequence[IntPoint], original: Sequence[Surface], hull: Sequenc
 
 
 def fates_by_points(original: Sequence[Surface], faces: Sequence[Collection[int]], hull: Sequence[Surface]) -> Fates:
-    """Compare the surfaces with a hull whose nearly coplanar faces were merged.
+    """Compare the given surfaces with the hull after nearly coplanar faces of the hull were merged.
 
     A surface lies in the merged face that contains all of its points. ``faces`` lists all points of each merged face,
     ``hull`` those of its polygon.
@@ -72,7 +72,7 @@ def check_surfaces(count: int, surfaces: Sequence[Surface]) -> None:
 
 
 def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[Surface, ...]:
-    """Return the surfaces with their points counterclockwise as seen from outside, each from its own first point.
+    """Return the surfaces with their points counterclockwise as seen from outside; each keeps its first point.
 
     Raise MapError unless the map is one closed polyhedron: every surface is plane, every line is on two surfaces, all
     surfaces are connected, and they enclose a volume, whose sign tells inside from outside.
@@ -109,7 +109,7 @@ def lines(surfaces: Sequence[Surface]) -> tuple[Line, ...]:
 
 
 def _one_sense(surfaces: Sequence[Surface], surfaces_at: dict[frozenset[int], list[int]]) -> list[Surface]:
-    """Reverse surfaces so that any two neighbours run along their common line in opposite directions."""
+    """Reverse some surfaces so that any two neighbours run along their common line in opposite directions."""
     oriented_so_far: dict[int, Surface] = {0: surfaces[0]}
     queue = [0]
     # Breadth-first search over neighbouring surfaces, starting with surface 1 as it is given.

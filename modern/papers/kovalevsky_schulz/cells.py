@@ -1,6 +1,6 @@
-"""The two-dimensional cell list: the vertices, edges and faces of a polyhedron's surface, as data and as printed.
+"""Cell lists: the vertices, edges and faces of a polyhedron's surface, in the form of the paper's Tables 1 to 3.
 
-Its form is that of Tables 1 to 3 of the paper, and all numbers count from 1 as in the paper. ``CellList`` is the
+All numbers count from 1, as in the paper. ``CellList`` is the
 redundant list. ``Economical`` contains only the coordinates and the vertices of each face. ``expanded`` computes the
 redundant list from the economical one.
 """
@@ -25,12 +25,12 @@ _BLOCK = 1 << 15
 
 
 class CellListError(EmulatorError):
-    """A cell list that is not the surface of a convex polyhedron. The message names the vertex or face, from 1."""
+    """Raised for a cell list that is no convex polyhedron.  The message names the vertex or face, counted from 1."""
 
 
 @dataclass(frozen=True, slots=True)
 class Vertex:
-    """A 0-cell (Table 1). ``edges`` has the number of each edge at it: -e if it starts here, +e if it ends here."""
+    """A vertex in a cell list (Table 1). ``edges``: -e for each edge e that starts here, +e if it ends here."""
 
     point: IntPoint
     edges: tuple[int, ...]
@@ -38,7 +38,7 @@ class Vertex:
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """A 1-cell (Table 2): its two vertices and the faces on its left and right.
+    """An edge in a cell list (Table 2): its two vertices, and the faces on its left and right.
 
     Left and right are as seen from outside when looking from ``start`` to ``end``.
     """
@@ -51,7 +51,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A 2-cell (Table 3): pairs (P, L) of a vertex and an edge, counterclockwise as seen from outside.
+    """A face in a cell list (Table 3): pairs (P, L) of a vertex and an edge, counterclockwise as seen from outside.
 
     Edge L leads from vertex P to the P of the next pair. L is positive if the edge is followed from its start to its
     end, so that the face is on its left.
@@ -66,7 +66,7 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class Economical:
-    """The economical encoding of a polyhedron: the coordinates of the vertices, and each face as a cycle of them."""
+    """The short encoding of a polyhedron, without edges: coordinates, and each face as a cycle of vertices."""
 
     points: tuple[IntPoint, ...]
     faces: tuple[tuple[int, ...], ...]
@@ -80,7 +80,7 @@ class Economical:
 
 @dataclass(frozen=True, slots=True)
 class CellList:
-    """The redundant cell list of a polyhedron's surface (Tables 1 to 3)."""
+    """The full cell list: vertices, edges and faces, each with references to the others (Tables 1 to 3)."""
 
     vertices: tuple[Vertex, ...]
     edges: tuple[Edge, ...]
@@ -91,7 +91,7 @@ class CellList:
         return tuple(vertex.point for vertex in self.vertices)
 
     def economical(self) -> Economical:
-        """Return the economical encoding, which omits the edges and all references to them."""
+        """Return the short encoding, which omits the edges and all references to them."""
         return Economical(self.points, tuple(face.vertices for face in self.faces))
 
     def planes(self) -> tuple[Plane, ...]:
@@ -114,7 +114,7 @@ def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> li
 
 
 def _shifted(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Array]:
-    """Return the least coordinates and the points relative to them, as int64 if the values of all planes fit."""
+    """Return the least coordinates, and the points relative to them: as int64 if the values of all planes fit."""
     x, y, z = (min(axis) for axis in zip(*points, strict=True))
     shifted = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
     extent = max(map(max, shifted))
@@ -183,7 +183,8 @@ def assembled(points: Sequence[IntPoint], starts: Numbers, ends: Numbers, sizes:
 
 
 def expanded(encoding: Economical) -> CellList:
-    """Compute the redundant cell list from the economical encoding; edges are numbered and directed as first used.
+    """Compute the full cell list from the short encoding.  Edges are numbered and directed as the faces first
+    use them.
 
     Raise CellListError for an encoding that is not the surface of a convex polyhedron.
     """
@@ -222,7 +223,7 @@ def expanded(encoding: Economical) -> CellList:
 
 
 def _check_cycles(sizes: Numbers, start: Numbers, face: Numbers, count: int) -> None:
-    """Raise CellListError unless every face has at least three different vertices that exist."""
+    """Raise CellListError for a face with fewer than three, repeated or nonexistent vertices."""
     too_short = np.flatnonzero(sizes < 3)
     order = np.lexsort((start, face))
     twice = (face[order][1:] == face[order][:-1]) & (start[order][1:] == start[order][:-1])
@@ -236,7 +237,7 @@ def _check_cycles(sizes: Numbers, start: Numbers, face: Numbers, count: int) -> 
 
 
 def _check_convex(points: Sequence[IntPoint], sizes: Numbers, vertex: Numbers, face: Numbers) -> None:
-    """Raise CellListError unless each face is plane and no vertex is outside its plane (Definition CP)."""
+    """Raise CellListError unless each face is plane and no vertex is outside its plane."""
     _, shifted = _shifted(points, sizes)
     normals, constants = _planes(shifted, sizes, vertex)
     greatest = sum(int(abs(part).max()) * int(shifted.max()) for part in normals.T) + int(abs(constants).max())
@@ -265,19 +266,19 @@ def coordinates(_: int, point: IntPoint) -> str:
 
 
 def vertex_rows(cells: CellList, label: Callable[[int, IntPoint], str] = coordinates) -> Iterator[str]:
-    """Yield the rows of Table 1. ``label`` formats the coordinates of a vertex, for which the paper has symbols."""
+    """Yield the rows of the paper's Table 1, one for each vertex.  ``label`` formats a vertex's coordinates."""
     for number, vertex in enumerate(cells.vertices, 1):
         yield f"{number}\t{label(number, vertex.point)}\t{_listed(vertex.edges)}"
 
 
 def edge_rows(cells: CellList) -> Iterator[str]:
-    """Yield the rows of Table 2: the two ends of an edge and the faces on its left and right."""
+    """Yield the rows of the paper's Table 2: the two ends of an edge, and the faces on its left and right."""
     for number, edge in enumerate(cells.edges, 1):
         yield f"{number}\t{edge.start}\t{edge.end}\t{edge.left}\t{edge.right}"
 
 
 def face_rows(cells: CellList) -> Iterator[str]:
-    """Yield the rows of Table 3: the number of a face's edges and its pairs (P, L)."""
+    """Yield the rows of the paper's Table 3: the number of a face's edges, and its pairs (vertex, edge)."""
     for number, face in enumerate(cells.faces, 1):
         yield f"{number}\t{len(face.pairs)}\t{_listed(face.pairs)}"
 
@@ -293,23 +294,23 @@ def _listed(items: Iterable[object]) -> str:
 
 
 def triangulation_size(triangles: int) -> Fraction:
-    """Return the integers of a triangulation by formula (5): 3 NV + 3 NT, with half as many vertices as triangles."""
+    """Return how many integers a triangulation needs by formula (5), with half as many vertices as triangles."""
     return (Fraction(3, 2) + 3) * triangles
 
 
 def cell_list_size(vertices: int, faces: int) -> int:
-    """Return the integers of a cell list by formula (6), 3 NV + 5 NF, which assumes five vertices for each face."""
+    """Return how many integers a short cell list needs by formula (6), which assumes five vertices for each face."""
     return 3 * vertices + 5 * faces
 
 
 def economical_size(cells: CellList) -> int:
-    """Return the exact number that formula (6) estimates: three coordinates per vertex, and each face's vertices."""
+    """Return how many integers a short cell list needs exactly: three per vertex, and the vertices of each face."""
     return 3 * len(cells.vertices) + sum(len(face.pairs) for face in cells.faces)
 
 
 def cube_triangles(voxel_faces: int) -> int:
-    """Return the number of Marching Cubes triangles of a voxel object whose surface is a sphere of squares.
+    """Return how many triangles Marching Cubes creates for a voxel object, from the number of its outer voxel faces.
 
-    Every square contains one vertex of the triangulation, and Euler's formula gives 2 V - 4 triangles.
+    Each voxel face contains one vertex of the triangulation, a sphere, so Euler's formula gives 2 V - 4 triangles.
     """
     return 2 * voxel_faces - 4

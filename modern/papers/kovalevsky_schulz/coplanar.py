@@ -1,4 +1,5 @@
-"""The two alternative treatments of coplanar faces (section 2, Figs. 7 and 8), which the paper tried and abandoned.
+"""Two other ways to treat a new point in the plane of a face (section 2, Figs. 7, 8), which the paper tried and
+abandoned.
 
 Both concern a new point P in the plane of a face. *Quadrangles* (Fig. 7): the face counts as
 invisible. All of its edges to visible faces, together with P, form one new coplanar face instead of a triangle for each
@@ -26,7 +27,7 @@ Edge = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Treated:
-    """A hull with maximal faces, and counts of the steps.
+    """A hull whose coplanar faces are merged, and counts of the steps that computed it.
 
     Each face is the cycle of its vertices, counterclockwise as seen from outside, beginning with the smallest.
     ``created`` counts the faces created from a new point, ``larger`` those of them with more than three vertices,
@@ -43,7 +44,8 @@ class Treated:
 
 
 def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> Treated:
-    """Compute the hull of points with integer coordinates; ``treatment`` is ``quadrangles`` or ``extended``.
+    """Compute the hull of points with integer coordinates by one of the two treatments, ``quadrangles`` or
+    ``extended``.
 
     Raise ValueError for points in one plane or another treatment.
     """
@@ -64,7 +66,7 @@ def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> Trea
 
 
 class _Growing:
-    """The faces of the growing hull, by plane; each is the cycle of its vertices."""
+    """The growing hull: the cycle of vertices of each face, keyed by the face's plane."""
 
     def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int]) -> None:
         self.points = points
@@ -105,7 +107,7 @@ class _Growing:
                 self.enlarge(plane, (new,))
 
     def join_coplanar(self, plane: Plane, edges: Sequence[Edge], new: int, treatment: Treatment) -> None:
-        """Merge a coplanar face with the new point. ``edges`` are its edges to visible faces."""
+        """Merge a face with a new point in its plane.  ``edges`` are the edges it shares with visible faces."""
         # Fig. 7 creates one polygon from all edges to visible faces and merges it with the face. Fig. 8 extends the
         # face itself. Both end in the hull of the face and the point within their plane. Only the counts differ.
         if treatment == QUADRANGLES:
@@ -117,7 +119,7 @@ class _Growing:
         self.enlarge(plane, (new,))
 
     def add_triangle(self, plane: Plane, corners: tuple[int, int, int]) -> None:
-        """Add a new triangle, merged with a face of its plane if one exists."""
+        """Add a new triangle to the hull, or merge it with a face in the same plane."""
         self.created += 1
         if plane in self.faces:
             self.merged += 1
@@ -151,7 +153,7 @@ class _Growing:
         return cycle[start:] + cycle[:start]
 
     def chain(self, order: Sequence[int], u: int, v: int) -> list[int]:
-        """Return the convex chain of sorted points (Andrew's monotone chain)."""
+        """Return half of the hull of sorted points, in the coordinates u and v (Andrew's monotone chain)."""
         chain: list[int] = []
         for k in order:
             # A point where the chain turns right or goes straight on is no vertex of the face.

@@ -29,7 +29,7 @@ _SLAB = 1 << 20
 
 
 def places(volume: Volume, of: Of = VERTICES) -> Voxels:
-    """Return the grid points whose hull is computed, as an array of truth values with the volume's origin.
+    """Return the grid points whose hull is computed, voxel centres or corners, as an array of truth values.
 
     ``centres`` are the voxels themselves (the paper's Int(M)), ``vertices`` their corners (Cl(M)). Voxel (x, y, z) has
     the eight corners from (x, y, z) to (x + 1, y + 1, z + 1). A corner thus has the coordinates of the voxel farthest
@@ -50,7 +50,7 @@ def places(volume: Volume, of: Of = VERTICES) -> Voxels:
 
 
 def _extra(volume: Volume, of: Of) -> int:
-    """Return how many more grid points than voxels there are along each axis."""
+    """Return how many more grid points than voxels each axis has: 0 for centres, 1 for corners."""
     if volume.dimension != 3:
         raise VolumeError(f"{volume.source}: expected a volume of three dimensions, found two")
     if of not in (CENTRES, VERTICES):
@@ -59,7 +59,7 @@ def _extra(volume: Volume, of: Of) -> int:
 
 
 def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points]:
-    """Return two arrays: the local corners by a test of 6 neighbours and by a test of 26, see ``local_corners``."""
+    """Return two lists of local corners, found by the test with 6 neighbours and by the test with 26."""
     extra = _extra(volume, of)
     # The slabs are cut across the axis with the largest stride, so that each is contiguous in memory.
     order = sorted(range(3), key=lambda axis: -abs(volume.array.strides[axis]))
@@ -82,7 +82,8 @@ def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points
 
 
 def _slabs(solid: Voxels, extra: int) -> Iterator[tuple[int, Voxels]]:
-    """Yield slabs of grid points along the first axis, each with its first index and a margin of one point all around.
+    """Yield the grid points in slabs along the first axis, each with its first index and a margin of one point all
+    around.
 
     Along the first axis the margin repeats the neighbouring slabs. Along the other axes it is empty.
     """
@@ -123,7 +124,7 @@ def _in_raster_order(parts: list[NDArray[np.intp]], order: list[int], origin: tu
 
 
 def local_corners(volume: Volume, of: Of = VERTICES, neighbours: int = 26) -> Points:
-    """Return the paper's list L, the local corners (n, 3) in raster order, by 6 or 26 neighbours.
+    """Return the local corners, the paper's list L, as coordinates of shape (n, 3), sorted by z, then y, then x.
 
     Raise VolumeError for a volume of two dimensions, ValueError for another number of neighbours.
     """
@@ -133,5 +134,5 @@ def local_corners(volume: Volume, of: Of = VERTICES, neighbours: int = 26) -> Po
 
 
 def _steps() -> Iterator[tuple[int, ...]]:
-    """Yield one neighbour of every pair: the steps whose first nonzero component is 1."""
+    """Yield the step to one neighbour of each pair of opposite neighbours."""
     return (step for step in product((-1, 0, 1), repeat=3) if step > (0, 0, 0))

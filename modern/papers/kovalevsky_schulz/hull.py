@@ -47,7 +47,7 @@ def merged(cells: CellList) -> CellList:
 
 
 def straightened(cells: CellList) -> CellList:
-    """Merge edges in one line by removing the vertices that have only two edges.
+    """Merge edges that lie in one line, by removing the vertices that have only two edges.
 
     After faces were merged, such a vertex lies straight between its neighbours, because at least three faces meet in a
     vertex of the hull.
@@ -59,7 +59,7 @@ def straightened(cells: CellList) -> CellList:
 
 
 def _cycle(successor: dict[int, int]) -> list[int]:
-    """Return a cycle of vertices, beginning with the lowest, from the successor of each vertex."""
+    """Return a cycle of vertices from its lowest one; ``successor`` maps each vertex to the next."""
     cycle = [min(successor)]
     while successor[cycle[-1]] != cycle[0]:
         cycle.append(successor[cycle[-1]])
@@ -67,7 +67,7 @@ def _cycle(successor: dict[int, int]) -> list[int]:
 
 
 def _renumbered(cells: CellList, cycles: list[list[int]]) -> CellList:
-    """Build the cell list of these faces, without the vertices that no face uses."""
+    """Build a cell list from faces given as cycles of vertices, without the vertices that no face uses."""
     # The paper numbers the cells of the merged list consecutively.
     used = sorted({vertex for cycle in cycles for vertex in cycle})
     numbers = {old: new for new, old in enumerate(used, 1)}
@@ -97,7 +97,7 @@ class Surface:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VoxelHull:
-    """The convex hull of a solid and the counts of the method.
+    """The convex hull of a voxel solid, and the counts of Kovalevsky and Schulz's method.
 
     ``source`` names the solid in messages, and ``voxels`` is the number of its voxels. ``corners`` has the numbers of
     local corners by 6 and by 26 neighbours. ``inserted`` holds those whose hull was computed, shape (n, 3), in raster

@@ -1,10 +1,11 @@
-"""The cell list of a hull computed from the digital polytope of its local corners, without inserting points.
+"""Compute the cell list of a hull directly, without inserting points one by one as the paper does.
 
-The triangles of the polytope are merged as in the paper. Edges in one line are merged too, so all vertices are vertices
-of the hull. The paper's procedure in raster order, with coplanar faces visible, has the same vertices in the same order
-and the same faces: each of its points is later in raster order than the ones before, and a point in line or in a plane
-with later points disappears, because all faces at it are visible. Only the numbers of faces and edges differ. Here
-faces are sorted by their cycles of vertices, each beginning with its lowest number.
+The hull of the local corners is computed as triangles, which are merged as in the paper. Edges in one line are merged
+too, so all vertices are vertices of the hull. The paper's procedure in raster order, with coplanar faces visible, has
+the same vertices in the same order and the same faces: each of its points is later in raster order than the ones
+before, and a point in line or in a plane with later points disappears, because all faces at it are visible. Only the
+numbers of faces and edges differ. Here faces are sorted by their cycles of vertices, each beginning with its lowest
+number.
 """
 
 from itertools import pairwise
@@ -44,9 +45,9 @@ def hull_cells(points: Points) -> CellList | Flat:
 
 
 def column_ends_of(points: Points) -> Points:
-    """Return those points, of points without negative coordinates, that can be vertices of the hull.
+    """Remove points that cannot be vertices of the hull; no coordinate may be negative.
 
-    They are the ends of columns (points with equal x and y) that lie on no chord of other ends.
+    Only ends of columns (points with equal x and y) that lie on no chord of other ends remain.
     """
     x, y, z = points[np.lexsort(points.T[::-1])].T
     # A column is the points with one (x, y). Only its first and its last point can be vertices of the hull.

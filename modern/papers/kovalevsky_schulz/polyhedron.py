@@ -1,4 +1,5 @@
-"""The current polyhedron and its extension by one local corner after another (section 2, Figs. 5 to 7).
+"""The growing polyhedron of the method, which is extended by one local corner after another (section 2, Figs. 5
+to 7).
 
 Every edge stores its two faces, so the faces visible from a point and their boundary are found by walking from one
 visible face, without a search of all faces. All arithmetic is in integers of any length.
@@ -45,7 +46,7 @@ Triangle = tuple[int, int, int, int, int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Flat:
-    """The hull of points in one plane, which has no cell list: its dimension, and its vertices in cyclic order."""
+    """The hull of points in one plane, without a cell list: its dimension, and its vertices in cyclic order."""
 
     dimension: int
     vertices: tuple[IntPoint, ...]
@@ -56,7 +57,7 @@ class Flat:
 
 
 class CurrentPolyhedron:
-    """The paper's CP: edges and triangles by number, in the order of their creation, changed in place.
+    """The polyhedron under construction, the paper's CP: numbered edges and triangles, changed in place.
 
     ``points`` are all points that may become vertices, and ``shifted`` the same relative to the lowest corner of their
     box. A face is visible from a point if the value of its plane there is at least ``least``. ``ends`` has the start
@@ -85,7 +86,7 @@ class CurrentPolyhedron:
         self.first_new = 1
 
     def first_visible(self, number: int) -> int:
-        """Return a face that is visible from a point, preferably one of those created last, or 0 if none is."""
+        """Return the number of a face that is visible from a point, or 0; the faces created last are tried first."""
         x, y, z = self.shifted[number]
         newest = range(self.first_new, self.last_face + 1)
         for candidates in (newest, self.faces):
@@ -96,7 +97,7 @@ class CurrentPolyhedron:
         return 0
 
     def extend(self, number: int, first: int) -> list[int]:
-        """Extend the polyhedron to a point that sees the face ``first``. Return the removed faces.
+        """Extend the polyhedron to a point from which the face ``first`` is visible.  Return the removed faces.
 
         The visible faces are removed, together with the edges between two of them and the vertices that have no other
         face. Every edge of their boundary and the point form a new triangle (section 2).
@@ -146,7 +147,7 @@ class CurrentPolyhedron:
         return assembled(points, starts, ends, np.full(len(faces), 3), numbers)
 
     def _cone(self, top: int, boundary: Iterable[int]) -> None:
-        """Add a triangle from ``top`` to every signed edge, directed as the new triangle follows it."""
+        """Add a triangle from the vertex ``top`` to each edge of a boundary; an edge's sign gives its direction."""
         spokes: dict[int, int] = {}
         for edge in boundary:
             # Neighbouring triangles share the edge between top and their common boundary vertex. It is created when
@@ -164,7 +165,7 @@ class CurrentPolyhedron:
         return self.last_edge
 
     def _face(self, first: int, second: int, third: int, p: int, q: int, r: int) -> None:
-        """Add a triangle with its signed edges and vertices, counterclockwise as seen from outside."""
+        """Add a triangle, given by three signed edges and three vertices, counterclockwise as seen from outside."""
         self.last_face = face = self.last_face + 1
         sides = self.sides
         sides[first] = sides[second] = sides[third] = face
@@ -178,7 +179,7 @@ class CurrentPolyhedron:
 
 
 class Waiting:
-    """One visible face for each remaining point (see 2. above): ``face`` by point, ``lists`` of points by face."""
+    """The remaining points, each with a face visible from it: ``face`` by point, ``lists`` of points by face."""
 
     def __init__(self, polyhedron: CurrentPolyhedron, numbers: Iterable[int]) -> None:
         self.polyhedron = polyhedron
@@ -190,7 +191,7 @@ class Waiting:
         self._assign(list(numbers), range(1, polyhedron.last_face + 1))
 
     def renew(self, removed: Iterable[int], inserted: int) -> None:
-        """Reassign the points of removed faces to new faces. Points that see no new face are inside and are dropped."""
+        """Assign points of removed faces to new faces that they see.  Points that see none are dropped."""
         orphans = [number for face in removed for number in self.lists.pop(face, ()) if number != inserted]
         for number in orphans:
             del self.face[number]

@@ -1,4 +1,4 @@
-"""Exact reconstruction of a convex digital object from the economical encoding of its hull (sections 2 and 5).
+"""Reconstruct a convex digital object exactly from the short encoding of its hull (sections 2 and 5).
 
 An object is convex if it contains every voxel whose centre lies in the hull of its voxels' centres. From the hull of
 the centres, the object is reconstructed as the voxels whose centres lie in that hull. From the hull of the corners, it
@@ -19,7 +19,7 @@ Places = NDArray[np.int64]
 
 
 def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "reconstruction") -> Volume:
-    """Return the digital object whose hull is encoded.
+    """Return the voxels of the digital object whose hull is encoded.
 
     ``of`` is ``centres`` or ``vertices``, the points whose hull is encoded. Raise CellListError for an encoding that is
     not a convex polyhedron, VolumeError for one that is too large, or for a hull of vertices that contains no voxel.

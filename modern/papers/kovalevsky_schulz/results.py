@@ -1,4 +1,4 @@
-"""The computed lines of each published result of Kovalevsky and Schulz.
+"""Compute each published result of Kovalevsky and Schulz, as lines in the words of the print.
 
 The paper does not define its bodies. The definitions here reproduce its numbers: the ball of diameter 32 is centred on
 a voxel, and the half-balls of Table 5 are centred on a corner of voxels. All hulls are hulls of the voxels' corners.
@@ -69,7 +69,7 @@ def _tetrahedron() -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:
-    """Compute Table 4 from the three counts that the paper prints for a body shown in a picture only."""
+    """Compute Table 4 from the three counts that the paper prints for a body known only as a picture."""
     # One Marching Cubes vertex lies in every voxel face. Formulas (5) and (6) then give the numbers of integers.
     voxel_faces = int(surface.split()[-2])
     triangles = cube_triangles(voxel_faces)

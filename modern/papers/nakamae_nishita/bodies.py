@@ -1,4 +1,4 @@
-"""Convex polyhedra from a file with faces: its connected components, each of which is proved to be convex.
+"""Read the convex polyhedra in a file with faces: its connected components, each of which is proved to be convex.
 
 Two faces are connected if they share an edge to which no third face belongs. A component must be closed, its faces
 plane and all its edges convex. The exact hull then confirms that its faces lie on the hull of its vertices. If a
@@ -29,7 +29,7 @@ IntPoint = tuple[int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """The options for reading a file.
+    """The options with which a file of faces is read.
 
     ``hull`` replaces each component by its hull, ``within`` merges faces within this distance of one plane, and
     ``points`` accepts a file with points only, as ``hull`` does. ``as_hull`` and ``as_within`` are the spellings of the
@@ -45,7 +45,7 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Bodies:
-    """The convex polyhedra of a file, and notes on how they were obtained, one line each."""
+    """The convex polyhedra of a file, and notes for the user, one line each, on how they were obtained."""
 
     polyhedra: tuple[Polyhedron, ...]
     notes: tuple[str, ...]
@@ -166,7 +166,7 @@ def _body(surface: FileMesh, component: _Component, reading: Reading) -> tuple[P
 
 @dataclass(frozen=True, slots=True)
 class _Closed:
-    """A closed component with integer points, multiplied by ``scale``, and faces counterclockwise from outside.
+    """A closed component with integer coordinates, multiplied by ``scale``, and faces counterclockwise from outside.
 
     Points, faces and normals are indexed as in the file.
     """
@@ -201,7 +201,10 @@ def _closed(surface: FileMesh, component: _Component) -> _Closed:
 
 
 def _dents(closed: _Closed) -> Iterator[tuple[Fraction, int, int, int, int]]:
-    """Yield the reflex edges: squared height of one face beyond the plane of the neighbour, the faces, the vertices."""
+    """Yield the reflex edges of a component, where it is not convex.
+
+    For each: the squared height of one face above the plane of its neighbour, the two faces, the two vertices.
+    """
     points, normals = closed.points, closed.normals
     owner = {edge: order for order, face in closed.faces.items() for edge in sides(face)}
     for (a, b), order in owner.items():
@@ -235,7 +238,7 @@ def _as_given(closed: _Closed) -> Polyhedron:
 
 
 def _flaws(closed: _Closed, hull: Hull, polyhedron: Polyhedron, reading: Reading) -> Iterator[str]:
-    """Yield the reasons why closed faces without reflex edges are not the hull of their vertices.
+    """Yield the reasons why a closed component without reflex edges is still not the hull of its vertices.
 
     Each face must be a plane convex polygon in the plane of a face of the hull, and all must cover the hull once.
     """
@@ -267,7 +270,7 @@ def _joined(hull: Hull, within: Fraction, name: str) -> Joined:
 
 
 def _far(closed: _Closed, hull: Hull, joined: Joined) -> int | None:
-    """Return a face that is in no plane of a merged face to within the distance, or None if there is none."""
+    """Return a face that lies farther than the allowed distance from the plane of every merged face, or None."""
     planes, around = [], dict[int, set[int]]()
     for number, group in enumerate(joined.groups):
         a, b, c, d = hull.faces[group[0]].lowest
@@ -292,7 +295,7 @@ def _far(closed: _Closed, hull: Hull, joined: Joined) -> int | None:
 
 
 def _of_hull(hull: Hull, name: str, joined: Joined | None) -> Polyhedron:
-    """Return the polyhedron of an exact hull, whose certificate proves that it is convex."""
+    """Convert an exact hull, which is proved to be convex, to a polyhedron of a scene."""
     if hull.dimension < 3:
         return replace(solids.polyhedron_of_hull(hull, name), name=name)
     surface = mesh(hull)

@@ -1,4 +1,4 @@
-"""The near plane of a perspective: polyhedra beyond it are drawn, those that it cuts are clipped, others omitted.
+"""Clip a scene at the near plane of a perspective: omit polyhedra in front of it, and cut those that it intersects.
 
 The plane is perpendicular to the direction of view, at a distance from the eye that is a fraction within 1/10^15 of the
 requested distance. The intersections of edges with this plane are exact, so a clipped polyhedron is convex again and
@@ -17,7 +17,7 @@ from modern.papers.nakamae_nishita.projection import Observer
 
 @dataclass(frozen=True, slots=True)
 class Clipped:
-    """The polyhedra beyond the near plane, and the names of those that it clips and of those behind it."""
+    """The polyhedra beyond the near plane, and the names of those that were cut and of those that were omitted."""
 
     polyhedra: tuple[Polyhedron, ...]
     cut: tuple[str, ...] = ()
@@ -25,7 +25,10 @@ class Clipped:
 
 
 def beyond_near(polyhedra: Sequence[Polyhedron], observer: Observer) -> Clipped:
-    """Return the parts of polyhedra beyond the near plane, if there is one. Raise SceneError if nothing remains."""
+    """Return the parts of polyhedra beyond the near plane, or all if there is no such plane.
+
+    Raise SceneError if nothing remains.
+    """
     if observer.near is None or observer.point is None:
         return Clipped(tuple(polyhedra))
     remaining, cut, behind = [], [], []
@@ -44,7 +47,7 @@ def beyond_near(polyhedra: Sequence[Polyhedron], observer: Observer) -> Clipped:
 
 
 def _depth(point: Vector, observer: Observer) -> Fraction:
-    """Return the distance of a point beyond the near plane, times the length of ``observer.eye``."""
+    """Return the distance of a point beyond the near plane, multiplied by the length of the vector ``observer.eye``."""
     assert observer.point is not None
     assert observer.near is not None
     x, y, z = minus(observer.point, point)
@@ -53,7 +56,7 @@ def _depth(point: Vector, observer: Observer) -> Fraction:
 
 
 def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Observer) -> Polyhedron:
-    """Return the part of a polyhedron beyond the plane. Its last face is the section, which a plate does not have."""
+    """Return the part of a polyhedron beyond the near plane.  Its last face is the cut; a flat plate gets none."""
     points = list(polyhedron.vertices)
     # The index of the new vertex on every edge that the plane cuts. Two faces share each of them.
     cuts: dict[tuple[int, int], int] = {}
@@ -99,7 +102,7 @@ def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Obser
 
 
 def _cut(corners: Sequence[Vector], observer: Observer) -> tuple[Vector, ...]:
-    """Clip a figure and close it along the plane (Sutherland and Hodgman, CACM 17 (1974))."""
+    """Clip a polygon at the near plane and close it along the plane (Sutherland and Hodgman, CACM 17 (1974))."""
     depths = [_depth(point, observer) for point in corners]
     clipped_corners = []
     for a, b in sides(range(len(corners))):

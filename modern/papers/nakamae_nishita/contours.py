@@ -1,4 +1,5 @@
-"""Pairs of contours: the pairs that may overlap, and their PL and LP tables (section 3.2).
+"""Find the pairs of polyhedra whose contours may overlap in the picture, and compute their PL and LP tables (section
+3.2).
 
 Pairs with overlapping bounding boxes are found on a grid of cells. The boxes are in floating point and widened by more
 than the rounding error, so no pair is lost. A superfluous pair only costs a table.
@@ -22,10 +23,10 @@ _CELLS = 1 << 12
 
 
 def boxes(contours: Sequence[Sequence[Homogeneous]]) -> list[Box | None]:
-    """Return the box (left, right, low, high) of each contour, scaled into -1 to 1, or None for an empty contour.
+    """Return the bounding box (left, right, low, high) of each contour in the picture, scaled into -1 to 1.
 
-    All images are divided by one power of two that brings them into -1 to 1. Python rounds quotients of integers
-    correctly, so an end has an error of at most 2**-54. It is moved outward by 2**-50.
+    An empty contour has None. All images are divided by one power of two that brings them into -1 to 1. Python rounds
+    quotients of integers correctly, so an end has an error of at most 2**-54. It is moved outward by 2**-50.
     """
     shift = max(
         (max(abs(x), abs(y)).bit_length() - w.bit_length() + 1 for contour in contours for x, y, _, w in contour),
@@ -44,7 +45,7 @@ def boxes(contours: Sequence[Sequence[Homogeneous]]) -> list[Box | None]:
 
 
 def overlapping(all_boxes: Sequence[Box | None]) -> Iterator[tuple[int, int]]:
-    """Yield sorted pairs of indices whose boxes overlap, by a grid that has about one cell per box."""
+    """Yield the pairs of boxes that overlap, as sorted indices, found by a grid with about one cell for each box."""
     nonempty = [(index, box) for index, box in enumerate(all_boxes) if box is not None]
     if len(nonempty) < 2:
         return
@@ -86,9 +87,9 @@ CROSSING = -4
 
 
 def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -> Values | None:
-    """Evaluate formula (1) for each line (rows) and each point. Return None if all points are outside one of the lines.
+    """Evaluate formula (1), the side of a line on which a point lies, for each line (rows) and each point (columns).
 
-    This is property 1: if a column of PL or a row of LP has no 1, the contours do not overlap.
+    Return None if all points are outside one of the lines. The contours then do not overlap (property 1).
     """
     columns = []
     # Formula (1) for a point (x, y, w) and the line of a segment: positive on its right, the inside of the contour.
@@ -102,13 +103,17 @@ def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -
 
 @dataclass(frozen=True, slots=True)
 class Tables:
-    """The tables PL and LP, with rows for the vertices of V' and columns for those of V, as in the paper."""
+    """The paper's tables PL and LP for two contours V and V': on which side of each segment each vertex of the other
+    lies.
+
+    The rows are the vertices of V', the columns those of V.
+    """
 
     pl: tuple[Row, ...]
     lp: tuple[Row, ...]
 
     def crossing_number(self, i: int, j: int) -> int:
-        """Return d of formula (3) for segments i and j.
+        """Return d of the paper's formula (3), which tells how segment i of V and segment j of V' meet.
 
         It is -4 if they intersect, -2 if a vertex lies on a segment, -1 if a vertex lies on a vertex, and 0 otherwise,
         also if they overlap in a line.
@@ -130,16 +135,19 @@ class Tables:
 
     @property
     def encloses(self) -> bool:
-        """Property 2: True if V encloses V'."""
+        """True if contour V encloses contour V' (property 2 in the paper)."""
         return not any(-1 in row for row in self.pl)
 
     @property
     def enclosed(self) -> bool:
-        """Property 2 of LP: True if V' encloses V."""
+        """True if contour V' encloses contour V (property 2 in the paper)."""
         return not any(-1 in row for row in self.lp)
 
 
 def tables(of_near: Values, of_far: Values) -> Tables:
-    """Compute PL and LP from the values of formula (1): V's segments at the P_j, and the segments of V' at the P_i."""
+    """Compute the tables PL and LP from values of formula (1), whose signs they hold.
+
+    ``of_near`` has V's segments at the vertices of V', ``of_far`` the segments of V' at the vertices of V.
+    """
     signs = [[(f > 0) - (f < 0) for f in column] for column in of_near]
     return Tables(tuple(zip(*signs, strict=True)), tuple(tuple((f > 0) - (f < 0) for f in row) for row in of_far))

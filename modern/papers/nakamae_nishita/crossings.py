@@ -1,4 +1,4 @@
-"""The points at which a segment passes behind a contour and emerges from it (sections 3.4 and 3.5, formula (6)).
+"""Find the points at which a segment passes behind a contour and emerges again (sections 3.4 and 3.5, formula (6)).
 
 A point on a segment from P_A to P_B is given by s, its distance from P_A in space as a fraction of the segment. Its
 index is +k if the segment enters the contour there and -k if it leaves, where k is the number of intersections.
@@ -17,7 +17,8 @@ Mark = tuple[Fraction, int]
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """The course of a segment behind one contour: its intersections with their indices I_0, in order from P_A.
+    """The course of a segment behind one contour: the points where it enters or leaves, with the paper's
+    indices I_0.
 
     ``enclosed`` is True if the whole segment lies within the contour and so has no intersection.
     """
@@ -27,7 +28,7 @@ class Passage:
 
     @property
     def order(self) -> int:
-        """The contribution of the contour to the order of invisibility of P_A: the number of indices -1."""
+        """The number of contours, 0 or 1, that this passage adds to those that hide the segment's start."""
         return sum(index == -1 for _, index in self.marks)
 
 
@@ -36,7 +37,8 @@ ENCLOSED = Passage((), True)
 
 
 def clipped(values: Values, first: int, last: int) -> Passage:
-    """Return the passage of the segment between two points behind a contour, including ends on the contour.
+    """Compute the passage of the segment between two points behind a contour, correctly also at vertices of the
+    contour.
 
     ``values`` holds formula (1) of each contour segment at all points. The segment is clipped to the inner side of each
     line, so only a part of positive length strictly within the contour is hidden.
@@ -76,7 +78,7 @@ def clipped(values: Values, first: int, last: int) -> Passage:
 def as_printed(
     values: Values, first: int, last: int, ends: tuple[Homogeneous, Homogeneous], contour: Sequence[Homogeneous]
 ) -> Passage:
-    """Return the passage as printed, which loses an intersection at a vertex because only d = -4 of (3) counts."""
+    """Compute the passage as printed, which misses an intersection at a vertex, because only d = -4 counts."""
     a, b, c = line_through(_flat(ends[0]), _flat(ends[1]))
     sides = [sign(a * x + b * y + c * w) for x, y, _, w in contour]
     places = []

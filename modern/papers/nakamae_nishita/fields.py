@@ -1,4 +1,4 @@
-"""The fields of a table of a scene file, checked one by one."""
+"""Read and check the fields of one table of a scene file (TOML)."""
 
 from collections.abc import Mapping
 from fractions import Fraction
@@ -11,7 +11,7 @@ from modern.papers.nakamae_nishita.polyhedron import SceneError
 
 
 class Fields:
-    """The fields of a table in a scene file, which are read one by one. Unread fields are rejected at the end."""
+    """The fields of a table in a scene file.  Each is read once; a field that nobody reads is an error."""
 
     def __init__(self, data: Mapping[str, Any], place: str) -> None:
         self.place = place
@@ -65,7 +65,7 @@ class Fields:
         return None if raw is None else self._vector(key, raw)
 
     def vectors(self, key: str, flat: bool = False) -> tuple[Vector, ...] | None:
-        """Return a list of points. With ``flat``, points of two numbers lie in the plane z = 0."""
+        """Return a list of points.  If ``flat``, points may have two numbers and then lie in the plane z = 0."""
         if key not in self:
             return None
         return tuple(self._vector(key, item, flat) for item in self._list_of(object, key, "expected a list of points"))
@@ -83,7 +83,7 @@ class Fields:
         return tuple(tuple(item) for item in raw)
 
     def done(self) -> None:
-        """Raise SceneError if a field remains that was not read."""
+        """Raise SceneError if the table has a field that was not read, because its name must be wrong."""
         for key in self._data:
             raise SceneError(f"{self.place}: {quoted(key)} is not a known field of this table")
 

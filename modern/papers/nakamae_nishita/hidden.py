@@ -1,4 +1,4 @@
-"""Hidden line elimination of a scene: the paper's third step (sections 3.2 to 3.5, time III) after its first two."""
+"""Draw a scene with hidden lines eliminated: the paper's third step (sections 3.2 to 3.5) after its first two."""
 
 import math
 import time
@@ -28,7 +28,7 @@ REFINEMENTS = (ENCLOSED, TOUCHING, ENDS, GHOSTS)
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """Two polyhedra whose contours overlap: V and V' by number, and their tables.
+    """Two polyhedra V and V' whose contours overlap in the picture: their numbers, tables, and which one is nearer.
 
     ``nearer`` is 1 if V is nearer, -1 if V' is nearer, otherwise 0. ``by`` is the criterion that decided.
     """
@@ -42,7 +42,7 @@ class Relation:
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A part of an edge or of a figure's side.
+    """A visible or hidden part of an edge of a polyhedron, or of a side of a figure on a face.
 
     ``solid`` is the number of the polyhedron, ``start`` and ``end`` are the ends of the edge as indices of
     ``Solid.points``, and ``first`` and ``last`` bound the part as fractions of the edge in space.
@@ -58,9 +58,10 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Passages:
-    """The course of one segment, which is given by its polyhedron and its index in ``Solid.segments``.
+    """The course of one segment behind all nearer polyhedra.
 
-    ``behind`` lists its passage behind each nearer polyhedron by number, ``ghosts`` the parts of it that are ghosts.
+    ``solid`` and ``segment`` say which one it is. ``behind`` lists its passage behind each nearer polyhedron by
+    number, ``ghosts`` the parts of it that are ghosts.
     """
 
     solid: int
@@ -76,7 +77,7 @@ class Passages:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """A scene after hidden line elimination.
+    """The result of hidden line elimination: the visible and hidden pieces of all edges.
 
     ``seconds`` are the times of the paper's three steps: creating the polyhedra, classifying edges, eliminating hidden
     lines. ``cut`` and ``behind`` name the polyhedra that the near plane clips and those behind it, which are omitted.
@@ -93,7 +94,7 @@ class Drawing:
 
     @property
     def counts(self) -> tuple[int, int, int, int]:
-        """The columns of Table 1: the numbers of convex polyhedra, vertices, faces and points of figures."""
+        """The numbers of polyhedra, vertices, faces and points of figures, which are columns of the paper's Table 1."""
         polyhedra = [item.polyhedron for item in self.solids]
         return (
             len(polyhedra),
@@ -110,7 +111,7 @@ def draw(
     hidden: bool = False,
     check: bool = True,
 ) -> Drawing:
-    """Draw convex polyhedra.
+    """Draw a scene of convex polyhedra without hidden lines.
 
     ``made`` may be a function that creates the polyhedra, which is then timed as the first step. ``without`` names the
     ``REFINEMENTS`` to switch off. With ``hidden``, hidden parts and edges between back faces become pieces that are not
@@ -167,7 +168,10 @@ def draw(
 def _relations(
     solids: Sequence[Solid], without: Collection[str], check: bool
 ) -> Iterator[tuple[Relation, Values, Values]]:
-    """Yield the pairs with overlapping contours, with formula (1) of each contour at the other polyhedron's points."""
+    """Yield the pairs of polyhedra with overlapping contours.
+
+    With each come the values of formula (1) for each contour at the other polyhedron's points.
+    """
     contours = [item.images[: len(item.contour)] for item in solids]
     # Property 1 of section 3.2 rejects a pair as soon as all points are outside of one segment of a contour.
     for first, second in overlapping(boxes(contours)):
@@ -195,7 +199,7 @@ def _relations(
 def _pass(
     behind: list[list[tuple[int, Passage]]], far: Solid, near: Solid, of_near: Values, without: Collection[str]
 ) -> None:
-    """Record the passages of the far polyhedron's segments behind the near one."""
+    """Record where the far polyhedron's segments pass behind the near one."""
     contour = near.images[: len(near.contour)]
     for course, segment in zip(behind, far.segments, strict=True):
         if ENDS in without:
@@ -210,7 +214,8 @@ def _pass(
 def _pieces(
     solids: Sequence[Solid], passages: Passages, back_ghosts: dict[Name, list[Span]], hidden: bool
 ) -> Iterator[Piece]:
-    """Yield the parts of a segment. A part is visible where the sum of the indices from P_A on, the order, is 0.
+    """Yield the pieces of a segment.  A piece is visible if no contour hides it: the paper's indices then add
+    up to 0.
 
     Ghost parts are omitted from visible and hidden pieces, ghosts between back faces only from hidden pieces.
     """

@@ -1,4 +1,4 @@
-"""The decision which of two convex polyhedra with overlapping contours is nearer (section 3.3, formulas (4) and (5)).
+"""Decide which of two convex polyhedra that overlap in the picture is nearer (section 3.3, formulas (4) and (5)).
 
 If polyhedra touch, both formulas may give 0. A plane that separates the two then decides: the nearer polyhedron is on
 the eye's side of it. Such a plane also proves that they do not intersect.
@@ -21,7 +21,7 @@ UNDECIDED: Final = "undecided"
 
 
 def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) -> tuple[int, By]:
-    """Compare V and V' by the paper's formulas.
+    """Decide by the paper's formulas which of the polyhedra V and V' is nearer.
 
     Return 1 if V is nearer, -1 if V' is nearer, 0 if undecided, and the formula that decided. ``of_v`` holds formula
     (1) of V's segments at the points of V', and ``of_w`` that of the segments of V' at the points of V.
@@ -46,7 +46,10 @@ def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) ->
 
 
 def crossing(solid: Solid, order: int, values: list[int]) -> Homogeneous:
-    """Return the point of a contour segment whose image is on a line with these ``values`` at the solid's points."""
+    """Return the point of a contour segment at which the given values, linear along the segment, are zero.
+
+    ``values`` holds formula (1) of a line at all points of the solid; ``order`` numbers the contour segment.
+    """
     after = (order + 1) % len(solid.contour)
     p, q = solid.images[order], solid.images[after]
     # The values at the two ends have opposite signs. Each end is weighted with the value at the other end.
@@ -55,7 +58,7 @@ def crossing(solid: Solid, order: int, values: list[int]) -> Homogeneous:
 
 
 def by_plane(v: Solid, w: Solid) -> tuple[int, Plane | None]:
-    """Compare V and V' by a separating plane: return 1 if V is nearer, -1 if V' is nearer, and the plane.
+    """Decide by a separating plane which of V and V' is nearer: return 1 for V, -1 for V', and the plane.
 
     The plane is None if the polyhedra intersect. The first number is 0 for two plates in one plane.
     """

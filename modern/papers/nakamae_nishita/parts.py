@@ -1,4 +1,4 @@
-"""The parts of a scene file: standard shapes and solids from files, their placement, and figures on their faces."""
+"""Read the parts of a scene file: shapes, solids from other files, their placement, and figures on their faces."""
 
 import itertools
 import os
@@ -24,7 +24,7 @@ MOST = 20_000
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A shape and the placement of its copies.
+    """A shape, its placement in the scene, and the number of its copies.
 
     ``build`` creates the shape at the origin under a given name. ``thing`` names the object that all copies belong to.
     ``figures`` are in the coordinates of the shape. The shape is scaled, then rotated by ``turn`` degrees about the z
@@ -44,7 +44,7 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """The parts that a table of a scene defines, the path of their file (or empty), and notes on it for the user."""
+    """What one table of a scene file defines: its parts, the path of their file (or empty), and notes for the user."""
 
     parts: tuple[Part, ...]
     file: str = ""
@@ -84,7 +84,7 @@ def part(fields: Fields, folder: str = "") -> Parts:
 
 
 def _from_file(fields: Fields, folder: str, place: str) -> Parts:
-    """Read the connected components of a file with faces, or with ``hull = true`` the hull of a file with points."""
+    """Read the connected components of a file with faces; with ``hull = true`` also the hull of a file with points."""
     path = fields.text("file", "")
     within = fields.take("coplanar_within")
     hull = fields.flag("hull")
@@ -103,7 +103,7 @@ def named(polyhedron: Polyhedron, name: str) -> Polyhedron:
 
 
 def make(item: Part) -> Iterator[Polyhedron]:
-    """Create the copies of a part. Raise SceneError for an invalid shape or figure."""
+    """Create all copies of a part at their places.  Raise SceneError for an invalid shape or figure."""
     shape = item.build(item.place)
     figures = tuple(_figure(item.place, shape, corners) for corners in item.figures)
     shape = replace(shape, thing=item.thing, figures=figures)
@@ -115,7 +115,7 @@ def make(item: Part) -> Iterator[Polyhedron]:
 
 
 def _figure(place: str, shape: Polyhedron, corners: tuple[Vector, ...]) -> Figure:
-    """Find the face that contains a figure. On a plate it is the side from which the corners run clockwise."""
+    """Find the face on which a figure lies.  On a plate it is the side from which the corners run clockwise."""
     if len(corners) < 3:
         raise SceneError(f"{place}: figures: expected at least 3 corners, found {len(corners)}")
     for order, face in enumerate(shape.faces):

@@ -1,4 +1,5 @@
-"""A drawing as SVG, as HPGL for a plotter, and as text: its intermediate results and a row of the paper's Table 1.
+"""Write a drawing as SVG, as HPGL for a plotter, or as text with intermediate results and a row of the paper's
+Table 1.
 
 HPGL is the language of Hewlett-Packard's plotters: pen up, pen down and absolute moves (instructions IN SP LT PU PD).
 The drawing consists of straight strokes, one for each visible piece. Where parts of objects touch, a line that belongs
@@ -29,7 +30,7 @@ SOLID, DASHED = "LT;", "LT2,2;"
 
 
 def plot(groups: Iterable[tuple[str, Iterable[Stroke]]]) -> str:
-    """Return the text of a plot. Each group has a line type and straight strokes, drawn in the given order.
+    """Return strokes as the text of an HPGL plot.  Each group of strokes has a line type.
 
     The pen stays down if a stroke begins at the end of the previous one.
     """
@@ -54,14 +55,14 @@ _BAND = 24
 
 
 def ends(drawing: Drawing, piece: Piece) -> tuple[Homogeneous, Homogeneous]:
-    """Return the two ends of a piece in homogeneous coordinates."""
+    """Return the two ends of a visible or hidden piece of an edge, in homogeneous coordinates."""
     points = drawing.solids[piece.solid].points
     a, b = points[piece.start], points[piece.end]
     return _between(a, b, piece.first), _between(a, b, piece.last)
 
 
 def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
-    """Return the text of an SVG file.
+    """Return a drawing as the text of an SVG file.
 
     The attribute ``data-edge`` of a line names its polyhedron and the two vertices of its edge, from 1. The numbers of
     figures' corners follow those of the vertices. Raise ExportError for a width out of range.
@@ -85,7 +86,7 @@ def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
 
 
 def as_hpgl(drawing: Drawing) -> str:
-    """Return the text of a plot on a sheet of A4, with hidden pieces dashed."""
+    """Return a drawing as HPGL, the language of pen plotters, for a sheet of A4; hidden pieces are dashed."""
     pixel, height = fit(_extent(drawing), PLOT_WIDTH // 10, PLOT_HEIGHT // 10 - 2 * MARGIN)
 
     def strokes(visible: bool) -> Iterator[Stroke]:
@@ -106,7 +107,7 @@ def _strokes(drawing: Drawing, pixel: Callable[[Flat], Pixel], visible: bool) ->
 
 
 def _extent(drawing: Drawing) -> list[Flat]:
-    """Return the images of all vertices, so that the scale does not depend on which pieces are hidden."""
+    """Return the positions of all vertices in the picture, so that its scale does not depend on what is hidden."""
     return [image(point, drawing.observer) for item in drawing.solids for point in item.vertices]
 
 
@@ -128,7 +129,7 @@ def table1(drawing: Drawing) -> Iterator[str]:
 
 
 def tables(drawing: Drawing) -> Iterator[str]:
-    """Yield all tables: the polyhedra, the pairs with overlapping contours, and the segments behind a contour."""
+    """Yield intermediate results as text: polyhedra, overlapping pairs, segments behind a contour."""
     for solid in drawing.solids:
         kinds = Counter(edge.kind for edge in solid.edges)
         yield f"{solid.number + 1}. {solid.polyhedron.name}"

@@ -1,4 +1,4 @@
-"""Convex polyhedra in the paper's form (section 2): vertices, and faces by vertex numbers, clockwise from outside.
+"""Convex polyhedra in the paper's form (section 2): vertices, and faces as vertex numbers, clockwise from outside.
 
 A plate is a polyhedron without thickness: one polygon as two faces, one for each side. Polyhedra come from scenes, from
 files with faces (``bodies``) and from hulls.
@@ -17,7 +17,7 @@ from modern.geometry.vectors import N, Vector, area_vector, cross, dot, lowest, 
 
 
 class SceneError(EmulatorError):
-    """A scene that cannot be drawn, because a file, a shape or the arrangement is invalid. The message is one line."""
+    """Raised if a scene cannot be drawn because a file, a shape or the arrangement is invalid, in one line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ def outward(polyhedron: Polyhedron, face: tuple[int, ...]) -> Vector:
 
 
 def checked(polyhedron: Polyhedron) -> Polyhedron:
-    """Return the polyhedron, with its faces clockwise from outside, after proving that it is closed and convex.
+    """Prove that a polyhedron is closed and convex, and return it with its faces clockwise as seen from outside.
 
     Raise SceneError with the names of the polyhedron and of the invalid face or edge.
     """
@@ -74,7 +74,7 @@ def checked(polyhedron: Polyhedron) -> Polyhedron:
 def open_faults(
     faces: Mapping[int, Sequence[int]], points: Mapping[int, Vector], edge_name: Callable[[int, int], str]
 ) -> Iterator[str]:
-    """Yield the reasons why faces are not a closed surface over these points. Messages count from 1."""
+    """Yield the reasons why faces do not form a closed surface.  Faces and points in messages count from 1."""
     # In a closed surface every edge is followed once in each direction, by the two faces it belongs to.
     directed: Counter[tuple[int, int]] = Counter()
     for order, face in faces.items():
@@ -96,7 +96,7 @@ def open_faults(
 
 
 def _faults(polyhedron: Polyhedron) -> Iterator[str]:
-    """Yield the reasons why closed faces are not a convex solid or a plate with faces clockwise from outside."""
+    """Yield the reasons why a closed surface is not a convex solid, or a plate, with faces clockwise from outside."""
     points, faces = polyhedron.vertices, polyhedron.faces
     _, integers = whole(points)
     flat = True
@@ -125,7 +125,7 @@ def _faults(polyhedron: Polyhedron) -> Iterator[str]:
 
 
 def turns_once(points: Sequence[tuple[N, N, N]], normal: tuple[N, N, N]) -> bool:
-    """Return True if a plane polygon is convex and runs counterclockwise once as seen from the side of ``normal``."""
+    """Return True if a plane polygon is convex and runs counterclockwise once, seen from the tip of ``normal``."""
     # The signs are those of integers, which are computed faster than fractions.
     (_, corners), up = whole(points), lowest(normal)
     lines = list(sides(range(len(corners))))

@@ -1,4 +1,4 @@
-"""Parallel and perspective projection in integers.
+"""Project points in parallel or in perspective, with exact integers.
 
 Both are maps to homogeneous coordinates, (x, y, z, w) for the point (x/w, y/w, z/w), after which the eye is at infinity
 on the z axis and z grows towards it. In parallel projection w is the common denominator of a polyhedron's coordinates.
@@ -48,7 +48,7 @@ def perspective(point: Vector, towards: Vector, near: Fraction | None = None) ->
 
 
 def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[Homogeneous]:
-    """Return the images of the vertices, then of the corners of the figures, all in one scale.
+    """Return the projected vertices of a polyhedron, then the projected corners of its figures.
 
     A point at the fraction s of an edge in space has the image (1 - s) A + s B. In parallel projection ``origin`` is
     subtracted from all points of a scene to keep the numbers short.
@@ -77,5 +77,5 @@ def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[
 
 
 def image(point: Homogeneous, observer: Observer) -> tuple[Fraction, Fraction]:
-    """Return the position of a point in the picture, with equal scales on both axes and y pointing upwards."""
+    """Return a projected point's position in the picture, with equal scales on both axes and y upwards."""
     return Fraction(point[0], point[3]) * observer.stretch, Fraction(point[1], point[3])

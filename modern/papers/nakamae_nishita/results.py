@@ -1,4 +1,4 @@
-"""The lines of text that the computation gives for each published result of Nakamae and Nishita."""
+"""Compute each published result of Nakamae and Nishita, as lines in the words of the print."""
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
@@ -18,7 +18,7 @@ _OTHER_SIDE = (-34, 37, 41)
 
 
 def produced(_: Lines) -> Lines:
-    """Compute the lines of each result that can be computed, by its id. The printed lines are not needed for this."""
+    """Compute the lines of each result that can be computed, keyed by its id; the printed lines are not needed."""
     lines: dict[str, Sequence[str]] = dict(_crossing_numbers())
     drawings = {name: drawing(name) for name in names()}
     most = max(
@@ -35,14 +35,14 @@ def produced(_: Lines) -> Lines:
 
 
 def drawing(name: str, eye: Sequence[int] | None = None) -> Drawing:
-    """Draw a scene of the project from its own direction or from another one."""
+    """Draw one of the project's scenes as seen from its own direction or from another one."""
     file = scene(name)
     observer = file.sight.observer(file.make) if eye is None else parallel([Fraction(number) for number in eye])
     return draw(file.make, observer)
 
 
 def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
-    """Compute the tables of two clockwise polygons that overlap."""
+    """Compute the paper's tables PL and LP for two overlapping polygons, whose corners run clockwise."""
     of_v, of_w = values(_lines(v), _points(w)), values(_lines(w), _points(v))
     assert of_v is not None
     assert of_w is not None
@@ -50,7 +50,7 @@ def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
 
 
 def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
-    """Compute d of formula (3) for a square's upper side and a segment in each of four positions.
+    """Compute d of formula (3), which tells how two segments meet, for the four cases that the paper lists.
 
     The side runs from (0, 4) to (4, 4). The segment is the first side of a polygon.
     """
@@ -66,7 +66,10 @@ def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _contour_sense() -> str:
-    """Return the contour's difference vector whose product with P_A - P_B has the sign of the index of formula (6)."""
+    """Decide an ambiguity of the print by computation: the direction in which formula (6) traverses a contour.
+
+    Return the difference of the contour's points whose product with P_A - P_B has the sign of the formula's index.
+    """
     start, end, a, b = (0, 0), (0, 4), (-1, 1), (1, 2)
     # The segment from A to B crosses the square's left side inward, so formula (6) must be positive.
     of_square = values(_lines(_SQUARE), _points((a, b)))

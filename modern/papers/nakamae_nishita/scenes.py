@@ -1,4 +1,5 @@
-"""Scene files: TOML files of parts, each a standard shape and its placement (section 2 of the paper).
+"""Read scene files: TOML files that list parts, each with a standard shape and its placement (section 2 of the
+paper).
 
 All numbers are exact: integers, decimals, and fractions written as text, such as "1/3". The format is described in
 ``docs/papers/nakamae_nishita.md``. The project's own scenes are in the folder ``scenes`` and are selected by name.
@@ -43,7 +44,7 @@ class Sight:
     near: Fraction | None = None
 
     def observer(self, make: Callable[[], Sequence[Polyhedron]]) -> Observer:
-        """Return the observer; ``make`` creates the polyhedra if their centre is needed. Raise SceneError for 0,0,0."""
+        """Return the viewpoint. ``make`` creates the polyhedra if needed.  Raise SceneError for 0,0,0."""
         if self.projection == PARALLEL:
             return parallel(self.eye)
         return perspective(self.eye, self.towards or _middle(make()), self.near)
@@ -90,7 +91,7 @@ def read(path: str) -> SceneFile:
 
 
 def of_polyhedra(polyhedra: Sequence[Polyhedron], title: str, notes: Sequence[str] = ()) -> SceneFile:
-    """Return a scene of polyhedra with a direction of view in which their faces and vertices are distinguishable."""
+    """Return a scene of these polyhedra, seen from a direction that shows their faces and vertices clearly."""
     # Two solids that touch may have a vertex in common.
     points = list(dict.fromkeys(point for polyhedron in polyhedra for point in polyhedron.vertices))
     eye = choose(points, [outward(polyhedron, face) for polyhedron in polyhedra for face in polyhedron.faces])

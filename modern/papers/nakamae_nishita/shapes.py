@@ -1,4 +1,4 @@
-"""The standard shapes of section 2 and their placement: parallelepiped, column and polygonal plate.
+"""Create and place the paper's standard shapes: parallelepiped, column and polygonal plate (section 2).
 
 All coordinates are fractions. Cosine and sine of a rotation are fractions too, so a rotated shape is exactly congruent.
 """
@@ -68,10 +68,10 @@ def round_base(name: str, sides: int, radius: Fraction) -> list[Vector]:
 
 
 def rotation(degrees: Fraction) -> tuple[Fraction, Fraction]:
-    """Return cosine and sine, as fractions exactly on the unit circle, of an angle within 1/1000 degree of this one.
+    """Return the cosine and sine of an angle as fractions exactly on the unit circle.
 
-    Multiples of 90 degrees are exact. The tangent of half the remaining angle is rounded to a fraction with a
-    denominator of at most 100,000.
+    The angle deviates by at most 1/1000 degree. Multiples of 90 degrees are exact. The tangent of half the remaining
+    angle is rounded to a fraction with a denominator of at most 100,000.
     """
     # With t = tan(angle / 2), ((1 - t^2) / (1 + t^2), 2 t / (1 + t^2)) is a rational point of the circle.
     quarters = round(degrees / 90)
@@ -85,7 +85,7 @@ def rotation(degrees: Fraction) -> tuple[Fraction, Fraction]:
 
 
 def turned(degrees: Fraction) -> Move:
-    """Return the rotation about the z axis, counterclockwise from above."""
+    """Return the function that rotates a point about the z axis, counterclockwise seen from above."""
     cosine, sine = rotation(degrees)
     return lambda p: (cosine * p[0] - sine * p[1], sine * p[0] + cosine * p[1], p[2])
 
@@ -99,7 +99,7 @@ def moved(shift: Vector) -> Move:
 
 
 def placed(polyhedron: Polyhedron, move: Move, name: str) -> Polyhedron:
-    """Return the polyhedron and its figures after a move, with a new name."""
+    """Return a polyhedron, with its figures, moved by ``move`` and renamed."""
     figures = tuple(Figure(f.face, tuple(map(move, f.corners))) for f in polyhedron.figures)
     return replace(polyhedron, name=name, vertices=tuple(map(move, polyhedron.vertices)), figures=figures)
 

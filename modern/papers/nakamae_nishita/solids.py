@@ -1,4 +1,4 @@
-"""The projection of a polyhedron with its contour and inner edges: the paper's second step (section 4, time II)."""
+"""Project a polyhedron and classify its faces and edges: the paper's second step (section 4, time II)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,7 +19,8 @@ Kind = visible.Kind | Literal["figure"]
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A line that may be visible: an inner edge, a contour edge or a side of a figure.
+    """A line that may be visible in the picture: an edge between visible faces, a contour edge, or a side of a
+    figure.
 
     ``start`` and ``end`` are indices of ``Solid.points``, ``first`` and ``last`` the same ends as indices of
     ``Solid.used``. ``faces`` are the front faces at the line.
@@ -35,7 +36,7 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """A polyhedron with its image.
+    """A polyhedron and its projection.
 
     ``points`` are the images of the vertices, then of the corners of figures. ``signs`` has 1 for each front face.
     ``contour`` lists the indices of its vertices, clockwise, and ``lines`` the coefficients of formula (1) of its
@@ -66,7 +67,7 @@ _DRAWN = (visible.INNER, visible.CONTOUR)
 
 
 def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vector) -> Solid:
-    """Project a polyhedron and classify its faces, edges and contour. Raise SceneError as ``project`` does."""
+    """Project a polyhedron and classify its faces, edges and contour.  Raise SceneError if it cannot be projected."""
     # Section 3.1: a face is a front face if its image runs clockwise. Its edges are classified by their two faces.
     points = project(polyhedron, observer, origin)
     flat: list[Flat] = [(x, y, w) for x, y, _, w in points]
@@ -100,7 +101,7 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
 
 
 def plane_through(p: Homogeneous, q: Homogeneous, r: Homogeneous) -> Plane:
-    """Return the coefficients of formula (5) for three points clockwise from outside, or zeros if they are collinear.
+    """Return the plane of formula (5) through three projected points, clockwise from outside, or zeros if collinear.
 
     They are the cofactors of the first row of the determinant of formula (5) in homogeneous coordinates.
     """
@@ -116,7 +117,7 @@ def plane_through(p: Homogeneous, q: Homogeneous, r: Homogeneous) -> Plane:
 
 
 def height(plane: Plane, p: Homogeneous) -> int:
-    """Evaluate formula (5), which is positive if the point is on the outer side of the face."""
+    """Return the value of formula (5), which is positive if the point is on the outer side of the plane."""
     return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] * p[3]
 
 
@@ -135,7 +136,7 @@ def _face_plane(corners: Sequence[Homogeneous]) -> Plane:
 
 
 def _merged(edge: Edge, joined: Sequence[int]) -> Edge:
-    """Return the edge, marked as not drawn if its two faces are merged and it is not on the contour."""
+    """Return an edge, marked as not to be drawn if its two faces were merged and it is not on the contour."""
     first, last = edge.faces[0], edge.faces[-1]
     within = edge.kind in (visible.INNER, visible.BACK) and joined[first] == joined[last]
     return replace(edge, kind=visible.JOINED) if within else edge

@@ -1,4 +1,4 @@
-"""Yau and Srihari's algorithm: the digital convex hull of an octree, as an octree.
+"""Yau and Srihari's algorithm for the digital convex hull of a voxel solid that is stored as an octree.
 
 ``octree_hull(volume)`` follows the paper step by step. The hull lies between two functions of the column (x, y): the
 convex envelope of the floor (the lowest voxels) and the concave envelope of the ceiling (the highest voxels).

@@ -1,4 +1,4 @@
-"""Definitions of digital convexity (sections 3.2.2 and 3.2.3) and the convex deficiency (section 1), decided exactly.
+"""Decide exactly if a set of voxels is digitally convex, by the definitions of sections 3.2.2 and 3.2.3.
 
 A digital region is a set of voxels, given as an array of truth values. Definition 3.2.2 requires a voxel of the region
 at the midpoint of any two of its voxels. Definition 3.2.3 requires a convex solid whose image is the half-cell
@@ -34,7 +34,7 @@ def half_cell_expansion(region: Voxels) -> Voxels:
 
 
 def is_simple(region: Voxels) -> bool:
-    """Return True if a region is 6-connected and meets every line along an axis in one run at most (3.2.3)."""
+    """Return True if a region is 6-connected and every line along an axis meets it in at most one run (3.2.3)."""
     if components(region) != 1:
         return False
     for axis in range(3):
@@ -46,13 +46,13 @@ def is_simple(region: Voxels) -> bool:
 
 
 def is_midpoint_convex(region: Voxels) -> bool:
-    """Return True if, for any two of its voxels, the region contains at least one of their midpoint voxels (3.2.2)."""
+    """Return True if, for any two voxels of a region, one of their midpoint voxels belongs to it too (3.2.2)."""
     inside = set(voxels_of(region))
     return all(any(z in inside for z in midpoint_cover(x, y)) for x, y in combinations(inside, 2))
 
 
 def midpoint_cover(x: Voxel, y: Voxel) -> list[Voxel]:
-    """Return the midpoint voxels of two voxels (3.2.2).
+    """Return the one, two, four or eight voxels around the midpoint of two voxels (3.2.2).
 
     The midpoints of the points of both voxels fill a unit cube around the midpoint of the two centres. On each axis on
     which the sum of the two coordinates is odd, this cube reaches into two voxels, so there are one, two, four or eight
@@ -63,7 +63,7 @@ def midpoint_cover(x: Voxel, y: Voxel) -> list[Voxel]:
 
 
 def is_digitally_convex(region: Voxels) -> bool:
-    """Return True if a region passes Kim and Rosenfeld's test (3.2.3).
+    """Return True if a region of voxels passes Kim and Rosenfeld's test of digital convexity (3.2.3).
 
     The region must be simple, and every semidigital point on the faces of the hull of its digital points must be near
     one of them. A semidigital point has at least one integer coordinate.
@@ -76,7 +76,7 @@ def is_digitally_convex(region: Voxels) -> bool:
 
 
 def semidigital_segments(hull: ExactHull) -> Iterator[tuple[Place, Place]]:
-    """Yield the segments in which the planes x = k, y = k and z = k, for integers k, cut the faces of a hull.
+    """Yield the segments in which planes x = k, y = k and z = k, with integers k, cut the faces of a hull.
 
     A face that lies in such a plane is cut by the other two kinds only. This is enough: a point in an open unit square
     of its plane is near all four corners of the square, and one of them is a digital point of the region if the face's
@@ -112,7 +112,7 @@ def _boundary_points(polygon: list[Place], axis: int, at: Fraction) -> Iterator[
 
 
 def _covered(segment: tuple[Place, Place], points: list[Voxel]) -> bool:
-    """Return True if every point of a segment is near a digital point: less than 1 away on every axis."""
+    """Return True if every point of a segment is near one of the given voxels: less than 1 away on every axis."""
     p, q = segment
     # Only a point within the box of the segment, enlarged by less than 1, can be near it.
     box = [range(math.floor(min(a, b)), math.ceil(max(a, b)) + 1) for a, b in zip(p, q, strict=True)]
@@ -129,7 +129,7 @@ def _covered(segment: tuple[Place, Place], points: list[Voxel]) -> bool:
 
 
 def near_span(p: Place, q: Place, point: Voxel) -> tuple[Fraction, Fraction] | None:
-    """Return the open interval of t in which p + t (q - p) is near a digital point, or None if it is empty."""
+    """Return the open interval of t for which p + t (q - p) is less than 1 from ``point`` on every axis, or None."""
     low, high = Fraction(-1), Fraction(2)
     for a, b, c in zip(p, q, point, strict=True):
         along = b - a

@@ -1,8 +1,9 @@
-"""The convex envelope of a floor: its faces, found one after another, and their heights (section 5).
+"""Compute the convex envelope of a floor: the lower side of the hull of the lowest voxels of all columns
+(section 5).
 
-The envelope is computed from the reduced set A of section 4.6.1 over the hull H(A) of the projection of A. Both come
-from lower chains. The paper computes these by Sklansky's scan, which follows a polygon once and steps back whenever it
-turns the wrong way.
+The envelope consists of faces, found one after another, and their heights. It is computed from the reduced set A of
+section 4.6.1 over the hull H(A) of the projection of A. Both come from lower chains. The paper computes these by
+Sklansky's scan, which follows a polygon once and steps back whenever it turns the wrong way.
 """
 
 import math
@@ -21,7 +22,7 @@ from modern.papers.yau_srihari.search import Candidates, Normal, Search, normal_
 
 
 def reduced_tree(tree: Quadtree) -> Quadtree:
-    """Reduce a floor tree to the columns that can be vertices of the envelope (sections 4.6.1 and 5).
+    """Remove the columns that cannot be vertices of the envelope from a floor tree (sections 4.6.1 and 5).
 
     Their points are vertices of the lower chain along x = const and then of the lower chain along y = const.
     """
@@ -33,7 +34,7 @@ def reduced_tree(tree: Quadtree) -> Quadtree:
 
 
 def outline(places: Iterable[Place]) -> list[Place]:
-    """Return the vertices of the hull of the projected columns (x, y), counterclockwise (section 5).
+    """Return the vertices of the plane hull of the columns' positions (x, y), counterclockwise (section 5).
 
     The hull of columns on one line has two vertices, that of a single column has one.
     """
@@ -48,7 +49,7 @@ def outline(places: Iterable[Place]) -> list[Place]:
 
 
 def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
-    """Return the lower chain of points (n, 3), each above another place, from ``start`` to ``end`` inclusive."""
+    """Return the lower side of the hull of points above a segment of the plane, from ``start`` to ``end`` inclusive."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     x, y = points[:, 0] - start[0], points[:, 1] - start[1]
     # The product with the segment's direction orders the points along the segment.
@@ -61,7 +62,7 @@ def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
 
 
 def over_edges(corners: list[Place], points: Grid, whole: bool) -> list[tuple[Point, Point]]:
-    """List the edges of the envelope above the edges of H(A), counterclockwise.
+    """List the envelope's edges above the border of the plane hull H(A), counterclockwise.
 
     They are all edges of the lower chains or, with ``whole``, a single edge above each edge of H(A), as printed.
     """
@@ -102,7 +103,7 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One pass of the loop of section 5: an edge taken from the queue and the face built on it.
+    """One step of the construction in section 5: an edge taken from the queue, and the face built on it.
 
     ``face`` is None if the search found no point. ``entered`` and ``removed`` are the edges added to the queue and
     removed from it. ``marked`` counts the heights entered in the tree, ``visited`` the nodes of the tree that the
@@ -122,7 +123,7 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class Envelope:
-    """The convex envelope of a floor.
+    """The convex envelope of a floor: its faces, or a chain of vertices if all columns are in one line.
 
     ``reduced`` holds the points of the reduced set A, ``outline`` the vertices of H(A), counterclockwise. If A lies
     above one line, there are no ``faces``, and ``chain`` holds the envelope's vertices. ``tree`` is the floor tree with
@@ -140,7 +141,7 @@ class Envelope:
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
-        """The construction edge by edge with searches of the quadtree, computed on first access."""
+        """The steps of the paper's construction, with searches of the quadtree; computed on first access."""
         return self.construction()
 
 
@@ -167,12 +168,12 @@ def envelope(floor: Quadtree, printed: Printed) -> Envelope:
 
 
 def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
-    """Return the edges above those of H(A), reversed, each with the outward normal of its upright starting face."""
+    """Return the first queue: the reversed edges above the border of H(A), each with an upright face's normal."""
     return {(end, start): normal_of(start, end, (start[0], start[1], start[2] + 1)) for start, end in edges}
 
 
 def _by_candidates(edges: list[Edge], points: tuple[Point, ...]) -> tuple[Face, ...]:
-    """Find the faces in the order of the queue, each by one pass over all points."""
+    """Find the faces in the order of the queue, each by one comparison of all points."""
     queue, candidates = _queue(edges), Candidates(points)
     faces: list[Face] = []
     while queue:
@@ -191,7 +192,7 @@ def _by_candidates(edges: list[Edge], points: tuple[Point, ...]) -> tuple[Face, 
 def _by_steps(
     edges: list[Edge], points: tuple[Point, ...], tree: Quadtree, printed: Printed
 ) -> tuple[tuple[Step, ...], Quadtree, str]:
-    """Run the steps of section 5 with a search of the tree for each face.
+    """Run the construction of section 5 as in the paper, with a search of the tree for each face.
 
     Return the steps, the tree after the last step and the reason for a premature end.
     """
@@ -210,14 +211,14 @@ def _by_steps(
 
 
 def _most(points: Sized) -> int:
-    """Return a number greater than the number of faces of any envelope of these points."""
+    """Return a number that no envelope of these points reaches with its faces, to stop endless constructions."""
     return 8 * len(points) + 8
 
 
 def _step(
     edge: Edge, normal: Normal, queue: dict[Edge, Normal], tree: Quadtree, printed: Printed
 ) -> tuple[Step, Quadtree]:
-    """Find the face on an edge by a search of the tree, update the queue, and enter the face's heights in the tree."""
+    """Find the face on an edge by a search of the tree, update the queue, and mark the face's columns."""
     search = Search(*edge, normal, printed)
     in_plane = search.run(tree)
     if not in_plane:
@@ -253,7 +254,7 @@ def _update_queue(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tu
 
 
 def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
-    """Return the tree with the heights of all faces entered. Their columns are marked, except the vertices."""
+    """Return the tree with the heights of all faces, whose columns are marked, except the vertices."""
     triangles, planes = [], []
     for face in faces:
         first, *rest = face.vertices
@@ -280,7 +281,7 @@ def _polygon(start: Point, end: Point, in_plane: list[Point]) -> tuple[Point, ..
 
 
 def _leaves(face: Face, printed: Printed) -> dict[Place, Leaf]:
-    """Return the leaves that a face enters in the tree, marked except its vertices, which its neighbours need."""
+    """Return the heights of a face's columns, marked except at its vertices, which the neighbouring faces need."""
     unmarked = () if printed.marks else [vertex[:2] for vertex in face.vertices]
     return {
         place: Leaf(_rounded(*face.height(*place), printed), marked=place not in unmarked) for place in face.places()

@@ -1,4 +1,4 @@
-"""Algorithm Digital Convex Hull (section 4.5) on octrees, step by step.
+"""Compute the digital convex hull with octrees, by the steps of the paper's algorithm (section 4.5).
 
 Section 3.1 requires a 6-connected solid, so this module also counts the 6-connected components of a volume.
 """
@@ -20,7 +20,7 @@ from modern.papers.yau_srihari.quadtree import Place, Quadtree, ceiling, floor, 
 
 
 def components(volume: NDArray[np.bool_]) -> int:
-    """Count the 6-connected components of voxels: of the graph of touching runs along the last axis."""
+    """Count the 6-connected components of an array of voxels."""
     # An empty cell after every line separates the runs of neighbouring lines in the flat array.
     padded = np.zeros((volume.shape[0], *(length + 1 for length in volume.shape[1:])), dtype=np.bool_)
     padded[(slice(None), *(slice(-1) for _ in volume.shape[1:]))] = volume
@@ -33,7 +33,7 @@ def components(volume: NDArray[np.bool_]) -> int:
 
 
 def _touching(starts: Grid, ends: Grid, step: int) -> tuple[Grid, Grid]:
-    """List the pairs of runs whose second run has a voxel ``step`` cells after a voxel of the first."""
+    """List the pairs of runs (voxels in a row) that touch; the second run is ``step`` cells after the first."""
     first = np.searchsorted(ends, starts + step, side="right")
     count = np.searchsorted(starts, ends + step, side="left") - first
     pair = np.repeat(np.arange(len(starts)), count)
@@ -59,7 +59,7 @@ def _component_count(count: int, a: Grid, b: Grid) -> int:
 
 @dataclass(frozen=True, eq=False)
 class OctreeHull:
-    """The digital hull of a solid and all intermediate results.
+    """The digital hull of a voxel solid, and all intermediate results of the paper's algorithm.
 
     ``side`` is the side of the cube that the trees divide. ``solid`` and ``hull`` are octrees, ``lowest`` and
     ``highest`` the quadtrees of the floor and the ceiling. ``lower`` is the convex envelope of the floor, and ``upper``
@@ -103,7 +103,7 @@ class OctreeHull:
 
     @property
     def faults(self) -> tuple[str, ...]:
-        """The reasons why a construction stopped early. The corrected algorithm never stops early."""
+        """The reasons why a construction stopped early, which only statements applied as printed can cause."""
         envelopes = (("floor", self.lower), ("ceiling", self.upper))
         return tuple(f"{name}: {side.fault}" for name, side in envelopes if side.fault)
 

@@ -1,4 +1,4 @@
-"""Octrees of digital solids (section 5; Jackins and Tanimoto 1980), stored as arrays: linear octrees.
+"""Octrees of voxel solids as arrays of codes: linear octrees (section 5; Jackins and Tanimoto 1980).
 
 A linear octree stores only the full leaves, each by its code and its level, sorted by code. All other nodes follow from
 them, because every divided node has a full leaf below it. The code of a leaf is the number of its lowest voxel if the
@@ -29,7 +29,7 @@ ACROSS, UP, ALONG = 1, 2, 0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Octree:
-    """The full leaves of a tree over a cube.
+    """The cubes that together fill a solid, as the full leaves of an octree.
 
     ``side`` is the side of the cube, a power of two. ``codes`` and ``levels``, of shape (n,), describe the leaves by
     increasing code. Level 0 is the whole cube, and a leaf of level l has the side ``side >> l``. No eight leaves fill
@@ -50,7 +50,7 @@ class Octree:
 
     @property
     def depth(self) -> int:
-        """The level of a single voxel."""
+        """The level at which a cube of the tree is a single voxel."""
         return self.side.bit_length() - 1
 
     def voxels(self) -> Grid:
@@ -61,7 +61,7 @@ class Octree:
         return np.stack([_gathered(self.codes, bit, self.depth) for bit in (ACROSS, UP, ALONG)], axis=1)
 
     def at_level(self, level: int) -> tuple[Grid, Grid, Grid]:
-        """Return x, y, z of the full leaves of a level in units of the leaf's side, in the order of the sons."""
+        """Return x, y, z of the full cubes of a level, in units of their side, in the order of their codes."""
         codes = self.codes[self.levels == level] >> 3 * (self.depth - level)
         x, y, z = (_gathered(codes, bit, level) for bit in (ACROSS, UP, ALONG))
         return x, y, z
@@ -78,7 +78,7 @@ def side_for(length: int) -> int:
 
 
 def tree_of(side: int, leaves: Iterator[tuple[int, Grid, Grid, Grid]]) -> Octree:
-    """Build a tree from full leaves, given as a level and x, y, z in units of the leaf's side."""
+    """Build a tree from full cubes, given as their level and x, y, z in units of the cube's side."""
     depth = side.bit_length() - 1
     codes, levels = [np.zeros(0, dtype=np.int64)], [np.zeros(0, dtype=np.int64)]
     for level, x, y, z in leaves:
@@ -117,12 +117,12 @@ def count(tree: Octree) -> int:
 
 
 def nodes(tree: Octree) -> int:
-    """Count the nodes of a tree, including leaves: the root and the eight sons of each divided node."""
+    """Count the nodes of a tree: the root, and eight sons for each divided node."""
     return 1 + 8 * sum(divided(tree, level) for level in range(tree.depth))
 
 
 def divided(tree: Octree, level: int) -> int:
-    """Count the divided nodes of a level, which are those above a full leaf of a deeper level."""
+    """Count the nodes of a level that are divided, because some but not all of their voxels are full."""
     ancestors = tree.codes[tree.levels > level] >> 3 * (tree.depth - level)
     return int(np.count_nonzero(np.diff(ancestors))) + bool(len(ancestors))
 
@@ -141,7 +141,7 @@ def voxels_of(tree: Octree, shape: tuple[int, int, int]) -> NDArray[np.bool_]:
 
 
 def _full_leaves(array: NDArray[np.bool_], depth: int) -> Iterator[tuple[int, Grid, Grid, Grid]]:
-    """Yield the full cubes of each level, from the voxels up, that lie in no full cube of the level above."""
+    """Yield the largest full cubes of an array, level by level, starting with single voxels."""
     for level in range(depth, -1, -1):
         parents = _all_of_eight(array)
         # The array is processed in slabs along x, so that the temporary arrays stay small.
@@ -186,7 +186,7 @@ def _gathered(codes: Grid, first: int, count: int) -> Grid:
 
 
 def _bits(numbers: Grid, count: int, old_distance: int, new_distance: int) -> Grid:
-    """Move ``count`` bits of numbers from one distance between neighbouring bits to another."""
+    """Spread or gather bits: move ``count`` bits of each number from one distance between them to another."""
     moved = np.zeros_like(numbers)
     for k in range(count):
         moved |= (numbers >> old_distance * k & 1) << new_distance * k
@@ -194,7 +194,7 @@ def _bits(numbers: Grid, count: int, old_distance: int, new_distance: int) -> Gr
 
 
 def _within(a: Octree, b: Octree, deeper: int) -> NDArray[np.bool_]:
-    """Return for each leaf of ``a`` whether a leaf of ``b`` contains it and is at least ``deeper`` levels larger."""
+    """Return, for each leaf of ``a``, True if a leaf of ``b`` contains it and is at least ``deeper`` levels larger."""
     if not len(b.codes):
         return np.zeros(len(a.codes), dtype=np.bool_)
     # The voxels of a leaf have consecutive codes, so only the last leaf of b that does not begin later can contain it.

@@ -1,4 +1,4 @@
-"""The statements of the paper that are wrong as printed, by name, with their corrections.
+"""The statements of Yau and Srihari's paper that are wrong as printed, with their corrections.
 
 ``octree-hull --printed NAME`` applies a statement as printed and shows the effect.
 """
@@ -10,7 +10,7 @@ from emulator.errors import quoted
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """The statements to apply as printed. With all False the algorithm is the corrected one.
+    """Selects statements of the paper to apply as printed, although wrong.  By default all are corrected.
 
     angle
         Theorem 2 chooses the face with the greatest angle between outward normals. The supporting plane is the one

@@ -1,4 +1,4 @@
-"""Quadtrees of heights: the floor and the ceiling of a solid (section 5).
+"""Quadtrees that hold a height for each column (x, y) of a solid: its floor or its ceiling (section 5).
 
 A tree is stored as arrays over its square: the height of each column, whether the column exists (the paper's dotted
 branches have none) and whether it is marked. A node is a square of columns. Its values, the least and the greatest
@@ -24,7 +24,7 @@ NO_COLUMN = np.iinfo(np.int64).max
 
 @dataclass(frozen=True, slots=True)
 class Leaf:
-    """The height of a column. A marked column is known to belong to a face."""
+    """The height of one column, and a mark if the column already belongs to a face of the envelope."""
 
     value: int
     marked: bool = False
@@ -49,18 +49,18 @@ class Quadtree:
 
     @property
     def low(self) -> int | None:
-        """The least unmarked height, or None: the value of the node in the paper's floor tree."""
+        """The least height of unmarked columns, the value of a node in the paper's floor tree, or None."""
         unmarked = self.values[self.there & ~self.marked]
         return int(unmarked.min()) if unmarked.size else None
 
     @property
     def high(self) -> int | None:
-        """The greatest unmarked height, or None. Only section 4.6.2 as printed needs it."""
+        """The greatest height of unmarked columns, or None.  Only section 4.6.2 as printed needs it."""
         unmarked = self.values[self.there & ~self.marked]
         return int(unmarked.max()) if unmarked.size else None
 
     def is_leaf(self) -> bool:
-        """Return True if the square is part of one leaf."""
+        """Return True if all columns of the square belong to one leaf, and so have one height."""
         return bool(self.there.all()) and int(self.sides.min()) >= self.side
 
 
@@ -76,17 +76,17 @@ def sons_of(tree: Quadtree) -> tuple[Quadtree, ...]:
 
 
 def floor(tree: Octree) -> Quadtree:
-    """Return the floor of a solid. Section 5 visits sons 0 to 7 in order and keeps the first value of a column."""
+    """Return the lowest voxel of each column of a solid.  Section 5 visits octants in order; the first counts."""
     return _lowest(tree, downward=False)
 
 
 def ceiling(tree: Octree) -> Quadtree:
-    """Return the ceiling of a solid. Section 5 visits sons 0 to 7 in order and keeps the last value of a column."""
+    """Return the highest voxel of each column of a solid.  Section 5 visits octants in order; the last counts."""
     return mirrored(_lowest(tree, downward=True))
 
 
 def _lowest(tree: Octree, downward: bool) -> Quadtree:
-    """Compute the floor level by level, or with ``downward`` the floor of the negated heights.
+    """Compute the lowest voxel of each column; if ``downward``, the lowest of the solid reflected in z.
 
     Among the leaves of one level over a square, the first in the order of the sons is the lowest and the last the
     highest. Leaves of other levels may be lower or higher, so the levels are merged by the minimum.
@@ -120,7 +120,8 @@ def heights(tree: Quadtree) -> dict[Place, int]:
 
 
 def line(tree: Quadtree, axis: int, at: int) -> Iterator[tuple[int, int]]:
-    """List the columns whose coordinate ``axis`` is ``at`` as (other coordinate, height), sorted.
+    """List the columns in one row of the quadtree, those whose coordinate ``axis`` is ``at``: (other coordinate,
+    height).
 
     In the paper this line is a binary subtree of the quadtree with two sons at every node (TR-170; section 5).
     """
@@ -136,7 +137,7 @@ def with_columns(tree: Quadtree, x: Grid, y: Grid, z: Grid, marked: Truth | bool
 
 
 def written(tree: Quadtree, cells: Mapping[Place, Leaf]) -> Quadtree:
-    """Return the tree with the leaves of some columns replaced."""
+    """Return the tree with the heights and marks of some columns replaced."""
     x, y = np.array([*cells], dtype=np.int64).reshape(-1, 2).T
     values = np.array([leaf.value for leaf in cells.values()], dtype=np.int64)
     return with_columns(tree, x, y, values, np.array([leaf.marked for leaf in cells.values()], dtype=np.bool_))
@@ -156,7 +157,7 @@ def bounds_by_level(tree: Quadtree) -> list[tuple[Grid, Grid]]:
 
 
 def graph_side(tree: Quadtree, above: bool) -> Octree:
-    """Return the epigraph (``above``) or the hypograph of a tree's heights as an octree (section 5).
+    """Return the voxels at and above a tree's heights (``above``), or at and below them, as an octree (section 5).
 
     In the paper, sons 2 i and 2 i + 1 are generated from son i. A voxel is full if its third coordinate is not less
     than (not greater than) the height of its column.
@@ -167,7 +168,8 @@ def graph_side(tree: Quadtree, above: bool) -> Octree:
 
 
 def _stacks(filled: Grid, above: bool) -> Iterator[tuple[int, Grid, Grid, Grid]]:
-    """Yield the full leaves, level by level, of columns with ``filled`` voxels from the bottom (or top if ``above``).
+    """Yield the full cubes, level by level, that fill the lowest (or if ``above`` the highest) voxels of all
+    columns.
 
     The number of full cubes over a square is determined by its shortest column. The cubes inside full cubes of the
     next larger size are not leaves. They are the lowest ones, two for each larger cube.

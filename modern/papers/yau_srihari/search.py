@@ -1,4 +1,4 @@
-"""The search of a quadtree for the second face on an edge (Theorem 2 and section 4.6.2).
+"""Search a quadtree for the second face at an edge of the envelope (Theorem 2 and section 4.6.2).
 
 Angles are compared exactly. The cosine of the angle between two integer normals p and q is ordered as
 (p . q) |p . q| / (q . q), because p is the same in all comparisons.
@@ -35,7 +35,7 @@ def normal_of(u: Point, v: Point, w: Point) -> Normal:
 
 @dataclass(slots=True)
 class Search:
-    """A search for the second face on the directed edge from ``start`` to ``end``.
+    """A search for the second face at the directed edge from ``start`` to ``end``, as the paper describes it.
 
     ``normal`` is the outward normal of the edge's known face. ``best`` is the best score so far, and ``points`` are
     the points that reach it, in the order of the search. ``sure`` is the paper's w, a score that some point is known
@@ -53,15 +53,16 @@ class Search:
     angles: int = 0
 
     def run(self, tree: Quadtree) -> list[Point]:
-        """Return the unmarked points of the tree that lie beyond the edge in the plane of its second face."""
+        """Return the unmarked points of the tree that lie in the plane of the edge's second face."""
         levels = bounds_by_level(tree)
         self._visit(levels, len(levels) - 1, 0, 0)
         return self.points
 
     def score(self, point: Point) -> Fraction | None:
-        """Return a number ordered as the cosine of the angle to the known face, or None on the line of the edge.
+        """Return a number that grows with the cosine of the angle between the known face and the face through a point.
 
-        The second face maximises the score. For Theorem 2 as printed its sign is reversed.
+        It is None for a point on the line of the edge. The second face maximises the score. For Theorem 2 as printed
+        its sign is reversed.
         """
         self.angles += 1
         a, b, c = normal_of(self.start, self.end, point)
@@ -72,7 +73,7 @@ class Search:
         return -cosine if self.printed.angle else cosine
 
     def beyond(self, x: int, y: int) -> bool:
-        """Return True if (x, y) is on the side of the edge on which a face has a normal that points down."""
+        """Return True if (x, y) is on the side of the edge, seen from above, on which the second face can lie."""
         ex, ey = self.end[0] - self.start[0], self.end[1] - self.start[1]
         return ex * (y - self.start[1]) < ey * (x - self.start[0])
 
@@ -104,7 +105,7 @@ class Search:
                 self._visit(levels, up - 1, k, m)
 
     def bounds(self, low: int, high: int, x: int, y: int, side: int) -> Bounds:
-        """Return the paper's delta_1 and delta_2 of a square at (x, y) from its least and greatest height.
+        """Return the paper's bounds delta_1 and delta_2 for the scores of points in a square at (x, y).
 
         Some point of the square scores at least delta_1, and none scores more than delta_2. Both are None if the
         corners of the square do not determine them.
@@ -122,7 +123,7 @@ class Search:
         return (min(scores), max(scores)) if scores else (None, None)
 
     def _corner(self, corner: Point) -> Fraction | None:
-        """Return the score of a square's corner.
+        """Return the score of a corner of a square.
 
         No point of the floor is below the plane of the known face, but a corner may be. The angle would grow again on
         that side, so such a corner counts as lying in the plane, with the angle 0.
@@ -150,7 +151,7 @@ def _corners(x: int, y: int, side: int) -> Iterator[tuple[int, int]]:
 
 
 class Candidates:
-    """The possible vertices of faces as arrays, in the order in which a search of their quadtree visits them.
+    """The points that may be vertices of faces, as arrays: the same search as :class:`Search`, but faster.
 
     A face is found by one pass over all points. For coordinates up to 1,024, the side of the largest cube, all sums of
     products in a score are integers below 2 ** 53, so float64 represents them exactly. Only the last product and the
@@ -166,7 +167,7 @@ class Candidates:
         self._homogeneous = np.stack((x, y, z, np.ones_like(x)))[:, order].astype(np.float64)
 
     def face_on(self, start: Point, end: Point, normal: Normal) -> list[Point]:
-        """Return the same unmarked points in the plane of the second face on an edge as ``Search.run``."""
+        """Return the unmarked points in the plane of an edge's second face, in the same order as ``Search.run``."""
         ex, ey, ez = end[0] - start[0], end[1] - start[1], end[2] - start[2]
         divisor = math.gcd(*normal)
         a, b, c = (number // divisor for number in normal)
