@@ -10,7 +10,7 @@ import decimal
 import operator as o
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from emulator.jit.functions import Compiled, NotInstalled
 from emulator.machine.tape import ADD, DIVIDE, LEAF, MULTIPLY, NEGATE, SUBTRACT, Tape
 from emulator.numbers.accumulator import add, divide, multiply, negate, subtract
 from emulator.numbers.arithmetic import Rules, drawn
-from emulator.numbers.base import Number
+from emulator.numbers.base import Number, Undecided
 from emulator.numbers.interval import Interval, IntervalNumbers
 
 # Enough for every sum and product of a program without powers; a longer result is an error, not a rounded number.
@@ -156,9 +156,13 @@ def enclosed(tape: Tape, digits: int) -> list[Interval]:
     """
     system = IntervalNumbers(digits)
 
-    def over(dividend: Interval, divisor: Interval) -> Interval:
-        return (-_ENDLESS, _ENDLESS) if divisor[0] <= 0 <= divisor[1] else system.divide(dividend, divisor)
+    def bounded(operation: _Operation, first: Interval, second: Interval) -> Interval:
+        try:
+            return operation(first, second)
+        except Undecided:
+            return -_ENDLESS, _ENDLESS
 
     values: list[Any] = [(leaf, leaf) for leaf in _leaves(tape, digits)]
-    _follow(tape, values, system.add, system.subtract, system.multiply, over, system.negate)
+    times, over = partial(bounded, system.multiply), partial(bounded, system.divide)
+    _follow(tape, values, system.add, system.subtract, times, over, system.negate)
     return values

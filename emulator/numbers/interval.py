@@ -10,10 +10,11 @@ the statement.  A printed number is the middle of its interval.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal, Overflow
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, wraps
 from typing import Any
 
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO
@@ -22,6 +23,21 @@ from emulator.numbers.work import decimal_function
 
 Interval = tuple[Decimal, Decimal]
 MIN_DIGITS, MAX_DIGITS = 2, 1_000
+# The largest decimal exponent of a number.
+_RANGE = 10**6
+
+
+def _within_range(operation: Callable[..., Any]) -> Callable[..., Any]:
+    """Let an operation raise Undecided instead of Overflow."""
+
+    @wraps(operation)
+    def checked(*operands: Any) -> Any:
+        try:
+            return operation(*operands)
+        except Overflow:
+            raise Undecided(f"interval arithmetic holds only numbers from 1E-{_RANGE} to 1E+{_RANGE}") from None
+
+    return checked
 
 
 @dataclass(frozen=True)
@@ -40,28 +56,32 @@ class IntervalNumbers(Numbers):
 
     @cached_property
     def _down(self) -> Context:
-        return Context(self.places, ROUND_FLOOR, MIN_EMIN, MAX_EMAX)
+        return Context(self.places, ROUND_FLOOR, -_RANGE, _RANGE)
 
     @cached_property
     def _up(self) -> Context:
-        return Context(self.places, ROUND_CEILING, MIN_EMIN, MAX_EMAX)
+        return Context(self.places, ROUND_CEILING, -_RANGE, _RANGE)
 
     def decimal(self, whole: int, power: int, minus: bool = False) -> Interval:
         value = Decimal((int(whole < 0 or minus), tuple(map(int, str(abs(whole)))), power))
         return self._down.plus(value) if whole else value, self._up.plus(value) if whole else value
 
+    @_within_range
     def add(self, first: Interval, second: Interval) -> Interval:
         return self._down.add(first[0], second[0]), self._up.add(first[1], second[1])
 
+    @_within_range
     def subtract(self, first: Interval, second: Interval) -> Interval:
         return self._down.subtract(first[0], second[1]), self._up.subtract(first[1], second[0])
 
+    @_within_range
     def multiply(self, first: Interval, second: Interval) -> Interval:
         if first[0] == first[1] and second[0] == second[1]:
             return self._down.multiply(first[0], second[0]), self._up.multiply(first[0], second[0])
         pairs = [(a, b) for a in first for b in second]
         return min(self._down.multiply(a, b) for a, b in pairs), max(self._up.multiply(a, b) for a, b in pairs)
 
+    @_within_range
     def divide(self, dividend: Interval, divisor: Interval) -> Interval:
         if divisor[0] <= 0 <= divisor[1]:
             if divisor[0] == divisor[1]:
@@ -88,6 +108,7 @@ class IntervalNumbers(Numbers):
         assert low == high
         return low
 
+    @_within_range
     def function(self, name: str, value: Interval) -> tuple[Interval, str]:
         if name == "SQRT":
             # The machine takes the root of the absolute value.
@@ -100,20 +121,29 @@ class IntervalNumbers(Numbers):
             from mpmath.libmp import mpi_atan
 
             return self._outward(self._mpmath.make_mpf(mpi_atan(self._iv(value)._mpi_, self._mpmath.prec))), ""
-        return self._outward(getattr(self._mpmath, name.lower())(self._iv(value))), ""
+        argument = self._iv(value)
+        if name == "EXP":
+            return self._exponential(argument), ""
+        return self._outward(getattr(self._mpmath, name.lower())(argument)), ""
 
     def _roots(self, value: Decimal) -> tuple[Decimal, Decimal]:
         """Return the largest number that does not exceed a root, and the smallest that is not below it."""
         root = self._down.sqrt(value)  # decimal rounds roots to nearest in every context
-        square = Context(2 * self.places, Emin=MIN_EMIN, Emax=MAX_EMAX).multiply(root, root)
+        square = Context(2 * self.places, Emin=-4 * _RANGE, Emax=4 * _RANGE).multiply(root, root)
         low = root if square <= value else self._down.next_minus(root)
         return low, root if square >= value else self._up.next_plus(root)
 
+    @_within_range
     def power(self, base: Interval, exponent: Interval) -> tuple[Interval, str]:
         if base[0] <= 0:
             raise Undecided(f"interval arithmetic has no power of {self.text(base)}")
         iv = self._mpmath
-        return self._outward(iv.exp(iv.log(self._iv(base)) * self._iv(exponent))), ""
+        return self._exponential(iv.log(self._iv(base)) * self._iv(exponent)), ""
+
+    def _exponential(self, argument: Any) -> Interval:
+        if abs(argument).b > _RANGE:
+            raise Overflow
+        return self._outward(self._mpmath.exp(argument))
 
     def integer_power(self, base: Interval, count: int) -> tuple[Interval, str]:
         unit = Decimal(1), Decimal(1)
@@ -160,7 +190,7 @@ class IntervalNumbers(Numbers):
         low, high = value
         if low == high:
             return low
-        wide = Context(self.places + 2 + abs(high.adjusted() - low.adjusted()), Emin=MIN_EMIN, Emax=MAX_EMAX)
+        wide = Context(self.places + 2 + abs(high.adjusted() - low.adjusted()), Emin=-4 * _RANGE, Emax=4 * _RANGE)
         return wide.divide(wide.add(low, high), Decimal(2))
 
     def text(self, value: Interval) -> str:

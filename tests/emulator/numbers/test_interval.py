@@ -86,6 +86,14 @@ def test_difference_of_equal_squares_takes_no_branch_with_certainty() -> None:
         assert ending.kind == "undecided"
 
 
+@pytest.mark.parametrize("statement", ["B=EXP(A)", "B=EXP(-A)", "B=A**A", "B=A*A"])
+def test_number_out_of_range_ends_the_run(statement: str) -> None:
+    cards = ["      A=1.E30", "      DO 1 I=1,60", f"      {statement}", "    1 A=B*A", "      END"]
+    program = compile_deck(deck_from_lines("program", cards))
+    ending = Machine(program, no_deck(program), Options(numbers("interval:8"))).run().ending
+    assert "interval arithmetic holds only numbers from 1E-1000000 to 1E+1000000" in ending.message
+
+
 def test_ends_of_an_interval_are_printed_with_all_their_digits() -> None:
     system = IntervalNumbers(50)
     low, high = system.divide(system.decimal(1, 0), system.decimal(3, 0))
