@@ -156,7 +156,7 @@ def enclosed(tape: Tape, digits: int) -> list[Interval]:
     """
     system = IntervalNumbers(digits)
 
-    def bounded(operation: _Operation, first: Interval, second: Interval) -> Interval:
+    def bounded(operation: Callable[..., Interval], first: Interval, second: Interval) -> Interval:
         try:
             return operation(first, second)
         except Undecided:

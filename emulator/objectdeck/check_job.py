@@ -7,8 +7,8 @@ This script needs nothing but Python 3.  ``hull1620 export-job`` writes it as ch
     python3 check.py compare expected.cards punched.cards
 
 ``disk`` converts a disk in text form (sector number, comma, 105 digits) to the form that SIMH attaches.  ``join`` puts
-decks behind one another.  ``compare`` lists the differences by class.  Its exit code is 1 if a difference belongs to no
-known class.
+decks behind one another.  ``compare`` lists the differences by class.  Its exit code is 1 if cards differ otherwise or
+are in another order, or if no card was punched.  The exit code after an error is 2.
 """
 
 from __future__ import annotations
@@ -34,10 +34,18 @@ CLASSES = {
 
 def disk(source: str, target: str) -> None:
     """Convert a disk in text form to the form of SIMH: one byte for each digit."""
+    digits = bytearray()
     with open(source, encoding="latin-1") as file:
-        text = "".join(line.rstrip("\r\n").partition(",")[2] for line in file)
+        for number, line in enumerate(file, 1):
+            sector, _, text = line.rstrip("\r\n").partition(",")
+            for column, character in enumerate(text, len(sector) + 2):
+                if character not in DIGITS:
+                    raise ValueError(f"{source}, line {number}, column {column}: {character!r} is no digit of a disk")
+                digits.append(DIGITS[character])
+    if not digits:
+        raise ValueError(f"{source}: no sector; expected a disk in text form")
     with open(target, "wb") as file:
-        file.write(bytes(DIGITS[c] for c in text))
+        file.write(digits)
 
 
 def join(target: str, *sources: str) -> None:
@@ -104,8 +112,10 @@ def compare(expected_name: str, punched_name: str) -> int:
 if __name__ == "__main__":
     commands: dict[str, Callable[..., int | None]] = {"disk": disk, "join": join, "compare": compare}
     if len(sys.argv) < 4 or sys.argv[1] not in commands:
-        sys.exit(__doc__)
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
     try:
         sys.exit(commands[sys.argv[1]](*sys.argv[2:]))
-    except (OSError, KeyError, TypeError) as error:
-        sys.exit(f"check.py {sys.argv[1]}: {error}")
+    except (OSError, TypeError, ValueError) as error:
+        print(f"check.py {sys.argv[1]}: {error}", file=sys.stderr)
+        sys.exit(2)

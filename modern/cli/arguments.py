@@ -79,9 +79,8 @@ def _digits(parser: ArgumentParser) -> None:
     program_argument(parser, "examine")
     deck_argument(parser, "a file of data cards (may be omitted if the program reads no cards)")
     add(parser, {"--against NAME": "take this arithmetic as the truth (default: %(default)s)"}, default="exact")
-    runs = {"--runs N": "make N stochastic runs with the digits of --arithmetic (default: %(default)s)"}
-    add(parser, runs, type=int, default=10)
-    add(parser, {"--seed S": "give the runs the seeds S, S + 1, ... (default: %(default)s)"}, type=int, default=1)
+    add(parser, {"--runs N": "make N stochastic runs with the digits of --arithmetic (default: 10)"}, type=int)
+    add(parser, {"--seed S": "give the runs the seeds S, S + 1, ... (default: 1)"}, type=int)
     modes = {
         "--proportional": "round up with a probability proportional to the distance, instead of 1/2",
         "--majority": "let most runs choose the common branch, instead of the mean",

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 from html import escape
+from itertools import zip_longest
 from string import Template
 
 from emulator.errors import EmulatorError
@@ -27,6 +28,8 @@ from emulator.machine.divergence import Divergence, diverge
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options, Result
 from emulator.numbers import Numbers, numbers
+from emulator.numbers.draws import MAX_SEED
+from emulator.numbers.sampled import SampledNumbers
 from emulator.numbers.significance import Estimate
 from emulator.numbers.stochastic import MAX_RUNS
 from modern.cli.shared.console import DIFFERS, OK, UsageError, check_one_standard_input, counted, print_report
@@ -36,6 +39,8 @@ from modern.comparison.sampling import Independent, Printed, Sampling, in_step, 
 from modern.comparison.sensitivity import NUMBER, Sensitivity, records_of, sensitivities, shape_of
 
 _NARROWEST, _WIDEST = 60, 120
+# The fewest characters in a line of a statement or verdict.
+_SHORTEST = 16
 
 
 @dataclass(frozen=True)
@@ -50,29 +55,29 @@ class Table:
 
 def main(args: argparse.Namespace) -> int:
     check_one_standard_input(args)
-    if not 2 <= args.runs <= MAX_RUNS:
-        raise UsageError(f"--runs: expected 2 to {MAX_RUNS} runs, found {args.runs}")
+    if [args.csv, args.html, args.samples].count("-") > 1:
+        raise UsageError("only one of --csv, --html and --samples can be standard output; name files for the others")
     options = machine_options(args)
+    numbers_in_step = _runs(args, options.numbers)
     reference = number_system(args.against, "--against")
     program = load_program(args)
     deck = deck_for(args.program, args.deck) if args.deck else no_deck(program)
-    words = (":proportional" if args.proportional else "") + (":majority" if args.majority else "")
-    numbers_in_step = sampled(options.numbers, args.runs, args.seed, words)
     result = Machine(program, deck, options).run()
     divergence = diverge(program, deck, options.numbers, reference, options)
     sampling = in_step(program, deck, numbers_in_step, options)
     runs = independent(program, deck, numbers_in_step.members, options) if args.independent else None
     truth = _truth(reference, divergence)
+    machine, exact = _run(program, deck, options, truth)
     tables = [
-        _numbers(result, truth, _other(program, deck, options, truth), runs or sampling, options.numbers.digits),
+        _numbers(result, truth, exact, runs or sampling),
         _decisions(program, deck, options, divergence, sampling, runs),
         _statements(divergence, sampling),
     ]
-    if args.deck:
-        tables.append(_cards(*sensitivities(program, deck, truth, options)))
+    if args.deck and exact is not None:
+        tables.append(_cards(*sensitivities(machine, exact)))
     heading = (
-        f"{program.source}, {deck.source}: {options.numbers.name} against {reference.name}; {args.runs} stochastic "
-        f"runs {'one by one' if runs else 'in step'} ({numbers_in_step.name})"
+        f"{program.source}, {deck.source}: {options.numbers.name} against {reference.name}; "
+        f"{len(numbers_in_step.members)} stochastic runs {'one by one' if runs else 'in step'} ({numbers_in_step.name})"
     )
     print_report(args, _terminal(heading, tables))
     if args.csv is not None:
@@ -84,12 +89,29 @@ def main(args: argparse.Namespace) -> int:
     return DIFFERS if divergence.decisions or divergence.apart or not result.ending.normal else OK
 
 
-def _other(program: Program, deck: Deck, options: Options, reference: Numbers) -> Result | None:
-    """Return the run in another arithmetic, or None if the deck is bad for it."""
+def _runs(args: argparse.Namespace, studied: Numbers) -> SampledNumbers:
+    """Return the stochastic runs that the options name.  Raise UsageError."""
+    if isinstance(studied, SampledNumbers):
+        if args.runs is not None or args.seed is not None or args.proportional or args.majority:
+            raise UsageError(
+                f"{studied.name} already names the runs; omit --runs, --seed, --proportional and --majority"
+            )
+        return studied
+    runs, seed = 10 if args.runs is None else args.runs, 1 if args.seed is None else args.seed
+    if not 2 <= runs <= MAX_RUNS:
+        raise UsageError(f"--runs: expected 2 to {MAX_RUNS} runs, found {runs}")
+    if not 0 <= seed <= MAX_SEED + 1 - runs:
+        raise UsageError(f"--seed: expected 0 to {MAX_SEED + 1 - runs} for {runs} runs, found {seed}")
+    return sampled(studied, runs, seed, ":proportional" * args.proportional + ":majority" * args.majority)
+
+
+def _run(program: Program, deck: Deck, options: Options, reference: Numbers) -> tuple[Machine, Result | None]:
+    """Run the program in another arithmetic.  The result is None if the deck is bad for it."""
+    machine = Machine(program, deck, replace(options, numbers=reference))
     try:
-        return Machine(program, deck, replace(options, numbers=reference)).run()
+        return machine, machine.run()
     except EmulatorError:
-        return None
+        return machine, None
 
 
 def _truth(reference: Numbers, divergence: Divergence) -> Numbers:
@@ -98,9 +120,7 @@ def _truth(reference: Numbers, divergence: Divergence) -> Numbers:
     return numbers("mp:200") if ending is not None and ending.kind == "undecided" else reference
 
 
-def _numbers(
-    result: Result, truth: Numbers, reference: Result | None, runs: Sampling | Independent, digits: float
-) -> Table:
+def _numbers(result: Result, truth: Numbers, reference: Result | None, runs: Sampling | Independent) -> Table:
     """Return the printed numbers with their true and estimated digits, and which of them to believe."""
     studied, exact = records_of(result), records_of(reference) if reference else []
     same = shape_of(studied) == shape_of(exact)
@@ -114,8 +134,13 @@ def _numbers(
     rows = []
     for record, text in enumerate(studied, 1):
         for place, columns in enumerate(NUMBER.findall(text)):
-            true = _common(columns, NUMBER.findall(exact[record - 1])[place], digits) if same else None
+            # No estimate exceeds the digits that are printed.
+            most = float(len(Decimal(columns).as_tuple().digits))
+            true = _common(columns, NUMBER.findall(exact[record - 1])[place], most) if same else None
             estimated = estimates.get((record, place))
+            if estimated is not None:
+                fewer = min(estimated.parker, most), min(estimated.sohier, most)
+                estimated = replace(estimated, parker=fewer[0], sohier=fewer[1])
             rows.append((str(record), columns, _one(true), *_estimated(estimated), _verdict(estimated, true)))
     sentences = [f"true digits: against {truth.name}"]
     if not same:
@@ -184,7 +209,7 @@ def _decisions(
     total = sum(row.disputed for row in disputed)
     sentences.append(f"stochastic runs: {counted(tested, 'decision')} on floating-point numbers, {total} disputed")
     digits = max(2, math.ceil(min(options.numbers.digits, 1_000)))
-    guaranteed = _other(program, deck, options, numbers(f"interval:{digits}"))
+    _, guaranteed = _run(program, deck, options, numbers(f"interval:{digits}"))
     if guaranteed is not None:
         unknown = guaranteed.ending.message if guaranteed.ending.kind == "undecided" else ""
         sentences.append(f"intervals of {digits} digits: {unknown or 'every decision is certain'}")
@@ -209,7 +234,7 @@ def _statements(divergence: Divergence, sampling: Sampling) -> Table:
     rows = []
     for row in sorted(sampling.statements, key=lambda row: (row.worst, row.line.place.card)):
         loss = losses.get(row.line.index)
-        if row.worst < sampling.numbers.digits or (loss and loss.worst):
+        if row.inexact or (loss and loss.worst):
             lost = ("", "") if loss is None else (_one(loss.worst), _one(loss.median))
             digits = _one(row.worst), _one(row.median), _one(row.sure), str(row.zeros)
             rows.append((*_columns(row.line), str(row.times), *lost, *digits))
@@ -260,10 +285,27 @@ def _terminal(heading: str, tables: Sequence[Table]) -> Iterator[str]:
             yield from textwrap.wrap(sentence, width, initial_indent="  ", subsequent_indent="    ")
         if not table.rows:
             continue
-        widths = [max(map(len, column)) for column in zip(table.heads, *table.rows, strict=True)]
+        sizes = _sizes(table, width)
         for row in (table.heads, *table.rows):
-            cells = (_aligned(cell, head, size) for cell, head, size in zip(row, table.heads, widths, strict=True))
-            yield ("  " + "  ".join(cells))[:width].rstrip()
+            pairs = zip(row, sizes.values(), strict=True)
+            cells = [textwrap.wrap(cell, size, break_on_hyphens=False) for cell, size in pairs]
+            for line in zip_longest(*cells, fillvalue=""):
+                yield (
+                    "  " + "  ".join(_aligned(cell, *size) for cell, size in zip(line, sizes.items(), strict=True))
+                ).rstrip()
+
+
+def _sizes(table: Table, width: int) -> dict[str, int]:
+    """Return the width of each column.  If a terminal is narrow, heads, statements and verdicts take several lines."""
+    columns = dict(zip(table.heads, zip(*table.rows, strict=True), strict=True))
+    sizes = {head: max(map(len, (head, *cells))) for head, cells in columns.items()}
+    if 2 * len(sizes) + sum(sizes.values()) > width:
+        sizes = {head: max(map(len, (*head.split(), *cells))) for head, cells in columns.items()}
+        excess = 2 * len(sizes) + sum(sizes.values()) - width
+        for head in ("statement", "verdict"):
+            if head in sizes:
+                sizes[head] = min(sizes[head], max(sizes[head] - excess, _SHORTEST))
+    return sizes
 
 
 def _aligned(cell: str, head: str, size: int) -> str:

@@ -17,8 +17,10 @@ from modern.edition import programs
 
 def main(args: argparse.Namespace) -> int:
     if args.benchmark is not None:
-        if args.program or args.to:
-            raise UsageError("--benchmark needs no program and no --to")
+        if args.program or args.to or args.layers or args.upcase or args.output != "-":
+            raise UsageError(
+                "--benchmark writes all its files to DIR; omit the program, --to, --layers, --upcase and -o"
+            )
         from modern.bench.benchmark import benchmark  # its imports take a second
 
         texts = benchmark()
@@ -37,6 +39,8 @@ def _text(args: argparse.Namespace) -> str:
     if args.program in DOCUMENTS:
         if args.to != "fpcore":
             raise UsageError(f"{args.program} is a document; its formulas can only be written with --to fpcore")
+        if args.layers or args.upcase:
+            raise UsageError(f"{args.program} is a document; --layers and --upcase apply to programs only")
         from modern.bench.formulas import fpcore
 
         return fpcore(args.program)

@@ -34,7 +34,8 @@ class StatementDigits:
     """The estimated significant digits of the values that one statement stored.
 
     ``worst`` and ``median`` are those of Stott Parker's estimate, and ``sure`` is the fewest by Sohier's.
-    ``times`` counts the values, and ``zeros`` those that are computational zeros without being exact.
+    ``times`` counts the values, ``inexact`` those that differ between the runs, and ``zeros`` the computational zeros
+    among the latter.
     """
 
     line: Line
@@ -42,6 +43,7 @@ class StatementDigits:
     worst: float
     median: float
     sure: float
+    inexact: int
     zeros: int
 
 
@@ -86,6 +88,7 @@ class Sampling:
 @dataclass
 class _Tally:
     estimates: list[tuple[float, float]] = field(default_factory=list)
+    inexact: int = 0
     zeros: int = 0
 
 
@@ -138,6 +141,7 @@ def in_step(
         elif (estimated := numbers.estimate(value)) is not None:
             tally = tallies.setdefault(program.statement_numbers[pc], _Tally())
             tally.estimates.append((estimated.parker, estimated.sohier))
+            tally.inexact += not estimated.is_exact
             tally.zeros += estimated.is_zero and not estimated.is_exact
     if run.error is not None:
         raise run.error
@@ -174,7 +178,7 @@ def _vote(votes: _Votes, signs: Sequence[int], branch: Sequence[int], taken: int
 def _statement(line: Line, tally: _Tally) -> StatementDigits:
     parker = [digits for digits, _ in tally.estimates]
     sure = min(digits for _, digits in tally.estimates)
-    return StatementDigits(line, len(parker), min(parker), median(parker), sure, tally.zeros)
+    return StatementDigits(line, len(parker), min(parker), median(parker), sure, tally.inexact, tally.zeros)
 
 
 def _decision(line: Line, votes: _Votes) -> DecisionShares:

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from emulator.errors import EmulatorError
 from emulator.language.cards import Deck, deck_from_lines
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options, Result
-from emulator.numbers import Numbers
 
 NUMBER = re.compile(r"-?(?:\d+\.\d*|\.\d+)(?:E[+-]?\d+)?")
 # The last digit of a number, before its exponent.
@@ -50,17 +49,12 @@ def shape_of(texts: Sequence[str]) -> list[str]:
     return ["".join(NUMBER.sub("#", text).split()) for text in texts]
 
 
-def sensitivities(
-    program: Program, deck: Deck, reference: Numbers, options: Options | None = None, most: int = 200
-) -> tuple[list[Sensitivity], int]:
-    """Change each of the first ``most`` numbers of a deck in turn.  Return the effects, and how many numbers were
-    omitted.
+def sensitivities(machine: Machine, result: Result, most: int = 200) -> tuple[list[Sensitivity], int]:
+    """Return the sensitivity to each of the first ``most`` floating-point numbers of a deck, and how many follow.
 
-    Raise CardError or DeckError for a bad deck.
+    ``machine`` has run the program on the deck in the reference arithmetic, with this result.
     """
-    base = replace(options or Options(), numbers=reference)
-    machine = Machine(program, deck, base)
-    result = machine.run()
+    program, deck, base = machine.program, machine.deck, machine.options
     rows = []
     fields = list(dict.fromkeys(machine.devices.fields_read))
     for card, column, width in fields[:most]:

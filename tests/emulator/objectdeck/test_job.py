@@ -171,7 +171,7 @@ def test_check_reports_cards_in_another_order_and_missing_cards(tmp_path: Path) 
     assert check("compare", "a", "c", folder=tmp_path)[0] == 1
     assert check("compare", "none", "none", folder=tmp_path)[0] == 1
     status, report = check("compare", "a", "missing", folder=tmp_path)
-    assert (status, report.count("\n"), "missing" in report) == (1, 1, True)
+    assert (status, report.count("\n"), "missing" in report) == (2, 1, True)
 
 
 def test_check_joins_decks_and_converts_a_disk(tmp_path: Path) -> None:
@@ -182,4 +182,8 @@ def test_check_joins_decks_and_converts_a_disk(tmp_path: Path) -> None:
     (tmp_path / "pack").write_text("    0,019|@}]JR!\n", encoding="ascii")
     assert check("disk", "pack", "dsk", folder=tmp_path)[0] == 0
     assert (tmp_path / "dsk").read_bytes() == bytes([0, 1, 9, 10, 12, 15, 16, 17, 25, 26])
-    assert check(folder=tmp_path)[0] == 1
+    (tmp_path / "pack").write_text("    0,019\n    1,0x9\n", encoding="ascii")
+    message = "check.py disk: pack, line 2, column 8: 'x' is no digit of a disk\n"
+    assert check("disk", "pack", "bad", folder=tmp_path) == (2, message)
+    assert not (tmp_path / "bad").exists()
+    assert check(folder=tmp_path)[0] == 2

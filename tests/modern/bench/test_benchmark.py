@@ -139,7 +139,9 @@ def test_verdicts_agree_with_the_exact_value(texts: dict[str, str]) -> None:
     [
         ([], "expected a program with --to, or --benchmark DIR"),
         (["program1"], "expected a program with --to"),
-        (["program1", "--to", "c", "--benchmark", "x"], "--benchmark needs no program and no --to"),
+        (["program1", "--to", "c", "--benchmark", "x"], "omit the program, --to, --layers, --upcase and -o"),
+        (["--benchmark", "x", "-o", "y"], "omit the program, --to, --layers, --upcase and -o"),
+        (["thesis", "--to", "fpcore", "--upcase"], "--layers and --upcase apply to programs only"),
         (["thesis", "--to", "c"], "thesis is a document; its formulas can only be written with --to fpcore"),
     ],
 )

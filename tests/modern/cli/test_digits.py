@@ -77,7 +77,10 @@ def test_unknown_and_disputed_decisions_are_reported(program: Path, capsys: pyte
     ("arguments", "message"),
     [
         (["--runs", "1"], "--runs: expected 2 to 1000 runs, found 1"),
-        (["--seed", "-1"], "expected stochastic:P:SEED"),
+        (["--seed", "-1"], "--seed: expected 0 to 4294967286 for 10 runs, found -1"),
+        (["--seed", "4294967287"], "--seed: expected 0 to 4294967286 for 10 runs, found 4294967287"),
+        (["--arithmetic", "stochastic:8:1-3", "--runs", "5"], "stochastic:8:1-3 already names the runs; omit --runs"),
+        (["--csv", "-", "--html", "-"], "only one of --csv, --html and --samples can be standard output"),
         (["--arithmetic", "none"], "no arithmetic is called 'none'"),
     ],
 )
@@ -86,6 +89,56 @@ def test_wrong_options_are_explained_in_one_line(
 ) -> None:
     assert main(["digits", "my.f", "my.deck", *arguments]) == 2
     assert message in capsys.readouterr().err
+
+
+def deck_of(name: str, *lines: str) -> str:
+    text = "".join((line if line[:5].strip().isdigit() else "      " + line) + "\n" for line in (*lines, "END"))
+    Path(name).write_text(text, encoding="utf-8")
+    return name
+
+
+def test_statement_that_rounds_within_the_last_digit_is_listed(
+    program: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The runs store .96666666 and .96666667; the estimate is limited to eight digits."""
+    name = deck_of("one.f", "A=2.9/3.", "TYPE 1,A", "    1 FORMAT(E14.8)", "STOP")
+    main(["digits", name])
+    assert "A=2.9/3." in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("arithmetic", ["truncating", "exact", "float64", "interval:8"])
+def test_no_estimate_exceeds_the_printed_digits(
+    program: Path, capsys: pytest.CaptureFixture[str], arithmetic: str
+) -> None:
+    name = deck_of("short.f", "A=1./3.", "TYPE 1,A", "    1 FORMAT(F8.5)", "STOP")
+    main(["digits", name, "--arithmetic", arithmetic])
+    (row,) = (line.split() for line in capsys.readouterr().out.splitlines() if " .33333 " in line)
+    assert row[2:5] == ["5.0", "5.0", "5.0"]
+    assert row[5:] == ["believe", "5", "digits"]
+
+
+def test_runs_that_the_arithmetic_names_are_counted(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["digits", "my.f", "my.deck", "--arithmetic", "stochastic:8:1-3"])
+    assert "3 stochastic runs in step (stochastic:8:1-3)" in " ".join(capsys.readouterr().out.split())
+
+
+def test_narrow_report_wraps_statements_and_verdicts(
+    program: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    main(["digits", "my.f", "my.deck"])
+    report = capsys.readouterr().out
+    assert max(map(len, report.splitlines())) <= 80
+    (head,) = (line for line in report.splitlines() if "estimated  median" in line)
+    assert head.split() == "card statement count lost median estimated median at @.0".split()
+    assert "    10  X=(-B-R)/(2.*A)" in report
+
+
+def test_page_goes_to_standard_output_without_the_report(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["digits", "my.f", "my.deck", "--html", "-"])
+    output = capsys.readouterr()
+    assert output.out.startswith("<!DOCTYPE html>")
+    assert "Printed numbers\n" in output.err
 
 
 def test_listing_and_trace_show_the_digits(program: Path, capsys: pytest.CaptureFixture[str]) -> None:

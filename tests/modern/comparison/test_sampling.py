@@ -182,7 +182,9 @@ def test_interval_around_zero_has_no_sign() -> None:
 
 def test_sensitivity_is_the_relative_change_of_the_result_for_one_unit_of_a_card() -> None:
     program, deck = made(*QUADRATIC, data=CARD)
-    rows, omitted = sensitivities(program, deck, numbers("exact"), Options(hopper="any"))
+    machine = Machine(program, deck, Options(numbers("exact"), hopper="any"))
+    result = machine.run()
+    rows, omitted = sensitivities(machine, result)
     assert omitted == 0
     effect = {(row.card, row.column): row for row in rows}
     assert [row.changed.strip() for row in rows] == ["1.1", "-99.8", "0.02"]
@@ -190,4 +192,4 @@ def test_sensitivity_is_the_relative_change_of_the_result_for_one_unit_of_a_card
     assert change is not None
     assert change == pytest.approx(1, abs=0.001)
     assert effect[1, 11].record == 1
-    assert sensitivities(program, deck, numbers("exact"), Options(hopper="any"), most=2) == (rows[:2], 1)
+    assert sensitivities(machine, result, most=2) == (rows[:2], 1)
