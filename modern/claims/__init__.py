@@ -7,8 +7,8 @@ package that names the row, or a published *result* (:mod:`modern.claims.publish
 To add a verdict on a statement:
 
 1. Add a row to ``transcripts/statements/DOCUMENT.toml`` at its place in the order of the document, with the next unused
-   number.  ``words`` quotes at most eight words of the OCR text.  A row without ``kind`` is a claim, and a
-   row without ``verdict`` holds.
+   number, under the name ``[NUMBER.PAGE]``.  ``words`` quotes at most eight words of the OCR text.  The
+   field that gives a reason names the verdict (``condition``, ``fails``, ...); a row without such a field holds.
 2. Write a check in the module of ``modern/claims/DOCUMENT/`` that deals with the subject: a function with the decorator
    ``claim`` that returns a :class:`~modern.claims.evidence.Check`.  Choose the constructor by what is computed:
    ``proved``, ``exhausted``, ``searched`` or ``search``, ``exhibited``, ``refuted``, ``slip``.  Sampled sets and
@@ -16,16 +16,16 @@ To add a verdict on a statement:
 3. If the statement needs a condition, compute a case that violates it and refutes the statement, and add
    ``.unless(refutes, "the case")``.
 4. If the verdict is "does not hold", put the smallest counterexample into ``transcripts/counterexamples/`` and name it
-   in ``file``, and in ``run`` the command that shows it.
+   in ``file``, or in ``run`` the command that shows it.
 5. Add a line to the table of the document in ``tests/modern/claims/tables/`` that breaks what the check relies on; the
    verdict must then change.
 6. Run ``hull1620 reproduce DOCUMENT.NUMBER``.
 
 A row without a check has the verdict "used", with the name of the code that follows it in ``code``, or "not
-testable", with a reasoned sentence in ``why``. A row that repeats another one names its number in ``same`` and has no
+testable", with a reasoned sentence in ``untested``. A row that repeats another one names its number in ``same`` and has no
 verdict.
 
-To correct a verdict, change ``verdict`` and ``why`` in the row and the check.  The row records the verdict and the
+To correct a verdict, change the field with its reason in the row, and the check.  The row records the verdict and the
 check computes it; ``hull1620 reproduce`` and the tests fail if they differ.
 
 To add a document (a paper needs more steps, see :mod:`modern.papers`):

@@ -50,9 +50,18 @@ THESIS: Final = "thesis"
 # The five documents by their names on the command line.
 DOCUMENTS = (THESIS, "appel-will", "kovalevsky-schulz", "nakamae-nishita", "yau-srihari")
 MOST_WORDS = 8
-_REQUIRED = {"page", "words", "says"}
-_OF_VERDICT = {"verdict", "why", "result", "code", "file", "run"}
-_FIELDS = _REQUIRED | _OF_VERDICT | {"kind", "part", "same"}
+# The field with the reason of a verdict names the verdict.
+_REASONS: Mapping[str, Verdict] = {
+    "condition": CONDITION,
+    "fails": FAILS,
+    "slip_ocr": SLIPS[0],
+    "slip_print": SLIPS[1],
+    "slip_either": SLIPS[2],
+    "untested": UNTESTABLE,
+}
+_OF_VERDICT = {*_REASONS, "code", "note", "result", "file", "run"}
+_FIELDS = {"words", "says", "kind", "part", "same"} | _OF_VERDICT
+_COUNTEREXAMPLES: Final = "transcripts/counterexamples/"
 
 
 class StatementError(ValueError):
@@ -134,39 +143,35 @@ def read_rows(document: str, text: str) -> Iterator[Statement]:
         yield replace(row, verdict=origin.verdict, why=origin.why, file=origin.file, run=origin.run)
 
 
-def _row(document: str, number: str, raw: Mapping[str, Any]) -> Statement:
+def _row(document: str, number: str, tables: Mapping[str, Any]) -> Statement:
     place = f"{document}.{number}"
-    if not number.isdecimal() or not isinstance(raw, Mapping):
-        raise StatementError(f"{document}: expected the number of a statement as name of each table; found {number!r}")
-    unknown = raw.keys() - _FIELDS
-    missing = _REQUIRED - raw.keys()
-    if unknown or missing:
-        raise StatementError(
-            f"{place}: {'unknown' if unknown else 'missing'} field: {', '.join(sorted(unknown or missing))}"
-        )
+    if not number.isdecimal() or not isinstance(tables, Mapping) or len(tables) != 1:
+        raise StatementError(f"{document}: expected [NUMBER.PAGE] as name of each table; found {number!r}")
+    ((page, raw),) = tables.items()
+    if unknown := raw.keys() - _FIELDS:
+        raise StatementError(f"{place}: unknown field: {', '.join(sorted(unknown))}")
+    if missing := {"words", "says"} - raw.keys():
+        raise StatementError(f"{place}: missing field: {', '.join(sorted(missing))}")
     if len(raw["words"].split()) > MOST_WORDS:
         raise StatementError(f"{place}: expected in 'words' a quotation of at most {MOST_WORDS} words")
-    if "same" in raw:
-        if extra := raw.keys() & _OF_VERDICT:
-            raise StatementError(f"{place}: a row with the field 'same' must not have {', '.join(sorted(extra))}")
-    else:
-        _check_verdict(place, raw)
-    simple = {name: raw[name] for name in _FIELDS - {"result", "same"} if name in raw}
-    results = _as_tuple(raw.get("result", ()))
+    if "same" in raw and (extra := raw.keys() & _OF_VERDICT):
+        raise StatementError(f"{place}: a row with the field 'same' must not have {', '.join(sorted(extra))}")
+    deciding = [name for name in (*_REASONS, "code") if name in raw]
+    if len(deciding) > 1 or not all(map(raw.get, deciding)):
+        raise StatementError(f"{place}: expected at most one verdict, with a reason; found {', '.join(deciding)}")
+    verdict = _REASONS.get(deciding[0], USED) if deciding else HOLDS
+    why = raw.get(deciding[0]) if deciding and verdict != USED else raw.get("note", "")
+    # The command that shows a counterexample names its file, or is the one that computes the verdict.
+    file = raw.get("file", raw.get("run", "").partition(_COUNTEREXAMPLES)[2].partition(" ")[0])
+    run = raw.get("run", f"hull1620 reproduce {place}" if file else "")
+    if verdict == FAILS and not file:
+        raise StatementError(f"{place}: a row with the verdict {FAILS!r} needs a counterexample in 'file' or 'run'")
+    kind = raw.get("kind", SLIP if verdict in SLIPS else "definition" if verdict == USED else "claim")
     same = f"{document}.{raw['same']}" if "same" in raw else ""
-    return Statement(document, place, **simple, results=results, same=same)
-
-
-def _check_verdict(place: str, raw: Mapping[str, Any]) -> None:
-    verdict = raw.get("verdict", HOLDS)
-    if verdict not in VERDICTS:
-        raise StatementError(f"{place}: expected one of the verdicts {'; '.join(VERDICTS)}; found {verdict!r}")
-    if verdict not in (HOLDS, USED) and not raw.get("why"):
-        raise StatementError(f"{place}: a row with the verdict {verdict!r} needs a reason in the field 'why'")
-    if verdict == FAILS and not (raw.get("file") and raw.get("run")):
-        raise StatementError(f"{place}: a row with the verdict {FAILS!r} needs a counterexample in 'file' and 'run'")
-    if (verdict == USED) != bool(raw.get("code")):
-        raise StatementError(f"{place}: a row must have both or neither of the field 'code' and the verdict {USED!r}")
+    results, code, part = _as_tuple(raw.get("result", ())), raw.get("code", ""), raw.get("part", "")
+    return Statement(
+        document, place, page, raw["words"], raw["says"], kind, verdict, why, results, code, file, run, part, same
+    )
 
 
 def _as_tuple(value: str | Iterable[str]) -> tuple[str, ...]:

@@ -35,12 +35,10 @@ from tests.support.paths import ROOT
 ROWS = [row for document in DOCUMENTS for row in statements_of(document)]
 BY_ID = {row.id: row for row in ROWS}
 COUNTEREXAMPLES = Path(ROOT, "transcripts", "counterexamples")
-VALID_ROW = """[1]
-page = "1"
+VALID_ROW = """[1.4]
 kind = "claim"
 words = "some words"
 says = "Something."
-verdict = "holds"
 """
 
 
@@ -148,16 +146,15 @@ def test_wrong_verdict_is_reported(capsys: pytest.CaptureFixture[str], monkeypat
     ("original", "replacement", "message"),
     [
         ("kind", "sort", "x.1: unknown field: sort"),
-        ("[1]", "[first]", "x: expected the number of a statement as name of each table; found 'first'"),
-        ('page = "1"\n', "", "missing field: page"),
-        ('"holds"', '"perhaps"', "expected one of the verdicts holds"),
+        ("[1.4]", "[first.4]", "x: expected [NUMBER.PAGE] as name of each table; found 'first'"),
+        ("[1.4]", "[1]", "x: expected [NUMBER.PAGE] as name of each table; found '1'"),
+        ('says = "Something."\n', "", "x.1: missing field: says"),
         ("some words", "one two three four five six seven eight nine", "at most 8 words"),
-        ('"holds"', '"used"', "a row must have both or neither of the field 'code' and the verdict 'used'"),
-        ('"holds"', '"holds"\ncode = "math.pi"', "both or neither of the field 'code' and the verdict 'used'"),
-        ('"holds"', '"holds with a condition"', "needs a reason"),
-        ('"holds"', '"does not hold"\nwhy = "so"', "needs a counterexample"),
-        ('"holds"', '"holds"\nsame = 2', "a row with the field 'same' must not have verdict"),
-        ('verdict = "holds"', "same = 2", "expected in 'same' a row without 'same'; found x.2"),
+        ("kind =", 'code = "math.pi"\nuntested =', "expected at most one verdict, with a reason; found untested, code"),
+        ('kind = "claim"', 'condition = ""', "expected at most one verdict, with a reason; found condition"),
+        ("kind =", "fails =", "needs a counterexample"),
+        ("kind =", "same = 2\nfails =", "a row with the field 'same' must not have fails"),
+        ('kind = "claim"', "same = 2", "expected in 'same' a row without 'same'; found x.2"),
     ],
 )
 def test_invalid_row_is_rejected(original: str, replacement: str, message: str) -> None:
@@ -167,8 +164,8 @@ def test_invalid_row_is_rejected(original: str, replacement: str, message: str) 
 
 
 def test_repetition_has_the_verdict_of_the_row_that_decides() -> None:
-    repeated = VALID_ROW.replace("[1]", "[2]").replace('verdict = "holds"', "same = 1")
-    first, second = read_rows("x", VALID_ROW.replace('"holds"', '"not testable"\nwhy = "lost"') + repeated)
+    repeated = VALID_ROW.replace("[1.4]", "[2.5]") + "same = 1"
+    first, second = read_rows("x", VALID_ROW + 'untested = "lost"\n' + repeated)
     assert (second.verdict, second.why, second.same) == (UNTESTABLE, "lost", first.id)
 
 
