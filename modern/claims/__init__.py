@@ -22,8 +22,8 @@ To add a verdict on a statement:
 6. Run ``hull1620 reproduce DOCUMENT.NUMBER``.
 
 A row without a check has the verdict "used", with the name of the code that follows it in ``code``, or "not
-testable", with a reasoned sentence in ``untested``. A row that repeats another one names its number in ``same`` and has no
-verdict.
+testable", with a reasoned sentence in ``untested``. A row that repeats another one names its number in ``same`` and
+has no verdict.
 
 To correct a verdict, change the field with its reason in the row, and the check.  The row records the verdict and the
 check computes it; ``hull1620 reproduce`` and the tests fail if they differ.
