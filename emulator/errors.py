@@ -21,7 +21,7 @@ class EmulatorError(Exception):
 
 
 class ArgumentError(EmulatorError, ValueError):
-    """An invalid argument of a function."""
+    """Raised if an argument of a function is invalid."""
 
 
 def expect(value: object, kind: type | tuple[type, ...], name: str) -> None:
@@ -33,11 +33,11 @@ def expect(value: object, kind: type | tuple[type, ...], name: str) -> None:
 
 
 class FileError(EmulatorError):
-    """A file, or standard input or output, that cannot be read or written, or whose content is invalid."""
+    """Raised if a file, standard input or standard output cannot be read or written, or has invalid contents."""
 
 
 class CardError(EmulatorError):
-    """An invalid card: a character outside the card code, too many columns, or a field without a number.
+    """Raised for an invalid card: a character that no card can hold, too many columns, or a field without a number.
 
     ``unit`` is the unit of the source in messages: a card or a typed line.
     """
@@ -49,15 +49,15 @@ class CardError(EmulatorError):
 
 
 class LowerCaseError(CardError):
-    """A lower-case letter on a card.  ``capitals`` in emulator/language/statements.py converts a source program."""
+    """Raised for a lower-case letter on a card.  ``capitals`` in emulator/language/statements.py converts a program."""
 
 
 class DeckError(EmulatorError):
-    """A deck that is invalid as a whole: empty, too long or too short."""
+    """Raised for a deck of cards that is invalid as a whole: empty, too long or too short."""
 
 
 class OperatorError(EmulatorError):
-    """An action in an operator's file that the current state of the run does not allow."""
+    """Raised for an action in an operator's file that is impossible in the current state of the run."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -125,7 +125,7 @@ class Refused(Exception):
 
 
 class CompileError(EmulatorError):
-    """A source deck that does not compile.  ``diagnostics`` has all messages; ``str()`` returns the first error."""
+    """Raised for a program with errors. ``diagnostics`` has all messages; ``str()`` is the first error."""
 
     def __init__(self, source: str, diagnostics: Iterable[Diagnostic]) -> None:
         self.source = source

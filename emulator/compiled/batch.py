@@ -64,8 +64,9 @@ def run_batch(
 def punched(
     program: Program, texts: Iterable[str], options: Options | None = None, note: Note | None = None
 ) -> Iterator[str]:
-    """Yield the cards punched for each deck.  Decks and cards are texts with one card on each line.
+    """Run a program on many decks, and yield the cards that it punches for each, as text with one card on each line.
 
+    ``texts`` are the decks in the same form.
     Raise what :func:`emulator.language.cards.deck_from_text` and :meth:`emulator.machine.machine.Machine.run` raise.
     """
     options = options or Options()

@@ -134,7 +134,7 @@ class Report(NamedTuple):
 
 
 def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
-    """Begin an input or output statement."""
+    """Begin an input or output statement: find its FORMAT, and on input take the first card."""
     devices, pc = desk.devices, desk.registers[AT]
     verb = marks.verbs[desk.registers[ADDRESS]]
     number = marks.seconds[pc]
@@ -165,7 +165,7 @@ def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
 
 
 def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool) -> int:
-    """Advance to the next field.  If ``repeat`` is set, a FORMAT that has ended begins again on a new record."""
+    """Advance to the FORMAT's next field for a number."""
     devices = desk.devices
     while True:
         spec = devices[SPEC]
@@ -342,7 +342,7 @@ def error(number: int, marks: Marks, desk: Desk) -> int:
 
 
 def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules: Rules) -> int:
-    """Read or write one number of a list."""
+    """Read or write one number of an input or output list."""
     devices, field, registers = desk.devices, desk.field, desk.registers
     registers[WORK] += 1
     status = to_field(marks, forms, cards, desk, True)

@@ -134,7 +134,7 @@ def _follow(
     over: _Operation,
     negated: Callable[[Any], Any],
 ) -> None:
-    """Repeat a tape with the given functions.  ``values`` holds the leaves and receives the results."""
+    """Repeat the operations of a tape in place by the given functions; ``values`` has the input numbers."""
     for k, (operation, i, j) in enumerate(zip(tape.operations, tape.firsts, tape.seconds, strict=True)):
         if operation == MULTIPLY:
             values[k] = times(values[i], values[j])
@@ -149,7 +149,7 @@ def _follow(
 
 
 def enclosed(tape: Tape, digits: int) -> list[Interval]:
-    """Return an interval around the exact value of each place of a tape of ``digits`` digits.
+    """Return an interval that contains the exact value of each number on a tape, which has ``digits`` digits.
 
     The bounds have ``digits`` digits and are rounded outwards.  A quotient is unbounded if the divisor's interval
     contains 0.

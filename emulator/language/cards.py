@@ -128,7 +128,7 @@ def read_line(source: str, number: int, line: str, unit: str = "card") -> Card:
 
 
 def check_characters(source: str, number: int, line: str, unit: str = "card") -> None:
-    """Raise CardError for the first character that is not in the card code."""
+    """Raise CardError for the first character of a line that no card can hold."""
     if CHARACTERS.issuperset(line):
         return
     for column, char in enumerate(line, 1):

@@ -132,7 +132,7 @@ class Emitter:
         return Operand(entry.first, self.subscripts.setdefault(description, len(self.subscripts)))
 
     def subscript(self, argument: Expression) -> tuple[int, int, int]:
-        """Return (field of v or -1, c, k) for a subscript c*v+k (C26-5619 p. 18).  Raise Refused for any other form."""
+        """Split a subscript c*v+k into the storage field of v (or -1), c and k.  Raise Refused for other forms."""
         term, addend = argument, 0
         if isinstance(argument, Sum):
             if argument.minus or len(argument.rest) != 1:
@@ -222,7 +222,7 @@ class Emitter:
         return negative
 
     def _part(self, expression: Expression) -> bool:
-        """Emit code for an operand, like :meth:`deferred`.  A parenthesized sum gets a number."""
+        """Emit code for one operand of a sum or product.  Return True if the accumulator then holds its negative."""
         negative = self.deferred(expression)
         if isinstance(expression, Sum):
             self.group()
@@ -329,7 +329,7 @@ class Emitter:
 
 
 def is_fixed_name(name: str) -> bool:
-    """Return True for a name that begins with I, J, K, L, M or N (C26-5619 p. 16)."""
+    """Return True for the name of an integer variable, which begins with I, J, K, L, M or N (C26-5619 p. 16)."""
     return name[0] in "IJKLMN"
 
 

@@ -19,7 +19,7 @@ class ForeignStatement:
     """A statement of another FORTRAN: its name in messages, the language it belongs to, and a replacement for it.
 
     ``has_body`` is True if the cards after the statement, up to an END, belong to it.  ``declares`` is ``all`` if its
-    names may be arrays, functions or of the other mode, so that statements using them cannot be checked, and ``(`` if
+    names may be arrays, functions or of another type, so that statements using them cannot be checked, and ``(`` if
     this holds only for names followed by a parenthesis.  ``number`` is IBM's error type, or 0.
     """
 

@@ -35,7 +35,7 @@ class Literal:
 
 @dataclass(frozen=True, slots=True)
 class Slash:
-    """A slash, which ends a record."""
+    """A slash in a FORMAT, which ends a card or a typed line (a record)."""
 
 
 Spec = Literal | Field | Slash

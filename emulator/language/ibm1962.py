@@ -53,7 +53,7 @@ _NUMBER = re.compile(r"([+-]?)\.(\d{8})E([+-])(\d\d)")
 
 
 def character_code(character: str) -> int:
-    """Return the two-digit alphameric code of a character."""
+    """Return the two-digit code by which the 1620 stores a character."""
     if character.isdigit():
         return 70 + int(character)
     for first, base in (("A", 41), ("J", 51), ("S", 62)):
@@ -63,7 +63,7 @@ def character_code(character: str) -> int:
 
 
 def digits(number: int, count: int, *, negative: bool = False) -> list[int]:
-    """Return a number as ``count`` positions of storage.  The first digit has a flag, the last too if negative."""
+    """Return a number as ``count`` digits of core storage, with a flag on the first, and on the last if negative."""
     positions = [int(digit) for digit in f"{number:0{count}}"]
     positions[0] |= FLAG
     positions[-1] |= FLAG if negative else 0
@@ -94,7 +94,7 @@ def field_text(positions: Sequence[int], kind: str) -> str:
 
 
 def format_positions(spec: FormatSpec) -> list[int]:
-    """Return a FORMAT in the coded form that IBM's library of 1962 reads, as positions of storage."""
+    """Return a FORMAT in the coded form in which the library stores it, as digits of core storage."""
     return [position for word in _words(spec) for position in word]
 
 

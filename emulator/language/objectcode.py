@@ -178,7 +178,7 @@ class Program:
 
     @cached_property
     def flat(self) -> Flat:
-        """The object code as flat sequences of integers."""
+        """The object code as flat sequences of integers; see :class:`Flat`."""
         return flatten(self)
 
     def uses(self, *verbs: str) -> bool:

@@ -1,4 +1,4 @@
-"""The parser: from statements to the syntax tree, with the LALR grammar in ``dialect.lark``."""
+"""The parser: it converts statements to the syntax tree, with the LALR grammar in ``dialect.lark``."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ def _data(deck: Deck, end: Card) -> tuple[Card, ...]:
 
 
 def _data_warnings(deck: Deck, end: Card, data: Sequence[Card]) -> Iterator[Diagnostic]:
-    """Yield warnings about the cards after END that are data, and about the first control card there."""
+    """Yield warnings about cards after END: those that are data, and the first control card among them."""
     if data:
         message = f"cards {data[0].number} to {data[-1].number} follow END: they are data and are not compiled"
         yield Diagnostic(data[0].number, 0, message, warning=True, about="END")
@@ -165,7 +165,7 @@ def _foreign_message(place: tree.Place, foreign: ForeignStatement) -> Diagnostic
 
 
 def _statement_function(body: tree.Body, arrays: Collection[str]) -> str:
-    """Return the name of the statement function that a statement defines, or an empty string.
+    """Return the name of the function that an assignment such as ``F(X) = X+1.`` defines, or an empty string.
 
     Its arguments are all names.  At least one of them is floating point, so that it cannot be an array element.
     """
@@ -182,7 +182,7 @@ def _taken_as_comment(card: Card, why: str) -> Diagnostic:
 
 @lru_cache(2048)
 def parse_statement(source: Source) -> tree.Statement:
-    """Parse a statement.  The cache serves decks that differ in single cards."""
+    """Parse a statement.  Results are cached, because many decks differ from others in single cards only."""
     if not source.text:
         raise Refused(source.place, f"a statement number without a statement: {source.label}")
     for card in source.cards:

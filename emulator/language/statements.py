@@ -109,12 +109,12 @@ def capitals(text: str) -> str:
 
 
 def may_be_comment(source: Source) -> bool:
-    """Return True if a statement that does not parse may be a comment: one card with C in column 1."""
+    """Return True if a statement that does not parse may be a comment, because it is one card with C in column 1."""
     return len(source.cards) == 1 and source.place.column == 1 and source.cards[0].text.startswith("C")
 
 
 def resembles_statement(card: Card) -> bool:
-    """Return True if a comment begins like a statement, so that its C may be a mistake."""
+    """Return True if a comment, a card with C in column 1, looks like a statement: its C may be a mistake."""
     text = card.columns(1, LAST_COLUMN).replace(" ", "")
     return not card.text.ljust(3).startswith("C  ") and text.startswith(("CONTIN", "COMMON", "CALL"))
 
@@ -197,7 +197,7 @@ def _place(cards: tuple[Card, ...], index: int) -> Place:
 
 
 def _top_level(text: str, mark: str) -> int:
-    """Return the index of the first ``mark`` outside parentheses, or -1 if there is none."""
+    """Return the index of the first character ``mark`` outside parentheses, or -1 if there is none."""
     depth = 0
     for i, char in enumerate(text):
         if char == "(":

@@ -72,7 +72,7 @@ class Storage:
         return self.entries[bisect_right(self.entries, address, key=attrgetter("first")) - 1]
 
     def fields_of(self, text: str) -> range:
-        """Return the fields of a variable, array or elementsuch as ``X`` or ``A(2,1)``; empty if unknown."""
+        """Return the fields of a variable, array or element such as ``X`` or ``A(2,1)``, or none if unknown."""
         parts = re.fullmatch(r"([A-Z][A-Z0-9]*)(?:\((\d{1,4})(?:,(\d{1,4}))?\))?", text)
         named = (e for e in self.entries if parts and e.name == parts[1] and e.kind in ("variable", "array"))
         entry = next(named, None)

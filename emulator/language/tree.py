@@ -34,7 +34,7 @@ class Reference:
 
 @dataclass(frozen=True, slots=True)
 class Power:
-    """``base ** exponent`` (p. 19, rule 2)."""
+    """The expression ``base ** exponent`` (p. 19, rule 2)."""
 
     base: Expression
     exponent: Expression
@@ -73,14 +73,14 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class GoTo:
-    """``GO TO n``."""
+    """The statement ``GO TO n``."""
 
     label: int
 
 
 @dataclass(frozen=True, slots=True)
 class ComputedGoTo:
-    """``GO TO (n1, n2, ...), i``."""
+    """The statement ``GO TO (n1, n2, ...), i``, which branches to the i-th statement number."""
 
     labels: tuple[int, ...]
     selector: Reference
@@ -88,7 +88,7 @@ class ComputedGoTo:
 
 @dataclass(frozen=True, slots=True)
 class If:
-    """``IF (expression) negative, zero, positive``."""
+    """The statement ``IF (expression) negative, zero, positive``, which branches by the sign of a number."""
 
     value: Expression
     labels: tuple[int, int, int]
@@ -96,7 +96,7 @@ class If:
 
 @dataclass(frozen=True, slots=True)
 class IfSwitch:
-    """``IF (SENSE SWITCH n) on, off`` (p. 56, item 7).  Switch 9 is the indicator of the last card."""
+    """The statement ``IF (SENSE SWITCH n) on, off`` (p. 56, item 7).  Switch 9 is on after the last card was read."""
 
     switch: int
     labels: tuple[int, int]
@@ -107,7 +107,7 @@ Jump = GoTo | ComputedGoTo | If | IfSwitch
 
 @dataclass(frozen=True, slots=True)
 class Do:
-    """``DO label variable = first, last, step``.  The test is at the bottom, so a loop runs at least once."""
+    """The statement ``DO label variable = first, last, step``. The test is at the bottom: a loop runs at least once."""
 
     label: int
     variable: Reference
@@ -118,38 +118,38 @@ class Do:
 
 @dataclass(frozen=True, slots=True)
 class Continue:
-    """``CONTINUE``."""
+    """The statement ``CONTINUE``, which has no effect."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pause:
-    """``PAUSE``, with or without a number."""
+    """The statement ``PAUSE``, with or without a number, which halts the machine until the operator presses START."""
 
     number: str
 
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """``STOP``, with or without a number."""
+    """The statement ``STOP``, with or without a number, which ends the run."""
 
     number: str
 
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """``END``, the last card of a source deck."""
+    """The statement ``END``, the last card of a source deck."""
 
 
 @dataclass(frozen=True, slots=True)
 class Dimension:
-    """``DIMENSION name(rows), name(rows, columns)`` (p. 18, 56 item 9)."""
+    """The statement ``DIMENSION name(rows), name(rows, columns)``, which declares arrays (p. 18, 56 item 9)."""
 
     arrays: tuple[tuple[str, tuple[int, ...], Place], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Loop:
-    """An indexed list of an input or output statement: ``(items, variable = first, last, step)``."""
+    """An indexed list in an input or output statement: ``(items, variable = first, last, step)``."""
 
     items: tuple[Item, ...]
     variable: Reference
@@ -163,7 +163,7 @@ Item = Reference | Loop
 
 @dataclass(frozen=True, slots=True)
 class InputOutput:
-    """``READ | ACCEPT | PUNCH | PRINT | TYPE  format, list`` (p. 32-43)."""
+    """An input or output statement: ``READ | ACCEPT | PUNCH | PRINT | TYPE  format, list`` (p. 32-43)."""
 
     verb: str
     format: int
@@ -180,7 +180,7 @@ class Columns(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """``FORMAT (specification)``.
+    """The statement ``FORMAT (specification)``.
 
     ``text`` is the specification as punched, with its blanks.  ``places`` has one place per character.
     """

@@ -68,7 +68,7 @@ class Loss:
 
 @dataclass
 class _Tally:
-    """The values of one statement that were compared: their number, and a histogram of lost digits in tenths."""
+    """The compared values of one statement: their number, and a histogram of the digits that they lost."""
 
     times: int = 0
     differing: int = 0
@@ -201,7 +201,7 @@ class Comparison:
         return value if value is None or isinstance(value, int) else numbers.exact(value, self._exactly)
 
     def _texts(self, studied: Number, reference: Number, tested: bool = False) -> tuple[str, str]:
-        """Return both values as text, with all digits if they would otherwise look the same.
+        """Return both values as text, with all their digits if shorter texts would be equal.
 
         If ``tested`` is true, an IF tested the values.  The sign of a zero is then not shown, because an IF ignores it.
         """

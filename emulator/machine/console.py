@@ -90,12 +90,12 @@ def command(session: Session, text: str, cards: Cards, width: int) -> Action | l
 
 
 def flipped(session: Session, number: int) -> Action:
-    """Return the action that flips a sense switch."""
+    """Return the action that turns a sense switch on if it is off, and off if it is on."""
     return Action("SWITCH", number, on=not session.switches[number - 1])
 
 
 def done(session: Session, line: Line, width: int) -> list[str]:
-    """Return the lines that show the effect of the last statement, if it has one."""
+    """Return lines that show what the last statement stored or tested, if anything."""
     text = effect(session, line)
     return wrapped(text, width) if text else []
 

@@ -46,7 +46,7 @@ class Ended(Exception):
 
 
 class LineNeeded(Exception):
-    """Raised if a line must be typed before the statement can continue."""
+    """Raised if the operator must type a line before an ACCEPT statement can continue."""
 
 
 def no_deck(program: Program) -> Deck:
@@ -142,7 +142,10 @@ class Devices:
         return Input(layout, fetch, card)
 
     def item(self, address: int) -> None:
-        """Read or write one number of a list.  Raise Ended, LineNeeded, DeckError, or CardError for a bad number."""
+        """Read or write one number of the statement's list.
+
+        Raise Ended, LineNeeded, DeckError, or CardError for an invalid number.
+        """
         fixed = self.program.code[self.state.at].second < 0
         transfer = self.transfer
         assert transfer is not None
@@ -161,7 +164,10 @@ class Devices:
             raise self._too_long() from None
 
     def finish(self) -> None:
-        """End the list.  Raise Ended, LineNeeded or DeckError if the rest of the FORMAT needs another record."""
+        """End an input or output statement after its last number.
+
+        Raise Ended, LineNeeded or DeckError if the rest of the FORMAT needs another record.
+        """
         assert self.transfer is not None
         try:
             self.transfer.finish()

@@ -201,7 +201,7 @@ def diverge(
 
 
 class JournaledRun:
-    """A run that records a journal, and advances in steps of _STRIDE statements."""
+    """A run that records its decisions and stores in a journal.  It advances in steps of _STRIDE units of work."""
 
     def __init__(
         self,
@@ -274,7 +274,7 @@ def _raise_common_error(runs: list[JournaledRun]) -> None:
 
 
 def _ended(runs: list[JournaledRun], entry: Entry | None, reference_entry: Entry | None) -> str:
-    """Return the endings of the runs whose journals have no further entry, or "" if both runs ended in the same way."""
+    """Return a text on how the runs ended whose journals have no further entry, or "" if both ended in the same way."""
     if entry is None and reference_entry is None and runs[0].ending == runs[1].ending:
         return ""
     stopped = [run for run, last in zip(runs, (entry, reference_entry), strict=True) if last is None]

@@ -83,7 +83,7 @@ class Ending:
 
     @property
     def message(self) -> str:
-        """One line for the user, or "" for a normal end."""
+        """The reason as one line for the user, or "" if the run ended normally."""
         if self.normal:
             return ""
         if self.kind == "input":
@@ -183,7 +183,7 @@ def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> 
 
 
 def stopped(program: Program, kind: Kind, at: int, decision: int, subscripts: tuple[int, ...] = ()) -> Ending:
-    """Return an ending of the given kind at the instruction ``at``, without further details except the subscripts."""
+    """Return an ending of the given kind at the instruction ``at``; it holds no further data except ``subscripts``."""
     return Ending(kind, program.source, program.line_at(at), decided(program, decision), subscripts=subscripts)
 
 
@@ -214,7 +214,7 @@ class Notice:
 
     @property
     def message(self) -> str:
-        """One line for the user."""
+        """The warning as one line for the user."""
         if self.kind == "pause":
             assert self.line is not None
             return f"{self.source}: PAUSE at {self.line.name}: the operator presses START"

@@ -1,4 +1,4 @@
-"""Input and output by FORMAT: the layout of a list of numbers on records.
+"""Input and output by FORMAT: how the numbers of a list are laid out on records (cards and typed lines).
 
 The rules are those of C26-5619 p. 35-43.  At the beginning or end of a FORMAT, n slashes produce n blank records.
 Between two fields, n+1 slashes produce n blank records. A list longer than the FORMAT uses the FORMAT again on a new
@@ -21,7 +21,7 @@ from emulator.numbers.fields import Field
 
 
 class NoField(Exception):
-    """Raised if a list has a number but its FORMAT has no field for numbers."""
+    """Raised if a list has a number left but its FORMAT has no field for numbers at all."""
 
 
 class TooLong(Exception):

@@ -55,7 +55,7 @@ class Operator:
         return iter(())
 
     def goal(self, session: Session) -> int:
-        """Return the total work at which :meth:`attend` is to be called again."""
+        """Return the amount of work (as counted by ``--limit``) after which :meth:`attend` is to be called again."""
         return session.state.work + SLICE
 
     def answer(self, session: Session, halt: Halt) -> Action:
@@ -73,7 +73,7 @@ class Operator:
 
 @dataclass(frozen=True, slots=True)
 class Load:
-    """The part of an operator's file that belongs to one machine, perhaps with names of program and deck."""
+    """The lines of an operator's file for one machine, with the names of its program and deck if they are stated."""
 
     program: str
     deck: str

@@ -61,7 +61,7 @@ Uncut = tuple[int, int, Number]
 
 @dataclass(frozen=True, slots=True)
 class MachineError:
-    """An error code of the arithmetic, the card of the statement, and the number of occurrences.
+    """An error code that the arithmetic gave in a run: its card and the number of its occurrences.
 
     :func:`emulator.errors.explanations` explains the codes.
     """
@@ -73,7 +73,7 @@ class MachineError:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """An operation of a device.
+    """An operation of a device: a card read or punched, or a line typed.
 
     ``begin`` marks a READ that begins a data set.  For a typed line, ``line`` is the statement that typed it and
     ``decision`` is the last IF or computed GO TO before it.
@@ -122,7 +122,7 @@ class Result:
 
 
 def statements_begun(program: Program, counts: Sequence[int]) -> int:
-    """Return the number of statements that began.  ``counts`` holds the executions of each counter."""
+    """Return the number of statements that a run began, from the number of executions of each counter."""
     return sum(n for counter, n in zip(program.counters, counts, strict=True) if counter.begins)
 
 

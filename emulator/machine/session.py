@@ -126,7 +126,7 @@ class Session:
         return self.halt.line if self.halt else self.devices.line_at(min(self.state.pc, len(self.program.code) - 1))
 
     def advance(self, goal: int) -> Halt | Ending | None:
-        """Run until the total work reaches ``goal`` or the limit (:class:`emulator.machine.result.Options`).
+        """Run until the work done reaches ``goal`` or the limit (:class:`emulator.machine.result.Options`).
 
         Return the halt or the ending, or None if the run can continue.  Raise CardError if a field of a card does not
         hold a number, and DeckError if the hopper is empty at the first READ or in the middle of a data set.
@@ -215,7 +215,7 @@ class Session:
         return self.devices.expected_fields(self._pending == interpreter.AT_BEGIN)
 
     def result(self, ending: Ending = BAD_INPUT) -> Result:
-        """Return the result so far.  It can also be used after :meth:`advance` raised an error for a bad card."""
+        """Return the result of the run up to now, also after :meth:`advance` raised an error for a bad card."""
         devices, counts = self.devices, self.state.counts
         events = tuple(devices.events)
         return Result(
@@ -235,7 +235,7 @@ class Session:
         )
 
     def _advance(self, goal: int) -> Halt | Ending | None:
-        """Run until ``goal``, which does not exceed the limit."""
+        """Run until the work reaches ``goal``, which must not exceed the limit.  See :meth:`advance`."""
         if self._ending or self.halt:
             return self._ending or self.halt
         # A halt in the middle of a service leaves its reason in ``_pending``; the service is then done again.

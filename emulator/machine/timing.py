@@ -167,10 +167,11 @@ def measure(program: Program, result: Result) -> Timing:
 
 
 def shares(program: Program, result: Result) -> tuple[float, ...]:
-    """Return the processor seconds of each statement of ``program.statements``; their sum is that of :func:`measure`.
+    """Return the processor seconds spent in each statement of ``program.statements``.
 
-    Records and the conversion of numbers are not counted for each statement.  The total time for each kind of field is
-    divided among the statements in proportion to the numbers in their lists, and that of records to their executions.
+    Their sum is that of :func:`measure`. Records and conversions of numbers are not counted for each statement. The
+    total time for each kind of field is divided among the statements in proportion to the numbers in their lists, and
+    that of records to their executions.
     """
     seconds = [0.0] * len(program.statements)
     lists: dict[str, Tally[int]] = {}
@@ -204,7 +205,7 @@ def shares(program: Program, result: Result) -> tuple[float, ...]:
 
 
 def _records(program: Program, result: Result) -> dict[str, int]:
-    """Return the cards read, and the cards and lines written.  A statement that types counts as one line."""
+    """Return the number of cards read, and of cards and lines written; a statement that types counts as one line."""
     typed = times = 0
     for instruction in program.code:
         if instruction.operation == op.COUNT:

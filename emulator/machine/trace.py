@@ -56,7 +56,7 @@ def effect(machine: Session, line: Line) -> str:
 
 
 def contents(machine: Session, address: int) -> str:
-    """Return the contents of a field as text."""
+    """Return the contents of a storage field as text."""
     # A field is shown by its current kind, since programs may store either mode with --bounds core.
     value, kind = machine.state.values[address], machine.state.kinds[address]
     if kind == UNDEFINED:

@@ -1,4 +1,4 @@
-"""The language of the console: the operator's actions, halts, and warnings about a run, as lines of text.
+"""The words of the console: actions of the operator, halts, and warnings about a run, as lines of text.
 
 A file of actions has one action in capitals on each line: ``ENTER 5``, ``START``, ``STEP 3``, ``STOP``, ``ATTN``,
 ``SWITCH 1 ON``, ``BREAK 40``, ``BREAK CARD 12``, ``BREAK NE``, ``CLEAR``.  ``AT n`` before an action other than ENTER
@@ -33,7 +33,10 @@ _FORMS = {
 
 
 def read_action(line: str) -> tuple[int | None, Action]:
-    """Return an action and the work of its ``AT`` clause, if any.  Raise ValueError with a message for a bad line."""
+    """Read a line of an operator's file.  Return the action, and the amount of work after ``AT``, or None.
+
+    Raise ValueError with a message for an invalid line.
+    """
     word, *operands = line.split() or [""]
     if word == "ENTER":
         return None, Action("ENTER", text=line.partition("ENTER")[2][1:].rstrip())
@@ -48,7 +51,7 @@ def read_action(line: str) -> tuple[int | None, Action]:
 
 
 def action(word: str, operands: list[str]) -> Action:
-    """Return the action for a word with its operands.  The word is not ENTER.  Raise ValueError if they are invalid."""
+    """Return the action for a word other than ENTER and its operands.  Raise ValueError if they are invalid."""
     # Operands are an optional CARD, an optional number and, for SWITCH, ON or OFF.
     card = word in ("BREAK", "CLEAR") and operands[:1] == ["CARD"]
     numbers = [_number(text) for text in operands[card : card + 1]]

@@ -1,4 +1,4 @@
-"""Number systems for the object code: the 1620's decimal numbers, and binary and exact numbers of Python.
+"""Arithmetics (number systems) for object code: the 1620's decimal numbers, and binary and exact numbers.
 
 :func:`numbers` returns a system by name, and :mod:`emulator.machine.interpreter` runs object code with it.
 
@@ -49,7 +49,7 @@ INTERVAL = "interval:P"
 
 
 def hosted(name: str) -> Numbers | None:
-    """Return the system ``float64``, ``float32``, ``mp:BITS``, ``exact``, a stochastic one or intervals, or None.
+    """Return an arithmetic that is not decimal by its name, such as ``float64`` or ``exact``, or None if unknown.
 
     Raise ArgumentError if the number of bits or digits is out of range.
     """
@@ -80,7 +80,7 @@ def hosted(name: str) -> Numbers | None:
 
 
 def numbers(name: str | Profile) -> Numbers:
-    """Return the number system of a name or profile.  Raise ArgumentError for an unknown name."""
+    """Return the arithmetic with this name or profile.  Raise ArgumentError for an unknown name."""
     expect(name, (str, Profile), "name")
     if isinstance(name, Profile):
         return DecimalNumbers(name)

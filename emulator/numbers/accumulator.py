@@ -73,8 +73,6 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> State
 
     If J is negative, the result is ``(1 / A) ** -J``.  The first operation with an error ends the computation.  For J =
     -1 to 2 the result is the exact power, truncated.
-
-    The first operation with an error ends the computation.  For J = -1 to 2 the result is the exact power, truncated.
     """
     m, e = from_integer(1, rules)
     if count == 0:

@@ -249,7 +249,7 @@ def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
 
 
 def wrap_integer(value: int) -> int:
-    """Truncate a fixed-point result to four digits and its sign (C26-5619 p. 14, executed on IBM's code at 02644)."""
+    """Truncate an integer to four digits and its sign, as the 1620 stores it (C26-5619 p. 14; IBM's code at 02644)."""
     return value % 10000 if value >= 0 else -(-value % 10000)
 
 
@@ -308,7 +308,7 @@ def rules_of(
     quotients: int = 0,
     as_1962: int = 0,
 ) -> Rules:
-    """Return rules with the given number of digits.  By default everything is truncated, with signs as in II-D."""
+    """Return rules with the given number of digits.  By default, results are truncated as in FORTRAN II-D."""
     low = 10 ** (digits - 1)
     return Rules(digits, 10 * low, low, guard, sticky, sums, products, quotients, as_1962)
 
@@ -350,7 +350,8 @@ FAMILIES = tuple(f"{family}:P" for family in _FAMILIES)
 
 
 def profile(name: str) -> Profile:
-    """Return the profile of a name: one of PROFILES, or a family with P from 2 to 28, as ``rounding:8``.
+    """Return the decimal arithmetic with this name: one of PROFILES, or a family with P digits, such as
+    ``rounding:8``.
 
     ``guarded:P`` differs from ``truncating:P`` in sums only: the smaller operand keeps one more digit during the
     addition.  ``rounding:P`` gives the exact result of + - * / rounded half up in magnitude.  Raise ArgumentError for

@@ -1,4 +1,4 @@
-"""The interface of number systems: accumulator operations, library functions and card fields for the object code.
+"""The interface of an arithmetic (number system): operations of the accumulator, library functions, card fields.
 
 Only the number system itself knows the representation of its numbers.  Three rules hold for every system:
 
@@ -53,12 +53,12 @@ class Numbers(ABC):
     @property
     @abstractmethod
     def name(self) -> str:
-        """The name under which a user selects the system."""
+        """The name by which a user selects this arithmetic."""
 
     @property
     @abstractmethod
     def digits(self) -> float:
-        """The number of decimal digits of a number, infinite for exact numbers."""
+        """The number of decimal digits that a number has in this arithmetic; infinite if it is exact."""
 
     def fresh(self) -> Numbers:
         """Return this arithmetic in its initial state, in which every run begins."""
@@ -66,7 +66,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def decimal(self, whole: int, power: int, minus: bool = False) -> Number:
-        """Return ``whole * 10**power``.  ``minus`` marks a zero that was written with a minus sign."""
+        """Return the number ``whole * 10**power``. ``minus`` marks a zero that was written with a minus sign."""
 
     @abstractmethod
     def add(self, first: Number, second: Number) -> Number:
@@ -74,7 +74,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def subtract(self, first: Number, second: Number) -> Number:
-        """Return the difference ``first - second``, or raise Trap."""
+        """Return the difference ``first - second``, or raise Trap with an error code."""
 
     def subtract_reversed(self, first: Number, second: Number) -> Number:
         """Return ``second - first`` as the machine computed it: ``first - second``, sign reversed.  Raise Trap."""
@@ -89,7 +89,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def divide(self, dividend: Number, divisor: Number) -> Number:
-        """Return the quotient.  Raise Trap, or Undecided if the system has no answer."""
+        """Return the quotient.  Raise Trap with an error code, or Undecided if there is no answer."""
 
     @abstractmethod
     def negate(self, value: Number) -> Number:
@@ -113,19 +113,19 @@ class Numbers(ABC):
 
     @abstractmethod
     def function(self, name: str, value: Number) -> tuple[Number, str]:
-        """Return SIN, COS, ATAN, EXP, LOG or SQRT, and the error code or an empty string.  May raise Undecided."""
+        """Return SIN, COS, ATAN, EXP, LOG or SQRT of a number, and an error code or "".  May raise Undecided."""
 
     @abstractmethod
     def power(self, base: Number, exponent: Number) -> tuple[Number, str]:
-        """Return ``A ** B`` and the error code: ``|A| ** B`` and F6 for a negative base.  May raise Undecided."""
+        """Return ``A ** B`` and an error code or "".  For a negative A: ``|A| ** B`` and F6.  May raise Undecided."""
 
     @abstractmethod
     def integer_power(self, base: Number, count: int) -> tuple[Number, str]:
-        """Return ``A ** J`` and the error code or an empty string.  May raise Undecided."""
+        """Return ``A ** J`` for an integer J, and an error code or "".  May raise Undecided."""
 
     @abstractmethod
     def exact(self, value: Number, digits: int) -> Fraction | int | None:
-        """Return the value, an irrational one to at least ``digits`` digits, or None if it is not finite."""
+        """Return the exact value (at least ``digits`` digits if irrational), or None if it is not finite."""
 
     @abstractmethod
     def cut(self, value: Number, digits: int) -> tuple[int, int]:
@@ -156,11 +156,11 @@ class Numbers(ABC):
         return False
 
     def work(self, operation: str, first: Number, second: Number = 0) -> int:
-        """Return an estimate of the additional steps that an operation takes (:mod:`emulator.numbers.work`).
+        """Estimate the additional steps that a slow operation takes (:mod:`emulator.numbers.work`).
 
         ``operation`` is ``add``, ``subtract``, ``multiply``, ``divide``, ``sign``, ``to_integer``, ``card``, the name
-        of a library function, ``power`` or ``integer_power``.  For a system that is not costly, only library functions
-        and powers have additional steps.
+        of a library function, ``power`` or ``integer_power``.  In an arithmetic that is not costly, only library
+        functions and powers have additional steps.
         """
         return 0
 
@@ -170,14 +170,17 @@ class Numbers(ABC):
         return False
 
     def read(self, field: Field, columns: str) -> tuple[Number, Remark | None]:
-        """Read a number with all of its digits from the columns of a field, and a remark or None.  Raise FieldError."""
+        """Read a number from the columns of a card field, with all of its digits.
+
+        Return it, and a remark about the columns or None.  Raise FieldError if they hold no number.
+        """
         digits = max(len(columns), 2)
         number = read_floating(field, columns, lossless_rules(digits))
         minus = number.exponent == MINUS_ZERO
         return self.decimal(number.mantissa, number.exponent - digits if number.mantissa else 0, minus), number.remark
 
     def constant(self, text: str) -> Number:
-        """Return a floating constant of the source.  Raise FieldError if it is out of range."""
+        """Return a floating-point constant of a program.  Raise FieldError if it is out of range."""
         return self.read(FALLBACK, text)[0]
 
     def write(self, field: Field, value: Number) -> tuple[str, bool]:

@@ -1,4 +1,4 @@
-"""``float64`` and ``float32``: IEEE 754 numbers, rounded to nearest.
+"""The arithmetics ``float64`` and ``float32``: IEEE 754 numbers, rounded to nearest.
 
 A decimal is converted to the nearest double.  For single precision, that double is then rounded to single precision.
 Overflow gives an infinity and an invalid operation gives NaN, each reported with the 1620's error code.  An IF cannot
@@ -34,7 +34,7 @@ def _double(value: float) -> float:
 
 @dataclass(frozen=True)
 class FloatNumbers(Numbers):
-    """IEEE double or single precision, selected by name.  Every number is a Python float."""
+    """The arithmetic of IEEE double or single precision.  Every number is a Python float."""
 
     name_: str
 

@@ -1,4 +1,4 @@
-"""Conversion between numbers and card columns, on integers: the rules of emulator/numbers/fields.py.
+"""Convert numbers to card columns and back, on integers, by the rules of emulator/numbers/fields.py.
 
 Columns are a mutable sequence of ASCII codes.  The functions use only integers and loops, so that numba can compile
 them and the interpreter and the compiled engine share one source.  emulator/numbers/fields.py contains the message for

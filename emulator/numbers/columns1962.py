@@ -1,4 +1,4 @@
-"""Conversion between numbers and card columns as IBM's library of 1962 does it, on integers.
+"""Convert numbers to card columns and back as IBM's library of 1962 does, on integers.
 
 The rules were measured by running the library (docs/reference/ibm-library.md).  Columns are a mutable sequence of ASCII
 codes.  The functions use only integers and loops, so that numba can compile them, as in emulator/numbers/columns.py.
@@ -178,7 +178,7 @@ def fill(
 
 
 def sign(columns: MutableSequence[int], at: int, point: int, mantissa: int, exponent: int) -> None:
-    """Write the minus sign of a number before its first digit or its point."""
+    """Write a minus sign before the first digit or the point of a number, if it is negative."""
     if mantissa < 0 or exponent == MINUS_ZERO:
         k = point
         while k > at and columns[k - 1] != BLANK:
@@ -203,7 +203,7 @@ def write_floating(
 
 
 def write_fixed(columns: MutableSequence[int], at: int, width: int, size: int, negative: bool) -> int:
-    """Write an I field: the last four digits, or the last w - 1 in a field of w < 5 columns, as one is for the sign."""
+    """Write an integer into a field of w columns: its last four digits, or w - 1 if w < 5, after one for the sign."""
     end = at + width
     for k in range(at, end):
         columns[k] = BLANK

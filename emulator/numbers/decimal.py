@@ -29,7 +29,7 @@ Pair = tuple[int, int]
 
 @dataclass(frozen=True)
 class DecimalNumbers(Numbers):
-    """The numbers of a decimal profile."""
+    """The decimal arithmetic of one profile, which sets the digits and the rules of rounding."""
 
     profile: Profile
 

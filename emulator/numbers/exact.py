@@ -1,4 +1,4 @@
-"""``exact``: rational numbers and sums of square roots of rational numbers, without any rounding.
+"""The arithmetic ``exact``: rational numbers, and sums of their square roots, without any rounding.
 
 A number is an int, a Fraction or a RootSum.  ``+ - *``, division by a rational number or by a sum of two roots, SQRT of
 a rational number, integer powers, and the few rational values of the other functions are exact.  Any other operation
@@ -35,7 +35,7 @@ _KNOWN: dict[tuple[str, Rational], int] = {("SIN", 0): 0, ("ATAN", 0): 0, ("COS"
 
 @dataclass(frozen=True)
 class ExactNumbers(Numbers):
-    """Rational numbers and sums of square roots."""
+    """The arithmetic of rational numbers and sums of square roots."""
 
     @property
     def name(self) -> str:

@@ -72,12 +72,12 @@ class Remark:
 
 
 class FieldError(ValueError):
-    """An input field without a valid number, or with a number out of range."""
+    """Raised if the columns of a field hold no valid number, or a number out of range."""
 
 
 @dataclass(frozen=True, slots=True)
 class FieldNumber:
-    """A number that was read: mantissa and exponent (value and 0 for fixed point), and a remark or None."""
+    """A number that was read from a field: mantissa and exponent (integers: value and 0), and a remark or None."""
 
     mantissa: int
     exponent: int
@@ -180,6 +180,6 @@ def read_as_1962(field: Field, text: str, rules: Rules) -> FieldNumber:
 
 
 def parse_constant(text: str, rules: Rules) -> tuple[int, int]:
-    """Return a floating constant of the source, e.g. ``-1.E-3``.  Raise FieldError if it is out of range."""
+    """Return mantissa and exponent of a constant such as ``-1.E-3``.  Raise FieldError if it is out of range."""
     number = read_floating(FALLBACK, text, rules)
     return number.mantissa, number.exponent

@@ -72,7 +72,8 @@ def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
 
 @lru_cache(maxsize=4096)
 def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Value:
-    """Return ``A ** B`` with a floating exponent, and |A| ** B with code F6 for a negative base, as GOTRAN does.
+    """Return ``A ** B`` for a floating-point B, and for a negative A ``|A| ** B`` with error code F6, as GOTRAN
+    does.
 
     Powers of zero are those of ``A ** J`` (OPEN-QUESTIONS 8).
     """
@@ -87,7 +88,7 @@ def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Val
 
 @lru_cache(maxsize=4096)
 def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Value:
-    """Return ``A ** J`` as the exact power, truncated, or as a chain of products as in 1962 (OPEN-QUESTIONS 8)."""
+    """Return ``A ** J`` for an integer J: truncated, or by repeated products as in 1962 (OPEN-QUESTIONS 8)."""
     if mantissa == 0 or -1 <= count <= 2 or rules.as_1962:
         by = whole_power if mantissa == 0 or abs(count) < LONG else _long_chain
         m, e, code = by(mantissa, exponent, count, rules)
@@ -280,7 +281,7 @@ def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | No
 
 
 def _decisive(rules: Rules) -> int:
-    """Return the number of digits that decide the rounding of a value if the digits that follow are not all equal."""
+    """Return how many digits of a value decide how it is rounded, unless all further digits are equal."""
     return rules.digits + (_RANDOM if rules.random else 0)
 
 

@@ -1,4 +1,4 @@
-"""``interval:P``: intervals of P-digit decimal numbers that contain the exact result, rounded outward.
+"""The arithmetic ``interval:P``: intervals of P-digit decimal numbers that contain the exact result.
 
 A number is a pair (low, high) of :class:`decimal.Decimal`, and the number that exact arithmetic would hold lies between
 them.  + - * / and SQRT are rounded outward by Python's decimal contexts.  The library functions and powers are computed
@@ -42,7 +42,7 @@ def _within_range(operation: Callable[..., Any]) -> Callable[..., Any]:
 
 @dataclass(frozen=True)
 class IntervalNumbers(Numbers):
-    """Intervals whose ends have P digits."""
+    """The arithmetic of intervals whose ends have P digits."""
 
     places: int
 
@@ -213,7 +213,7 @@ def _fraction(value: tuple[int, int, int, int]) -> Fraction:
 
 
 def interval(count: str, name: str) -> IntervalNumbers:
-    """Return the system of ``interval:P``.  Raise ArgumentError if P is out of range."""
+    """Return the arithmetic called ``interval:P``.  Raise ArgumentError if P is out of range."""
     from emulator.errors import ArgumentError
 
     if not (count.isdecimal() and count.isascii() and len(count) < 9 and MIN_DIGITS <= int(count) <= MAX_DIGITS):

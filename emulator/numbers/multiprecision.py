@@ -1,4 +1,4 @@
-"""``mp:BITS``: binary floating point with any number of bits, rounded to nearest, computed by mpmath.
+"""The arithmetic ``mp:BITS``: binary floating point with any number of bits, rounded to nearest, by mpmath.
 
 Binary exponents range from -100,000 to 100,000.  A number outside this range overflows to an infinity or underflows to
 zero, with the 1620's error code.  Input and output follow the rules of the other binary numbers (:mod:`.binary`).
@@ -25,7 +25,7 @@ MAX_POWER = 100_000
 
 @dataclass(frozen=True)
 class MultiprecisionNumbers(Numbers):
-    """Numbers with ``bits`` bits: objects of a separate mpmath context."""
+    """The arithmetic of binary numbers with ``bits`` bits, which are objects of a separate mpmath context."""
 
     bits: int
 

@@ -25,7 +25,7 @@ MAJORITY = "majority"
 
 @dataclass(frozen=True)
 class SampledNumbers(Numbers):
-    """The numbers of N stochastic runs in step.
+    """An arithmetic whose numbers are tuples: the values in N random runs that take the same branches.
 
     ``choice`` is ``mean`` or ``majority``.  ``on_write`` receives the columns and the values of each printed number.
     """
@@ -47,7 +47,7 @@ class SampledNumbers(Numbers):
         return replace(self, members=[member.fresh() for member in self.members])
 
     def estimate(self, value: Values) -> Estimate | None:
-        """Return the significant digits of a number, or None if it is not finite in every run."""
+        """Estimate a number's significant digits from its values in the runs.  Return None if one is not finite."""
         return estimate(self.values(value), self.digits)
 
     def values(self, value: Values) -> list[Fraction | int | None]:

@@ -44,7 +44,7 @@ _LONGEST = 4_096
 
 @dataclass(frozen=True, slots=True)
 class Shadowed:
-    """A number of the arithmetic and its shadow, which is None if nothing was rounded."""
+    """A number, and a more precise value of it (its shadow), or None if nothing was rounded."""
 
     value: Number
     shadow: Any
@@ -52,7 +52,7 @@ class Shadowed:
 
 @dataclass(frozen=True)
 class ShadowedNumbers(Numbers):
-    """The numbers of a system that rounds, each with its shadow.  The results are those of that system."""
+    """An arithmetic that rounds, in which each number also has a more precise value.  Results are unchanged."""
 
     inner: Numbers
 
@@ -76,7 +76,7 @@ class ShadowedNumbers(Numbers):
         return ExactNumbers()
 
     def error(self, number: Shadowed) -> Fraction | None:
-        """Return a bound for the error of a number against exact arithmetic, or None if unknown (as for infinities)."""
+        """Return a bound for the error of a number due to rounding, or None if it is unknown (as for infinities)."""
         if number.shadow is None:
             return Fraction(0)
         x, y = self.inner.exact(number.value, 0), self._finer.exact(number.shadow, 0)

@@ -30,7 +30,7 @@ _LEVEL = 0.95
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """The mean of a number's values and its significant digits by three estimates.
+    """The mean of a number's values in several random runs, and three estimates of its significant digits.
 
     ``is_zero``: the number is a computational zero.  ``is_exact``: all values are equal.
     """
@@ -44,7 +44,7 @@ class Estimate:
 
 
 def estimate(values: Sequence[Fraction | int | None], digits: float) -> Estimate | None:
-    """Return the estimates for a number with the given digits, or None if a value is not finite."""
+    """Estimate the significant digits of a number from its values.  Return None if a value is not finite."""
     finite = [value for value in values if value is not None]
     count = len(finite)
     if count < len(values) or count < 2:

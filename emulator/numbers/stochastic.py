@@ -1,4 +1,5 @@
-"""``stochastic:P:SEED`` and ``stochastic:BITSb:SEED``: decimal or binary numbers whose results are rounded at random.
+"""The arithmetics ``stochastic:P:SEED`` and ``stochastic:BITSb:SEED``, which round decimal or binary results at
+random.
 
 :mod:`emulator.numbers.draws` defines the two rules of rounding, their sources and the random numbers.  + - * /, the
 library functions and powers round the exact result once.  FLOAT, cards and constants are converted without randomness:
@@ -45,7 +46,7 @@ _GUARD, _FEW = 9, 2
 
 @dataclass(frozen=True)
 class StochasticNumbers(DecimalNumbers):
-    """The numbers of a decimal profile that rounds at random."""
+    """The arithmetic of decimal numbers that rounds at random."""
 
     _taken: list[int] = field(default_factory=lambda: [0], compare=False, repr=False)
 
@@ -64,7 +65,7 @@ class StochasticNumbers(DecimalNumbers):
 
 @dataclass(frozen=True)
 class StochasticBinaryNumbers(MultiprecisionNumbers):
-    """Binary numbers that are rounded at random."""
+    """The arithmetic of binary numbers that rounds at random."""
 
     seed: int
     rule: int

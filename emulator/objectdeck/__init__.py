@@ -1,4 +1,4 @@
-"""Object programs of a real 1620: the code that IBM's compiler of 1962 punched, for IBM's library of subroutines.
+"""Object decks for a real 1620: programs translated to the code that IBM's compiler of 1962 punched.
 
 ``digits.py`` writes digits with flags and names the entry points of the library's arithmetic, ``addresses.py``
 translates operands and subscripts, ``generator.py`` translates a program, ``extent.py`` measures it, and ``cards.py``

@@ -19,7 +19,7 @@ _INSTRUCTION = 12
 
 @dataclass(frozen=True)
 class Addresses:
-    """The addresses of a program's fields in a machine with ``core`` positions."""
+    """The addresses of a program's variables and statements in a machine with ``core`` positions of storage."""
 
     program: Program
     core: int
@@ -35,7 +35,7 @@ class Addresses:
         return {entry.name: self.units(entry.first) for entry in entries if entry.kind == "statement number"}
 
     def branch(self, label: int | str) -> int:
-        """Return the first position of a statement number's field, which holds a branch to the statement."""
+        """Return the address to which a branch to a statement goes: a field of storage that branches on to it."""
         return self.labels[str(label)] - FIELD + 1
 
     def format(self, label: int) -> int:
@@ -89,6 +89,6 @@ class Addresses:
         return steps
 
     def _product(self, variable: int, factor: int) -> str:
-        """Return code that leaves the product of a variable and a constant as a field of four digits."""
+        """Return code that multiplies a variable by a constant and leaves the four-digit product in a field."""
         multiply = d.MULTIPLY_IMMEDIATE + address(self.units(variable)) + d.wide_immediate(factor)
         return multiply + d.SET_FLAG + f"{d.PRODUCT - 3:05d}" + d.NONE

@@ -1,4 +1,4 @@
-"""The object deck: the cards of an object program, and their place among the cards of a deck with IBM's library.
+"""Object decks: the cards of an object program, and their place in a deck with IBM's library.
 
 A card of the program holds four control digits, the length of its code, the code and a record mark.  IBM's loader
 precedes it in the deck.  The loader stores the code of a card behind that of the card before, and then advances by the
@@ -66,7 +66,7 @@ def _code_cards(units: Sequence[Unit]) -> Iterator[str]:
 
 
 def symbol_table(program: Program, code: ObjectProgram, core: int) -> Iterator[str]:
-    """Yield the fields of the symbol table, from the top of core storage downward."""
+    """Yield the entries of the deck's symbol table, in the order of storage from the top downward."""
     for name in LIBRARY:
         entry = code.functions.get(name)
         yield alphameric(name) if entry is None else _label(entry, 0)
@@ -78,7 +78,7 @@ def symbol_table(program: Program, code: ObjectProgram, core: int) -> Iterator[s
 
 
 def _fields(entry: Entry, addresses: Addresses, code: ObjectProgram, formats: set[str]) -> Iterator[str]:
-    """Yield the symbol table's field for a variable, or its two fields for an array."""
+    """Yield the symbol table's entry for a variable, or its two entries for an array."""
     name = entry.name
     if entry.kind == "statement number":
         label = name.removeprefix("after ")
@@ -106,7 +106,7 @@ def _constant(text: str) -> str:
 
 
 def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> list[str]:
-    """Return a complete object deck: a deck with IBM's library, with ``cards`` in place of its program.
+    """Insert the cards of a program into a deck with IBM's library, in place of the program there.
 
     The cards of data that follow the library are left out.  Raise DeckError if ``library`` is not such a deck.
     """

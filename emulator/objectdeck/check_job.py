@@ -33,7 +33,7 @@ CLASSES = {
 
 
 def disk(source: str, target: str) -> None:
-    """Convert a disk in text form to the form of SIMH: one byte for each digit."""
+    """Convert a disk from text form to the form of the simulator SIMH: one byte for each digit."""
     digits = bytearray()
     with open(source, encoding="latin-1") as file:
         for number, line in enumerate(file, 1):

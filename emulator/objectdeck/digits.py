@@ -1,4 +1,4 @@
-"""Digits of core storage in the code of the cards, instructions of the 1620, and entry points of IBM's arithmetic.
+"""The digits of core storage as characters on cards, instructions of the 1620, and addresses of IBM's routines.
 
 One character stands for one position of core storage: ``0`` to ``9``, ``]`` for a zero with a flag, ``J`` to ``R`` for
 1 to 9 with a flag, and ``|`` for a record mark.  An instruction has twelve digits: two of operation code, five of
@@ -81,7 +81,7 @@ def wide_immediate(value: int) -> str:
 
 
 def floating_field(mantissa: int, exponent: int) -> str:
-    """Return a floating-point number of eight digits as a field."""
+    """Return a floating-point number of eight digits as the ten digits of a storage field."""
     number = digits(abs(mantissa), 8, negative=mantissa < 0) + digits(abs(exponent), 2, negative=exponent < 0)
     return card_text(number)
 
@@ -92,5 +92,5 @@ def card_text(positions: Iterable[int]) -> str:
 
 
 def alphameric(name: str) -> str:
-    """Return a name as a field: the two-digit codes of five characters, with a flag over the first digit."""
+    """Return a name as a storage field: two-digit codes of five characters, flagged at the first digit."""
     return flagged("".join(f"{character_code(character):02d}" for character in f"{name:<5}"))

@@ -26,7 +26,7 @@ class Extent:
     inferred: int
 
     def excess(self, core: int) -> int:
-        """Return the positions by which program and data exceed a machine; negative if some remain free."""
+        """Return how many positions program and data lack in a machine; negative if positions remain free."""
         return self.data + self.code - _room(core)
 
     def overlap(self, core: int) -> str:
@@ -46,7 +46,7 @@ class Extent:
         )
 
     def is_certain(self, core: int) -> bool:
-        """Return True if program and data exceed a machine even without the inferred positions."""
+        """Return True if program and data do not fit a machine even without the positions that are only inferred."""
         return self.excess(core) > self.inferred
 
 
@@ -62,7 +62,7 @@ def code_positions(program: Program) -> int:
 
 @lru_cache(maxsize=256)
 def extent(program: Program) -> Extent:
-    """Return the core storage that a program needs."""
+    """Return how much core storage a program needs."""
     code = generate(program)
     temporaries = sum(entry.kind == "temporary" for entry in program.storage.entries)
     inferred = sum(_INFERRED.get(instruction.operation, 0) for instruction in program.code)

@@ -1,4 +1,4 @@
-"""The translation of a program into the code of IBM's compiler, as the object deck of 1962 shows it.
+"""Translate a program to the machine code that IBM's compiler of 1962 generated, as its object deck shows it.
 
 Every statement begins at an even position; a record mark fills the odd position before it, if any.  A branch to a
 statement goes first to the field of the statement's number. This field holds a second branch, which goes to the
@@ -57,7 +57,7 @@ def generate(program: Program, core: int = CORES[-1]) -> ObjectProgram:
 
 @dataclass
 class _Generator:
-    """The state of one translation.
+    """The state of the translation of one program to machine code.
 
     ``places`` holds the position of each instruction of the emulator's object code, ``operands`` those of the last
     arithmetic, and ``unused`` a digit that the compiler left in its buffer.
@@ -156,7 +156,7 @@ class _Generator:
         )
 
     def _is_past_branch(self, pc: int) -> bool:
-        """Return True if END cannot be reached: it has no number, and the statement before it always branches."""
+        """Return True if no path leads to END: it has no number, and the statement before it always branches."""
         before = pc - 1
         while before >= 0 and self.program.code[before].operation == op.COUNT:
             before -= 1

@@ -54,7 +54,7 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """The cards of a job: the program as the compiler reads it, its data, and the changes."""
+    """A job for a compiler of the 1960s: the program as that compiler reads it, its data, and the changes made."""
 
     compiler: Compiler
     source: tuple[str, ...]
@@ -62,7 +62,7 @@ class Job:
     changes: tuple[Change, ...]
 
     def cards(self) -> Iterator[str]:
-        """Yield the deck for Monitor I: a job that sets 60,000 positions, and the job of the program and its data."""
+        """Yield the cards for FORTRAN II-D: a job that sets up 60,000 positions, and the job of the program."""
         for card in _SIXTY_THOUSAND, _COLD_START:
             yield from card
         yield "||JOB 5                      HULL1620"
@@ -73,7 +73,7 @@ class Job:
         yield "||||"
 
     def script(self, switches: Collection[int]) -> str:
-        """Return the commands for SIMH.  ``switches`` are the sense switches that are on while the program runs."""
+        """Return commands for the simulator SIMH. ``switches`` are the sense switches that are on during the run."""
         lines = _monitor(switches) if self.compiler == "fortran2d" else _pdq(switches)
         return "".join(
             f"{line}\n" for line in (*lines, "! python3 check.py compare expected.cards punched.cards", "quit")

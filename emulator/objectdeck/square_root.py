@@ -88,7 +88,7 @@ def square_root(start: int) -> str:
 
 
 def _operand(text: str, places: dict[str, int]) -> str:
-    """Return the five digits of an operand."""
+    """Return the five digits of an operand of an instruction, given by name or as digits."""
     name, _, offset = text.lstrip("@=").partition("+")
     if name[0] in d.FLAGGED + "0123456789":
         return text

@@ -1,4 +1,4 @@
-"""Translation of a program to C, to Fortran for a modern compiler, or to FPCore.
+"""Translate a program to C, to modern Fortran, or to FPCore.
 
-``steps.py`` reads the object code as assignments, decisions and lists, and ``writers.py`` writes them in a language.
+``steps.py`` converts object code to assignments, decisions and lists, and ``writers.py`` writes these as C or Fortran.
 """

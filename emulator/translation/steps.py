@@ -67,7 +67,7 @@ class Begin:
 
 @dataclass(frozen=True, slots=True)
 class Assign:
-    """An assignment."""
+    """An assignment of an expression to a variable or array element."""
 
     target: Field
     value: Expression
@@ -108,14 +108,14 @@ class GoTo:
 
 @dataclass(frozen=True, slots=True)
 class Top:
-    """The first statement of a DO, to which its end branches."""
+    """The first statement of a DO loop, to which the end of the loop branches."""
 
     label: int
 
 
 @dataclass(frozen=True, slots=True)
 class Repeat:
-    """The end of a DO on a card: step the variable, and branch back if it does not exceed the limit."""
+    """The end of a DO loop: add the step to the variable, and branch back if it does not exceed the limit."""
 
     card: int
     variable: Field

@@ -59,7 +59,7 @@ def layout(spec: FormatSpec, is_read: bool) -> tuple[str, int]:
 
 @dataclass
 class Writer(ABC):
-    """The text of a program in C or Fortran.  ``every_read_ends``: an empty hopper is a normal end at every READ."""
+    """The base class of the writers.  ``every_read_ends``: an empty hopper is a normal end at any READ."""
 
     program: Program
     every_read_ends: bool
@@ -78,7 +78,7 @@ class Writer(ABC):
         self.arrays: dict[str, Entry] = {entry.name: entry for entry in entries if entry.kind == "array"}
 
     def text(self) -> str:
-        """Return the whole source text."""
+        """Return the source text of the whole program."""
         return "\n".join([*self.head(), *self.body(), *self.tail()]) + "\n"
 
     def body(self) -> Iterator[str]:
@@ -151,7 +151,7 @@ class Writer(ABC):
 
 
 class CWriter(Writer):
-    """A program in C11, which is also C++."""
+    """A writer of C11, in the part that is also C++."""
 
     def head(self) -> Iterator[str]:
         program = self.program
@@ -250,7 +250,7 @@ class CWriter(Writer):
 
 
 class FortranWriter(Writer):
-    """A program in free-form Fortran 2018."""
+    """A writer of free-form Fortran 2018."""
 
     def head(self) -> Iterator[str]:
         yield f"! {self.program.source}, translated from 1620 FORTRAN by hull1620."
@@ -372,7 +372,7 @@ def _runtime(name: str) -> list[str]:
 
 
 def _wrapped(text: str) -> Iterator[str]:
-    """Yield the lines of a statement of Fortran.  A quoted text may continue too."""
+    """Yield the lines of a Fortran statement, broken if it is long, also within a quoted text."""
     lines = [text[at : at + _LINE] for at in range(0, len(text), _LINE)]
     for n, line in enumerate(lines):
         yield ("&" if n else "") + line + ("&" if n < len(lines) - 1 else "")
