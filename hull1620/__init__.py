@@ -98,7 +98,7 @@ _check_packages()
 
 
 def __getattr__(name: str) -> object:
-    """Import a public name from its module and keep it here."""
+    """Import a public name from its module when it is first used, and store it in this module."""
     for module, names in _HOMES.items():
         if name in names:
             globals()[name] = getattr(import_module(module), name)

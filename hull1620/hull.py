@@ -95,7 +95,7 @@ class Hull:
 
     @property
     def dimension(self) -> int:
-        """0 for a point, 1 for a segment, 2 for a polygon, 3 for a polyhedron."""
+        """The dimension of the hull: 0 for a point, 1 for a segment, 2 for a polygon, 3 for a polyhedron."""
         return self.record.dimension
 
     @property
@@ -351,7 +351,7 @@ class Hull:
 
     @cached_property
     def _closed(self) -> Mesh:
-        """The surface as a mesh.  Raise ExportError if a polyhedron has an edge that does not belong to two faces."""
+        """The surface of the hull as a mesh.  Raise ExportError if an edge does not belong to exactly two faces."""
         if self.dimension == 3 and not self._mesh.closed:
             raise ExportError(f"the faces determined in {self.arithmetic} do not form a closed surface")
         return self._mesh
@@ -372,7 +372,7 @@ def _nearest_to(text: str) -> float:
 
 
 def _nearest(value: Fraction) -> float:
-    """Return the nearest double, or an infinity beyond the largest one."""
+    """Return the double nearest to a fraction, or an infinity if it is beyond the largest double."""
     try:
         return float(value)
     except OverflowError:

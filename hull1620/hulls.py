@@ -209,7 +209,7 @@ def data_deck(points: Points, truncate: bool = False, epsilon: Epsilon = None) -
 
 
 def run_hull(deck: Deck, layers: Sequence[str] = (), options: Options | None = None) -> HullRun:
-    """Run program 1 on a data deck, then the program that its typewriter names, like ``hull1620 hull``.
+    """Run the programs of 1963: program 1 on a data deck, then program 2 or 3, as program 1 types on its typewriter.
 
     Parameters
     ----------
@@ -278,7 +278,7 @@ def load_program(name: str, layers: Sequence[str] = ()) -> Program:
 
 
 def reproduce(*names: str) -> bool:
-    """Compute the printed results of the thesis and the papers again, and print the comparison.
+    """Compute the printed results of the thesis and of the later papers again, and print how they compare.
 
     Parameters
     ----------

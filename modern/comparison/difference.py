@@ -42,7 +42,7 @@ class Disagreement:
 
     @property
     def agrees(self) -> bool:
-        """True if the outcome is the exact hull, except for small errors of coefficients."""
+        """True if the computed hull is the exact hull, except for small errors of coefficients."""
         wrong_points = self.missed or self.added or self.misfiled
         return not (wrong_points or self.planes_missing or self.planes_extra or self.planes_doubled)
 
@@ -206,7 +206,7 @@ def card_differences(cards: CardHull, hull: Hull, source: str) -> CardDifference
 
 
 def _program(cards: CardHull) -> str:
-    """Return the number, 1 to 3, of Butler's program that punched the cards, judged by the kinds of cards."""
+    """Return which of Butler's programs, 1 to 3, punched the cards, judged by the kinds of cards."""
     if not cards.satisfied or not cards.equations:
         return "program1"
     return "program2" if cards.plane else "program3"

@@ -1,4 +1,4 @@
-"""A common form for hulls of any origin (Butler's programs, modern procedures, exact hull), for exact comparison.
+"""A common form for hulls of any origin (Butler's programs, modern procedures, exact hull), for comparing them.
 
 Points are indices into the input.  Equations are for the coordinates of the input: the supporting planes of a
 polyhedron, or the supporting lines of a polygon projected as in the thesis (p. 16-17).  The projection drops the first

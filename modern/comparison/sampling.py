@@ -1,5 +1,4 @@
-"""Estimate the significant digits of a program's values, and the stability of its decisions, from runs with random
-rounding.
+"""Estimate significant digits of a program's values, and the stability of its decisions, from random runs.
 
 :func:`in_step` executes N stochastic runs on one common branch (:mod:`emulator.numbers.sampled`).  It records at every
 store the estimated digits, and at every IF how many runs would have gone each way.  :func:`independent` executes the
@@ -65,7 +64,7 @@ class DecisionShares:
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """A number on a card or typed line (a record): record, columns, values in the runs, significant digits."""
+    """A number on a card or typed line: where it was printed, its values in the random runs, and their digits."""
 
     record: int
     columns: str

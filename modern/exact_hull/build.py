@@ -34,7 +34,7 @@ _FEW = 64
 
 
 def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
-    """Return the points outside the simplex in a random order, which is always the same for one ``count``."""
+    """Return all points except those of the first simplex in a shuffled order that is always the same."""
     used = set(simplex)
     order = [index for index in range(count) if index not in used]
     random.Random(SEED).shuffle(order)
@@ -46,7 +46,7 @@ def _on_facets(
 ) -> Ints:
     """Return the points that are not vertices but lie in the plane of a facet.  ``others`` restricts the search.
 
-    ``likely`` has for each of them a facet that is tried first, or -1.
+    ``likely`` has for each point of ``others`` a facet that is tried first, or -1.
     """
     if others is None:
         is_other = np.ones(len(points), np.bool_)

@@ -49,7 +49,7 @@ _FEW, _FILTERED = 64, "float64 and integers"
 
 
 def _is_plane(plane: Sequence[int]) -> bool:
-    """Return True for four Python integers. Integers of numpy are refused, because they overflow silently."""
+    """Return True for four Python integers.  numpy's integers are rejected, because they overflow silently."""
     return len(plane) == 4 and all(type(number) is int for number in plane)
 
 
@@ -218,7 +218,7 @@ def _check_segment(hull: ExactHull) -> int:
 
 
 def _proved(hull: ExactHull) -> tuple[int, Planes, str]:
-    """Check facets and classes of a hull of dimension 1 to 3.  Return the number of edges, planes, arithmetic."""
+    """Check a hull of dimension 1 to 3.  Return the number of edges, the planes, and the kind of arithmetic used."""
     # For many points and facets, prove convexity from the edges, unless the surface is too thin for float64.
     if hull.dimension == 3 and len(hull.scaled) * len(hull.facets) >= MANY:
         with suppress(Undecided):  # in that case every plane is evaluated at every point, below

@@ -138,7 +138,7 @@ class _Proof:
         return self.images.exactly(self.o)
 
     def check_middle(self) -> float:
-        """Check that the inner point is inside every plane (condition c).  Return the radius of a ball inside."""
+        """Check condition c: the inner point is inside all planes.  Return the radius of a ball inside them."""
         bases = self.images.places[self.sides.corner[self.sides.first]]
         normals = self.planes.normals
         approximate = np.einsum("ij,ij->i", normals, self.o - bases)
@@ -254,7 +254,7 @@ class _Proof:
         return at, certain
 
     def _walked(self, triangle: int, point: int) -> int:
-        """Walk with exact signs from ``triangle`` to that whose cone contains the point; return -1 on failure."""
+        """Walk from ``triangle`` to the triangle whose cone contains the point.  Return -1 if this fails."""
         for _ in range(_STEPS):
             beyond = [edge for edge in range(3) if self.wall_sign(triangle, edge, point) < 0]
             if not beyond:

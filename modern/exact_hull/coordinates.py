@@ -51,11 +51,11 @@ class Images:
 
     @property
     def are_small(self) -> bool:
-        """True if float64 holds images and values of planes exactly: as integers below 2**52."""
+        """True if the scaled points and all values of planes are integers below 2**52, which float64 holds exactly."""
         return sum(self.shifts) <= _SMALL_BITS
 
     def exactly(self, place: Floats) -> tuple[IntPoint, int]:
-        """Return the exact coordinates of the point with this image, as three integers and their common divisor."""
+        """Return the exact point that belongs to a scaled one, as three integers and their common divisor."""
         pairs = [number.as_integer_ratio() for number in place.tolist()]
         weight = max(under for _, under in pairs)  # powers of two
         x, y, z = (
@@ -100,7 +100,7 @@ class Coordinates(LazyMembers[IntPoint]):
 
     @property
     def kind(self) -> str:
-        """``i`` for int64, ``O`` for Python integers, and ``f`` for floats that are not yet multiplied by the scale."""
+        """The type of the numbers: ``i`` for int64, ``O`` for Python integers, ``f`` for floats not yet scaled."""
         return self.numbers.dtype.kind
 
     def integers(self, indices: Any = slice(None)) -> Objects:
@@ -146,7 +146,7 @@ class Coordinates(LazyMembers[IntPoint]):
         return tuple(pair for pair in pairs if pair[0] != pair[1])
 
     def is_least_scale(self) -> bool:
-        """Return True if no smaller scale makes every coordinate an integer."""
+        """Return True if no smaller ``scale`` would make every coordinate an integer."""
         if self.scale == 1:
             return True
         if self.kind == "f":

@@ -24,7 +24,7 @@ def cross(u: IntPoint, v: IntPoint) -> IntPoint:
 
 
 def value(plane: Plane, p: IntPoint) -> int:
-    """Return A x + B y + C z + D at the point p."""
+    """Return the value A x + B y + C z + D of a plane at the point p."""
     return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3]
 
 
@@ -54,7 +54,7 @@ def lowest_terms(plane: Plane) -> Plane:
 
 
 def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
-    """Return the indices of up to four affinely independent points; their number is the dimension plus 1."""
+    """Return the indices of affinely independent points: one for a point, two for a segment, up to four."""
     if len(points) == 1:
         return (0,)
     origin = points[0]
@@ -89,7 +89,7 @@ def corners_only(cycle: Sequence[int], points: Sequence[IntPoint]) -> list[int]:
 
 
 def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
-    """Return the corners of the polygon that the triangles fill together, in the same sense of rotation as theirs."""
+    """Return the corners of the polygon that coplanar triangles form together, in their sense of rotation."""
     edges = {edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))}
     # An edge inside the polygon occurs in both directions.
     following = {a: b for a, b in edges if (b, a) not in edges}
@@ -113,7 +113,7 @@ def faces(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint
 
 
 def merged(triangles: Sequence[tuple[int, ...]], planes: Sequence[Plane], points: Sequence[IntPoint]) -> list[Facet]:
-    """Merge triangles that lie in one plane to faces.  ``planes`` are the planes of the triangles in lowest terms."""
+    """Merge triangles in one plane to one face.  ``planes`` are the triangles' planes in lowest terms."""
     if len(set(planes)) == len(planes):
         return list(map(Facet, planes, triangles))
     # Triangles with the same plane in lowest terms belong to one face.

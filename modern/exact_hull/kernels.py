@@ -114,7 +114,7 @@ def room(count: int) -> Room:
 
 
 def place_triangle(known: Any, slot: int, a: int, b: int, c: int) -> None:
-    """Write a triangle with its plane and no waiting points into a slot."""
+    """Write a triangle and its plane into a slot, with an empty list of points."""
     places, corners, normals = known.places, known.corners, known.normals
     corners[slot, 0], corners[slot, 1], corners[slot, 2] = a, b, c
     total, flat = 0.0, -1
@@ -165,7 +165,7 @@ def product_error(x: float, y: float, product: float) -> float:
 
 
 def difference(x: float, y: float, part: int) -> float:
-    """Return x - y rounded (part 0), or its rounding error (part 1)."""
+    """Return x - y rounded if ``part`` is 0, or the rounding error if it is 1."""
     rounded = x - y
     if part == 0:
         return rounded
@@ -195,7 +195,7 @@ def orientation(terms: Any, places: Any, corners: Any, slot: int, p: int) -> flo
 
 
 def value(known: Any, slot: int, p: int) -> float:
-    """Return the value of a triangle's plane at a point, rounded but with the exact sign."""
+    """Return the value of a triangle's plane at a point.  It is rounded, but its sign is exact."""
     places, normals, a = known.places, known.normals, known.corners[slot, 0]
     approximate = (
         normals[slot, 0] * (places[p, 0] - places[a, 0])
@@ -236,7 +236,7 @@ def distribute(known: Any, p: int, slots: Any, count: int) -> int:
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
-    """Find the triangles that a point is outside of, from ``start`` on, and their outer edges.  Return both counts."""
+    """Find the triangles that a point is outside of, and the edges around them.  Return how many of each."""
     mark, neighbours = known.mark, known.neighbours
     visible[0] = start
     mark[start] = 2 * step

@@ -110,7 +110,7 @@ class Planes:
 
     @cached_property
     def _small(self) -> tuple[Ints, bool] | None:
-        """The normals as int64 if that decides every sign: by single products (True) or ``long_signs`` (False)."""
+        """The normals as int64, and True if single products suffice to find exact signs; None if int64 does not."""
         if self.points.kind != "i":
             return None
         sides = [1 << shift for shift in self.points.images.shifts]
@@ -122,7 +122,7 @@ class Planes:
         return None
 
     def exact(self, facets: Ints, indices: Ints) -> Ints:
-        """Return the sign of each facet's plane at one point, computed in integers."""
+        """Return the sign of a plane at a point for each pair of a facet and a point, computed in integers."""
         self.in_integers += len(facets)
         numbers, bases = self.points.numbers, self.bases[facets]
         if self._small:
@@ -148,7 +148,7 @@ class Planes:
     def outside(self, facets: Ints, indices: Ints) -> Ints:
         """Return the pairs of a facet and one of the given points that does not lie in the facet's plane.
 
-        These pairs must include the facets' bases.
+        The given pairs must include the base point of each facet.
         """
         self.evaluations += len(facets)
         if not self._small:
@@ -158,13 +158,13 @@ class Planes:
         return np.flatnonzero(self.exact(facets, indices).astype(np.bool_) | at_bases[facets])
 
     def values(self, facets: Ints, indices: Ints) -> Objects:
-        """Return the value of each facet's plane at one point."""
+        """Return the value of a plane at a point for each pair of a facet and a point."""
         distinct, positions = np.unique(indices, return_inverse=True)
         plane, at = self.table[facets].T, self.points.integers(distinct)[positions].T
         return np.asarray(plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] + plane[3])
 
     def signs(self, facets: Ints, indices: Ints) -> Ints:
-        """Return the sign of each facet's plane at one point; ``indices`` has for each facet the point to evaluate."""
+        """Return the sign of a plane at a point for each pair of a facet and a point."""
         places = self.points.images.places
         steps = places[indices] - places[self.bases[facets]]
         approximate = np.einsum("ij,ij->i", self.normals[facets], steps)
@@ -204,7 +204,7 @@ class Planes:
         self.evaluations += len(indices) * count
 
     def largest(self, indices: Ints) -> tuple[Ints, Ints]:
-        """Return for each point a facet whose plane has the largest sign there (1: outside), and this sign."""
+        """Return, for each point, a facet whose plane has the greatest sign at it, and this sign (1 is outside)."""
         facets, largest = np.zeros(len(indices), np.int64), np.full(len(indices), -1)
         for rows, columns, signs in self.near(indices):
             np.maximum.at(largest, rows, signs)

@@ -100,7 +100,7 @@ def polygons(hull: ExactHull) -> Polygons:
 
 
 def check_planes(hull: ExactHull, sides: Polygons) -> Planes:
-    """Check each plane and the corners of its polygon, and return the planes."""
+    """Check that each polygon's corners lie in its plane, which is in lowest terms, and return the planes."""
     planes = [facet.plane for facet in hull.facets]
     require(
         set(map(len, planes)) == {4} and set(map(type, chain.from_iterable(planes))) == {int},

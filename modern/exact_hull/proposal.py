@@ -1,4 +1,4 @@
-"""Find a hull of many points quickly, as triangles that the certificate then proves or rejects.
+"""Find a hull of many points quickly, as triangles.  The certificate then proves it or rejects it.
 
 The hull grows in rounds.  In each round every triangle nominates the farthest of the points that wait outside it
 (Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Nominated points are
@@ -195,7 +195,7 @@ class _Growing:
         self.made = end
 
     def _signed(self, values: Floats, points: Ints, triangles: Ints) -> Floats:
-        """Return values of planes at points.  The exact sign times 1e-300 replaces a value of uncertain sign."""
+        """Return values of planes at points.  A value of doubtful sign becomes its exact sign times 1e-300."""
         doubtful = np.flatnonzero(~(abs(values) > self.bounds[triangles]))
         if doubtful.size and not self.exact:
             distinct, places = np.unique(triangles[doubtful], return_inverse=True)
@@ -204,7 +204,7 @@ class _Growing:
         return values
 
     def _outside(self, points: Ints, chosen: Ints, largest: Floats) -> tuple[Ints, Ints, Floats]:
-        """Return the points outside the plane of their chosen triangle, and record those in the plane."""
+        """Return the points that are outside of their chosen triangle, and record the points in its plane."""
         on, outside = largest == 0, largest > 0
         self.near.append(np.stack([points[on], chosen[on]]))
         return points[outside], chosen[outside], largest[outside]
@@ -212,7 +212,7 @@ class _Growing:
     def _tried_against_all(self, points: Ints, first: int) -> tuple[Ints, Ints, Floats]:
         """Compare each point with all triangles from index ``first`` on.
 
-        Return the points that see one of them, the triangle with the largest value for each, and that value.
+        Return the points that are outside of one of them, with the triangle of the largest value, and that value.
         """
         triangles = np.arange(first, self.made)
         chosen, largest = np.empty(len(points), np.int64), np.empty(len(points))
@@ -285,7 +285,7 @@ class _Growing:
         return True
 
     def _nominated(self) -> tuple[Ints, Ints]:
-        """Return points, with their triangles, that are farther outside than those at neighbouring triangles."""
+        """Return points that are farther outside than any point at a neighbouring triangle, and their triangles."""
         highest = np.full(self.made, -1.0)
         np.maximum.at(highest, self.home, self.height)
         top = self.height == highest[self.home]
@@ -328,7 +328,7 @@ class _Growing:
         return rank, triangle, rank[row], triangle[row], edge
 
     def _reassign(self, owner: Ints, inserted: Ints, edge_rank: Ints, first: int) -> None:
-        """Assign points of removed triangles to new ones, from index ``first`` on, that they are outside of."""
+        """Assign the points of removed triangles to new triangles (those from index ``first`` on), or drop them."""
         lost = ~self.alive[self.home]
         orphans, remover = self.waiting[lost], owner[self.home[lost]]
         done = np.zeros(len(self.places), np.bool_)

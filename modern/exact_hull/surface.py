@@ -163,7 +163,7 @@ class Surface:
         self._distribute(orphans, range(first, len(self.corners)))
 
     def triangles(self) -> list[tuple[Triangle, Plane]]:
-        """Return the triangles with their planes, which are not reduced to lowest terms."""
+        """Return the triangles with their planes, whose numbers may have a common divisor."""
         return [
             (corners, plane)
             for corners, plane, alive in zip(self.corners, self.planes, self.alive, strict=True)
@@ -172,7 +172,7 @@ class Surface:
 
 
 def convex_surface(points: Coordinates, simplex: Sequence[int], order: Sequence[int]) -> list[tuple[Triangle, Plane]]:
-    """Return the hull as triangles: start from four affinely independent points and insert the others in ``order``."""
+    """Return the hull as triangles.  It starts from four points, ``simplex``, and inserts the others in ``order``."""
     surface = Surface(points, simplex)
     for p in order:
         surface.insert(p)

@@ -33,7 +33,7 @@ FLAT = "the points lie in one plane: there are no faces to join"
 
 
 class CoplanarError(ExportError):
-    """Raised if faces cannot be joined within the given distance E; the message gives the reason in one line."""
+    """Raised if faces cannot be joined within the given distance; the message gives the reason in one line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,13 +59,13 @@ class Joined:
         return sum(map(len, self.groups))
 
     def group_of(self) -> tuple[int, ...]:
-        """Return the index of the joined face to which each face of the surface belongs."""
+        """Return, for each face of the original surface, the index of the joined face that contains it."""
         groups = {face: index for index, group in enumerate(self.groups) for face in group}
         return tuple(groups[face] for face in range(len(groups)))
 
 
 def parse_distance(value: object) -> Fraction:
-    """Return E as a fraction, from text, a fraction ``p/q`` or a real number. Raise CoplanarError if it is invalid."""
+    """Return a distance, given as text, fraction ``p/q`` or number, as a fraction.  Raise CoplanarError if invalid."""
     try:
         distance = Fraction(real(value))
     except ValueError as error:
@@ -133,7 +133,7 @@ def join(surface: Mesh, within: Fraction) -> Joined:
 
 
 def joined_mesh(surface: Mesh, joined: Joined) -> Mesh:
-    """Return the surface with joined faces, without the points in ``joined.left_out``."""
+    """Return the surface with joined faces.  Points inside joined faces (``joined.left_out``) are omitted."""
     left_out = set(joined.left_out)
     remaining = [index for index in range(len(surface.points)) if index not in left_out]
     new_indices = {index: new for new, index in enumerate(remaining)}
@@ -183,7 +183,7 @@ def _face(hull: Hull, group: Sequence[int], loop: Sequence[int], left_out: set[i
 
 
 def join_summary(joined: Joined) -> str:
-    """Return a line for the user: the numbers of faces, the largest deviation, and the next E that joins more faces."""
+    """Return a line for the user: numbers of faces, largest deviation, and the next distance that joins more faces."""
     within = distance_text(joined.within)
     following = "" if joined.beyond is None else f"the next face is joined if E is at least {root_text(joined.beyond)}"
     if len(joined.groups) == joined.faces:
@@ -279,7 +279,7 @@ def _check_convex(
 
 
 def _outer(corners: Sequence[IntVector], normal: IntVector) -> list[int]:
-    """Return the indices, in order, of the corners on the polygon's convex hull, seen along the normal."""
+    """Return the indices of the corners on the convex hull of a polygon, in order, seen along the normal."""
     dropped = max(range(3), key=lambda axis: abs(normal[axis]))
     u, v = (dropped + 1) % 3, (dropped + 2) % 3
     # Project along the normal onto the plane of the axes u and v.  Multiply by the normal's dropped component, so that

@@ -22,7 +22,7 @@ T = TypeVar("T")
 
 
 class LazyTuple(Sequence[T]):
-    """A sequence of known length whose members are computed on first access.  It equals the tuple of its members."""
+    """A sequence of known length, computed when it is first accessed.  It equals the tuple of its members."""
 
     def __init__(self, count: int, make: Callable[[], Iterable[T]]) -> None:
         self._count = count
@@ -63,7 +63,7 @@ class LazyTuple(Sequence[T]):
 
 
 class LazyMembers(LazyTuple[T]):
-    """A sequence of known length whose members are computed one at a time, or all at once."""
+    """A sequence of known length whose members are computed when they are first accessed."""
 
     def __init__(self, count: int, member: Callable[[int], T]) -> None:
         super().__init__(count, lambda: map(member, range(count)))
@@ -110,7 +110,7 @@ class LazyFaces(LazyTuple["Face"]):
 
 
 def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
-    """Return the members as a tuple.  A tuple is returned without a copy."""
+    """Return a sequence as a tuple.  If it is a tuple already, it is not copied."""
     return members.all() if isinstance(members, LazyTuple) else tuple(members)
 
 
@@ -121,7 +121,7 @@ class Face:
     Attributes
     ----------
     coefficients
-        A, B, C, D in the scale of the thesis, sums of products of coordinates of the defining points.  For a line the
+        A, B, C, D as the thesis computes them: sums of products of coordinates of the defining points.  For a line the
         coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).
     lowest
         The same equation as integers without a common divisor.
@@ -141,7 +141,7 @@ class Face:
 
 
 def polygons_of(faces: Sequence[Face]) -> Sequence[tuple[int, ...]]:
-    """Return the polygon of each face."""
+    """Return the polygon (vertex indices) of each face."""
     return faces.polygons if isinstance(faces, LazyFaces) else [face.polygon for face in faces]
 
 

@@ -108,7 +108,7 @@ def mesh(hull: Hull) -> Mesh:
 
 
 def sides(face: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """Yield the directed edges of a face."""
+    """Yield the edges of a face as pairs of vertices, in the face's order."""
     return zip(face, (*face[1:], face[0]), strict=True)
 
 

@@ -34,7 +34,7 @@ class PointsError(ArgumentError):
 
 
 def split_decimal(text: str) -> tuple[bool, str, str, int]:
-    """Split ``-12.50E-3`` into (True if negative, "12", "50", -3).  Raise ValueError for text that is no decimal."""
+    """Split ``-12.50E-3`` into (True, "12", "50", -3); True means negative.  Raise ValueError for other text."""
     match = _DECIMAL.fullmatch(text.strip())
     if not match or not (match[2] or match[3]):
         raise ValueError(f"{quoted(text)} is not a decimal number")
@@ -128,7 +128,7 @@ def value_of(text: str) -> Fraction:
 
 
 def coordinates(point: Sequence[str]) -> tuple[Fraction, Fraction, Fraction]:
-    """Return the three numbers of a point, which are valid decimals or fractions."""
+    """Return a point whose coordinates are text, decimals or fractions, as three Fractions."""
     x, y, z = map(value_of, point)
     return x, y, z
 
@@ -161,7 +161,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
 
 
 def sum_of_roots(squares: Iterable[Fraction], digits: int) -> Decimal:
-    """Return the sum of the square roots of ``squares`` to the given digits, exactly if no root needs more."""
+    """Return the sum of the square roots of ``squares`` to ``digits`` digits, exact if every root is that short."""
     work, total = Context(prec=digits + _GUARD, Emin=MIN_EMIN, Emax=MAX_EMAX), Decimal(0)
     for square in squares:
         # The quotient of two roots, unlike the root of a quotient, is exact if both roots are integers.
@@ -207,7 +207,7 @@ def float_text(value: float | Exact) -> str:
 
 
 def scaled_decimal(integer: int, exponent: int) -> str:
-    """Return integer * 10**exponent as a decimal string.  More than 80 digits are written with an exponent."""
+    """Return the number ``integer * 10**exponent`` as text, with an exponent if it would have more than 80 digits."""
     if integer == 0:
         return "0"
     sign, digits = ("-" if integer < 0 else ""), integer_text(abs(integer))
@@ -222,7 +222,7 @@ def scaled_decimal(integer: int, exponent: int) -> str:
 
 
 def exact_text(value: Exact) -> str:
-    """Return a number as the text that a hull holds: a decimal, or a fraction ``p/q`` if its decimal does not end."""
+    """Return a number as text: a decimal, or a fraction ``p/q`` if the decimal expansion does not end."""
     numerator, denominator = value.numerator, value.denominator
     if denominator == 1:
         return scaled_decimal(numerator, 0) if abs(numerator) >= 10**_LONGEST else str(numerator)

@@ -1,7 +1,6 @@
 """Vectors of three exact numbers, integers or fractions; the results have the type of the arguments.
 
-The exact hull (:mod:`modern.exact_hull`) and the port do not share these functions, because the exact hull checks the
-results of the port.
+Butler's procedure (:mod:`modern.port`) does not share these functions with the exact hull, which checks its results.
 """
 
 import math

@@ -115,7 +115,7 @@ class Arithmetic(ABC):
         return np.array(order, np.intp)
 
     def last_largest_square(self, values: Vector) -> int:
-        """Return the index of the value with the largest square.  If squares are equal, choose the last."""
+        """Return the index of the value with the largest square, or the last such index if several are equal."""
         return self.last_largest(values * values)
 
     def all_squares_zero(self, values: Vector) -> bool:
@@ -126,7 +126,7 @@ class Arithmetic(ABC):
         return self.is_zero(self.root(first_square) + self.root(second_square) - self.root(total_square))
 
     def farthest(self, o1: Vector, o2: Vector, o3: Vector) -> int:
-        """Return the index of the largest sum O1**2 + O2**2 + O3**2; of equal sums the last (see :func:`moments`)."""
+        """Return the index of the largest O1**2 + O2**2 + O3**2 (see :func:`moments`), or the last such index."""
         return self.last_largest(o1 * o1 + o2 * o2 + o3 * o3)
 
 
@@ -177,7 +177,7 @@ def at(equation: tuple[Number, ...], point: tuple[Number, ...]) -> Number:
 
 
 def moments(points: Point, p: Point, q: Point) -> tuple[Number, Number, Number]:
-    """Return O1, O2, O3, whose sum of squares grows with the distance from the line P1 P2 (thesis p. 15)."""
+    """Return O1, O2, O3, whose squares add up to a measure of the distance from the line P1 P2 (thesis p. 15)."""
     (x, y, z), (x1, y1, z1), (x2, y2, z2) = points, p, q
     # Statements 125 to 226 of program 1: the components of the cross product of P2 - P and P2 - P1.
     o1 = less((y2 - y) * (z2 - z1), (z2 - z) * (y2 - y1))
@@ -187,6 +187,6 @@ def moments(points: Point, p: Point, q: Point) -> tuple[Number, Number, Number]:
 
 
 def distance_squared(u1: Number, v1: Number, u2: Number, v2: Number) -> Number:
-    """Return (u1 - u2)**2 + (v1 - v2)**2 (thesis p. 27)."""
+    """Return the squared distance of two points in the plane, (u1 - u2)**2 + (v1 - v2)**2 (thesis p. 27)."""
     u, v = u1 - u2, v1 - v2
     return v * v + u * u

@@ -1,4 +1,4 @@
-"""The 1620's decimal numbers as Python objects, computed by a profile of :mod:`emulator.numbers.arithmetic`.
+"""Numbers of the 1620 as Python objects, which Butler's procedure can compute with in numpy arrays.
 
 ``a op b`` is the result that the machine computes if its accumulator holds a. If the machine would also type an error
 code, the result is used and no error is reported. The order of the operands matters in ``ibm1962``, in which zero plus
@@ -59,7 +59,7 @@ class Number1620:
 
 @dataclass(frozen=True)
 class Arithmetic1620(Arithmetic):
-    """The arithmetic of the 1620 for Butler's procedure: vectors of :class:`Number1620` under one profile."""
+    """The decimal arithmetic of the 1620 for Butler's procedure, with the rounding rules of one profile."""
 
     profile: Profile
 
@@ -72,7 +72,7 @@ class Arithmetic1620(Arithmetic):
         return self.profile.rules
 
     def number(self, value: Exact, minus: bool = False) -> Number1620:
-        """Return the first P digits of a number, as READ stores them; ``minus`` marks a zero with a minus sign."""
+        """Convert a number by truncating it to P digits, as the machine reads a card; ``minus`` marks a minus zero."""
         if value == 0:
             return Number1620(0, MINUS_ZERO if minus else ZERO, self.rules)
         digits = self.profile.digits

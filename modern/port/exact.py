@@ -21,7 +21,7 @@ _SPARE_BITS = 5
 
 @dataclass(frozen=True)
 class ExactArithmetic(Arithmetic):
-    """Integers in units of 1/``unit``; ``dtype`` is int64 or object."""
+    """Exact arithmetic for Butler's procedure: integers in units of 1/``unit``; ``dtype`` is int64 or object."""
 
     unit: int
     dtype: Any

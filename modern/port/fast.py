@@ -32,7 +32,7 @@ _WORTH_LOADING = 5_000
 
 @dataclass(frozen=True, slots=True)
 class Steps:
-    """Two functions that exist in numpy and compiled form: add the next vertices; find the points on each plane."""
+    """Two steps of program 3, either in numpy or compiled: adding vertices, and finding the points on each plane."""
 
     stage: Callable[[Polyhedron, bool], growth.Grown | None]
     satisfied: Callable[[Equations, PointTable], list[NDArray[np.int64]]]
@@ -46,7 +46,7 @@ PLAIN = Steps(growth.stage, plain_satisfied)
 
 
 def choose(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, fast: bool | None) -> Steps:
-    """Choose numpy or the compiled kernels for the hull of these points.
+    """Choose between numpy and compiled code (the kernels) for the hull of these points.
 
     ``fast`` selects numpy (False) or the kernels (True). None selects the kernels if numba is installed and they save
     time, that is, for many points or if they are already loaded. Raise NotInstalled if ``fast`` is True and numba is

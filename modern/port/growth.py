@@ -1,4 +1,4 @@
-"""The loop that adds one vertex after the other to the first hull H_1, in the plane or in space (thesis p. 20-33)."""
+"""The loop that adds vertices one by one to the first hull H_1, a triangle or tetrahedron (thesis p. 20-33)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -82,7 +82,7 @@ class Stopped(Exception):
 
 @dataclass
 class Progress:
-    """The points classified so far as inside or boundary, and the modern corrections that changed a step."""
+    """The points found so far to be inside or on the boundary, and the modern corrections that changed a step."""
 
     inside: list[int] = field(default_factory=list)
     boundary: list[int] = field(default_factory=list)

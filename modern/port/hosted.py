@@ -1,4 +1,4 @@
-"""Run Butler's procedure in number systems of the emulator that have a state or no pure functions.
+"""Run Butler's procedure in arithmetics of the emulator that keep a state, for example random rounding.
 
 ``a op b`` is the result of the system's operation.  If it raises an error code, the result is used and no error is
 reported, as in :mod:`modern.port.decimal`.

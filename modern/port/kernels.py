@@ -47,7 +47,7 @@ BLOCK = 256
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
-    """Return the first slot from ``first`` to ``last`` whose plane has the point on it or outside, or -1."""
+    """Return the first slot from ``first`` to ``last`` whose plane shows that the point is not inside, or -1."""
     for slot in range(first, last):
         if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
             return slot
@@ -55,7 +55,7 @@ def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
 
 
 def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
-    """Eliminate the points that are inside all planes; this is the compiled ``Remaining.strike_inside``."""
+    """Remove the points that are inside all planes.  This is the compiled version of ``Remaining.strike_inside``."""
     made, tried, eliminated_before = state[MADE], state[TRIED], state[GONE]
     next_index = state[VERTICES]
     for index in range(state[VERTICES], state[COUNT]):
@@ -116,7 +116,7 @@ def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any,
 
 
 def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
-    """Return the index of the next vertex, -1 if no point is outside, or -2 if a plane misses its defining points."""
+    """Return the index of the next vertex, -1 if no point is outside, -2 if a plane misses a point that defines it."""
     while state[CHECK] < state[MADE]:
         slot = state[CHECK]
         if slots.alive[slot]:
@@ -155,7 +155,7 @@ def planes_to_replace(point: Any, slots: Any, scratch: Any, state: NDArray[np.in
 
 
 def sort_descending(order: NDArray[np.int64], values: NDArray[Any], first: int, last: int) -> None:
-    """Sort from the largest value to the smallest; among equals the later slot comes first (Shell's method)."""
+    """Sort planes by value, largest first; of equal values the later slot comes first (Shell's method)."""
     gap = 1
     while gap < last - first:
         gap = 3 * gap + 1
@@ -245,7 +245,7 @@ def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) ->
 
 
 def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
-    """Return True if, after a pair of equal planes is deleted, at most one of the planes that follow it is left."""
+    """Return True if deleting equal planes in pairs leaves at most one plane after some pair."""
     remaining = count
     for k in range(count):
         if partner[k] < 0:
@@ -258,7 +258,7 @@ def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
 
 
 def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any) -> int:
-    """Make a point a vertex; this is the compiled ``Polyhedron.expand``."""
+    """Make a point a vertex of the hull.  This is the compiled version of ``Polyhedron.expand``."""
     replaced_count = planes_to_replace(corner(cloud.coordinates, index), slots, scratch, state)
     made, new = state[MADE], state[VERTICES]
     last = made + 3 * replaced_count

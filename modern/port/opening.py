@@ -1,7 +1,7 @@
 """Program 1: find three points that are not on a line, then a fourth point outside their plane.
 
-Thesis p. 11-17 and 29, listing p. 64-74. Numbers in parentheses are statement labels of the listing. Points are
-counted from 0 here, from 1 in the listing.
+Thesis p. 11-17 and 29, FORTRAN listing p. 64-74. Numbers in parentheses are statement numbers of the listing. Points
+are counted from 0 here, from 1 in the listing.
 """
 
 from dataclasses import dataclass
@@ -39,7 +39,7 @@ class Opening:
 
 
 def direction(arithmetic: Arithmetic, p: Point, q: Point) -> int:
-    """Return the first axis on which two points differ: 1 for x, 2 for y, 3 for z (KPERP; 108 to 112, 146+1, 151)."""
+    """Return the first axis on which two points differ: 1 for x, 2 for y, 3 for z (statements 108 to 112)."""
     if not arithmetic.is_zero(p[0] - q[0]):
         return 1
     return 3 if arithmetic.is_zero(p[1] - q[1]) else 2
@@ -70,7 +70,7 @@ def extremes(arithmetic: Arithmetic, points: PointTable) -> tuple[int, int, int]
 
 
 def bring_to_front(points: PointTable, first: int, second: int) -> None:
-    """Exchange the two extreme points with those at positions 0 and 1 (statements 155 to 158)."""
+    """Exchange the two extreme points with the points at positions 0 and 1 (statements 155 to 158)."""
     points.swap(first, 0)
     # The first exchange moved point 0. If that is the second extreme, it is now where the first one was (157).
     points.swap(first if second == 0 else second, 1)
@@ -92,7 +92,7 @@ def on_the_line(arithmetic: Arithmetic, points: PointTable, perpendicular: int, 
 
 
 def all_within(arithmetic: Arithmetic, equation: tuple[Scalar, ...], values: Vector, slack: Slack) -> bool:
-    """Return True if all values of an equation lie between -e and +e, where e is its tolerance."""
+    """Return True if the values of a plane's or line's equation all lie between -e and +e, its tolerance."""
     e = slack.of(tuple(arithmetic.filled([c]) for c in equation))
     return not arithmetic.sign(snapped(arithmetic, values, e)).any()
 
@@ -136,7 +136,7 @@ def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, t
 
 
 def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
-    """Return C, a point inside the hull: the mean of the first ``count`` points (199+1; program 2, 102+7)."""
+    """Return C, a point inside the hull: the mean of the first ``count`` points (statement 199+1)."""
     x, y, z = (row[:count] for row in points.rows)
 
     def average(row: Vector) -> Scalar:
@@ -149,7 +149,7 @@ def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
 
 
 def tetrahedron(arithmetic: Arithmetic, points: PointTable, slack: Slack | None) -> Equations:
-    """Return the four planes of the first hull H_1, not yet oriented (statements 200 to 203)."""
+    """Return the planes of the first hull H_1, a tetrahedron, not yet oriented (statements 200 to 203)."""
     corners = np.array([(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)]).T
     p, q, r = (points.several(row) for row in corners)
     coefficients = np.stack(plane(p, q, r))

@@ -127,7 +127,7 @@ def _stage(
 
 
 def point_texts(arithmetic: Arithmetic, coordinates: Vector) -> Sequence[tuple[str, str, str]]:
-    """Return the coordinates of all points as text, as the arithmetic stores them; floats are converted on access."""
+    """Return the coordinates of all points as text.  Those of floats are converted on access."""
 
     def member(index: int) -> tuple[str, str, str]:
         x, y, z = texts(arithmetic, list(coordinates[:, index]), (1, 1, 1))

@@ -76,7 +76,7 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:
-    """Return the named arithmetic, and the points as three rows of its numbers; if ``wide``, exact ones avoid int64."""
+    """Return the named arithmetic, and the points as three rows of its numbers.  If ``wide``, do not use int64."""
     arithmetic = fixed_arithmetic(name)
     if isinstance(arithmetic, FloatArithmetic) and isinstance(points, np.ndarray) and points.dtype == arithmetic.dtype:
         return arithmetic, _floats(points)

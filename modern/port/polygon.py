@@ -1,6 +1,7 @@
 """Program 2: the hull of points in a plane (thesis p. 17-28, listing p. 79-87).
 
-Numbers in parentheses are statement labels of the listing. Points are counted from 0 here, from 1 in the listing.
+Numbers in parentheses are statement numbers of the FORTRAN listing. Points are counted from 0 here, from 1 in the
+listing.
 """
 
 from collections.abc import Sequence
@@ -21,13 +22,13 @@ _FROM, _TO, _CONSTANT = np.array([0, 1, 2]), np.array([1, 2, 0]), np.array([0, 1
 
 
 def projection(arithmetic: Arithmetic, plane: tuple[Scalar, ...]) -> int:
-    """Return the axis along which points of a plane are projected: 1 for x, 2 for y, 3 for z (KPROJ; 209 to 217)."""
+    """Return the axis along which the points are projected: 1 for x, 2 for y, 3 for z (statements 209 to 217)."""
     a_is_zero, b_is_zero = (arithmetic.is_zero(c) for c in plane[:2])
     return 1 if not a_is_zero else 2 if not b_is_zero else 3
 
 
 def lines(points: PointTable, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
-    """Return the equations (3.5) of lines, each through two points; the point ``by`` gives the constant term."""
+    """Return the equations (thesis: 3.5) of lines, each through two points; the point ``by`` gives the constant."""
     (u1, v1, _), (u2, v2, _), (cu, cv, _) = (points.several(p) for p in (first, second, by))
     return np.stack(line(u1, v1, u2, v2, cu, cv))
 
@@ -51,7 +52,7 @@ class Polygon:
         self.table = Equations(self.arithmetic, self.slack, self.turn(_FROM, _TO, _CONSTANT), _FIRST.copy())
 
     def run(self) -> None:
-        """Expand the first triangle H_1 to the hull of all points (statements 103 to 135), or raise Stopped."""
+        """Add vertices to the triangle H_1 until no point is outside (statements 103 to 135), or raise Stopped."""
         grow(self)
 
     def turn(self, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
@@ -76,7 +77,7 @@ class Polygon:
         return None
 
     def expand(self, index: int) -> int:
-        """Make the point at ``index`` a vertex: two lines replace that which it is outside of (133 to 135)."""
+        """Make the point at ``index`` a vertex, and replace the line that it is outside of by two (statement 133)."""
         new = self.vertices
         self.vertices += 1
         self.points.swap(index, new)
@@ -130,10 +131,10 @@ def strike_between(
 def other_lines(
     arithmetic: Arithmetic, table: Equations, points: PointTable, ends: NDArray[np.int64], keep: int
 ) -> NDArray[np.bool_]:
-    """Return a mask that is False for the equations of the line through ``ends``, except for ``keep`` (161 to 167).
+    """Return a mask that is False for further equations of the line through ``ends`` (statements 161 to 167).
 
-    As in the listing, the index KK is not adjusted when earlier equations are deleted. Raise Stopped if the listing
-    would read beyond the end of its table.
+    ``keep`` is the equation that remains. As in the listing, the index KK is not adjusted when earlier equations are
+    deleted. Raise Stopped if the listing would read beyond the end of its table.
     """
     first, second = (points.at(int(i))[:2] for i in ends)
     both = (arithmetic.sign(table.all_at(first)) == 0) & (arithmetic.sign(table.all_at(second)) == 0)
@@ -154,7 +155,7 @@ def other_lines(
 
 
 def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, int], progress: Progress) -> int:
-    """Return the index of that of three collinear points which lies between the others (statements 155 to 157)."""
+    """Return which of three points on a line lies between the other two (statements 155 to 157)."""
     (u1, v1, _), (u2, v2, _), (u3, v3, _) = (points.at(i) for i in three)
     a = distance_squared(u1, v1, u2, v2)
     b = distance_squared(u1, v1, u3, v3)
@@ -169,12 +170,12 @@ def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, in
 
 
 def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the end points after all points that are not vertices have been removed from the count."""
+    """Return the numbers of the end points, renumbered without the points that are not vertices."""
     return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 
 def listed_numbers(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the end points as the listing computes them, at times wrongly (statements 179+2 to 191)."""
+    """Return the numbers of the end points as the listing computes them, sometimes wrongly (statement 179+2 on)."""
     numbers = []
     for number in ends.ravel().tolist():
         # The listing compares with the number already lowered, so it can skip a point that is no vertex.

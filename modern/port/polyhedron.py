@@ -1,6 +1,6 @@
 """Program 3: the hull of points in space (thesis p. 29-33, listing p. 93-102).
 
-Numbers in parentheses are statement labels of the listing. Indices start from 0 here, from 1 in the listing.
+Numbers in parentheses are statement numbers of the FORTRAN listing. Indices start from 0 here, from 1 in the listing.
 """
 
 from collections.abc import Callable, Sequence
@@ -20,7 +20,7 @@ LISTED_PLANES, PLANES = 98, 193
 
 @dataclass(frozen=True)
 class Fresh:
-    """The planes that a new vertex adds, and flags for a plane through the point C or with only zeros."""
+    """The planes through a new vertex, and flags: does a plane pass through C, or have only zero coefficients?"""
 
     coefficients: Vector
     defining: NDArray[np.int64]
@@ -45,11 +45,11 @@ class Polyhedron:
     text: bool = False
 
     def run(self, grow_stage: "Callable[[Polyhedron, bool], growth.Grown | None]" = growth.stage) -> None:
-        """Add vertices to the tetrahedron H_1 with ``grow_stage`` until no point is outside (103 to 160)."""
+        """Add vertices to the tetrahedron H_1 by ``grow_stage`` until no point is outside (statements 103 to 160)."""
         growth.grow(self, grow_stage)
 
     def outside_point(self) -> int | None:
-        """Return the point farthest outside the first plane that has points outside, or None (115 to 125)."""
+        """Return the point farthest outside the first plane with points outside, or None (statements 115 to 125)."""
         while self.to_check < len(self.table):
             # Statements 116 to 119: the three defining points must satisfy the equation exactly.
             values = self.table.one_at(self.to_check, self.points.rows)
@@ -98,7 +98,9 @@ class Polyhedron:
         return max(PLANES, 4 * len(self.points) - 11)
 
     def three_planes(self, replaced: NDArray[np.int64], new: int) -> Fresh:
-        """Return three planes for each replaced one: through the new vertex and two of its points (126 to 135)."""
+        """Return three planes for each replaced one, by the new vertex and two of its points (statements 126 to
+        135).
+        """
         defining = np.repeat(replaced, 3, axis=1)
         columns = np.arange(defining.shape[1])
         # I123 of the listing: the new vertex takes the place of MM, then NN, then KK (statements 127 to 129).
@@ -109,7 +111,7 @@ class Polyhedron:
         return Fresh(coefficients, defining, bool(through.any()), degenerate)
 
     def note(self, fresh: Fresh, size: int) -> None:
-        """Record that the listing would have stopped here: a plane passes through C, or the table of planes is full."""
+        """Record that Butler's listing would have stopped here: a plane passes through C, or the table is full."""
         if fresh.through:
             self.progress.correct(growth.THROUGH_CENTRE)
         if size > LISTED_PLANES:
@@ -175,7 +177,7 @@ On = list[NDArray[np.int64]]
 
 
 def strike_repeats(table: Equations, on: On, count: int, progress: growth.Progress) -> On:
-    """Delete all equations of a plane except the first, and return the points on each plane (statements 164 to 174)."""
+    """Delete repeated equations of a plane, and return the points on each plane (statements 164 to 174)."""
     mm, nn, kk = table.defining
     struck_by = np.full(len(table), -1)
     member = np.zeros(count, np.bool_)
@@ -197,7 +199,7 @@ def strike_repeats(table: Equations, on: On, count: int, progress: growth.Progre
 
 
 def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
-    """Return the indices, except 0, of the equations that also hold at points other than the three that define them."""
+    """Return the indices from 1 on of equations that hold at more points than the three that define them."""
     three = np.flatnonzero(np.fromiter(map(len, on), np.int64, len(on)) == 3)
     only_defining = np.zeros(len(on), np.bool_)
     if three.size:
@@ -207,6 +209,6 @@ def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
 
 
 def are_vertices(on: On, count: int, point_count: int) -> NDArray[np.bool_]:
-    """Return a mask of the vertices: the first ``count`` points, if on three or more planes (174 to 182)."""
+    """Return a mask of the vertices: those points that lie on at least three planes (statements 174 to 182)."""
     planes_satisfied = np.bincount(np.concatenate(on), minlength=point_count)
     return np.asarray((planes_satisfied >= 3) & (np.arange(point_count) < count), dtype=np.bool_)

@@ -192,7 +192,7 @@ class _Run:
         )
 
     def finished(self, label: str) -> Hull:
-        """Return the result for the decisive statement ``label``, with the points and corrections recorded so far."""
+        """Return the result, for which the statement ``label`` was decisive, with points and corrections so far."""
         return replace(
             self.result,
             statement=label,
@@ -218,7 +218,7 @@ class _Run:
         return None
 
     def move_back(self, points: PointTable, table: Equations, centre: tuple[Scalar, ...]) -> None:
-        """Restore the original origin for points and constant terms. Digits lost in the translation stay lost."""
+        """Move the origin back: restore points and constant terms.  Digits lost in the translation stay lost."""
         if not self.translate:
             return
         constant = table.coefficients[-1]

@@ -65,7 +65,7 @@ class Slack:
     relative: bool
 
     def of(self, coefficients: tuple[Vector, ...]) -> Vector:
-        """Return the tolerance e for each equation. ``coefficients`` includes the constant terms."""
+        """Return the tolerance e for each equation.  ``coefficients`` are rows A, B, C and the constant terms."""
         arithmetic = self.arithmetic
         degree = 1 if self.relative else len(coefficients) - 1
         e = arithmetic.filled([arithmetic.tolerance(self.size, degree)] * len(coefficients[0]))
@@ -119,7 +119,7 @@ class Equations:
         defining: NDArray[np.int64],
         selected: NDArray[np.bool_],
     ) -> None:
-        """Delete the equations outside the mask ``retained``, then append the selected ones of the new equations."""
+        """Keep the equations for which ``retained`` is True, and append the new equations that ``selected`` marks."""
         # The listing closes up a deleted equation at once (statements 157 and 158 of program 3).
         fresh = coefficients[:, selected]
         if self.slack and self.tolerances is not None:
@@ -152,7 +152,7 @@ class Equations:
         return snapped(self.arithmetic, at(tuple(coefficients), point), slack)
 
     def signs(self, points: Vector, first: int = 0) -> NDArray[np.int8]:
-        """Return the signs at points (columns) of the equations from index ``first`` on (rows)."""
+        """Return the signs of equations from index ``first`` on (rows) at the given points (columns)."""
         table = self.coefficients[:, first:, None]
         count = len(table) - 1
         slack = None if self.tolerances is None else self.tolerances[first:, None]

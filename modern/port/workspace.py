@@ -79,7 +79,7 @@ def scratch_for(slots: int, number: Any) -> Scratch:
 
 
 class Rules(NamedTuple):
-    """The constants of a run: the inner point C, the tolerance e or -1, and sizes of the table of planes."""
+    """The constants of a run: the inner point C, the tolerance e (or -1), and limits for the number of planes."""
 
     centre: NDArray[Any]
     moved: bool
@@ -125,7 +125,7 @@ def tolerance(coefficients: Any, rules: Any) -> Any:
 
 
 def pack(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> None:
-    """Move the remaining planes together, so that no slot between them is empty."""
+    """Move the remaining planes together, so that no empty slot lies between them."""
     used, new_slots = state[MADE], scratch.order
     check, tried, k = -1, -1, 0
     for slot in range(used):

@@ -1,7 +1,7 @@
 """Read the cards that the hull programs punch, and compare results regardless of order and scale.
 
-The last program of a run punches a hull.  Program 1, which runs first, punches the intermediate deck, which program 2
-or 3 reads.  The cards follow the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.
+Program 1, which runs first, punches an intermediate deck.  Program 2 or 3 reads it and punches the hull.  The cards
+follow the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.
 """
 
 import re
@@ -49,14 +49,14 @@ def floats(card: str) -> Point:
 
 @dataclass(frozen=True, slots=True)
 class Sections:
-    """The numbers on the cards of a hull as text, in the rows and sections in which the programs punch them."""
+    """The numbers on the cards of a hull as text, grouped into sections and rows as the programs punch them."""
 
     points: Mapping[str, tuple[tuple[str, ...], ...]]
     satisfied: tuple[tuple[int, ...], ...]
 
 
 def sections(cards: Sequence[str]) -> Sections:
-    """Read the cards that the last program of a run punched, and ignore cards that do not belong to a hull."""
+    """Read the cards that the last program of a run punched; cards that do not belong to a hull are ignored."""
     rows: dict[str, list[tuple[str, ...]]] = {name: [] for name in SECTIONS}
     satisfied: list[tuple[int, ...]] = []
     section = "vertices"

@@ -1,4 +1,4 @@
-"""Run program 1 on a data deck, then the program that its typewriter names (thesis p. 59)."""
+"""Run the hull programs on a data deck: program 1, then the program that its typewriter names (thesis p. 59)."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ Watch = Callable[[Program, Machine], None]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Step:
-    """The run of one program: the name of the built-in program, its number in the thesis, its deck, its result."""
+    """The run of one hull program: its name, its number in the thesis, the deck it read, and the result."""
 
     name: str
     number: int
@@ -35,7 +35,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class HullRun:
-    """The runs of the programs for one data set, in order; the last program punched the cards with the hull."""
+    """The runs of the programs for one data set, in order.  The last program punched the cards with the hull."""
 
     steps: tuple[Step, ...]
 
@@ -64,7 +64,7 @@ class HullRun:
 
 
 class Refusals:
-    """A detector of the messages with which a program rejects its data, from the events of a run as they occur."""
+    """A detector of typed messages with which a program rejects its data.  It is given the events of a run."""
 
     def __init__(self) -> None:
         self._last = self._stopped = ""
@@ -101,7 +101,7 @@ def second_program(result: Result) -> int | None:
 
 
 def punched_deck(step: Step) -> Deck:
-    """Return the cards that a step punched, as a deck for the next program."""
+    """Return the cards that a program punched, as a deck for the next program."""
     return deck_from_lines(f"cards from {step.name}", step.result.punched)
 
 

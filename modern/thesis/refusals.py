@@ -51,7 +51,7 @@ class Cause:
 
 
 def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tuple[HullRun, Cause | None]:
-    """Run the hull programs by calling ``run``, and return the run and, if it found no hull, the cause."""
+    """Run the hull programs by calling ``run``.  Return the run, and the cause if there is no hull, else None."""
     machines: list[Machine] = []
 
     def record(program: Program, machine: Machine) -> None:
@@ -65,7 +65,7 @@ def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tupl
 
 
 def cause(step: Step, machine: Session) -> Cause | None:
-    """Return the cause if a program found no hull, or None.  ``machine`` ran the program and is in its final state."""
+    """Return the reason why a program found no hull, or None if it found one, from its machine's final state."""
     ending, refused = step.result.ending, refusal(step.result)
     if refused:
         event = next(e for e in reversed(step.result.events) if e.what == "type" and e.text in REFUSALS)
