@@ -145,7 +145,7 @@ def steps_of(deck: Deck, arithmetic: Numbers) -> Iterator[tuple[Step, list[Decis
 
 
 def compiled(folder: Path, command: str) -> dict[str, Path]:
-    """Translate and compile programs 1 to 3 in a folder, and return the executable files."""
+    """Translate and compile programs 1 to 3 with the given compiler command.  Return the executable files."""
     language, ending = COMPILERS[command]
     executables = {}
     for name in PROGRAMS:
@@ -157,7 +157,7 @@ def compiled(folder: Path, command: str) -> dict[str, Path]:
 
 
 def compare(count: int, folder: Path, commands: Sequence[str] = tuple(COMPILERS)) -> dict[str, Counts]:
-    """Compare the compiled programs with the emulator in doubles on a number of decks."""
+    """Compare the translated and compiled programs with the emulator, all in doubles, on ``count`` decks."""
     executables = {command: compiled(folder, command) for command in commands}
     totals = {command: Counts() for command in commands}
     for deck in samples(count):

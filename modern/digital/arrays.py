@@ -46,7 +46,7 @@ def parse_npy(data: bytes, source: str) -> NDArray[Any]:
 
 
 def parse_npz(data: bytes, source: str, name: str | None = None) -> NDArray[Any]:
-    """Return the array called ``name`` of an NPZ file, or its only array.
+    """Return the array called ``name`` in an NPZ file, or its only array.
 
     Raise VolumeError if there is no such array, if ``name`` is needed, and in the cases of ``parse_npy``.
     """
@@ -110,7 +110,7 @@ def check_size(shape: Sequence[int], source: str) -> None:
 
 
 def _as_truth(array: NDArray[Any]) -> NDArray[Any]:
-    """Convert bytes that stand for truth values to 0 and 1, because numpy assumes that they have no other values."""
+    """Convert the bytes of truth values to 0 and 1, because numpy assumes that they have no other values."""
     return array.view(np.uint8) != 0 if array.dtype == np.bool_ else array
 
 

@@ -60,7 +60,7 @@ class DigitalHull:
 
     @property
     def deficiency(self) -> int:
-        """The number of voxels in the convex deficiency, the hull without the volume."""
+        """The number of voxels that are in the hull but not in the volume (the convex deficiency)."""
         return self.voxels - self.given
 
     @property
@@ -128,7 +128,7 @@ def placed(
     origin: Sequence[Any] | None = None,
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> Volume:
-    """Return a volume unchanged, or convert an array to the volume of its nonzero values at the given position."""
+    """Return a volume unchanged, or convert an array to the volume of its nonzero values, at the given position."""
     if hasattr(volume, "GetDirection"):
         return placed(*_of_image(volume))
     if not isinstance(volume, Volume):

@@ -134,7 +134,7 @@ def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) ->
 
 
 def _sides(x: Grid, y: Grid, row: Grid, width: int) -> tuple[Grid, Grid]:
-    """Return the least and greatest y of triangles in a row.  Each triangle is on the left of its edges."""
+    """Return the least and greatest y of each triangle in its row ``row`` of a grid."""
     least, most = np.zeros(len(row), dtype=np.int64), np.full(len(row), width - 1, dtype=np.int64)
     for k in range(3):
         run, rise = x[:, (k + 1) % 3] - x[:, k], y[:, (k + 1) % 3] - y[:, k]
@@ -147,13 +147,13 @@ def _sides(x: Grid, y: Grid, row: Grid, width: int) -> tuple[Grid, Grid]:
 
 
 def _count_up(counts: Grid) -> Grid:
-    """Return 0, 1, ..., count - 1 for each of the counts, joined into one array."""
+    """Return one array with the numbers 0, 1, ..., count - 1 for each of the counts."""
     ends = np.cumsum(counts)
     return np.arange(int(ends[-1]) if len(ends) else 0) - np.repeat(ends - counts, counts)
 
 
 def below_edges(u: Grid, v: Grid, width: int) -> tuple[Grid, Grid]:
-    """Return, for each u below ``width``, the lowest and highest grid point (u, v) of a polygon with these corners."""
+    """Return, for each u below ``width``, the lowest and highest grid point (u, v) of a polygon with corners (u, v)."""
     low, high = np.ones(width, dtype=np.int64), np.zeros(width, dtype=np.int64)
     places = np.arange(u.min(), u.max() + 1)
     low[places] = _chain(u, v, places)

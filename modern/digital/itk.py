@@ -50,7 +50,7 @@ _CHILD = str(Path(__file__).with_name("itk_child.py"))
 
 
 def kind_of(path: str) -> str | None:
-    """Return the format in which SimpleITK reads a path, or None for other files. A folder is a DICOM series."""
+    """Return the name of the format in which SimpleITK reads a path, or None if another reader is used."""
     if path == "-" or "\0" in path:
         return None
     if os.path.isdir(path):

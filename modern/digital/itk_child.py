@@ -43,7 +43,7 @@ def main(arguments: Sequence[str]) -> None:
 
 
 def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str, Any]:
-    """Write the array and return the other facts. Raise Refused, or any error of the library."""
+    """Write a file's values to ``array.npy``, and return the other facts.  Raise Refused or the library's errors."""
     import numpy as np
 
     sitk: Any = importlib.import_module("SimpleITK")

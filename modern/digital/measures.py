@@ -39,7 +39,7 @@ class Measures:
 
     @property
     def deficiency(self) -> Fraction:
-        """The volume of the convex deficiency, the hull without the solid (Yau and Srihari, section 1)."""
+        """The volume of the hull that the solid does not fill, the convex deficiency (Yau and Srihari, section 1)."""
         return self.hull_volume - self.volume
 
 

@@ -256,7 +256,7 @@ def _origin(fields: Mapping[str, tuple[int, str]], width: int, source: str) -> P
 
 
 def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | None]:
-    """Read ``count`` vectors such as ``(1,0,0)`` with equal numbers of components. ``none`` gives no vector."""
+    """Read ``count`` vectors of equal length, such as ``(1,0,0)``.  The word ``none`` gives None."""
     matches = list(_VECTOR.finditer(text))
     if len(matches) != count or _VECTOR.sub("", text).strip():
         raise VolumeError(f"{what}: expected {count} vectors such as (1,0,0), found {quoted(text)}")

@@ -55,7 +55,7 @@ class Surface(NamedTuple):
 
 
 def value(at: Points, surface: Surface, f: int, p: int) -> int:
-    """Return the value of the plane of facet ``f`` at point ``p``, positive outside."""
+    """Return the value of the plane of facet ``f`` at point ``p``, which is positive outside."""
     a = surface.plane
     return a[4 * f] * at.x[p] + a[4 * f + 1] * at.y[p] + a[4 * f + 2] * at.z[p] + a[4 * f + 3]
 

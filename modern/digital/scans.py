@@ -105,7 +105,7 @@ def chosen(scan: Scan, choice: Choice | None = None) -> Chosen:
 
 
 def labels_of(scan: Scan) -> tuple[int, ...]:
-    """Return the integer values of a scan except 0, in order. Other values are not labels."""
+    """Return the labels of a scan: its integer values except 0, in order.  Other values are not labels."""
     return tuple(sorted({label for part in _parts(scan.values) for label in _labels(part)}))
 
 

@@ -59,7 +59,7 @@ class Volume:
 
     @property
     def dimension(self) -> int:
-        """2 for a picture, 3 for a volume."""
+        """The number of axes: 2 for a picture, 3 for a volume."""
         return self.array.ndim
 
     @property

@@ -56,7 +56,7 @@ class World:
             raise VolumeError("the spacing of an axis is 0, or the directions of the axes are linearly dependent")
 
     def place(self, voxel: Sequence[Exact]) -> Position:
-        """Return the physical coordinates of a voxel's centre, or of a corner, whose indices are half-integers."""
+        """Return the physical coordinates of a voxel's centre (integer indices) or of a corner (half-integers)."""
         return tuple(
             sum((step[k] * number for step, number in zip(self.steps, voxel, strict=True)), start)
             for k, start in enumerate(self.origin)
@@ -68,11 +68,14 @@ class World:
         return len(self.steps) == len(self.origin) == 3 and determinant(self.steps) < 0
 
     def moved(self, voxel: Sequence[int]) -> "World":
-        """Return the same position for coordinates that are counted from another voxel."""
+        """Return the same position for voxel coordinates that are counted from ``voxel``."""
         return replace(self, origin=self.place(voxel))
 
     def turned(self, space: str) -> "World":
-        """Return the same position in another anatomical space.  Raise VolumeError if a space is not anatomical."""
+        """Return the same position with the axes of another anatomical space, such as ``right-anterior-superior``.
+
+        Raise VolumeError if either space is not anatomical.
+        """
         if space not in ANATOMICAL or self.space not in ANATOMICAL or len(self.origin) != 3:
             raise VolumeError(f"expected one of the spaces {', '.join(ANATOMICAL)}, found {self.space or 'none'}")
         signs = [

@@ -1,4 +1,4 @@
-"""Line drawings of hulls: parallel projection, hidden edges dashed, vertices numbered as the programs number them.
+"""Draw hulls as lines in parallel projection: hidden edges dashed, vertices numbered as Butler's programs do.
 
 An edge of a convex solid is hidden if and only if both of its faces are turned away from the eye. The sign of formula
 (1) of Nakamae and Nishita (``modern.drawing.visible``) decides this, in fractions of the exact coordinates.
@@ -93,7 +93,7 @@ def width_of(picture: Scene, width: int | None) -> int:
 
 
 def checked_width(width: int) -> int:
-    """Return the width of a picture in pixels. Raise ExportError if it is out of range."""
+    """Return the given width of a picture in pixels.  Raise ExportError if it is out of range."""
     if not _NARROWEST <= width <= _WIDEST:
         raise ExportError(f"a picture cannot be {width} pixels wide; the width is from {_NARROWEST} to {_WIDEST}")
     return width

@@ -38,7 +38,7 @@ class Label:
 
     @property
     def half(self) -> Place:
-        """Half the width and height of the text, estimated without the font."""
+        """Half the width and half the height of the text, in pixels, estimated without the font."""
         return len(self.text) * self.size * _WIDTH / HEIGHT / 2, self.size / 2
 
 

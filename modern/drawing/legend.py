@@ -39,7 +39,7 @@ def band(picture: Scene, width: int, top: int, title: str, numbered: bool) -> It
 
 
 def wrapped(text: str, room: int) -> list[str]:
-    """Break a text into lines of at most ``room`` pixels, estimated without the font. An empty text has no lines."""
+    """Break a text into lines of at most ``room`` pixels.  Widths are estimated without the font."""
     lines: list[str] = []
     for word in text.split():
         if lines and (len(lines[-1]) + 1 + len(word)) * _WIDEST <= room:

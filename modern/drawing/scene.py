@@ -18,7 +18,7 @@ _ONE = Fraction(1)
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """An edge between two vertices, counted from 0. It is hidden if all its faces are turned away."""
+    """An edge of a hull in a picture: its two vertices, counted from 0, and whether it is hidden."""
 
     start: int
     end: int
@@ -181,7 +181,7 @@ def _light(normal: Vector, sight: View) -> Fraction:
 
 
 def eye_of(texts: Sequence[str]) -> tuple[Fraction, ...]:
-    """Read a direction from three decimal numbers. Raise ExportError if they are invalid."""
+    """Read the direction of view from three decimal numbers.  Raise ExportError if they are invalid."""
     if len(texts) != 3:
         raise ExportError(f"the direction of view: expected 3 numbers X,Y,Z, found {len(texts)}")
     numbers = []

@@ -46,20 +46,20 @@ def polygon(corners: Iterable[Pixel], attributes: str = "") -> str:
 
 
 def circle(centre: Pixel, radius: str, title: str = "", attributes: str = "") -> str:
-    """Return a circle, with a title that a browser shows as a tooltip."""
+    """Return a circle as an SVG element, with an optional title, which a browser shows as a tooltip."""
     start = f'<circle cx="{number(centre.x)}" cy="{number(centre.y)}" r="{radius}"{_after_space(attributes)}'
     return f"{start}>{_title(title)}</circle>" if title else f"{start}/>"
 
 
 def square(centre: Pixel, half: int, title: str = "", attributes: str = "") -> str:
-    """Return a square with sides ``half`` hundredths from the centre, with an optional title."""
+    """Return a square as an SVG element; ``half`` is half its side in hundredths of a pixel."""
     x, y, size = number(centre.x - half), number(centre.y - half), number(2 * half)
     start = f'<rect x="{x}" y="{y}" width="{size}" height="{size}"{_after_space(attributes)}'
     return f"{start}>{_title(title)}</rect>" if title else f"{start}/>"
 
 
 def saltire(centre: Pixel, arm: int, title: str = "", attributes: str = "") -> str:
-    """Return a diagonal cross whose ends are ``arm`` hundredths from the centre along both axes."""
+    """Return a diagonal cross as an SVG element; ``arm`` is half its width in hundredths of a pixel."""
     ends = [(centre.x + dx * arm, centre.y + dy * arm) for dx, dy in ((-1, -1), (1, 1), (-1, 1), (1, -1))]
     a, b, c, d = (f"{number(x)} {number(y)}" for x, y in ends)
     start = f'<path d="M{a}L{b}M{c}L{d}"{_after_space(attributes)}'
@@ -67,7 +67,7 @@ def saltire(centre: Pixel, arm: int, title: str = "", attributes: str = "") -> s
 
 
 def text(place: Pixel, content: str, attributes: str = "") -> str:
-    """Return a line of text; ``place`` is on its base line."""
+    """Return a line of text as an SVG element; ``place`` is a point on its base line."""
     return f'<text x="{number(place.x)}" y="{number(place.y)}"{_after_space(attributes)}>{escape(content)}</text>'
 
 
@@ -102,7 +102,7 @@ _ARM, _SMALL_ARM = 320, 200
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """A kind of mark: its class in the file, its name in the legend, its shape and its SVG attributes."""
+    """A kind of mark in pictures: its CSS class, its name in the legend, its shape and its SVG attributes."""
 
     key: str
     name: str
@@ -128,14 +128,14 @@ def point_mark(style: Style, at: Pixel, title: str = "", attributes: str = "", s
 
 
 def sample(style: Style, at: Pixel) -> str:
-    """Return the mark of a style as the legend shows it."""
+    """Return a mark of the given style, drawn as a sample in the legend."""
     if style.shape == "line":
         return line(Pixel(at.x - 900, at.y), Pixel(at.x + 900, at.y), style.attributes)
     return point_mark(style, at, attributes=style.attributes)
 
 
 def check_picture(path: str) -> None:
-    """Raise ExportError if a picture needs typst, which is not installed."""
+    """Raise ExportError if writing this picture needs the package typst, which is not installed."""
     if path.lower().endswith(PICTURES[1:]) and find_spec("typst") is None:
         raise ExportError(f"{path}: PDF and PNG need typst: pip install 'hull1620[plot]'")
 

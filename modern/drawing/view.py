@@ -50,7 +50,7 @@ _ROOT = 10**15
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """A direction of view in lowest terms, and the two axes of the image, whose lengths are not 1."""
+    """A direction of view as integers in lowest terms, and the two axes of the picture, which are not unit vectors."""
 
     eye: Eye
     right: Eye

@@ -13,7 +13,7 @@ _NOT_FINITE = ("nan", "inf", "infinity")
 
 
 def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the line number and the fields of each row, without surrounding blanks.
+    """Read a text of rows and yield, for each, its line number and its fields without surrounding blanks.
 
     The first row determines the separator: a semicolon, else a comma, else a tab, else blanks.  Blank lines and lines
     that begin with ``#`` are skipped.  A first row is also skipped if it is a heading: none of its fields has a digit,

@@ -38,7 +38,7 @@ class DataSet:
 
 @dataclass(frozen=True, slots=True)
 class DeckWarning:
-    """A warning about a card: its place, and a text or the FORMAT reader's remark on the number called ``name``."""
+    """A warning about a card: its place, and a text, or a remark about the number called ``name``."""
 
     source: str
     card: int
@@ -143,7 +143,7 @@ def read_coordinates(card: Card, rules: Rules) -> tuple[FieldNumber, FieldNumber
 
 
 def exact_points(deck: Deck) -> tuple[dict[int, Point], tuple[str, ...]]:
-    """Return the points of a deck's first data set by card number, and warnings.
+    """Return the points of a deck's first data set, by card number, and warnings.
 
     All digits of a field are read, whereas the programs would truncate it after the eighth digit.
     """

@@ -18,7 +18,7 @@ from modern.geometry.mesh import ExportError, Mesh, mesh
 def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
     """Return the text of a file in one of the formats ``HULLS``.
 
-    Coordinates without a finite decimal are rounded to ``digits`` digits (None raises ExportError), except in JSON.
+    Except in JSON, coordinates without a finite decimal are rounded to ``digits`` digits; None raises ExportError.
     """
     if form == "json":
         return json.write(hull)

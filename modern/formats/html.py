@@ -12,7 +12,7 @@ from modern.geometry.mesh import ExportError, Mesh
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """Return the text of the page.  Coordinates are exact, or have ``digits`` digits if they are no finite decimals."""
+    """Return the page as HTML.  Coordinates are exact, or rounded to ``digits`` digits if not finite decimals."""
     try:
         points = [[float(number) for number in point] for point in mesh.numbers()]
     except OverflowError:

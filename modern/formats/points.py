@@ -36,12 +36,12 @@ class Input:
 
 
 def read_input(path: str) -> Input:
-    """Return the points of a file (``-``: standard input).  Raise EmulatorError with a one-line message."""
+    """Read the points of a file, or of standard input (``-``).  Raise EmulatorError with a one-line message."""
     return parse_bytes(read_bytes(path, limit=POINTS_LIMIT), source_name(path))
 
 
 def parse_bytes(data: bytes, source: str) -> Input:
-    """Return the points of a text or binary file.  Raise EmulatorError with a one-line message."""
+    """Read points from the bytes of a text or binary file.  Raise EmulatorError with a one-line message."""
     kind = _binary_kind(data)
     if kind == "npy":
         points = _npy(data, source)
@@ -55,7 +55,7 @@ def parse_bytes(data: bytes, source: str) -> Input:
 
 
 def parse_input(text: str, source: str) -> Input:
-    """Return the points of a text file.  Raise EmulatorError with a one-line message."""
+    """Read points from the text of a file.  Raise EmulatorError with a one-line message."""
     kind = recognise(text, source)
     if kind == "deck":
         cards, notes = exact_points(deck_from_text(source, text))
@@ -71,7 +71,7 @@ def parse_input(text: str, source: str) -> Input:
 
 
 def kind_of(data: bytes, source: str) -> str:
-    """Return the format of a file, a key of ``POINTS``.  Raise FileError if the file has none of these formats."""
+    """Recognise the format of a file of points, a key of ``POINTS``.  Raise FileError if it is none of these."""
     return _binary_kind(data) or recognise(decoded(data, source), source)
 
 

@@ -46,7 +46,7 @@ def unit_text(vector: Vector) -> str:
 
 
 def _truncated_quotient(component: Fraction, square: Fraction) -> str:
-    """Return component / sqrt(square), truncated to nine decimals."""
+    """Return ``component / sqrt(square)`` as text, truncated to nine decimals."""
     ratio = component * component / square if square else Fraction(0)
     scaled = math.isqrt(ratio.numerator * 10 ** (2 * _DECIMALS) // ratio.denominator)
     whole, fraction = divmod(scaled, 10**_DECIMALS)
@@ -55,12 +55,12 @@ def _truncated_quotient(component: Fraction, square: Fraction) -> str:
 
 
 def is_binary(data: bytes) -> bool:
-    """Return True if the data are as long as a binary STL file with the number of triangles stated in its header."""
+    """Return True if the length of the data fits the number of triangles in the header of a binary STL file."""
     return len(data) >= _HEAD and len(data) == _HEAD + _TRIANGLE * int(struct.unpack_from("<I", data, _HEAD - 4)[0])
 
 
 def surface_binary(data: bytes, source: str) -> FileMesh:
-    """Return the triangles of a binary STL file as exact decimals.  A point's "line" is its first triangle."""
+    """Return the triangles of a binary STL file as exact decimals.  A point's "line" is a triangle's number."""
     indices: dict[Point, int] = {}
     first_triangles: list[int] = []
     faces = []

@@ -98,9 +98,7 @@ class Polyhedron:
         return max(PLANES, 4 * len(self.points) - 11)
 
     def three_planes(self, replaced: NDArray[np.int64], new: int) -> Fresh:
-        """Return three planes for each replaced one, by the new vertex and two of its points (statements 126 to
-        135).
-        """
+        """Return three planes for each replaced one, by the new vertex and two of its points (statement 126 on)."""
         defining = np.repeat(replaced, 3, axis=1)
         columns = np.arange(defining.shape[1])
         # I123 of the listing: the new vertex takes the place of MM, then NN, then KK (statements 127 to 129).

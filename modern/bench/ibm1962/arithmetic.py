@@ -119,7 +119,7 @@ def number_text(mantissa: int, exponent: int) -> str:
 
 
 def at_random(seed: int, count: int) -> list[Case]:
-    """Return random operations: equal and opposite operands, zeros of both signs, and exponents at both limits."""
+    """Return random operations with difficult operands: equal or opposite ones, signed zeros, extreme exponents."""
     r = random.Random(seed)
     cases = []
     for _ in range(count):
@@ -147,7 +147,7 @@ def _number(r: random.Random, near: int) -> str:
 
 
 def different(cases: Sequence[Case], deck: Sequence[str]) -> Iterator[tuple[Case, tuple[str, str], tuple[str, str]]]:
-    """Yield the cases whose results differ, with the result of the library and that of the emulator."""
+    """Yield the operations whose results differ, each with the result of IBM's library and that of the emulator."""
     for case, result in zip(cases, executed(cases, deck), strict=True):
         if result != emulated(case):
             yield case, result, emulated(case)

@@ -82,7 +82,7 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
 
 
 def digest(cards: Sequence[str]) -> str:
-    """Return the SHA-256 of cards, each without blanks at its end and with a line feed."""
+    """Return the SHA-256 of cards, each without trailing blanks and ended by a line feed."""
     return hashlib.sha256("".join(f"{card.rstrip()}\n" for card in cards).encode("latin1")).hexdigest()
 
 
@@ -124,7 +124,7 @@ def confirmed(name: str) -> Iterator[tuple[str, str]]:
 
 
 def _differs(name: str, program: Program) -> bool:
-    """Return True if a program punches a card that differs from the print, or does not end."""
+    """Return True if a program, run on IBM's library, punches a card that differs from the print, or does not end."""
     for example in EXAMPLES:
         for printed in prints(example):
             if printed.device != "punch" or NAMES[printed.program - 1] != name:

@@ -41,7 +41,10 @@ class Measured:
 
 
 def measure(cases: Sequence[tuple[Statement, tuple[str, ...]]], deck: Sequence[str]) -> list[Measured]:
-    """Execute statements with the library in ``deck``.  Raise what ``simulator.run_jobs`` raises."""
+    """Execute statements with the library in ``deck``, and record the results.
+
+    Raise the errors of ``simulator.run_jobs``.
+    """
     outcomes = execute(cases, deck)
     return [Measured(*case, outcome) for case, outcome in zip(cases, outcomes, strict=True)]
 
@@ -73,7 +76,7 @@ def _comparable(outcome: Outcome) -> tuple[object, ...]:
 
 
 def fields_at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
-    """Yield random statements endlessly; each writes one number by a FORMAT of one field."""
+    """Yield an endless sequence of random statements, each of which writes one number with a FORMAT of one field."""
     r = random.Random(seed)
     while True:
         kind = r.choice("EEFFI")

@@ -72,7 +72,8 @@ def library() -> tuple[str, ...]:
 
     Raise Unavailable if the deck or a suitable simulator is missing.
 
-    Before 2015 the simulator's compare instruction set the overflow indicator, which the library's addition tests.
+    A simulator from before 2015 is unsuitable: its compare instruction sets the overflow indicator, which the library's
+    addition tests.
     """
     cards = tuple(object_deck())
     punched = run(_complete(compile_deck(deck_from_lines("probe.f", _PROBE)), cards)).punched
@@ -88,7 +89,7 @@ def _complete(program: Program, cards: Sequence[str], core: int = 20_000) -> lis
 def execute(
     program: Program, cards: Sequence[str], keys: Sequence[str] = (), starts: Sequence[Collection[int]] = ()
 ) -> Run:
-    """Run the object deck of a program with data cards.  Raise Failed, Unavailable or EmulatorError."""
+    """Run the object deck of a program on IBM's library with data cards. Raise Failed, Unavailable or EmulatorError."""
     deck = _complete(program, library(), CORE)
     return run(deck, core=CORE, cards=cards, keys=keys, starts=starts, seconds=SECONDS)
 

@@ -99,7 +99,7 @@ def run(
     seconds: float = SECONDS,
     timed: bool = False,
 ) -> Run:
-    """Load a deck and run it, and return the output.
+    """Load a deck into the simulated 1620, run it, and return the output.
 
     Parameters
     ----------

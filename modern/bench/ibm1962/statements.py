@@ -42,7 +42,7 @@ class Statement:
 
     @property
     def spec(self) -> FormatSpec:
-        """The parsed FORMAT."""
+        """The statement's FORMAT in parsed form."""
         places = tuple(Place(1, min(column, 80)) for column in range(1, len(self.text) + 1))
         return parse_format(Format(self.text, places))[0]
 
@@ -58,7 +58,7 @@ class Outcome:
 
 
 def execute(cases: Sequence[tuple[Statement, Sequence[str]]], deck: Sequence[str]) -> list[Outcome]:
-    """Execute statements with the library in ``deck``, each with its data cards or the lines that are typed."""
+    """Execute statements on the library in ``deck``; with each come its data cards or the lines to be typed."""
     keys = [line for statement, cards in cases if statement.verb == "ACCEPT" for line in cards]
     outputs = run_jobs(deck, [_job(statement, cards) for statement, cards in cases], keys)
     return [_outcome(statement, output) for (statement, _), output in zip(cases, outputs, strict=True)]

@@ -94,7 +94,7 @@ def lines(largest: int = 512) -> Iterator[str]:
 
 
 def process_of(name: str, diameter: int) -> Work:
-    """Return a process that runs ``octree-hull`` or ``voxel-hull`` on a ball and discards the output."""
+    """Return a function that runs ``octree-hull`` or ``voxel-hull`` on a ball in a process and discards the output."""
     command = [sys.executable, "-m", "modern.cli.main", f"{name}-hull", f"ball:{diameter}"]
     return lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 

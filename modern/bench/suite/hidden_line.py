@@ -27,13 +27,13 @@ def array(x: int, y: int, z: int, step: Fraction) -> list[Polyhedron]:
 
 
 def field(count: int) -> list[Polyhedron]:
-    """Return cuboids on a floor, far enough apart that few overlap in the picture."""
+    """Return ``count`` cuboids on a floor, so far apart that few of them overlap in the picture."""
     side = math.isqrt(count - 1) + 1
     return array(side, side, 1, Fraction(2))[:count]
 
 
 def block(count: int) -> list[Polyhedron]:
-    """Return cuboids in a three-dimensional grid. The deeper the grid, the more cuboids overlap in the picture."""
+    """Return ``count`` cuboids in a three-dimensional grid, in which more of them overlap in the picture."""
     side = next(n for n in range(1, count + 1) if n**3 >= count)
     return array(side, side, side, Fraction(7, 4))[:count]
 

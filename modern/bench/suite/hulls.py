@@ -171,7 +171,7 @@ def small_hull(fast: bool, cache: str = "") -> Callable[[], object]:
 
 
 def growth(peers: Peers, counts: Sequence[int] = COUNTS) -> list[Curve]:
-    """Measure median seconds for points in a ball, as one curve for each method, over the number of points."""
+    """Measure the median seconds for hulls of growing numbers of points in a ball, as one curve for each method."""
     points_by_route: dict[str, list[tuple[int, float]]] = {}
     for count in counts:
         points = ball(count)

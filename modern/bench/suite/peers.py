@@ -46,7 +46,7 @@ Peer = Callable[[Any], Work]
 
 
 class Peers(AbstractContextManager["Peers"]):
-    """The available programs to compare with, by name, and the reasons why others are missing.
+    """Other programs that are available for comparison, by name, and the reasons why others are missing.
 
     It is a context manager, which provides a folder for compiled programs.
     """

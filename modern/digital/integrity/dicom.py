@@ -130,7 +130,8 @@ def has_signature(path: str) -> bool:
 
 
 def check_dicom(path: str) -> tuple[tuple[int, ...] | None, bytes]:
-    """Return columns, rows and frames, or None for a file without pixel data; and the class of the object.
+    """Check a DICOM file.  Return its columns, rows and frames (None without pixel data), and the class of the
+    object.
 
     Raise VolumeError if an element is damaged or truncated, and Unverifiable if the pixel data are compressed.
     """

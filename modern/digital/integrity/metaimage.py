@@ -92,7 +92,7 @@ def _check_data(source: str, path: str, start: int, expected: int, fields: Mappi
 
 
 def _fields(head: bytes, path: str) -> tuple[dict[str, str], int]:
-    """Return the fields of the header, and the position after its last line, which names the data."""
+    """Return the fields of a MetaImage header, and the position after its last line, which names the data."""
     fields: dict[str, str] = {}
     position = 0
     for number, line in enumerate(head.splitlines(keepends=True), 1):
@@ -114,7 +114,7 @@ def _fields(head: bytes, path: str) -> tuple[dict[str, str], int]:
 
 
 def _listed(lines: bytes, name: str, sizes: tuple[int, ...], path: str) -> tuple[list[str], int]:
-    """Return the names of the files in a list, and the number of axes that each file has."""
+    """Return the names of the data files that a header lists, and the number of axes that each file has."""
     tokens = name.split()
     axes = int(tokens[1]) if len(tokens) == 2 and re.fullmatch("[1-9]", tokens[1], re.ASCII) else len(sizes) - 1
     if tokens[0] != "LIST" or len(tokens) > 2 or not 1 <= axes < len(sizes):

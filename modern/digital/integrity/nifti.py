@@ -53,7 +53,7 @@ class NiftiHeader:
 
 
 def check_nifti(path: str) -> NiftiHeader:
-    """Return the header. Raise VolumeError if it is invalid or if the data do not have the length that it requires."""
+    """Check a NIfTI file and return its header.  Raise VolumeError if the header or the length of the data is wrong."""
     with open(path, "rb") as file:
         head = file.read(_FIRST_DATA)
         available = os.fstat(file.fileno()).st_size
@@ -68,7 +68,7 @@ def check_nifti(path: str) -> NiftiHeader:
 
 
 def _parsed(head: bytes, path: str) -> tuple[NiftiHeader, int, int]:
-    """Return the header, the position of the data and their length in bytes."""
+    """Read the header of a NIfTI file.  Return it, and the position and length of the data in bytes."""
     order = next((mark for mark in "<>" if head[:4] == struct.pack(f"{mark}i", _HEADER)), "")
     if any(head[:4] == struct.pack(f"{mark}i", _NIFTI_2) for mark in "<>"):
         raise VolumeError(f"{path}: NIfTI-2 is not supported; convert the file to NIfTI-1")

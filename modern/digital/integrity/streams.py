@@ -47,9 +47,9 @@ def chunks_of(file: BinaryIO, count: int) -> Iterator[bytes]:
 
 
 def check_compressed(source: str, file: BinaryIO, stored: int, expected: int) -> None:
-    """Check the next ``stored`` bytes of a file, one zlib or gzip stream.
+    """Check that the next ``stored`` bytes of a file are one undamaged zlib or gzip stream.
 
-    Raise VolumeError if they are damaged, are followed by other data, or do not decompress to ``expected`` bytes.
+    Raise VolumeError if they are damaged, have data after the stream, or do not decompress to ``expected`` bytes.
     """
     decompressor = zlib.decompressobj(_ZLIB_OR_GZIP)
     size, remaining = 0, stored

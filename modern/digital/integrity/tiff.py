@@ -27,7 +27,7 @@ Tags = Mapping[int, tuple[int, ...] | bytes]
 
 
 def check_tiff(path: str) -> tuple[int, ...]:
-    """Return width, height and number of pages. Raise VolumeError for damaged data and for pages that differ."""
+    """Check a TIFF file.  Return its width, height and number of pages.  Raise VolumeError if pages differ."""
     with open(path, "rb") as file:
         reader = _Reader(file, path)
         pages = reader.pages()
@@ -107,7 +107,7 @@ class _Reader:
         return tag, inline[:length] if kind in (2, 7) else struct.unpack(form, inline[:length])
 
     def check_page(self, page: Tags, source: str) -> None:
-        """Check that every strip or tile of a page is complete."""
+        """Check that every piece (strip or tile) of a page's image is complete."""
         width, height = _one(page, _WIDTH, source), _one(page, _HEIGHT, source)
         samples = _one(page, _SAMPLES, source, 1)
         planes = samples if _one(page, _PLANAR, source, 1) == 2 else 1

@@ -30,8 +30,8 @@ PRINTED = ("star", "step3", "step5", "step7", "step9", "step10")
 def printed(*names: str) -> Method:
     """Return the method with the named rules as the paper prints them, although wrong, and all others corrected.
 
-    ``star``: two images on one ray put C outside of the star polygon. ``step3``: the first admissible L2 is taken, and
-    none is preferred. ``step5``, ``step7``, ``step9``, ``step10``: see
+    ``star``: two projected points on one ray from C put C outside of the star polygon. ``step3``: the first admissible
+    L2 is taken, and none is preferred. ``step5``, ``step7``, ``step9``, ``step10``: see
     :class:`~modern.papers.appel_will.loops.Rules`.
 
     Raise ValueError for an unknown name.

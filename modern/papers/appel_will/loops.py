@@ -1,7 +1,7 @@
 """Assemble convex edges into loops, the borders of faces (appendix, steps 1 to 10; Fig. 23).
 
-A line is an edge of the convex edge list. Lines are numbered L from 1 and have the ends LC1(L) < LC2(L). A loop lists L
-if it runs along the line from LC1 to LC2, otherwise -L.
+A line is a convex edge, an edge of the hull. Lines are numbered L from 1 and have the ends LC1(L) < LC2(L). A loop
+lists L if it runs along the line from LC1 to LC2, otherwise -L.
 """
 
 from collections.abc import Iterator, Sequence

@@ -59,7 +59,7 @@ def solid_svg(
     title: str = "",
     width: int | None = None,
 ) -> str:
-    """Draw the hull with its convex edges, hidden ones dashed, and the polyhedron's other lines.
+    """Draw the hull, with hidden edges dashed, and the other lines of the given polyhedron.
 
     ``points`` are the coordinates as text. ``original`` are the surfaces of the polyhedron, if known, and ``joined``
     the faces of ``as_mesh(hull)`` to merge. ``eye`` and ``width`` are those of ``modern.drawing.draw.draw_svg``. Raise
@@ -195,7 +195,7 @@ def star(hull: Assembled, pair: Pair) -> Star:
 
 
 def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = None) -> str:
-    """Draw the star polygon of two points as seen along their line. Raise ExportError for an invalid pair or width."""
+    """Draw the star polygon of two points, seen along their line.  Raise ExportError for invalid points or width."""
     width = WIDTH if width is None else checked_width(width)
     polygon = star(hull, pair)
     a, b = pair

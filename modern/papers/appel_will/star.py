@@ -1,9 +1,10 @@
 """Find the edges of the hull by the star polygon test, in a projection parallel to the line through each pair of
 points.
 
-The test (section "Polygon star test") receives the images of points relative to C as pairs of integers, none of them at
-C. It returns True if C is outside, that is, a corner of the hull of the images and C. The edge whose image is C is then
-convex. Only the sense of rotation of the images about C matters, so they may be known up to an affine map.
+The line itself projects to a point C. The test (section "Polygon star test") receives the other points' images relative
+to C as pairs of integers, none of them at C. It returns True if C is outside, that is, a corner of the hull of the
+images and C. The edge whose image is C is then convex. Only the sense of rotation of the images about C matters, so
+they may be known up to an affine map.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -51,7 +52,7 @@ def as_corrected(images: Sequence[Image]) -> bool:
 
 
 def in_one_pass(images: Sequence[Image]) -> bool:
-    """Return the same result as :func:`as_corrected`, without sorting.
+    """Apply the same test as :func:`as_corrected` without sorting.
 
     C is outside if all images lie within an angle of less than 180 degrees. ``first`` and ``last`` are the images
     that bound that angle so far, counterclockwise.
@@ -113,7 +114,7 @@ class Edges:
 
 @dataclass(frozen=True, slots=True)
 class Projection:
-    """The points projected parallel to the line of a pair, relative to the line's image C.
+    """The other points projected parallel to the line of a pair, relative to the point C to which the line projects.
 
     ``images`` are the images of the points off the line, up to one affine map. ``line`` lists the points on the line,
     the pair included, sorted along it ("the distance from the orthographic projection plane can serve as a basis for

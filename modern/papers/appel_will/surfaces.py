@@ -19,7 +19,7 @@ class MapError(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """An edge of the polyhedron. It runs counterclockwise on surface ``on``; ``beyond`` is the other surface."""
+    """An edge of the polyhedron, and its two surfaces: it runs counterclockwise on ``on``, clockwise on ``beyond``."""
 
     ends: Pair
     on: int
@@ -133,7 +133,7 @@ def _one_sense(surfaces: Sequence[Surface], surfaces_at: dict[frozenset[int], li
 
 
 def _lies_in(points: Sequence[IntPoint], surface: Surface, face: Surface) -> bool:
-    """Return True if a surface lies in the plane of a face of the hull, which any three of the face's points define."""
+    """Return True if a surface of the polyhedron lies in the plane of a face of the hull."""
     origin = points[face[0]]
     normal = cross(minus(points[face[1]], origin), minus(points[face[2]], origin))
     return not any(dot(normal, minus(points[index], origin)) for index in surface)

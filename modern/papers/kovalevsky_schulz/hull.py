@@ -28,7 +28,7 @@ _SEED = 1963
 
 
 def merged(cells: CellList) -> CellList:
-    """Merge the faces that lie in one plane into one face.
+    """Merge the faces of a polyhedron that lie in one plane into one face.
 
     Their common boundary disappears, whether it is one edge or several, and with it the vertices within the merged
     face. A vertex on the boundary of the merged face remains, even if its two edges lie in one line.
@@ -91,7 +91,7 @@ class Surface:
 
     @property
     def straight(self) -> CellList:
-        """The cell list with edges in one line merged too, so that it has only the vertices of the hull."""
+        """The cell list in which edges in one line are merged too.  Its vertices are the vertices of the hull."""
         return straightened(self.faces)
 
 
@@ -192,7 +192,7 @@ def voxel_hull(
 
 
 def _surface(points: Points, order: Order | None, coplanar: Coplanar) -> Surface | Flat:
-    """Compute the surface of the hull of local corners, which are given in raster order."""
+    """Compute the surface of the hull of local corners (the points that can be vertices), given in raster order."""
     if order is None:
         cells = hull_cells(points)
         return cells if isinstance(cells, Flat) else Surface(cells)

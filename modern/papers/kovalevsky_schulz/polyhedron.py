@@ -1,4 +1,4 @@
-"""The growing polyhedron of the method, which is extended by one local corner after another (section 2, Figs. 5
+"""The growing polyhedron of the method: a hull that is extended by one point after another (section 2, Figs. 5
 to 7).
 
 Every edge stores its two faces, so the faces visible from a point and their boundary are found by walking from one
@@ -191,7 +191,7 @@ class Waiting:
         self._assign(list(numbers), range(1, polyhedron.last_face + 1))
 
     def renew(self, removed: Iterable[int], inserted: int) -> None:
-        """Assign points of removed faces to new faces that they see.  Points that see none are dropped."""
+        """Assign the points of removed faces to new faces visible from them.  Points without one are dropped."""
         orphans = [number for face in removed for number in self.lists.pop(face, ()) if number != inserted]
         for number in orphans:
             del self.face[number]

@@ -46,7 +46,7 @@ def hull_of_ball(diameter: int, neighbours: int = 6, coplanar: Coplanar = INVISI
 
 @cache
 def half_ball_cells(diameter: int, centre: str = VERTEX) -> CellList:
-    """Return the merged cell list of a half-ball; as in Table 5 it counts vertices within straight edges too."""
+    """Return the cell list of the hull of a half-ball.  As in Table 5, it has vertices within straight edges too."""
     return voxel_hull(half_ball(diameter, centre), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
 
 

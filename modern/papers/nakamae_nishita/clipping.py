@@ -56,7 +56,7 @@ def _depth(point: Vector, observer: Observer) -> Fraction:
 
 
 def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Observer) -> Polyhedron:
-    """Return the part of a polyhedron beyond the near plane.  Its last face is the cut; a flat plate gets none."""
+    """Return the part of a polyhedron beyond the near plane.  Its last face is the cut, which a flat plate lacks."""
     points = list(polyhedron.vertices)
     # The index of the new vertex on every edge that the plane cuts. Two faces share each of them.
     cuts: dict[tuple[int, int], int] = {}

@@ -1,5 +1,5 @@
-"""Find the pairs of polyhedra whose contours may overlap in the picture, and compute their PL and LP tables (section
-3.2).
+"""Find pairs of polyhedra that may overlap in the picture, and compute two tables (PL, LP) for each pair
+(section 3.2).
 
 Pairs with overlapping bounding boxes are found on a grid of cells. The boxes are in floating point and widened by more
 than the rounding error, so no pair is lost. A superfluous pair only costs a table.
@@ -123,7 +123,7 @@ class Tables:
         return (self.lp[j][after_i] - self.lp[j][i]) * (self.pl[after_j][i] - self.pl[j][i])
 
     def crossings(self) -> Iterator[tuple[int, int]]:
-        """Yield the pairs i, j of segments that intersect."""
+        """Yield the pairs (i, j) for which segment i of V and segment j of V' intersect."""
         pl, lp = self.pl, self.lp
         nexts = range(1, len(pl[0]))
         for j, (row, after) in enumerate(zip(pl, (*pl[1:], pl[0]), strict=True)):

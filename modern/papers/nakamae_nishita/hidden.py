@@ -28,7 +28,7 @@ REFINEMENTS = (ENCLOSED, TOUCHING, ENDS, GHOSTS)
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """Two polyhedra V and V' whose contours overlap in the picture: their numbers, tables, and which one is nearer.
+    """Two polyhedra V and V' that overlap in the picture: their numbers, their tables, and which one is nearer.
 
     ``nearer`` is 1 if V is nearer, -1 if V' is nearer, otherwise 0. ``by`` is the criterion that decided.
     """
@@ -71,7 +71,7 @@ class Passages:
 
     @property
     def order(self) -> int:
-        """The order of invisibility of P_A: the number of contours that hide the segment's first end."""
+        """The number of contours that hide the segment's start P_A (the paper's order of invisibility)."""
         return sum(passage.order + passage.enclosed for _, passage in self.behind)
 
 
@@ -111,7 +111,7 @@ def draw(
     hidden: bool = False,
     check: bool = True,
 ) -> Drawing:
-    """Draw a scene of convex polyhedra without hidden lines.
+    """Draw a scene of convex polyhedra with the hidden lines removed.
 
     ``made`` may be a function that creates the polyhedra, which is then timed as the first step. ``without`` names the
     ``REFINEMENTS`` to switch off. With ``hidden``, hidden parts and edges between back faces become pieces that are not

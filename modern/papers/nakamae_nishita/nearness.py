@@ -21,7 +21,7 @@ UNDECIDED: Final = "undecided"
 
 
 def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) -> tuple[int, By]:
-    """Decide by the paper's formulas which of the polyhedra V and V' is nearer.
+    """Decide by the paper's formulas (4) and (5) which of the polyhedra V and V' is nearer.
 
     Return 1 if V is nearer, -1 if V' is nearer, 0 if undecided, and the formula that decided. ``of_v`` holds formula
     (1) of V's segments at the points of V', and ``of_w`` that of the segments of V' at the points of V.

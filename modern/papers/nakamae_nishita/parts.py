@@ -44,7 +44,7 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """What one table of a scene file defines: its parts, the path of their file (or empty), and notes for the user."""
+    """The contents of one table of a scene file: parts, the path of their file (or empty), and notes for the user."""
 
     parts: tuple[Part, ...]
     file: str = ""
@@ -52,7 +52,7 @@ class Parts:
 
 
 def part(fields: Fields, folder: str = "") -> Parts:
-    """Read the parts of a table. Paths of files are relative to ``folder``. Raise EmulatorError."""
+    """Read one table of a scene file.  Paths of files are relative to ``folder``.  Raise EmulatorError."""
     name = fields.text("name", "")
     place = f"{fields.place} ({name})" if name else fields.place
     if "file" in fields:

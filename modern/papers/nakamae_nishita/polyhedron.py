@@ -22,7 +22,7 @@ class SceneError(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A closed figure on a face: its corners in space, and the index of the face (section 1, merit 4)."""
+    """A closed figure drawn on a face: its corners in space, and the index of the face (section 1 of the paper)."""
 
     face: int
     corners: tuple[Vector, ...]
@@ -46,7 +46,7 @@ class Polyhedron:
 
 
 def outward(polyhedron: Polyhedron, face: tuple[int, ...]) -> Vector:
-    """Return the outward normal of a face, twice as long as its area."""
+    """Return the outward normal of a face.  Its length is twice the area of the face."""
     return area_vector(polyhedron.vertices, face[::-1])
 
 
@@ -138,7 +138,7 @@ def turns_once(points: Sequence[tuple[N, N, N]], normal: tuple[N, N, N]) -> bool
 
 
 def polyhedron_of_hull(hull: Hull, name: str = "hull", joined: Joined | None = None) -> Polyhedron:
-    """Return the polyhedron of a hull, or the plate of a polygon, with the faces of ``joined`` merged.
+    """Convert a hull to a polyhedron of a scene, or a polygon to a plate, with the faces of ``joined`` merged.
 
     Raise ExportError without a hull, and SceneError for a hull that is a line or not convex.
     """

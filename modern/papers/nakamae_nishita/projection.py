@@ -32,7 +32,7 @@ class Observer:
 
 
 def parallel(direction: Sequence[Fraction | int]) -> Observer:
-    """Return the observer at infinity in a direction. Raise SceneError for 0,0,0."""
+    """Return the observer who looks from infinity in a direction.  Raise SceneError for 0,0,0."""
     if not any(direction):
         raise SceneError("expected a direction of view other than 0,0,0")
     sight = view(lowest([Fraction(number) for number in direction]))

@@ -52,7 +52,7 @@ def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
 def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
     """Compute d of formula (3), which tells how two segments meet, for the four cases that the paper lists.
 
-    The side runs from (0, 4) to (4, 4). The segment is the first side of a polygon.
+    One segment is a side of a square, from (0, 4) to (4, 4). The other one is the first side of a polygon.
     """
     # Section 3.2 lists four positions of two segments. The first side of each polygon and the square's side are in one.
     upper = 1

@@ -78,7 +78,7 @@ def names() -> tuple[str, ...]:
 
 
 def scene(name: str) -> SceneFile:
-    """Return a scene of the project by its name. Raise SceneError if it does not exist."""
+    """Return one of the project's own scenes by its name.  Raise SceneError if it does not exist."""
     if name not in names():
         raise SceneError(f"{quoted(name)} is not a scene of the project; its scenes are {', '.join(names())}")
     text = files("modern.papers.nakamae_nishita").joinpath("scenes", f"{name}.toml").read_text(encoding="utf-8")
@@ -101,7 +101,7 @@ def of_polyhedra(polyhedra: Sequence[Polyhedron], title: str, notes: Sequence[st
 
 
 def parse(text: str, source: str, folder: str = "") -> SceneFile:
-    """Read a scene from its text. Paths of its parts are relative to ``folder``. Raise SceneError."""
+    """Read a scene from the text of its file.  Paths in it are relative to ``folder``.  Raise SceneError."""
     try:
         # TOML floats are read as exact decimals. TOML allows underscores between digits.
         data = parse_toml(text, lambda decimal: number(decimal.replace("_", "")))

@@ -26,7 +26,7 @@ def voxels_of(region: Voxels) -> list[Voxel]:
 
 
 def half_cell_expansion(region: Voxels) -> Voxels:
-    """Return E(S): the cells of the lattice shifted by half a cell that meet the region, eight per voxel (3.2.3)."""
+    """Return E(S), the cells of a lattice shifted by half a cell that meet the region: eight for each voxel (3.2.3)."""
     expanded = np.zeros([size + 1 for size in region.shape], dtype=np.bool_)
     for step in product((0, 1), repeat=3):
         expanded[tuple(slice(k, k + size) for k, size in zip(step, region.shape, strict=True))] |= region
@@ -143,5 +143,5 @@ def near_span(p: Place, q: Place, point: Voxel) -> tuple[Fraction, Fraction] | N
 
 
 def convex_deficiency(region: Voxels) -> Voxels:
-    """Return the voxels of the digital hull that are not in the region (section 1)."""
+    """Return the voxels that are in the region's digital hull but not in the region (section 1)."""
     return octree_hull(region).filled & ~region

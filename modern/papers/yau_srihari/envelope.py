@@ -49,7 +49,7 @@ def outline(places: Iterable[Place]) -> list[Place]:
 
 
 def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
-    """Return the lower side of the hull of points above a segment of the plane, from ``start`` to ``end`` inclusive."""
+    """Return the lower side of the hull of points that lie above a segment in the plane, from ``start`` to ``end``."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     x, y = points[:, 0] - start[0], points[:, 1] - start[1]
     # The product with the segment's direction orders the points along the segment.
@@ -78,19 +78,19 @@ Edge = tuple[Point, Point]
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A face of the envelope, counterclockwise seen from outside, which is below, with its outward normal."""
+    """A face of the envelope: its vertices, counterclockwise seen from below, and its normal, which points outward."""
 
     vertices: tuple[Point, ...]
     normal: Normal
 
     def height(self, x: int, y: int) -> tuple[int, int]:
-        """Return the height of the face's plane at (x, y) as a numerator and a positive denominator."""
+        """Return the height z of the face's plane at (x, y), as a numerator and a positive denominator."""
         a, b, c = self.normal
         p = self.vertices[0]
         return a * (x - p[0]) + b * (y - p[1]) - c * p[2], -c
 
     def places(self) -> Iterable[Place]:
-        """Yield the digital points of the face's projection, including its boundary."""
+        """Yield the columns (x, y) below or above which the face lies, including its boundary."""
         x = [vertex[0] for vertex in self.vertices]
         y = [vertex[1] for vertex in self.vertices]
         # As seen from above the vertices run clockwise, so the face is to the right of each of its sides.
@@ -146,7 +146,7 @@ class Envelope:
 
 
 def envelope(floor: Quadtree, printed: Printed) -> Envelope:
-    """Compute the convex envelope of the heights of a tree (algorithm Convex Envelope, sections 4.6 and 5)."""
+    """Compute the convex envelope (the lower side of the hull) of the heights in a tree (sections 4.6 and 5)."""
     # Section 4.6.1: the reduced set A and its outline H(A).
     tree = reduced_tree(floor)
     x, y = np.nonzero(tree.there)
@@ -273,7 +273,7 @@ def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
 
 
 def _polygon(start: Point, end: Point, in_plane: list[Point]) -> tuple[Point, ...]:
-    """Return the vertices of the face that contains all points of one supporting plane, beginning with ``start``."""
+    """Return the vertices of a face, beginning with ``start``; ``in_plane`` has all points in the face's plane."""
     point_at = {(x, y): (x, y, z) for x, y, z in (start, end, *in_plane)}
     clockwise = [point_at[place] for place in reversed(outline(point_at))]
     first = clockwise.index(start)
@@ -289,7 +289,7 @@ def _leaves(face: Face, printed: Printed) -> dict[Place, Leaf]:
 
 
 def _rounded(numerator: int, denominator: int, printed: Printed) -> int:
-    """Round a height up, or truncate it if that statement is applied as printed."""
+    """Round a height up to an integer, or truncate it, as the paper prints, if ``printed.truncation`` is set."""
     if printed.truncation and numerator > 0:
         return numerator // denominator
     return -(-numerator // denominator)

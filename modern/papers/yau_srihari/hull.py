@@ -80,17 +80,17 @@ class OctreeHull:
 
     @cached_property
     def floor(self) -> dict[Place, int]:
-        """The z of the lowest voxel of every column, by (x, y)."""
+        """The height z of the lowest voxel of each column, keyed by (x, y)."""
         return heights(self.lowest)
 
     @cached_property
     def ceiling(self) -> dict[Place, int]:
-        """The z of the highest voxel of every column, by (x, y)."""
+        """The height z of the highest voxel of each column, keyed by (x, y)."""
         return heights(self.highest)
 
     @property
     def columns(self) -> int:
-        """The number of columns with voxels."""
+        """The number of columns (x, y) that contain voxels."""
         return int(np.count_nonzero(self.lowest.there))
 
     @property

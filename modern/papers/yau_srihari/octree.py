@@ -57,7 +57,7 @@ class Octree:
         return np.int64(1) << 3 * (self.depth - self.levels)
 
     def corners(self) -> Grid:
-        """Return the lowest voxel of each leaf, shape (n, 3)."""
+        """Return the lowest voxel of each full cube (leaf), shape (n, 3)."""
         return np.stack([_gathered(self.codes, bit, self.depth) for bit in (ACROSS, UP, ALONG)], axis=1)
 
     def at_level(self, level: int) -> tuple[Grid, Grid, Grid]:
@@ -68,7 +68,7 @@ class Octree:
 
 
 def interleaved(x: Grid, y: Grid) -> Grid:
-    """Return the position of each cell (x, y) in the order of a quadtree's sons, for coordinates from 0 to 2^20 - 1."""
+    """Return the position of each cell (x, y) in a quadtree's order of cells, for coordinates from 0 to 2^20 - 1."""
     return _bits(x, 20, 1, 2) | _bits(y, 20, 1, 2) << 1
 
 
@@ -92,7 +92,7 @@ def tree_of(side: int, leaves: Iterator[tuple[int, Grid, Grid, Grid]]) -> Octree
 
 
 def octree(array: NDArray[np.bool_]) -> Octree:
-    """Build the tree of the voxels [x, y, z]. Its cube has a power of two as side and is empty beyond the array."""
+    """Build the octree of voxels [x, y, z].  Its side is a power of two; voxels beyond the array are empty."""
     side = side_for(max(array.shape))
     return tree_of(side, _full_leaves(array, side.bit_length() - 1))
 
@@ -112,7 +112,7 @@ def intersection(a: Octree, b: Octree) -> Octree:
 
 
 def count(tree: Octree) -> int:
-    """Count the full voxels."""
+    """Count the voxels of a tree's solid."""
     return int(tree.voxels().sum())
 
 

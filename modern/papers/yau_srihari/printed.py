@@ -46,7 +46,7 @@ class Printed:
 
     @classmethod
     def only(cls, *names: str) -> "Printed":
-        """Apply the named statements as printed and the others corrected. Raise ValueError for an unknown name."""
+        """Return options that apply the named statements as printed.  Raise ValueError for an unknown name."""
         unknown = [name for name in names if name not in NAMES]
         if unknown:
             raise ValueError(f"{quoted(unknown[0])} is not one of {', '.join(NAMES)}")

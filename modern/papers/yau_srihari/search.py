@@ -27,7 +27,7 @@ ROUNDED = 2.0**-48
 
 
 def normal_of(u: Point, v: Point, w: Point) -> Normal:
-    """Return the normal of the plane of three points, on the side where they run counterclockwise."""
+    """Return the normal of the plane of three points; from its tip, they run counterclockwise."""
     ax, ay, az = v[0] - u[0], v[1] - u[1], v[2] - u[2]
     bx, by, bz = w[0] - u[0], w[1] - u[1], w[2] - u[2]
     return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
@@ -78,7 +78,7 @@ class Search:
         return ex * (y - self.start[1]) < ey * (x - self.start[0])
 
     def _visit(self, levels: list[tuple[Grid, Grid]], up: int, i: int, j: int) -> None:
-        """Search the square (i, j) of side 2 ** ``up`` and those of its sons that the bounds do not exclude."""
+        """Search the square (i, j) of side 2 ** ``up``, and its quarters unless the bounds exclude them."""
         self.visited += 1
         low, side = levels[up][0].item(i, j), 1 << up
         # Rule 1 of section 4.6.2: a square on the known side of the edge, or without points, is skipped.
@@ -195,6 +195,6 @@ class Candidates:
         return search.points
 
     def mark(self, in_face: Iterable[Point], vertices: Iterable[Point]) -> None:
-        """Exclude the points of a face from later searches, except its vertices, which neighbouring faces share."""
+        """Exclude the points of a face from later searches, but not its vertices, which neighbouring faces share."""
         shared = {*vertices}
         self._unmarked[[self._row[point] for point in in_face if point not in shared]] = False
