@@ -16,6 +16,7 @@ from emulator.machine.endings import Ending
 from modern.exact_hull import ExactHull
 from modern.exact_hull.coordinates import Coordinates, Objects
 from modern.exact_hull.planes import facet_planes
+from modern.exact_hull.result import Facets
 from modern.geometry.hull import DETERMINED, Coefficients, Face, Hull, LazyFaces, PointTexts
 from modern.geometry.numbers import Exact, exact_text
 from modern.thesis.cards import CardHull, read_hull
@@ -146,7 +147,8 @@ def as_hull(judged: ExactHull) -> Hull:
 
 def _faces(judged: ExactHull, coordinates: Coordinates) -> Sequence[Face]:
     if judged.dimension == 3:
-        polygons = [facet.polygon for facet in judged.facets]
+        facets = judged.facets
+        polygons = facets.polygons if isinstance(facets, Facets) else [facet.polygon for facet in facets]
         return LazyFaces(polygons, lambda: _polyhedral(judged, coordinates))
     polygons = [*zip(judged.polygon, judged.polygon[1:] + judged.polygon[:1], strict=True)]
     if judged.dimension < 2:

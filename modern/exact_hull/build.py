@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from operator import attrgetter
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from modern.exact_hull.facets import (
 )
 from modern.exact_hull.planes import facet_planes
 from modern.exact_hull.proposal import propose
-from modern.exact_hull.result import CertificateError, ExactHull, Facet, Plane
+from modern.exact_hull.result import CertificateError, ExactHull, Facet, Facets, Plane
 from modern.exact_hull.surface import convex_surface
 from modern.geometry.points import Points
 
@@ -50,7 +51,7 @@ def _on_facets(
     """
     if others is None:
         is_other = np.ones(len(points), np.bool_)
-        is_other[[index for facet in facets for index in facet.polygon]] = False
+        is_other[_corners(facets)] = False
         others = np.flatnonzero(is_other)
     if len(others) * len(facets) < _FEW:
         on_any = [any(value(facet.plane, points[index]) == 0 for facet in facets) for index in others.tolist()]
@@ -64,23 +65,22 @@ def _on_facets(
     return others[on]
 
 
-def _proposed(points: Coordinates, basis: Sequence[int], fast: bool | None) -> tuple[list[Facet], Ints] | None:
+def _corners(facets: Sequence[Facet]) -> Any:
+    """Return the corners of all polygons, with repetitions."""
+    return facets.corners if isinstance(facets, Facets) else [index for facet in facets for index in facet.polygon]
+
+
+def _proposed(points: Coordinates, basis: Sequence[int], fast: bool | None) -> tuple[Facets, Ints] | None:
     proposal = propose(points, basis, fast)
     if proposal is None:
         return None
-    # Rotate each triangle so that the corner with the smallest index is first, as :class:`Facet` requires.
-    corners = proposal.triangles
-    turn = corners.argmin(axis=1)
-    corners = corners[np.arange(len(corners))[:, None], (turn[:, None] + np.arange(3)) % 3]
+    triangles = proposal.triangles
     try:
-        planes = planes_of(corners, points)
-        facets = merged(list(map(tuple, corners.tolist())), planes, points)
+        facets, face = merged(triangles, planes_of(triangles, points), points)
         candidate, at = np.ones(len(points), np.bool_), np.full(len(points), -1)
-        candidate[[index for facet in facets for index in facet.polygon]] = False
-        if len(proposal.near):
-            numbers = {facet.plane: number for number, facet in enumerate(facets)}
-            at[proposal.near] = np.array([*(numbers[plane] for plane in planes), -1])[proposal.at]
-        others = np.unique(np.concatenate([proposal.near, corners.ravel()]))
+        candidate[facets.corners] = False
+        at[proposal.near] = np.append(face, -1)[proposal.at]
+        others = np.unique(np.concatenate([proposal.near, triangles.ravel()]))
         others = others[candidate[others]]
         return facets, _on_facets(points, facets, others, at[others])
     except (RuntimeError, ValueError, KeyError):  # with the exact points the triangles are not a closed surface
@@ -118,11 +118,13 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
 
     def classified(dimension: int, facets: Sequence[Facet], boundary: Ints) -> ExactHull:
         """Return the result before it is proved.  ``facets`` and ``boundary`` use indices of distinct points."""
-        vertices = sorted({index for facet in facets for index in facet.polygon} or {0})
+        vertices = np.unique(_corners(facets) if len(facets) else [0])
         inside = np.ones(len(distinct), np.bool_)
         inside[vertices] = False
         inside[boundary] = False
-        if scaled.duplicates:
+        if isinstance(facets, Facets):
+            facets = Facets(facets.planes, indices[facets.corners], facets.counts)
+        elif scaled.duplicates:
             renamed = indices.tolist()
             facets = [Facet(facet.plane, tuple([renamed[index] for index in facet.polygon])) for facet in facets]
         return ExactHull(
@@ -134,7 +136,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
             inside=tuple(indices[inside].tolist()),
             duplicates=scaled.duplicates,
             plane=plane,
-            facets=tuple(sorted(facets, key=attrgetter("plane"))),
+            facets=facets if isinstance(facets, Facets) else tuple(sorted(facets, key=attrgetter("plane"))),
             polygon=tuple(indices[list(cycle)].tolist()),
         )
 

@@ -33,7 +33,7 @@ from modern.exact_hull.convexity import Undecided, prove
 from modern.exact_hull.coordinates import Coordinates, IntPoint, read_points
 from modern.exact_hull.planes import Planes, facet_planes
 from modern.exact_hull.polygons import check_convex, difference, dot, product
-from modern.exact_hull.result import Certificate, CertificateError, ExactHull, require
+from modern.exact_hull.result import Certificate, CertificateError, ExactHull, Facets, facets_as_arrays, require
 from modern.geometry.points import Points
 
 # Why this is a proof.  By 2 the hull of the points is inside all planes, and each listed plane supports it.  Suppose
@@ -223,6 +223,8 @@ def _proved(hull: ExactHull) -> tuple[int, Planes, str]:
     if hull.dimension == 3 and len(hull.scaled) * len(hull.facets) >= MANY:
         with suppress(Undecided):  # in that case every plane is evaluated at every point, below
             return *prove(hull), _FILTERED
+    if isinstance(hull.facets, Facets):
+        hull = replace(hull, facets=facets_as_arrays(hull.facets).all())
     if hull.dimension < 3 or len(hull.scaled) < _FEW**2:
         read_points(hull.scaled).all()  # many accesses to few points are faster if all points are made at once
     _check_planes(hull)

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from modern.exact_hull.coordinates import Floats, Images, IntPoint, Ints
 from modern.exact_hull.planes import BOUND, Planes
 from modern.exact_hull.polygons import Polygons, check_planes, polygons
-from modern.exact_hull.result import CertificateError, ExactHull
+from modern.exact_hull.result import CertificateError, ExactHull, facets_as_arrays
 
 # Why this is a proof.  (Mehlhorn, Naeher, Seel, Seidel, Schilz, Schirra and Uhrig, Checking geometric programs or
 # verification of geometric structures, Computational Geometry 12 (1999), 85-103, prove that c, d and e suffice for
@@ -143,7 +143,7 @@ class _Proof:
         normals = self.planes.normals
         approximate = np.einsum("ij,ij->i", normals, self.o - bases)
         for facet in np.flatnonzero(~(approximate < -BOUND)).tolist():
-            a, b, c, d = self.hull.facets[facet].plane
+            a, b, c, d = self.planes.table[facet].tolist()
             (x, y, z), weight = self.middle
             self.planes.in_integers += 1
             if a * x + b * y + c * z + d * weight >= 0:
@@ -268,8 +268,9 @@ def prove(hull: ExactHull) -> tuple[int, Planes]:
 
     Raise CertificateError if a condition fails, and Undecided if no suitable inner point or ray is found.
     """
-    sides = polygons(hull)
-    planes = check_planes(hull, sides)
+    facets = facets_as_arrays(hull.facets)
+    sides = polygons(hull, facets)
+    planes = check_planes(hull, facets, sides)
     images = planes.points.images
     vertices = np.array(hull.vertices)
     # o is a mean with unequal weights, so that few points of a symmetrical set lie in a plane through o and an edge.

@@ -6,11 +6,13 @@ their facets, the ends of a segment or the edges of a polygon, are found by sort
 
 import math
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from itertools import chain
 
 import numpy as np
 
-from modern.exact_hull.coordinates import Coordinates, IntPoint, Ints
-from modern.exact_hull.result import Facet, Plane
+from modern.exact_hull.coordinates import Coordinates, IntPoint, Ints, Objects
+from modern.exact_hull.result import Facet, Facets, Plane
 
 Triangle = tuple[int, int, int]
 
@@ -108,25 +110,45 @@ def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
 
 def faces(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint]) -> list[Facet]:
     """Return the faces of a convex surface of triangles.  Triangles in one plane become one face."""
-    reduced = [(rotated(corners), lowest_terms(plane)) for corners, plane in triangles]
-    return merged([corners for corners, _ in reduced], [plane for _, plane in reduced], points)
-
-
-def merged(triangles: Sequence[tuple[int, ...]], planes: Sequence[Plane], points: Sequence[IntPoint]) -> list[Facet]:
-    """Merge triangles in one plane to one face.  ``planes`` are the triangles' planes in lowest terms."""
-    if len(set(planes)) == len(planes):
-        return list(map(Facet, planes, triangles))
     # Triangles with the same plane in lowest terms belong to one face.
-    groups: dict[Plane, list[tuple[int, ...]]] = {}
-    for corners, plane in zip(triangles, planes, strict=True):
-        groups.setdefault(plane, []).append(corners)
-    return [
-        Facet(plane, group[0] if len(group) == 1 else rotated(corners_only(_outline(group), points)))
-        for plane, group in groups.items()
-    ]
+    groups: dict[Plane, list[Triangle]] = {}
+    for corners, plane in triangles:
+        groups.setdefault(lowest_terms(plane), []).append(corners)
+    return [Facet(plane, _face(group, points)) for plane, group in groups.items()]
 
 
-def planes_of(triangles: Ints, points: Coordinates) -> list[Plane]:
+def _face(triangles: Sequence[tuple[int, ...]], points: Sequence[IntPoint]) -> tuple[int, ...]:
+    """Return the polygon that triangles of one plane fill."""
+    return rotated(triangles[0] if len(triangles) == 1 else corners_only(_outline(triangles), points))
+
+
+def merged(triangles: Ints, planes: Objects, points: Coordinates) -> tuple[Facets, Ints]:
+    """Merge triangles (m, 3) that lie in one plane.  Return the faces, sorted by plane, and each triangle's face.
+
+    ``planes`` (m, 4) are the planes of the triangles in lowest terms.
+    """
+    # Sorting is faster after the triangles are roughly in order, by the nearest doubles of A.
+    order = np.arange(len(triangles))
+    with suppress(OverflowError):
+        order = np.argsort(planes[:, 0].astype(np.float64))
+    rows = list(zip(*planes.T.tolist(), strict=True))
+    order = np.array(sorted(order.tolist(), key=rows.__getitem__))
+    triangles, planes = triangles[order], planes[order]
+    is_first = np.ones(len(order), np.bool_)
+    is_first[1:] = (planes[1:] != planes[:-1]).any(axis=1)
+    face = np.empty(len(order), np.int64)
+    face[order] = np.cumsum(is_first) - 1
+    if is_first.all():
+        turn = triangles.argmin(axis=1)[:, None]
+        corners = triangles[np.arange(len(triangles))[:, None], (turn + np.arange(3)) % 3]
+        return Facets(planes, corners.ravel(), np.full(len(planes), 3)), face
+    groups = np.split(triangles, np.flatnonzero(is_first)[1:])
+    polygons = [_face(group.tolist(), points) for group in groups]
+    corners, counts = np.array(list(chain.from_iterable(polygons))), np.array(list(map(len, polygons)))
+    return Facets(planes[is_first], corners, counts), face
+
+
+def planes_of(triangles: Ints, points: Coordinates) -> Objects:
     """Return the planes through triangles (m, 3), in lowest terms.  Raise ValueError if a triangle has no area."""
     distinct, positions = np.unique(triangles, return_inverse=True)
     coordinates = points.integers(distinct)
@@ -143,7 +165,7 @@ def planes_of(triangles: Ints, points: Coordinates) -> list[Plane]:
     # D has three factors and needs Python integers.
     x, y, z = coordinates[positions.reshape(-1, 3)[:, 0]].T
     d = -(a.astype(object) * x + b.astype(object) * y + c.astype(object) * z)
-    return list(zip(a.tolist(), b.tolist(), c.tolist(), d.tolist(), strict=True))
+    return np.stack([a.astype(object), b.astype(object), c.astype(object), d], axis=1)
 
 
 def segment(points: Sequence[IntPoint]) -> list[Facet]:

@@ -20,6 +20,7 @@ bound has the true sign.  All others, and NaN, are computed in integers.
 """
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
@@ -27,11 +28,11 @@ from itertools import chain
 import numpy as np
 
 from modern.exact_hull.coordinates import Coordinates, Floats, Ints, Objects
-from modern.exact_hull.result import Facet
+from modern.exact_hull.result import Facet, Facets
 
 BOUND = 2.0**-47
-# Integers below 2**900, also multiplied by 2**100, are rounded to float64 without overflow.
-_WIDE, _APART = 1 << 900, 100
+# Numbers below 2**900 may be multiplied by 2**100 in float64 without overflow.
+_WIDE, _APART = 2.0**900, 100
 _LOW = (1 << 31) - 1
 # The number of values computed at a time. So few values stay in the cache. Their matrix product is also too small for
 # numpy's library to split it among threads, which would cost more than it gains while other programs are running.
@@ -42,10 +43,12 @@ def normal_images(planes: Objects, shifts: Sequence[int]) -> Floats:
     """Return the normals of planes scaled to the unit box of the points, as float64, shape (m, 3)."""
     normals = planes[:, :3]
     # A fast path for numbers of moderate size.  It has the same results as ``normal_image``.
-    if abs(normals).max() < _WIDE and max(shifts) - min(shifts) < _APART:
-        floats = np.ldexp(normals.astype(np.float64), np.array(shifts) - min(shifts))
-        exponents = np.frexp(abs(floats).max(axis=1))[1]
-        return np.asarray(np.ldexp(floats, -exponents[:, None]))
+    with suppress(OverflowError):
+        floats = normals.astype(np.float64)
+        if abs(floats).max() < _WIDE and max(shifts) - min(shifts) < _APART:
+            floats = np.ldexp(floats, np.array(shifts) - min(shifts))
+            exponents = np.frexp(abs(floats).max(axis=1))[1]
+            return np.asarray(np.ldexp(floats, -exponents[:, None]))
     return np.array([normal_image(normal, shifts) for normal in normals.tolist()])
 
 
@@ -215,6 +218,8 @@ class Planes:
 
 def facet_planes(points: Coordinates, facets: Sequence[Facet]) -> Planes:
     """Return the planes of the given facets, each with a vertex of its facet as base point."""
+    if isinstance(facets, Facets):
+        return Planes(points, facets.planes, facets.corners[np.cumsum(facets.counts) - facets.counts])
     numbers = chain.from_iterable(facet.plane for facet in facets)
     table: Objects = np.fromiter(numbers, object, 4 * len(facets)).reshape(-1, 4)
     return Planes(points, table, np.array([facet.polygon[0] for facet in facets]))

@@ -4,13 +4,12 @@ import math
 import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import chain, starmap
 
 import numpy as np
 
 from modern.exact_hull.coordinates import IntPoint, Ints, read_points
 from modern.exact_hull.planes import Planes, facet_planes
-from modern.exact_hull.result import CertificateError, ExactHull, require
+from modern.exact_hull.result import CertificateError, ExactHull, Facets, require
 
 
 def difference(p: Sequence[int], q: Sequence[int]) -> IntPoint:
@@ -60,24 +59,21 @@ class Polygons:
     count: Ints
 
 
-def polygons(hull: ExactHull) -> Polygons:
+def polygons(hull: ExactHull, facets: Facets) -> Polygons:
     """Return the sides of all polygons.  Raise CertificateError if the polygons do not form a closed surface."""
-    require(bool(hull.facets), "there are no facets")
-    cycles = [facet.polygon for facet in hull.facets]
-    count = np.array(list(map(len, cycles)), np.int64)
+    require(bool(facets), "there are no facets")
+    corner, count = facets.corners, facets.counts
     if count.min() < 3:
         raise CertificateError(f"facet {int(count.argmin())}: fewer than three vertices")
-    members = list(chain.from_iterable(cycles))
-    require(set(map(type, members)) == {int}, "a polygon contains something that is not an index")
-    require(set(hull.vertices).issuperset(members), "a point of a polygon is not a vertex")
-    corner = np.array(members, np.int64)
+    used = np.unique(corner)
+    require(not np.setdiff1d(used, hull.vertices, assume_unique=True).size, "a point of a polygon is not a vertex")
     # The sides of all facets are stored in a row.  The side that follows the last side of a facet is the facet's first
     # side.
-    facet = np.repeat(np.arange(len(cycles)), count)
+    facet = np.repeat(np.arange(len(facets)), count)
     first = np.cumsum(count) - count
     after = np.arange(1, len(corner) + 1)
     after[first + count - 1] = first
-    lone = np.setdiff1d(hull.vertices, corner)
+    lone = np.setdiff1d(hull.vertices, used)
     if lone.size:
         raise CertificateError(f"point {lone[0]} is called a vertex, but is a vertex of no facet")
     for number in np.flatnonzero(np.minimum.reduceat(corner, first) != corner[first]):
@@ -94,24 +90,21 @@ def polygons(hull: ExactHull) -> Polygons:
     positions = np.searchsorted(keys, reverse).clip(max=len(keys) - 1)
     for side in np.flatnonzero(keys[positions] != reverse):
         raise CertificateError(f"the edge {corner[side]}-{corner[after[side]]} belongs to only one facet")
-    shape = f"{len(hull.vertices)} vertices, {len(corner) // 2} edges, {len(cycles)} facets"
-    require(len(hull.vertices) - len(corner) // 2 + len(cycles) == 2, f"Euler's relation does not hold: {shape}")
+    shape = f"{len(hull.vertices)} vertices, {len(corner) // 2} edges, {len(facets)} facets"
+    require(len(hull.vertices) - len(corner) // 2 + len(facets) == 2, f"Euler's relation does not hold: {shape}")
     return Polygons(corner, facet, after, order[positions], first, count)
 
 
-def check_planes(hull: ExactHull, sides: Polygons) -> Planes:
+def check_planes(hull: ExactHull, facets: Facets, sides: Polygons) -> Planes:
     """Check that each polygon's corners lie in its plane, which is in lowest terms, and return the planes."""
-    planes = [facet.plane for facet in hull.facets]
-    require(
-        set(map(len, planes)) == {4} and set(map(type, chain.from_iterable(planes))) == {int},
-        "a facet's plane is not four integers",
-    )
+    columns = facets.planes.T.tolist()
+    planes = list(zip(*columns, strict=True))
     ordered = all(map(operator.lt, planes, planes[1:]))
     require(ordered, "the facets are not sorted by plane, or a plane occurs twice")
-    exact = facet_planes(read_points(hull.scaled), hull.facets)
+    exact = facet_planes(read_points(hull.scaled), facets)
     for number in np.flatnonzero((exact.table[:, :3] == 0).all(axis=1)):
         raise CertificateError(f"facet {number}: the normal is 0")
-    divisors = list(starmap(math.gcd, planes))
+    divisors = list(map(math.gcd, *columns))
     if max(divisors) > 1:
         raise CertificateError(f"facet {divisors.index(max(divisors))}: the plane is not in lowest terms")
     for side in exact.outside(sides.facet, sides.corner):
@@ -120,5 +113,5 @@ def check_planes(hull: ExactHull, sides: Polygons) -> Planes:
     members = np.unique(sides.corner[np.isin(sides.facet, many)])
     places = dict(zip(members.tolist(), map(tuple, exact.points.integers(members).tolist()), strict=True))
     for order in many.tolist():
-        check_convex(hull.facets[order].polygon, planes[order][:3], places, f"facet {order}")
+        check_convex(facets.polygons[order], planes[order][:3], places, f"facet {order}")
     return exact

@@ -139,7 +139,7 @@ def _simplex(points: Coordinates, basis: Sequence[int]) -> list[int]:
 
 
 def _exact_planes(points: Coordinates, corners: Ints) -> Planes:
-    return Planes(points, np.array(planes_of(corners, points), object), corners[:, 0])
+    return Planes(points, planes_of(corners, points), corners[:, 0])
 
 
 class _Growing:

@@ -3,8 +3,13 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import chain, islice
 
-from modern.exact_hull.coordinates import IntPoint
+import numpy as np
+
+from modern.exact_hull.coordinates import IntPoint, Ints, Objects
+from modern.geometry.hull import LazyTuple
 
 Plane = tuple[int, int, int, int]
 
@@ -32,6 +37,42 @@ class Facet:
 
     plane: Plane
     polygon: tuple[int, ...]
+
+
+class Facets(LazyTuple[Facet]):
+    """Facets as arrays.  It equals the tuple of the facets, which are made on access.
+
+    ``planes`` (m, 4) are Python integers. ``corners`` are those of all polygons in a row, of ``counts`` corners each.
+    """
+
+    def __init__(self, planes: Objects, corners: Ints, counts: Ints) -> None:
+        self.planes, self.corners, self.counts = planes, corners, counts
+        for array in (planes, corners, counts):
+            array.flags.writeable = False
+        super().__init__(len(planes), lambda: map(Facet, zip(*planes.T.tolist(), strict=True), self.polygons))
+
+    @cached_property
+    def polygons(self) -> list[tuple[int, ...]]:
+        rest = iter(self.corners.tolist())
+        return [tuple(islice(rest, count)) for count in self.counts.tolist()]
+
+
+def facets_as_arrays(facets: Sequence[Facet]) -> Facets:
+    """Return the facets as arrays.  Raise CertificateError if a plane or a polygon has anything but Python integers."""
+    if isinstance(facets, Facets):
+        planes, counts = facets.planes, facets.counts
+        is_index = facets.corners.dtype == counts.dtype == np.int64 and counts.sum() == len(facets.corners)
+    else:
+        numbers = list(chain.from_iterable(facet.plane for facet in facets))
+        require({len(facet.plane) for facet in facets} <= {4}, "a facet's plane is not four integers")
+        planes = np.fromiter(numbers, object, len(numbers)).reshape(-1, 4)
+        members = list(chain.from_iterable(facet.polygon for facet in facets))
+        is_index = set(map(type, members)) <= {int}
+    require(set(map(type, planes.ravel().tolist())) <= {int}, "a facet's plane is not four integers")
+    require(is_index, "a polygon contains something that is not an index")
+    if isinstance(facets, Facets):
+        return facets
+    return Facets(planes, np.array(members, np.int64), np.array([len(facet.polygon) for facet in facets], np.int64))
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +108,7 @@ class ExactHull:
         those in the relative interior (for a polygon within its plane).  All are sorted.
     duplicates: pairs of a point and the first point with the same coordinates, sorted.
     plane: for a polygon only, its plane without a common divisor, with the first nonzero number of A, B, C positive.
-    facets: the facets sorted by plane.  A point has none.
+    facets: the facets sorted by plane, as a tuple or as ``Facets``.  A point has none.
     polygon: for a polygon only, its vertices from the smallest on, counterclockwise seen from the side to which
         (A, B, C) points.
     certificate: the counts of the proof.
@@ -81,7 +122,7 @@ class ExactHull:
     inside: tuple[int, ...]
     duplicates: tuple[tuple[int, int], ...]
     plane: Plane | None
-    facets: tuple[Facet, ...]
+    facets: Sequence[Facet]
     polygon: tuple[int, ...] = ()
     certificate: Certificate | None = field(default=None, compare=False)
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain, repeat
 
 from emulator.errors import EmulatorError
 from modern.geometry.hull import Hull, LazyMembers, polygons_of
@@ -77,7 +78,8 @@ class Mesh:
 
     def triangles(self) -> tuple[Triangle, ...]:
         """Return the faces split into triangles, each from its first vertex."""
-        return tuple((face[0], face[k], face[k + 1]) for face in self.faces for k in range(1, len(face) - 1))
+        fans = ([face] if len(face) == 3 else zip(repeat(face[0]), face[1:-1], face[2:]) for face in self.faces)
+        return tuple(chain.from_iterable(fans))
 
 
 def mesh(hull: Hull) -> Mesh:
@@ -89,12 +91,12 @@ def mesh(hull: Hull) -> Mesh:
         raise ExportError(f"a hull of dimension {hull.dimension} has {expected} vertices, not {len(hull.vertices)}")
     new_indices = {index: new for new, index in enumerate(hull.vertices)}
     points = LazyMembers(len(hull.vertices), lambda place: hull.points[hull.vertices[place]])
-    polygons = []
-    for order, polygon in enumerate(polygons_of(hull.faces) if hull.dimension > 1 else (), 1):
-        try:
-            polygons.append(tuple([new_indices[index] for index in polygon]))
-        except KeyError as error:
-            raise ExportError(f"face {order} names point {error.args[0] + 1}, which is not a vertex") from None
+    cycles = polygons_of(hull.faces) if hull.dimension > 1 else ()
+    try:
+        polygons = [tuple(map(new_indices.__getitem__, cycle)) for cycle in cycles]
+    except KeyError as error:
+        order = next(order for order, cycle in enumerate(cycles, 1) if error.args[0] in cycle)
+        raise ExportError(f"face {order} names point {error.args[0] + 1}, which is not a vertex") from None
     if hull.dimension == 2:
         # Program 1 finds the hull of exactly three points without program 2, and punches no supporting lines for it.
         polygons = [_cycle(polygons, len(points)) if polygons or len(points) != 3 else (0, 1, 2)]
@@ -102,7 +104,7 @@ def mesh(hull: Hull) -> Mesh:
             polygons = [_turned(polygons[0], [coordinates(p) for p in points], hull.plane)]
     elif hull.dimension == 3 and not polygons:
         raise ExportError("the polyhedron has no faces")
-    elif any(len(polygon) < 3 for polygon in polygons):
+    elif min(map(len, polygons), default=3) < 3:
         raise ExportError("a face has fewer than three vertices")
     return Mesh(hull.dimension, points, tuple(polygons))
 

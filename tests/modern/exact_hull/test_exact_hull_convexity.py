@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import pickle
 import random
 from dataclasses import replace
 from fractions import Fraction
@@ -10,11 +11,13 @@ import numpy as np
 import pytest
 
 from modern.exact_hull import CertificateError, ExactHull, Facet, certify, convexity, exact_hull
+from modern.exact_hull import build as build_module
 from modern.exact_hull import certificate as checks
 from modern.exact_hull.coordinates import read_points
 from modern.exact_hull.facets import lowest_terms, plane_through
 from modern.exact_hull.planes import BOUND, Planes, normal_images
 from modern.exact_hull.polygons import check_planes, polygons
+from modern.exact_hull.result import Facets, facets_as_arrays
 from tests.support.corrupted import BIG, GRID, OCTAHEDRON, PRISM, ball, exchanged, mutations, refused
 
 NEEDLE = [(x, y * 10**6, z) for x in range(3) for y in (0, 1, 5) for z in range(2)] + [(1, 5 * 10**6 + 1, 1)]
@@ -124,6 +127,26 @@ def test_a_surface_turned_inside_out_is_refused(monkeypatch: pytest.MonkeyPatch)
     refused(OCTAHEDRON, corrupt, "is outside of facet")
 
 
+@pytest.mark.parametrize("least", [0, 1 << 60], ids=["by convexity", "by all planes"])
+def test_changed_arrays_of_facets_are_refused(least: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.undo()
+    monkeypatch.setattr(checks, "MANY", least)
+    points = ball(build_module.MANY, 6)
+    hull = exact_hull(points)
+    planes, corners, counts = arrays = hull.facets.planes, hull.facets.corners, hull.facets.counts
+    of_numpy = planes.copy()
+    of_numpy[0, 0] = np.int64(planes[0, 0])
+    changed = [(other, corners, counts) for other in (planes + 1, -planes, planes * 2, planes[::-1], of_numpy)]
+    others = (corners[::-1], corners + 1, np.roll(corners, 3), corners.astype(float))
+    changed += [(planes, other, counts) for other in others]
+    changed += [(planes, corners, counts + step) for step in (-1, 1)]
+    changed += [(planes[:-1], corners[:-3], counts[:-1])]
+    for each in changed:
+        refused(points, replace(hull, facets=Facets(*each)), "facet|polygon|vertex")
+    assert certify(points, replace(hull, facets=Facets(*map(np.copy, arrays)))) == hull.certificate
+    assert pickle.loads(pickle.dumps(hull)) == hull == replace(hull, facets=tuple(hull.facets))
+
+
 def test_a_facet_in_the_order_seen_from_inside_is_refused() -> None:
     """The plane of the triangle is right, but its corners have the opposite order."""
     hull = exact_hull(OCTAHEDRON)
@@ -212,11 +235,12 @@ def test_only_doubtful_points_are_located_in_a_wrong_cone() -> None:
     """Points within the bound of a wall are in doubt; the cone of every other point contains it."""
     points = ball(60, 21)
     hull = exact_hull(points)
-    sides = polygons(hull)
+    facets = facets_as_arrays(hull.facets)
+    sides = polygons(hull, facets)
     images = read_points(hull.scaled).images
     o = images.places[list(hull.vertices)].mean(axis=0)
     cones = convexity.cones(sides, images, o)
-    proof = convexity._Proof(hull, sides, check_planes(hull, sides), images, o, cones)
+    proof = convexity._Proof(hull, sides, check_planes(hull, facets, sides), images, o, cones)
     rng = np.random.default_rng(3)
     away = rng.normal(size=(500, 3)) * 0.2
     found, sure = proof._located(away)

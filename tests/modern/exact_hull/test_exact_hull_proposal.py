@@ -18,7 +18,7 @@ from modern.exact_hull import CertificateError, ExactHull, exact_hull, kernels, 
 from modern.exact_hull import build as build_module
 from modern.exact_hull import certificate as checks
 from modern.exact_hull.coordinates import Coordinates, read_points
-from modern.exact_hull.facets import independent, merged, planes_of, rotated
+from modern.exact_hull.facets import independent, merged, planes_of
 from modern.exact_hull.planes import long_signs
 from modern.exact_hull.proposal import Proposal, _simplex, in_doubles, load
 from modern.exact_hull.proposal import propose as proposed
@@ -103,7 +103,7 @@ def test_the_kernel_and_numpy_propose_the_same_polytope(name: str) -> None:
         proposals.append(Proposal(corners[corners[:, 0] >= 0], near, near))
     assert len(proposals) == 1 + len(ways) * (name not in ("big",))
     for way in proposals:
-        assert set(planes_of(way.triangles, coordinates)) == {facet.plane for facet in hull.facets}
+        assert set(map(tuple, planes_of(way.triangles, coordinates).tolist())) == {facet.plane for facet in hull.facets}
         named = {*way.triangles.ravel().tolist(), *way.near.tolist()}
         assert named >= {*hull.vertices, *hull.boundary}
 
@@ -250,12 +250,13 @@ def test_vectorised_planes_equal_those_of_single_triangles() -> None:
     """The coordinates are below and above 2**30, and some faces have several triangles."""
     for points in (CUBE, BIG[:27], ball(40, 8), [tuple(10**9 * n for n in p) for p in CUBE]):
         triangles = propose(points).triangles
-        for plane, (a, b, c) in zip(planes_of(triangles, read_points(points)), triangles.tolist(), strict=True):
+        planes = planes_of(triangles, read_points(points))
+        for plane, (a, b, c) in zip(planes.tolist(), triangles.tolist(), strict=True):
             p, q, r = points[a], points[b], points[c]
             assert all(plane[0] * x + plane[1] * y + plane[2] * z + plane[3] == 0 for x, y, z in (p, q, r))
             assert math.gcd(*plane) == 1
             x, y, z = (sum(axis) for axis in zip(*points, strict=True))
             assert plane[0] * x + plane[1] * y + plane[2] * z + plane[3] * len(points) < 0
-        corners = [rotated(corners) for corners in triangles.tolist()]
-        found = merged(corners, planes_of(triangles, read_points(points)), points)
-        assert sorted(found, key=lambda facet: facet.plane) == list(exact_hull(points).facets)
+        facets, face = merged(triangles, planes, read_points(points))
+        assert facets == exact_hull(points).facets
+        assert [facets[number].plane for number in face] == list(map(tuple, planes.tolist()))
