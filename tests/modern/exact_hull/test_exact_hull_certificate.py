@@ -1,17 +1,20 @@
 """The certificate refuses every corruption of a true hull, and the results of a faulty construction."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
+from operator import attrgetter
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from modern.exact_hull import CertificateError, Facet, certify, exact_hull
+from modern.exact_hull import CertificateError, ExactHull, Facet, certify, exact_hull
 from modern.exact_hull import build as build_module
 from modern.exact_hull import certificate as checks
 from modern.exact_hull import surface as surface_module
 from modern.exact_hull.coordinates import read_points
+from modern.exact_hull.result import Plane
 from tests.support.corrupted import (
     BIG,
     GRID,
@@ -71,75 +74,153 @@ def test_a_hull_of_other_points_is_refused() -> None:
 
 
 TOP = (0, 0, 1, -2)
+CUBE = [point for point in GRID[:27] if 1 not in point]
+SQUARE = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
+SEGMENT = [(0, 0, 0), (4, 0, 0)]
+TWICE = OCTAHEDRON + OCTAHEDRON[5:]
 
 
-def test_a_cube_without_a_face_is_refused() -> None:
-    """Two planes do not determine a corner, and the points inside the face would lie in no plane."""
-    hull = exact_hull(GRID)
-    refused(GRID, exchanged(hull, facet_with(hull, TOP)), "which contradicts its class")
-    cube = [point for point in GRID[:27] if 1 not in point]
-    refused(cube, exchanged(exact_hull(cube), 0), "its planes do not determine it")
+def with_facet(old: Plane, plane: Plane | None, *order: int) -> Callable[[ExactHull], ExactHull]:
+    """Return a change of the facet in the plane ``old``: another plane, other corners, or both; or None to drop it.
+
+    ``order`` has the places of the new corners in the old polygon.
+    """
+
+    def changed(hull: ExactHull) -> ExactHull:
+        number = facet_with(hull, old)
+        polygon = hull.facets[number].polygon
+        new = () if plane is None else (Facet(plane, tuple(polygon[k] for k in order) if order else polygon),)
+        return exchanged(hull, number, *new)
+
+    return changed
 
 
-def test_a_hull_without_facets_is_refused() -> None:
-    refused(GRID, replace(exact_hull(GRID), facets=()), "there are no facets")
+def with_extra(plane: Plane, *polygon: int) -> Callable[[ExactHull], ExactHull]:
+    return lambda hull: replace(
+        hull, facets=tuple(sorted((*hull.facets, Facet(plane, polygon)), key=attrgetter("plane")))
+    )
 
 
-def test_a_face_in_the_order_seen_from_inside_is_refused() -> None:
-    hull = exact_hull(GRID)
-    number = facet_with(hull, TOP)
-    a, *rest = hull.facets[number].polygon
-    refused(GRID, exchanged(hull, number, Facet(TOP, (a, *rest[::-1]))), "does not turn left")
-
-
-def test_a_plane_that_points_inward_is_refused() -> None:
-    hull = exact_hull(GRID)
-    number = facet_with(hull, TOP)
-    refused(GRID, exchanged(hull, number, Facet((0, 0, -1, 2), hull.facets[number].polygon)), "is outside of facet")
-
-
-@pytest.mark.parametrize(
-    ("plane", "message"),
-    [
-        ((0, 0, 2, -4), "lowest terms"),
-        ((0, 0, 0, 0), "normal is 0"),
-        ((0, 0, 0, 1), "normal is 0"),
-        ((0, 0, 1, -3), "is not in its plane"),
-        ((0, 0, 1), "not four integers"),
-        (tuple(np.array(TOP)), "not four integers"),
-    ],
-)
-def test_an_invalid_plane_is_refused(plane: tuple[int, ...], message: str) -> None:
-    hull = exact_hull(GRID)
-    number = facet_with(hull, TOP)
-    refused(GRID, exchanged(hull, number, Facet(plane, hull.facets[number].polygon)), message)
-
-
-def test_a_plane_through_an_edge_that_intersects_the_cube_is_refused() -> None:
-    hull = exact_hull(GRID)
-    edge = tuple(i for i in hull.vertices if GRID[i][0] == 0 and GRID[i][1] == 0)
-    refused(GRID, exchanged(hull, 0, Facet((1, -1, 0, 0), edge)), "is outside of facet")
-
-
-def test_an_extra_plane_that_touches_an_edge_is_refused() -> None:
-    hull = exact_hull(GRID)
-    edge = tuple(i for i in hull.vertices if GRID[i][0] == 0 and GRID[i][1] == 0)
-    extra = Facet((-1, -1, 0, 0), edge)
-    facets = tuple(sorted((*hull.facets, extra), key=lambda facet: facet.plane))
-    refused(GRID, replace(hull, facets=facets), "fewer than three vertices")
-
-
-def test_a_face_split_into_two_triangles_is_refused() -> None:
-    hull = exact_hull(GRID)
+def split(hull: ExactHull) -> ExactHull:
     number = facet_with(hull, TOP)
     a, b, c, d = hull.facets[number].polygon
-    refused(GRID, exchanged(hull, number, Facet(TOP, (a, b, c)), Facet(TOP, (a, c, d))), "a plane occurs twice")
-    refused(GRID, exchanged(hull, number, Facet(TOP, (a, b, c))), "its plane contains other vertices than its polygon")
+    return exchanged(hull, number, Facet(TOP, (a, b, c)), Facet(TOP, (a, c, d)))
 
 
-def test_a_point_inside_a_face_is_refused_as_a_vertex() -> None:
-    hull = exact_hull(GRID)
-    refused(GRID, promoted(hull, GRID.index((1, 1, 2))), "its plane contains other vertices than its polygon")
+def moved(index: int, taken_from: str, given_to: str) -> Callable[[ExactHull], ExactHull]:
+    """Return a change that moves a point from one class to another."""
+    return lambda hull: replace(
+        hull,
+        **{
+            taken_from: tuple(k for k in getattr(hull, taken_from) if k != index),
+            given_to: tuple(sorted((*getattr(hull, given_to), index))),
+        },
+    )
+
+
+# Points, a change of their hull that no change of a single number makes, and a part of the message.
+CHANGES = {
+    "a face is missing, so the points in it lie in no plane": (GRID, with_facet(TOP, None), "contradicts its class"),
+    "a face is missing, so two planes do not determine a corner": (
+        CUBE,
+        with_facet(TOP, None),
+        "its planes do not determine it",
+    ),
+    "no facets": (GRID, lambda hull: replace(hull, facets=()), "there are no facets"),
+    "a face in the order seen from inside": (GRID, with_facet(TOP, TOP, 0, 3, 2, 1), "does not turn left"),
+    "a plane that points inward": (GRID, with_facet(TOP, (0, 0, -1, 2)), "is outside of facet"),
+    "a plane that is not in lowest terms": (GRID, with_facet(TOP, (0, 0, 2, -4)), "lowest terms"),
+    "a plane of zeros": (GRID, with_facet(TOP, (0, 0, 0, 0)), "normal is 0"),
+    "a plane without a normal": (GRID, with_facet(TOP, (0, 0, 0, 1)), "normal is 0"),
+    "a parallel plane": (GRID, with_facet(TOP, (0, 0, 1, -3)), "is not in its plane"),
+    "a plane of three numbers": (GRID, with_facet(TOP, (0, 0, 1)), "not four integers"),
+    "a plane of numpy integers": (GRID, with_facet(TOP, tuple(np.array(TOP))), "not four integers"),
+    "a plane through an edge that intersects the cube": (
+        GRID,
+        lambda hull: exchanged(hull, 0, Facet((1, -1, 0, 0), (0, 2))),
+        "is outside of facet",
+    ),
+    "an extra plane that touches an edge": (GRID, with_extra((-1, -1, 0, 0), 0, 2), "fewer than three vertices"),
+    "a face split into two triangles": (GRID, split, "a plane occurs twice"),
+    "a face without a corner": (GRID, with_facet(TOP, TOP, 0, 1, 2), "contains other vertices than its polygon"),
+    "a point inside a face as a vertex": (
+        GRID,
+        lambda hull: promoted(hull, GRID.index((1, 1, 2))),
+        "contains other vertices than its polygon",
+    ),
+    "an interior point as a vertex": (GRID, lambda hull: promoted(hull, 13), "point 13 is called a vertex"),
+    "an interior point on the boundary": (GRID, moved(13, "inside", "boundary"), "point 13 is not on a facet"),
+    "a point of the boundary inside": (GRID, moved(4, "boundary", "inside"), "point 4 is on a facet"),
+    "a vertex on the boundary": (GRID, moved(0, "vertices", "boundary"), "a point of the polygon is not a vertex"),
+    "a duplicate as a vertex": (
+        GRID,
+        lambda hull: replace(hull, vertices=(*hull.vertices, 28), duplicates=hull.duplicates[:1]),
+        "point 28 is stated to equal point 28, but first occurs as point 0",
+    ),
+    "the second of two equal points as the first": (
+        TWICE,
+        lambda hull: replace(hull, vertices=(0, 1, 2, 3, 4, 6), duplicates=((5, 6),)),
+        "point 5 is stated to equal point 6",
+    ),
+    "a scale that is not the least": (
+        OCTAHEDRON,
+        lambda hull: replace(hull, scale=2, scaled=tuple(tuple(2 * n for n in p) for p in hull.scaled)),
+        "the scale is not the least",
+    ),
+    "scaled coordinates as numpy integers": (
+        OCTAHEDRON,
+        lambda hull: replace(hull, scaled=tuple(map(tuple, np.array(hull.scaled)))),
+        "point 0: its scaled coordinates",
+    ),
+    "a pentagram, which turns left everywhere": (
+        PRISM,
+        with_facet((0, 0, 1, -3), (0, 0, 1, -3), 0, 2, 4, 1, 3),
+        "goes around 2 times",
+    ),
+    "an edge with an inclined plane": (SQUARE, with_facet((0, -1, 0, 0), (0, -1, 1, 0)), "at right angles"),
+    "a line through one corner as an edge": (SQUARE, with_extra((-1, -1, 0, 0), 0), "not the polygon's edges"),
+    "the negative plane of a polygon": (
+        SKEW_SQUARE,
+        lambda hull: replace(hull, plane=tuple(-n for n in hull.plane)),
+        "plane is not positive",
+    ),
+    "twice the plane of a polygon": (
+        SKEW_SQUARE,
+        lambda hull: replace(hull, plane=tuple(2 * n for n in hull.plane)),
+        "not in lowest terms",
+    ),
+    "no polygon": (SKEW_SQUARE, lambda hull: replace(hull, polygon=()), "must be stated for dimension 2"),
+    "a polygon of a polyhedron": (
+        OCTAHEDRON,
+        lambda hull: replace(hull, polygon=(0, 2, 4)),
+        "must be stated for dimension 2",
+    ),
+    "a polygon that starts with another vertex": (
+        SKEW_SQUARE,
+        lambda hull: replace(hull, polygon=(*hull.polygon[1:], hull.polygon[0])),
+        "not an order of the vertices",
+    ),
+    "a face that starts with another vertex": (GRID, with_facet(TOP, TOP, 1, 2, 3, 0), "smallest vertex is not first"),
+    "a face without corners": (
+        OCTAHEDRON,
+        lambda hull: exchanged(hull, 0, Facet(hull.facets[0].plane, ())),
+        "smallest vertex is not first",
+    ),
+    "an inclined end of a segment": (SEGMENT, with_facet((1, 0, 0, -4), (1, 1, 0, -4)), "at right angles"),
+    "a segment with one end": (
+        SEGMENT,
+        lambda hull: replace(hull, facets=hull.facets[:1], vertices=(0,), inside=(1,)),
+        "the segment has 1 ends",
+    ),
+    "a facet of a point": (POINT, with_extra((0, 0, 1, -6), 0), "a point has one vertex and no facets"),
+    "a point without a vertex": (POINT, moved(0, "vertices", "inside"), "a point has one vertex and no facets"),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_a_change_is_refused_with_a_message(name: str) -> None:
+    points, change, message = CHANGES[name]
+    refused(points, change(exact_hull(points)), message)
 
 
 def test_a_point_inside_an_edge_is_refused_as_a_vertex_of_both_faces() -> None:
@@ -157,65 +238,10 @@ def test_a_point_inside_an_edge_is_refused_as_a_vertex_of_both_faces() -> None:
     refused(GRID, replace(hull, facets=tuple(facets)), f"point {middle} is called a vertex")
 
 
-def test_an_interior_point_is_refused_as_a_vertex() -> None:
-    refused(GRID, promoted(exact_hull(GRID), 13), "point 13 is called a vertex")
-
-
 def test_the_hull_of_all_points_except_one_vertex_is_refused() -> None:
     """The result is consistent, but a point is outside."""
     for points, hull in one_vertex_short():
         refused(points, hull, "point 4 is outside of facet")
-
-
-@pytest.mark.parametrize(("index", "taken_from", "given_to"), [(13, "inside", "boundary"), (4, "boundary", "inside")])
-def test_exchanging_boundary_and_inside_is_refused(index: int, taken_from: str, given_to: str) -> None:
-    hull = exact_hull(GRID)
-    corrupt = replace(
-        hull,
-        **{
-            taken_from: tuple(k for k in getattr(hull, taken_from) if k != index),
-            given_to: tuple(sorted((*getattr(hull, given_to), index))),
-        },
-    )
-    refused(GRID, corrupt, f"point {index} is .* a facet, which contradicts its class")
-
-
-def test_a_vertex_is_refused_as_a_boundary_point() -> None:
-    hull = exact_hull(GRID)
-    corrupt = replace(hull, vertices=hull.vertices[1:], boundary=(hull.vertices[0], *hull.boundary))
-    refused(GRID, corrupt, "a point of the polygon is not a vertex")
-
-
-def test_a_duplicate_is_refused_as_a_vertex() -> None:
-    hull = exact_hull(GRID)
-    corrupt = replace(hull, vertices=(*hull.vertices, 28), duplicates=hull.duplicates[:1])
-    refused(GRID, corrupt, "point 28 is stated to equal point 28, but first occurs as point 0")
-
-
-def test_the_second_of_two_equal_points_is_refused_as_the_first() -> None:
-    hull = exact_hull(OCTAHEDRON + OCTAHEDRON[5:])
-    corrupt = replace(hull, vertices=(0, 1, 2, 3, 4, 6), duplicates=((5, 6),))
-    refused(OCTAHEDRON + OCTAHEDRON[5:], corrupt, "point 5 is stated to equal point 6")
-
-
-def test_a_scale_that_is_not_the_least_is_refused() -> None:
-    hull = exact_hull(OCTAHEDRON)
-    corrupt = replace(hull, scale=2, scaled=tuple(tuple(2 * n for n in p) for p in hull.scaled))
-    refused(OCTAHEDRON, corrupt, "the scale is not the least")
-
-
-def test_scaled_coordinates_as_numpy_integers_are_refused() -> None:
-    hull = exact_hull(OCTAHEDRON)
-    corrupt = replace(hull, scaled=tuple(map(tuple, np.array(hull.scaled))))
-    refused(OCTAHEDRON, corrupt, "point 0: its scaled coordinates")
-
-
-def test_a_pentagram_is_refused() -> None:
-    """The polygon turns left everywhere, but goes around twice."""
-    hull = exact_hull(PRISM)
-    number = facet_with(hull, (0, 0, 1, -3))
-    a, b, c, d, e = hull.facets[number].polygon
-    refused(PRISM, exchanged(hull, number, Facet((0, 0, 1, -3), (a, c, e, b, d))), "goes around 2 times")
 
 
 def test_two_closed_surfaces_violate_eulers_relation() -> None:
@@ -229,72 +255,12 @@ def test_two_closed_surfaces_violate_eulers_relation() -> None:
         checks._check_polyhedron(both)
 
 
-def test_an_edge_with_an_inclined_plane_is_refused() -> None:
-    square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
-    hull = exact_hull(square)
-    number = facet_with(hull, (0, -1, 0, 0))
-    refused(square, exchanged(hull, number, Facet((0, -1, 1, 0), hull.facets[number].polygon)), "at right angles")
-
-
-def test_a_polygon_with_the_negative_plane_is_refused() -> None:
-    hull = exact_hull(SKEW_SQUARE)
-    refused(SKEW_SQUARE, replace(hull, plane=tuple(-number for number in hull.plane)), "plane is not positive")
-
-
 def test_a_polygon_with_a_point_outside_its_plane_is_refused() -> None:
     """The point is inside the plane of every edge, but not in that of the polygon, which the rank shows first."""
-    square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
-    hull = exact_hull([*square, (1, 1, 0)])
-    refused([*square, (1, 1, 1)], replace(hull, scaled=(*hull.scaled[:4], (1, 1, 1))), "but the points have rank 3")
+    hull = exact_hull([*SQUARE, (1, 1, 0)])
+    refused([*SQUARE, (1, 1, 1)], replace(hull, scaled=(*hull.scaled[:4], (1, 1, 1))), "but the points have rank 3")
     with pytest.raises(CertificateError, match="point 4 is not in the polygon's plane"):
         checks._check_polygon(replace(hull, scaled=(*hull.scaled[:4], (1, 1, 1))))
-
-
-def test_a_segment_with_an_inclined_end_is_refused() -> None:
-    points = [(0, 0, 0), (4, 0, 0)]
-    hull = exact_hull(points)
-    refused(points, replace(hull, facets=(Facet((-1, 0, 0, 0), (0,)), Facet((1, 1, 0, -4), (1,)))), "at right angles")
-
-
-def test_a_segment_with_one_end_is_refused() -> None:
-    points = [(0, 0, 0), (4, 0, 0)]
-    hull = exact_hull(points)
-    one = replace(hull, facets=hull.facets[:1], vertices=(0,), inside=(1,))
-    refused(points, one, "the segment has 1 ends")
-
-
-def test_a_point_with_a_facet_or_without_a_vertex_is_refused() -> None:
-    hull = exact_hull(POINT)
-    refused(POINT, replace(hull, facets=(Facet((0, 0, 1, -6), (0,)),)), "a point has one vertex and no facets")
-    refused(POINT, replace(hull, vertices=(), inside=(0,)), "a point has one vertex and no facets")
-
-
-def test_a_polygon_that_contradicts_the_dimension_is_refused() -> None:
-    hull = exact_hull(OCTAHEDRON)
-    refused(OCTAHEDRON, replace(hull, polygon=hull.facets[0].polygon), "a polygon must be stated for dimension 2")
-    refused(SKEW_SQUARE, replace(exact_hull(SKEW_SQUARE), polygon=()), "a polygon must be stated for dimension 2")
-
-
-def test_cycles_that_do_not_start_with_the_smallest_vertex_are_refused() -> None:
-    hull = exact_hull(OCTAHEDRON)
-    a, b, c = hull.facets[0].polygon
-    refused(OCTAHEDRON, exchanged(hull, 0, Facet(hull.facets[0].plane, (b, c, a))), "the smallest vertex is not first")
-    refused(OCTAHEDRON, exchanged(hull, 0, Facet(hull.facets[0].plane, ())), "the smallest vertex is not first")
-    hull = exact_hull(SKEW_SQUARE)
-    refused(SKEW_SQUARE, replace(hull, polygon=(*hull.polygon[1:], hull.polygon[0])), "not an order of the vertices")
-
-
-def test_a_polygon_whose_plane_is_not_in_lowest_terms_is_refused() -> None:
-    hull = exact_hull(SKEW_SQUARE)
-    corrupt = replace(hull, plane=tuple(2 * number for number in hull.plane))
-    refused(SKEW_SQUARE, corrupt, "the polygon's plane is not in lowest terms")
-
-
-def test_a_line_through_one_corner_is_refused_as_an_edge() -> None:
-    square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
-    hull = exact_hull(square)
-    extra = tuple(sorted((*hull.facets, Facet((-1, -1, 0, 0), (0,))), key=lambda facet: facet.plane))
-    refused(square, replace(hull, facets=extra), "the facets are not the polygon's edges")
 
 
 def test_the_rank_of_vectors_is_exact() -> None:
