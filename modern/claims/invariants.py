@@ -26,7 +26,7 @@ Outcome = tuple[str, bool]
 
 
 def _printed(paper: str) -> Lines:
-    """Return the printed lines of a paper, after our emendations, by the id of their result."""
+    """Return the printed lines of a paper, after the project's emendations, by the id of their result."""
     return printed_lines(next(p for p in PAPERS if p.name == paper))
 
 
@@ -82,7 +82,7 @@ class HalfBall:
 
 
 def half_balls() -> Iterator[HalfBall]:
-    """Yield the rows of Table 5 as printed, after our emendations."""
+    """Yield the rows of Table 5 as printed, after the project's emendations."""
     for name, rows in _printed("kovalevsky-schulz").items():
         if name.startswith("table5-"):
             d, triangles, integers, _, faces, of_cells, per_face = rows[0].split()
@@ -91,7 +91,7 @@ def half_balls() -> Iterator[HalfBall]:
 
 @claim("kovalevsky-schulz.171")
 def table_5() -> Check:
-    """Check that rows of Table 5 have 4.5 integers for each of an even number of triangles, and 3 V + 5 F integers."""
+    """Check that each row of Table 5 has 4.5 integers for each triangle and 3 V + 5 F integers for its cell list."""
     outcomes: list[Outcome] = []
     for row in half_balls():
         hundredths = Fraction(100 * row.integers, row.faces)
@@ -105,14 +105,14 @@ def table_5() -> Check:
 
 @claim("kovalevsky-schulz.89")
 def points_at_diameter_14() -> Check:
-    """Check that the row of diameter 14 counts more points than a convex polyhedron with its faces has vertices."""
+    """Check that Table 5 counts more points for diameter 14 than a convex polyhedron with its faces has vertices."""
     row = next(row for row in half_balls() if row.diameter == 14)
     message = f"{row.corners} points and {row.faces} faces, which allow {2 * row.faces - 4} vertices"
     return exhibited(not may_be_convex(int(row.corners), row.faces), message)
 
 
 def _numbers_of_ball() -> list[int]:
-    """Return the printed numbers of the ball: voxels, corners by 6 and by 26 neighbours, triangles, and faces."""
+    """Return the printed counts of the ball of diameter 32: voxels, local corners, triangles and faces."""
     printed = _printed("kovalevsky-schulz")
     names = ("ball-voxels", "ball-corners-6", "ball-corners-26", "ball-triangles", "ball-faces")
     return [
@@ -122,7 +122,7 @@ def _numbers_of_ball() -> list[int]:
 
 @claim("kovalevsky-schulz.20", "kovalevsky-schulz.21", "kovalevsky-schulz.64")
 def ball_of_diameter_32() -> Check:
-    """Check the printed numbers of the ball by its symmetries and by the numbers of vertices of closed surfaces."""
+    """Check the printed counts of the ball of diameter 32 by its symmetry and by Euler's formula."""
     voxels, corners, near_corners, triangles, faces = _numbers_of_ball()
     outcomes = [
         ("the centre is a voxel", voxels % 2 == 1),
@@ -136,7 +136,7 @@ def ball_of_diameter_32() -> Check:
 
 @claim("kovalevsky-schulz.22")
 def triangles_of_360_corners() -> Check:
-    """Check that the corners left by a test of 26 neighbours are too few for the printed triangles."""
+    """Check that 360 local corners, found by testing 26 neighbours, are too few for the printed 1404 triangles."""
     _, _, near_corners, triangles, _ = _numbers_of_ball()
     most = 2 * near_corners - 4
     return refuted(triangles > most, f"{near_corners} corners make at most {most} triangles; printed: {triangles}")
@@ -178,7 +178,7 @@ def table_4() -> Check:
 @claim("nakamae-nishita.54", scene="b")
 @claim("nakamae-nishita.55", scene="c")
 def scene_of_solids(scene: str) -> Check:
-    """Check that a row of Table 1 can count the vertices and faces of n solids: V <= 2 F - 4 n and F <= 2 V - 4 n."""
+    """Check that n convex solids can have the printed vertices V and faces F: V <= 2 F - 4 n and F <= 2 V - 4 n."""
     solids, corners, faces, _ = _numbers(_printed("nakamae-nishita")[f"table1-{scene}"][0].split(")")[1])
     possible = corners <= 2 * faces - 4 * solids and faces <= 2 * corners - 4 * solids and corners >= 4 * solids
     return satisfied(f"Table 1 ({scene})", [("solids", possible)])
@@ -206,7 +206,7 @@ def _is_closed(loop: Sequence[int], lines: Mapping[int, tuple[int, int]]) -> boo
 @claim("appel-will.65", number=14)
 @claim("appel-will.113", "appel-will.114", "appel-will.115", number=23)
 def lines_and_loops(number: int) -> Check:
-    """Check that the loops of Figs. 14 and 22, or of Fig. 23, are closed and use each line of its list twice."""
+    """Check that each printed loop of lines (Figs. 14, 22 and 23) is closed and that each line is in two loops."""
     printed = _printed("appel-will")
     first, second = (printed[name] for name in ("fig22-loops-1-3", "fig22-loops-4-5"))
     fig22 = [_numbers(cell) for row in (first[0], second[0]) for cell in row.split("\t")[1::2]]

@@ -41,7 +41,10 @@ def _area(p: Flat, q: Flat, r: Flat) -> int:
 
 @claim("appel-will.1", "appel-will.64", "appel-will.55", full=300)
 def corrected_method(cases: int = CASES) -> Check:
-    """Check that the corrected method finds the exact hull, and that it does not with the star test of the caption."""
+    """Check that the method finds the exact hull with the corrected star polygon test (Fig. 12), not as printed.
+
+    12, and not as printed.
+    """
     check = method_against_judge(cases)
     return check.unless(not star_as_captioned().holds, "the star test as in the caption of Fig. 12")
 
@@ -125,7 +128,7 @@ def _simple(ring: Sequence[Flat]) -> bool:
 
 @claim("appel-will.15")
 def jarvis_start_as_printed() -> Check:
-    """Check that the printed first point of Jarvis, the smallest polar angle, may lie inside the hull.
+    """Check that the point that the paper takes first in Jarvis's method may lie inside the hull.
 
     The angle runs from 0 to 360 degrees about an origin outside the set.
     """
@@ -142,7 +145,7 @@ def jarvis_start_as_printed() -> Check:
 @claim("appel-will.30", "nakamae-nishita.63", number="4", full=400)
 @claim("appel-will.31", number="5", full=400)
 def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
-    """Check one numbered property of convex polyhedra on exact hulls, some of which have further points inside."""
+    """Check one of the paper's numbered properties of convex polyhedra on exact hulls."""
     checks = [right for points, judge in _hulls(cases) for right in _PROPERTIES[number](points, judge)]
     return searched(SETS[3], cases, checks, f"the property of convex polyhedra holds in {len(checks)} cases")
 
@@ -155,7 +158,7 @@ def _inside_of_all(points: Sequence[Point], judge: ExactHull) -> list[bool]:
 
 
 def _cones(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """Return, for each vertex, whether all points lie in the cone of its planes, and only it lies on them all."""
+    """Return, for each vertex, whether the planes through it form a cone that contains all points of the set."""
     checks = []
     for k in judge.vertices:
         planes = [f.plane for f in judge.facets if k in f.polygon]
@@ -231,7 +234,7 @@ def _surface(points: list[Point]) -> float:
 
 @claim("appel-will.37")
 def number_of_combinations() -> Check:
-    """Check that the number of combinations is N! / (r! (N - r)!), with brackets that the print lacks."""
+    """Check that the number of combinations is N! / (r! (N - r)!); the print lacks the outer brackets."""
     f = math.factorial
     pairs = [(n, r) for n in range(2, 13) for r in range(1, n + 1)]
     outcomes = [len([*combinations(range(n), r)]) * f(r) * f(n - r) == f(n) for n, r in pairs]
@@ -243,7 +246,7 @@ def number_of_combinations() -> Check:
     "appel-will.130", "appel-will.142", "appel-will.47", "appel-will.54", "appel-will.93", "yau-srihari.12", full=200
 )
 def edge_by_star_test(cases: int = 1) -> Check:
-    """Check that the star test on the projections of all other points finds exactly the edges of the hull."""
+    """Check that the star polygon test, applied to the projection along each pair, finds exactly the hull's edges."""
     checks = []
     for points, judge in _hulls(cases):
         edges = {*judge.edges()}
@@ -256,7 +259,7 @@ def edge_by_star_test(cases: int = 1) -> Check:
 
 @claim("appel-will.59")
 def star_as_captioned() -> Check:
-    """Check that the star test, as the caption of Fig. 12 describes it, finds wrong edges of a cube."""
+    """Check that the star polygon test, as the caption of Fig. 12 describes it, finds wrong edges of a cube."""
     cube = counterexample_points("cube.csv")
     edges = appel_will(cube, method=Method(star=as_printed)).edges
     message = f"the test finds {len(edges)} edges of a cube, which has {len(exact_hull(cube).edges())}"
@@ -268,7 +271,7 @@ def star_as_captioned() -> Check:
 @claim("appel-will.107", step="step9")
 @claim("appel-will.108", step="step10")
 def step_as_printed(step: str) -> Check:
-    """Check that a step of the appendix, as printed, fails on its counterexample."""
+    """Check that a step of the loop algorithm, as the appendix prints it, fails on its counterexample."""
     name = {"step5": "fig14.csv", "step7": "octahedron.csv", "step9": "pentagon.csv", "step10": "fig14.csv"}[step]
     points = counterexample_points(name)
     also = ("step3",) if step == "step9" else ()
@@ -288,7 +291,7 @@ def step_as_printed(step: str) -> Check:
 
 @claim("appel-will.96", "appel-will.124", "kovalevsky-schulz.43", "kovalevsky-schulz.158", full=400)
 def planar_graph(cases: int = CASES) -> Check:
-    """Check that the faces of a hull embed its graph in a sphere: rings around edges and vertices, V - E + F = 2."""
+    """Check that the edges of a hull form a planar graph: V - E + F = 2, and a ring of faces around each vertex."""
     checks = []
     for _, hull in _hulls(cases):
         rings = [f.polygon for f in hull.facets]

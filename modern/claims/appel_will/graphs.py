@@ -1,4 +1,4 @@
-"""Checks of Appel and Will on graphs: the outline, and faces found from the edges, three points, or a list."""
+"""Checks of Appel and Will about the graph of a hull's edges: its outline, its faces, and loops in one plane."""
 
 from collections.abc import Iterator, Mapping
 from itertools import combinations

@@ -22,7 +22,7 @@ from modern.claims.evidence import Check, claim
 
 
 def inside_triangle() -> Proof:
-    """Prove that a point is inside a triangle if and only if it has the sense of the corners about all three sides."""
+    """Prove that a point is inside a triangle if and only if the sides, seen from it, turn like the triangle."""
     a, b, c, p = (point(name, 2) for name in "abcp")
     area, weights = bracket(a, b, c), (bracket(b, c, p), bracket(c, a, p), bracket(a, b, p))
     combined = [dot(weights, [corner[k] for corner in (a, b, c)]) for k in (0, 1)]

@@ -47,7 +47,7 @@ def _holds_origin(images: Sequence[Flat]) -> bool:
 
 @claim("appel-will.131", full=5_000)
 def star_test(cases: int = 20) -> Check:
-    """Check that the star test as printed is right if no two images are in line with the point."""
+    """Check that the star polygon test is right as printed if no two images are in line with the tested point."""
     general: list[bool] = []
     in_line: list[bool] = []
     for images in IMAGES.cases(cases):
@@ -59,7 +59,7 @@ def star_test(cases: int = 20) -> Check:
 
 @claim("appel-will.58", full=5_000)
 def change_of_sense(cases: int = 20) -> Check:
-    """Check that the point is outside if two sides of the star turn differently; the border counts as inside."""
+    """Check that a point is outside the hull if two sides of its star polygon turn differently."""
 
     def is_right(images: tuple[Flat, ...]) -> bool:
         star = star_polygon(images)
@@ -72,7 +72,7 @@ def change_of_sense(cases: int = 20) -> Check:
 @claim("appel-will.119", relation="ray", full=1_000)
 @claim("appel-will.60", relation="opposite", full=1_000)
 def images_in_line(relation: str, cases: int = 10) -> Check:
-    """Check the star test with two images in line with the point.
+    """Check the star polygon test for two projected points that are in line with the tested point.
 
     relation: ``ray``, any order of two images on one ray gives the same result; ``opposite``, a point between two
     images is not outside.
@@ -89,7 +89,7 @@ def images_in_line(relation: str, cases: int = 10) -> Check:
 
 @claim("appel-will.101")
 def step_3_as_printed() -> Check:
-    """Check that step 3 needs its preference for a positive product only for the direction of some loops."""
+    """Check that step 3 of the loop algorithm, as printed, changes only the direction of some loops."""
     solids = [found_solid(name).points for name in ("fig14", "fig23")]
     preferred, plain = ([appel_will(p, method=m) for p in solids] for m in (Method(), printed("step3")))
     same = all(
@@ -118,7 +118,7 @@ def fourth_loop() -> Check:
 
 @claim("appel-will.148")
 def limit_of_searches() -> Check:
-    """Check that step 9 as printed never ends on a pentagon, and reports an open loop if searches are limited."""
+    """Check that step 9 of the loop algorithm, as printed, needs a limit of searches: it never ends on a pentagon."""
     points = counterexample_points("pentagon.csv")
     hull = appel_will(points, method=printed("step9", "step3"))
     ring = exact_hull(points).polygon
@@ -143,7 +143,7 @@ def _joined(entries: Sequence[int], edges: Sequence[tuple[int, int]]) -> bool:
 
 @claim("appel-will.159")
 def product_with_repeated_vector() -> Check:
-    """Check the determinants of Fig. 18: with the displayed third vector I they are 0, with l they are right."""
+    """Check that the determinants of Fig. 18 are right with the index l, and 0 with the printed index i."""
     determinants = []
     for i, k, m in FIG_18:
         determinants.append((triple_product(i, k, i), triple_product(i, k, m)))

@@ -49,7 +49,7 @@ def crown() -> Solid:
 
 
 def bent() -> Solid:
-    """Return an L of three cubes, at each point of which three planes meet."""
+    """Return an L-shaped solid of three cubes, at each point of which three planes meet."""
     ring: list[Flat] = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
     sides = [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)]
     return Solid(tuple((x, y, z) for z in (0, 1) for x, y in ring), ((5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *sides))
@@ -70,7 +70,7 @@ def objects() -> tuple[Solid, ...]:
 
 @claim("appel-will.22")
 def surface_three() -> Check:
-    """Check that Fig. 4 with surface III as printed is not closed: some of its lines are on no other surface."""
+    """Check that the object of Fig. 4 is not closed with surface III as printed: some lines have only one surface."""
     mesh = parse_off(counterexample("fig4_printed.off"), "fig4_printed.off")
     sides = Counter(frozenset(pair) for face in mesh.faces for pair in zip(face, (*face[1:], face[0]), strict=True))
     alone = sorted(tuple(sorted(k + 1 for k in side)) for side, n in sides.items() if n == 1)
@@ -82,7 +82,7 @@ def surface_three() -> Check:
 
 @claim("appel-will.155")
 def inside_corner_at_vertex() -> Check:
-    """Check that rule ``any`` deletes a vertex of the hull of the crown, a pyramid over a star."""
+    """Check that deleting all points on inside corners deletes a vertex of the hull of a pyramid on a star."""
     solid = crown()
     deleted = preprocess(solid.points, solid.surfaces, "any").deleted
     lost = [k + 1 for k in deleted if k in exact_hull(solid.points).vertices]
@@ -121,7 +121,7 @@ def inside_corners_deleted(cases: int = 5) -> Check:
 
 @claim("appel-will.84")
 def sense_of_surfaces() -> Check:
-    """Check that the corners of four objects are the same if surfaces are listed in the opposite sense."""
+    """Check that listing surfaces in the opposite sense does not change the inside corners of four objects."""
     same = []
     for solid in objects():
         turned = tuple(surface[::-1] if k % 2 else surface for k, surface in enumerate(solid.surfaces))
@@ -133,7 +133,7 @@ def sense_of_surfaces() -> Check:
 
 @claim("appel-will.73")
 def two_inside_corners() -> Check:
-    """Check that vertices of the crown's hull can be on two inside corners if they have several outside corners."""
+    """Check that a vertex of the hull can be on two inside corners of the object if it has several outside corners."""
     solid = crown()
     vertices = {*exact_hull(solid.points).vertices}
     preprocessed = preprocess(solid.points, solid.surfaces, "two")
@@ -204,7 +204,7 @@ def points_on_three_surfaces() -> Check:
 
 @claim("appel-will.78")
 def hulls_of_surfaces() -> Check:
-    """Check that a vertex of the hulls of its surfaces may not be a vertex of the hull; the converse is a theorem."""
+    """Check that a vertex of a surface's hull may not be a vertex of the object's hull; the converse always holds."""
     solid = pitted()
     apex = max(range(len(solid.points)), key=lambda k: k not in exact_hull(solid.points).vertices)
     surfaces_at = [surface for surface in solid.surfaces if apex in surface]
@@ -217,7 +217,7 @@ def hulls_of_surfaces() -> Check:
 
 @claim("appel-will.138", "appel-will.76")
 def vertex_without_supporting_surface() -> Check:
-    """Check that vertices of a hull need no supporting surface: a tetrahedron with a pit in each face has none."""
+    """Check that a vertex of the hull need not be on a surface of the object whose plane supports the hull."""
     solid = pitted()
     planes = {}
     for surface in oriented(solid.points, solid.surfaces):
@@ -236,7 +236,7 @@ def vertex_without_supporting_surface() -> Check:
 
 @claim("appel-will.157")
 def normal_from_two_lines() -> Check:
-    """Check that the product of two lines is perpendicular to them; at a concave corner of an L it is reversed."""
+    """Check that the cross product of two lines of a surface is normal to it, and points inward at a concave corner."""
     solid, turned, shorter = bent(), 0, 0
     for ring in oriented(solid.points, solid.surfaces):
         normal = area_vector(solid.points, ring)
@@ -253,7 +253,7 @@ def normal_from_two_lines() -> Check:
 
 @claim("appel-will.83")
 def product_of_directions() -> Check:
-    """Check that the product of the directions of two sides is negative if the angle between them is obtuse."""
+    """Check that the dot product of the directions of two sides is negative if their angle is obtuse."""
     p, corner, r = counterexample_points("obtuse.csv")
     product_ = dot(minus(p, corner), minus(r, corner))
     return refuted(product_ < 0, f"the product is {product_} for an obtuse angle")
@@ -261,7 +261,7 @@ def product_of_directions() -> Check:
 
 @claim("appel-will.85")
 def direction_of_line() -> Check:
-    """Check that the determinants of Fig. 18 change sign if the line is reversed or the surfaces are exchanged."""
+    """Check that the determinants of Fig. 18 change sign if the line is reversed or its two surfaces are exchanged."""
     rows = {"512": ((-1, 0, 0), (0, 0, -1), (0, -1, 0)), "723": ((-1, 0, 0), (0, -1, 0), (0, 0, -1))}
     signs = {}
     for name, matrix in rows.items():
@@ -276,14 +276,14 @@ def direction_of_line() -> Check:
 
 @claim("appel-will.140")
 def sense_of_line() -> Check:
-    """Check that the sense of a line decides the sign of the determinant, which changes if the line is reversed."""
+    """Check that the direction of a line decides the sign of the determinant that tests for an inside corner."""
     check = direction_of_line()
     return exhibited(check.evidence.violation, f"{check.message}; {check.evidence.violation}")
 
 
 @claim("appel-will.80")
 def figure_of_minimum_data() -> Check:
-    """Check that the figure with a list of points and a map is Fig. 4, although the text prints the number 3."""
+    """Check that the figure with a list of points and a topological map is Fig. 4, although the text says Fig. 3."""
     paper = next(paper for paper in PAPERS if paper.name == "appel-will")
     finding = next(finding for finding in findings(paper) if finding.result.id == "figure-number")
     words, printed, corrected = (

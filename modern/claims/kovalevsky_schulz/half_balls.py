@@ -65,7 +65,7 @@ def diameter_8() -> Check:
 @claim("kovalevsky-schulz.92", diameter=20)
 @claim("kovalevsky-schulz.93", diameter=22)
 def row_of_table_5(diameter: int) -> Check:
-    """Check that a row of Table 5 has the faces and integers of the half-ball centred on a corner of voxels."""
+    """Check that a row of Table 5 has the counts of the half-ball whose centre is a corner of voxels."""
     row, cells = _row(diameter), half_ball_cells(diameter)
     hull = straightened(cells)
     agrees = (len(cells.faces), _size(cells)) == (row.faces, row.integers) and row.has_quarter_turns()
@@ -80,7 +80,7 @@ def row_of_table_5(diameter: int) -> Check:
 
 @claim("kovalevsky-schulz.88")
 def diameter_12() -> Check:
-    """Check that some digitisation has the printed faces and integers of diameter 12, but not that of other rows."""
+    """Check that a digitisation other than that of the other rows has the printed counts of diameter 12."""
     row = _row(12)
     hulls = (hull for _, hull in map(_hull, digitisations(12)))
     sizes = ((len(hull.facets), cell_list_size(len(hull.vertices), len(hull.facets))) for hull in hulls)

@@ -29,7 +29,7 @@ TRIANGLE: tuple[Point, ...] = ((0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0))
 
 @claim("kovalevsky-schulz.67")
 def combination_of_three() -> Check:
-    """Check that a point between two others combines these two, whereas (1, 1) in a triangle needs three points."""
+    """Check that a point can be a convex combination of three points without being one of any two of them."""
     middle = 2 not in exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0)]).vertices
     corners, inner = TRIANGLE[:3], TRIANGLE[3]
     two = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]
@@ -43,7 +43,7 @@ def combination_of_three() -> Check:
 @claim("kovalevsky-schulz.120", vertices="interior")
 @claim("kovalevsky-schulz.70", vertices="moved")
 def smaller_polyhedron(vertices: str) -> Check:
-    """Check the counterexample: a tetrahedron in a tetrahedron, with the apex moved down along an edge.
+    """Check a counterexample: a tetrahedron inside another, made by moving the apex down along an edge.
 
     vertices: ``interior``, no vertex of the smaller tetrahedron is in the interior of the larger, as with four
     alternate corners of a cube; ``moved``, one of them is neither a vertex of the larger tetrahedron nor in its
@@ -75,7 +75,7 @@ def vertices_are_local_corners(cases: int = 4) -> Check:
 
 
 def _horizons(cases: int = CASES) -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:
-    """Yield sampled horizon edges: new point, visible, invisible and new plane, vertices, and edge."""
+    """Yield sampled edges between a visible and an invisible face, each with the new point and the planes involved."""
     for points, judge in hulls(cases):
         for new in ((9, 1, 0), (-8, 3, 7)):
             for edge in judge.edges():
@@ -103,7 +103,7 @@ def closed_boundary(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.73")
 def section_angles() -> Check:
-    """Check that the angles of Fig. 9 are right if Q is the foot of the perpendicular from P on the edge.
+    """Check that the angles of Fig. 9 are right if the point Q is the foot of the perpendicular from P on the edge.
 
     They are not if Q is an end of the edge. Only squares of cosines are compared: beta is 90 - alpha or alpha - 90 if
     the squares add up to 1.
@@ -133,7 +133,7 @@ def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fractio
 
 @claim("kovalevsky-schulz.122")
 def coefficients_by_cosines() -> Check:
-    """Check the counterexample, an edge of a tetrahedron, for which a : b is a ratio of sines and not of cosines.
+    """Check the counterexample of an edge for which the coefficients a : b are a ratio of sines and not of cosines.
 
     For unit normals a : b is sin(beta_n) : sin(beta_v); the squares are compared.
     """

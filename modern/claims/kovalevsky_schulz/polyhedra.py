@@ -130,7 +130,7 @@ def coplanar_triangles() -> Check:
 
 @claim("kovalevsky-schulz.63", full=400)
 def unmerged_triangles(cases: int = CASES) -> Check:
-    """Check that triangles that are not merged bound the same polyhedron: their planes are those of the faces."""
+    """Check that coplanar triangles may be left unmerged: their planes are the planes of the hull's faces."""
     lists = [polyhedron(points) for points in (GRID, *(points for points, _ in hulls(cases)))]
     outcomes = [{*cells.planes()} == {*merged(cells).planes()} for cells in lists]
     return searched(
@@ -148,7 +148,7 @@ def invisible_needs_fewer_faces() -> Check:
 
 
 def _created(points: Sequence[Point]) -> int:
-    """Return the number of triangles that are created if coplanar faces count as visible."""
+    """Return the number of triangles that the construction makes if coplanar faces count as visible."""
     current = CurrentPolyhedron(points, independent(points), VISIBLE)
     for number in range(len(points)):
         if first := current.first_visible(number) if number not in independent(points) else 0:
@@ -158,7 +158,10 @@ def _created(points: Sequence[Point]) -> int:
 
 @claim("kovalevsky-schulz.58", "kovalevsky-schulz.59")
 def extended_faces() -> Check:
-    """Check that extending faces to coplanar points gives the exact hull, with fewer new faces than Fig. 7 needs."""
+    """Check that extending faces to coplanar points gives the exact hull with fewer new faces than Fig. 7.
+
+    7.
+    """
     extended, quadrangles_hull = coplanar_hull(GRID, EXTENDED), coplanar_hull(GRID, QUADRANGLES)
     right = list(extended.faces) == sorted(f.polygon for f in exact_hull(GRID).facets)
     message = f"a cubic grid of points needs {extended.created} new faces, and {quadrangles_hull.created} by Fig. 7"
@@ -175,7 +178,7 @@ def point_in_two_planes() -> Check:
 
 @claim("kovalevsky-schulz.55")
 def quadrangles() -> Check:
-    """Check that a point in the plane of a pyramid's square that sees two sides gives one face of four corners."""
+    """Check that a coplanar point that sees two sides of a pyramid's square base gives one new face of four corners."""
     points = [*PYRAMID, (3, 3, 0)]
     hull = coplanar_hull(points, QUADRANGLES)
     right = sorted(hull.faces) == sorted(f.polygon for f in exact_hull(points).facets)
@@ -186,7 +189,7 @@ def quadrangles() -> Check:
 @claim("kovalevsky-schulz.163", treatment="quadrangles")
 @claim("kovalevsky-schulz.165")
 def collinear_edges(treatment: Treatment = EXTENDED) -> Check:
-    """Check that a point added on the line of a side takes the place of the side's end as a vertex."""
+    """Check that a new point in line with an edge takes the place of the end of this edge as a vertex."""
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 5)]
     judge = exact_hull([*square, (8, 0, 0)])
     treated = coplanar_hull([*square, (8, 0, 0)], treatment)
@@ -210,7 +213,7 @@ def economical_encoding(cases: int = 4) -> Check:
 
 @claim("kovalevsky-schulz.46")
 def reconstruction_by_corners() -> Check:
-    """Check that balls are restored; testing centres of voxels would fill in a diagonal of two voxels."""
+    """Check that testing the eight corners of each voxel restores a solid from its hull; testing centres may not."""
     balls, pair = [ball(d) for d in range(2, 9)], Volume(np.eye(2, dtype=np.bool_)[:, :, None], (0, 0, 0))
     again = [reconstructed(voxel_hull(solid).polyhedron.straight.economical()) for solid in balls]
     same = [a.coordinates().tolist() == b.coordinates().tolist() for a, b in zip(again, balls, strict=True)]
@@ -222,7 +225,7 @@ def reconstruction_by_corners() -> Check:
 
 @claim("kovalevsky-schulz.99", full=500)
 def reconstruction(cases: int = 4) -> Check:
-    """Check that the hull of the centres restores the filled hull, which for a convex object is the object."""
+    """Check that the hull of the voxels' centres restores a digitally convex solid, and fills any other solid."""
 
     def returns(solid: Voxels) -> bool:
         volume = listed(solid)

@@ -61,7 +61,7 @@ def vertex_is_no_combination() -> Proof:
 
 
 def choice_of_q() -> Proof:
-    """Prove that the product of a face's normal with P - Q is the same for all points Q of the face."""
+    """Prove that the scalar product that defines visibility does not depend on the point Q chosen on the face."""
     n, p, q, r = (point(name, 3) for name in "npqr")
     products = [dot(n, minus(p, corner)) for corner in (q, r)]
     return Proof(
@@ -158,14 +158,14 @@ def proof_of_lemma(proof: Callable[[], Proof]) -> Check:
 
 @claim("kovalevsky-schulz.65")
 def nonempty_part() -> Check:
-    """Check lemma LZ, and that the part beyond the largest x of a tetrahedron is empty and contains no vertex."""
+    """Check lemma LZ, and that it fails for an empty part: beyond the largest x of a tetrahedron there is no vertex."""
     beyond = [p for p in TETRAHEDRON if p[0] >= 1 + max(q[0] for q in TETRAHEDRON)]
     return lemma_lz().check().unless(not beyond, "an empty part, beyond the largest x")
 
 
 @claim("kovalevsky-schulz.71")
 def plane_of_horizon() -> Check:
-    """Check lemma BE, and that a point on the line of the edge determines no plane with it."""
+    """Check lemma BE (the plane through a new point and a horizon edge supports the hull), and its excluded case."""
     on_line = plane_through((0, 0, 0), (2, 0, 0), (4, 0, 0))
     case = "a point on the line of the edge, which determines no plane with it"
     return lemma_be().check().unless(not any(on_line), case)
@@ -173,7 +173,7 @@ def plane_of_horizon() -> Check:
 
 @claim("kovalevsky-schulz.72")
 def formula_4() -> Check:
-    """Check that a of formula (4) is positive, but 0 for a point in the plane of the other face."""
+    """Check that a in formula (4) is positive, but 0 if the new point is coplanar with the other face."""
     hidden, new = (0, 0, 1), (4, -1, 0)
     return lemma_be().check().unless(plane_value((*hidden, 0), new) == 0, f"{new}, in the plane of a square: a is 0")
 
@@ -188,6 +188,6 @@ def halves_of_sorted_set() -> Check:
 
 @claim("kovalevsky-schulz.15")
 def combinations_of_others() -> Check:
-    """Check that a vertex is a combination of no other points; with the weight 1 it is a combination of itself."""
+    """Check that a vertex is not a combination of other points, although it is one of itself with the weight 1."""
     itself = TETRAHEDRON[0] in TETRAHEDRON and 0 in exact_hull(TETRAHEDRON).vertices
     return vertex_is_no_combination().check().unless(itself, "a vertex, which is itself with the weight 1")

@@ -17,7 +17,7 @@ DIAMETERS = (8, 10, 12, 14, 16, 18, 20, 22)
 
 @claim("kovalevsky-schulz.78", full=400)
 def formula_5(cases: int = CASES) -> Check:
-    """Check that formula (5) gives 6 integers too few for N_T triangles: it takes N_T as 2 N_V instead of 2 N_V - 4."""
+    """Check that formula (5) gives 6 integers too few, because a triangulation has 2 V - 4 triangles and not 2 V."""
     excess = []
     for points, _ in hulls(cases):
         cells = polyhedron(points)
@@ -47,7 +47,8 @@ def _table_5() -> tuple[tuple[int, int, int, int], ...]:
 
 @claim("kovalevsky-schulz.100")
 def memory_requirements() -> Check:
-    """Check that the cell lists of Table 5 need fewer integers than Marching Cubes, if not than the hull's triangles.
+    """Check that the cell lists of Table 5 need fewer integers than Marching Cubes, but not always than the hull's
+    triangles.
 
     Formula (6) gives the number V of vertices from the number of integers; a hull has 2 V - 4 triangles.
     """

@@ -115,7 +115,7 @@ def numbers_of_local_corners() -> Check:
 @claim("kovalevsky-schulz.22", neighbours=26, coplanar=INVISIBLE)
 @claim("kovalevsky-schulz.62", neighbours=6, coplanar=VISIBLE)
 def printed_triangles(neighbours: int, coplanar: Coplanar) -> Check:
-    """Check that a choice that the text names does not give the printed 1404 triangles; 6 and invisible faces do."""
+    """Check that a rule stated in the text does not give the printed 1404 triangles, whereas other rules do."""
     number = triangles_of_ball(neighbours, coplanar)
     message = f"with {neighbours} neighbours and {coplanar} coplanar faces the ball has {number} triangles, not 1404"
     return refuted(number != 1404 == triangles_of_ball(6, INVISIBLE), message)
@@ -239,7 +239,7 @@ def farthest_voxel_of_corner(dimensions: int = 3) -> Check:
 
 @claim("kovalevsky-schulz.174", full=4_000)
 def additional_labels(cases: int = 5) -> Check:
-    """Check that the elements that become labelled in addition are those behind a voxel, seen from the origin."""
+    """Check which elements become labelled besides the vertices: those behind a voxel, seen from the origin."""
 
     def agrees(solid: Voxels) -> bool:
         behind = {(x + i, y + j, z + k) for x, y, z in solid for i, j, k in STEPS} - {*solid}

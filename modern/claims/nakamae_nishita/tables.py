@@ -150,7 +150,7 @@ def three_correlations() -> Check:
 
 @claim("nakamae-nishita.21")
 def formula_1() -> Check:
-    """Check that (1) is proportional to the distance from a line, and positive to the right of the line."""
+    """Check that formula (1) is proportional to the distance from a line, and positive to the right of the line."""
 
     def difference(x1: int, y1: int, x: int, y: int, along: int, right: int) -> int:
         line = line_through((x1, y1, 1), (x1 + x, y1 + y, 1))
@@ -171,7 +171,7 @@ def formula_2(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", full=25)
 def formula_3(cases: int = CASES) -> Check:
-    """Check that d of formula (3) tells how two segments meet, and that all four values of d occur."""
+    """Check that the number d of formula (3) tells how two segments meet: each of its four values occurs."""
     meetings = [pair for v, w in pairs(cases) for pair in numbers_of_meetings(v, w)]
     outcomes = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {d for d, _ in meetings}]
     return searched(POLYGONS, 2 * cases, outcomes, f"d is right for {len(meetings)} pairs of segments")
@@ -179,7 +179,7 @@ def formula_3(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.29", "nakamae-nishita.33", full=25)
 def formula_3_in_line(cases: int = CASES) -> Check:
-    """Check that d of (3) tells how segments meet unless they are collinear: then d is 0 though they may overlap."""
+    """Check that the number d of formula (3) does not tell whether collinear segments overlap: it is 0."""
     d = tables_by_2(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2))).crossing_number(1, 1)
     check = formula_3(cases)
     return check.unless(d == 0, "the sides (0, 4) (4, 4) and (2, 4) (6, 4), which overlap, and d is 0")
@@ -187,7 +187,7 @@ def formula_3_in_line(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.60", "nakamae-nishita.37")
 def formula_5() -> Check:
-    """Prove that the program's value of (5) is the determinant, whose sign tells the side of a face; it may be 0."""
+    """Prove that the program computes the determinant of formula (5), whose sign tells the side of a face."""
     x, *corners = (algebra.point(name, 3) for name in "xpqr")
     unit = algebra.polynomial(1)
     a, b, c = (algebra.minus(corner, x) for corner in corners)
@@ -201,7 +201,7 @@ def formula_5() -> Check:
 
 @cache
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tuple[int, int]]:
-    """Return, for each pair of segments of v and w, d of formula (3) and the value that their position requires."""
+    """Return, for each pair of segments of two contours, formula (3) and the value that their position requires."""
     tables, meetings = tables_by_2(v, w), []
     for i, j in product(range(len(v)), range(len(w))):
         a, b, c, d = v[i], v[(i + 1) % len(v)], w[j], w[(j + 1) % len(w)]
@@ -279,7 +279,7 @@ def _property(
 
 @claim("nakamae-nishita.41", full=25)
 def intersection_counts(cases: int = CASES) -> Check:
-    """Check that a segment meets a contour at most twice, and that d of (3) may count a corner twice."""
+    """Check that a segment meets a contour at most twice, and that formula (3) may count a corner twice."""
     counts, along, over_two = set(), 0, 0
     for v in polygons(cases):
         for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):

@@ -86,7 +86,7 @@ def _hidden(drawing: Drawing, kind: str) -> int:
 
 @claim("nakamae-nishita.19")
 def first_three_corners() -> Check:
-    """Check that (1), for three corners of a face, has the sign of the face unless the corners are collinear."""
+    """Check that formula (1) for three corners of a face tells front from back faces, unless they are collinear."""
     (solid,) = _cuboid().solids
     outcomes = []
     for face, front in zip(solid.polyhedron.faces, solid.signs, strict=True):
@@ -134,7 +134,7 @@ def indices(index: int = 0) -> Check:
 
 @claim("nakamae-nishita.35", full=600)
 def touching_solids(cases: int = 3) -> Check:
-    """Check that the sign of (5) tells which of two boxes is nearer unless they touch and need a separating plane."""
+    """Check that formula (5) tells which of two boxes is nearer, unless they touch and need a separating plane."""
     (relation,) = _scene("stacked.toml").relations
     without = _scene("stacked.toml", "touching")
     less = _hidden(without, INNER) + _hidden(without, CONTOUR) < _hidden(_scene("stacked.toml"), INNER) + _hidden(
@@ -193,7 +193,7 @@ def edges_wholly_behind() -> Check:
 
 @claim("nakamae-nishita.66")
 def overlap_by_neighbours() -> Check:
-    """Check that adjacent columns of PL tell whether two collinear sides overlap; zeros alone do not."""
+    """Check that adjacent columns of the table PL tell whether two collinear sides overlap; zeros alone do not."""
     zeros, beside = [], []
     for x, y, width in product(range(-5, 8), (-4, 0, 4), (2, 3)):
         rectangle = ((x, y), (x, y + 4), (x + width, y + 4), (x + width, y))
@@ -216,7 +216,7 @@ def overlap_by_neighbours() -> Check:
 
 @claim("nakamae-nishita.64", full=25)
 def segments_within(cases: int = CASES) -> Check:
-    """Check that a side of V that crosses a diagonal of V' is partly inside V', but not always wholly."""
+    """Check that a side of one contour that crosses a diagonal of another is partly, not always wholly, inside it."""
     checks, partly_inside = [], 0
     for v, w in pairs(cases):
         for i, (p, q) in product(range(len(v)), combinations(range(len(w)), 2)):
@@ -232,7 +232,7 @@ def segments_within(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.65")
 def table_by_formula_4() -> Check:
-    """Check that the table by the signs of the printed (4) misses an intersection that the table by (1) has."""
+    """Check that the table made with the printed formula (4) misses an intersection that formula (1) detects."""
     (eye, *contour), ends = (points := counterexample_points("table_by_4.csv"))[:-2], points[-2:]
     by_4 = {sign(dot(minus(p, eye), minus(p, end))) for p in contour for end in ends}
     flat = tuple((x, y) for x, y, _ in contour)

@@ -146,7 +146,7 @@ def _turned_lines(sampled: SampledSet) -> set[frozenset[int]]:
 
 @claim("thesis.24", full=400)
 def planes_from_triples(cases: int = CASES) -> Check:
-    """Check that the supporting ones of the planes through all triples of points are the facets of the exact hull."""
+    """Check that testing the planes through all triples of points finds exactly the facets of the hull."""
     agreeing = 0
     sets = sampled_sets(3, cases)
     for sampled in sets:
@@ -167,7 +167,7 @@ def planes_from_triples(cases: int = CASES) -> Check:
 
 @claim("thesis.25", full=400)
 def lines_from_pairs(cases: int = CASES) -> Check:
-    """Check that the supporting ones of the lines through all pairs of points are the edges of the exact hull."""
+    """Check that testing the lines through all pairs of points finds exactly the edges of the hull in the plane."""
     agreeing = 0
     sets = sampled_sets(2, cases)
     for sampled in sets:

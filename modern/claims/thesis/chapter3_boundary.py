@@ -31,7 +31,7 @@ _TWO_PLANES: list[Point] = [(2, 1, 1), (1, 1, 3), (0, 1, 3), (0, 0, 0), (0, 2, 3
 
 @claim("thesis.81")
 def used_boundary_point() -> Check:
-    """Check that the procedure may use a point that lies between two others: one of four points shows this."""
+    """Check that the procedure may make a vertex of a point that lies between two others (a set of four points)."""
     points = _POINT_ON_A_SIDE
     hull = convex_hull(points, history=True)
     used = {k for stage in hull.history for k in stage.added}
@@ -59,7 +59,7 @@ LATTICE_SETS: dict[int, Generator[tuple[Point, ...]]] = {
 @claim("thesis.80", "thesis.223", dimension=2, full=400)
 @claim("thesis.102", "thesis.103", "thesis.256", dimension=3, full=400)
 def end_of_the_procedure(dimension: int, cases: int = 3) -> Check:
-    """Check that remaining points are boundary points, and that used points and equations are reduced to the hull's."""
+    """Check that the points left at the end are boundary points, and that superfluous points and planes are removed."""
     outcomes, removed = [], [0, 0, 0]
     for points in (*LATTICE_SETS[dimension].cases(cases), _POINT_ON_A_SIDE if dimension == 2 else _TWO_PLANES):
         hull, judge = convex_hull(points, history=True), exact_hull(points)
@@ -110,7 +110,7 @@ def planes_at_vertex(cases: int = CASES) -> Check:
 
 @claim("thesis.105", full=300)
 def planes_without_duplicates(cases: int = CASES) -> Check:
-    """Check that only vertices satisfy three or more equations, unless there are duplicate equations."""
+    """Check that only a vertex satisfies three or more equations, once duplicate equations are removed."""
     equations = convex_hull(PYRAMID, history=True).history[-1].equations
     planes = [plane_through(*(PYRAMID[k] for k in ends)) for ends in equations]
     most = max(sum(not plane_value(p, PYRAMID[k]) for p in planes) for k in exact_hull(PYRAMID).boundary)
@@ -130,7 +130,7 @@ def used_points_in_planes() -> Check:
 
 @claim("thesis.230", full=400)
 def boundary_points_on_edges(cases: int = 5) -> Check:
-    """Check that a point in two planes is between the ends of their common edge; a point in one plane is not."""
+    """Check that a point in exactly two planes lies on their common edge, whereas a point in one plane need not."""
     checks, in_one_plane = [], 0
     for points in LATTICE_SETS[3].cases(cases):
         judge = exact_hull(points)

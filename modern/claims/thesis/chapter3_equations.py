@@ -95,7 +95,7 @@ def first_two_points(cases: int = CASES) -> Check:
 
 @claim("thesis.40", "thesis.41", "thesis.43")
 def equation_of_line() -> Check:
-    """Check that (3.1), (3.2) and (3.3), the equation of a line in two coordinates, are 0 only on the line."""
+    """Check that equations (3.1), (3.2) and (3.3), each in two coordinates, are 0 only on the line."""
 
     def difference(u1: int, v1: int, u: int, v: int, along: int, right: int) -> int:
         a, b, c = line_as_printed(u1, v1, u1 + u, v1 + v)
@@ -117,7 +117,7 @@ def equation_of_plane() -> Check:
 
 @claim("thesis.62")
 def equation_of_page_19() -> Check:
-    """Check that (3.5) is (3.1) with the two points exchanged and the sign reversed."""
+    """Check that equation (3.5) is (3.1) with the two points exchanged and the sign reversed."""
 
     def difference(xk: int, yk: int, xm: int, ym: int) -> int:
         return int(line_of_page_19((xk, yk, 0), (xm, ym, 0)) != line_as_printed(xm, ym, xk, yk))
@@ -126,7 +126,7 @@ def equation_of_page_19() -> Check:
 
 
 def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> Line:
-    """Return (3.1), (3.2) or (3.3): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
+    """Return equation (3.1), (3.2) or (3.3): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
     return v2 - v1, u1 - u2, (u2 - u1) * v1 + (v1 - v2) * u1
 
 

@@ -65,7 +65,7 @@ def stage_property(kind: str, cases: int = CASES) -> Check:
 
 @claim("thesis.264", "thesis.239")
 def number_of_the_hull() -> Check:
-    """Check that H_j is the hull of P_1 to P_NV, and H_k+1 that of H_k and a point; our text prints 1 for j and k."""
+    """Check the index of the hulls H_j: H_j is the hull of its NV points, and H_k+1 that of H_k and one point."""
     first_alone = all(len(sampled.stages()) == 1 for sampled in sampled_sets(2, CASES))
     check, added = (stage_property(kind) for kind in ("equations", "added_triangle"))
     return (check if added.holds else added).misprinted(not first_alone, "j or k, for stages after the first")
@@ -89,7 +89,7 @@ def replaced_plane(cases: int = CASES) -> Check:
 
 @claim("thesis.226")
 def third_new_plane() -> Check:
-    """Check that each of a step's three new planes contains a different pair of the points MM, NN and KK."""
+    """Check that the three new planes of a step contain different pairs of the points MM, NN and KK."""
     outcomes = [ok for sampled in sampled_sets(3, CASES) for ok in _replaced_facet(sampled)]
     pairs = [*combinations(("MM", "NN", "KK"), 2)]
     printed = [("MM", "NN"), ("MM", "KK"), ("MM", "KK")]
@@ -108,7 +108,7 @@ def eliminated_points(cases: int = CASES) -> Check:
 
 
 def _steps(sampled: SampledSet) -> Iterator[tuple[Approximation, Approximation, Stage, int]]:
-    """Yield, for each stage except the first: the previous stage, the stage, the port's record, and the point added."""
+    """Yield, for each hull H_j except the first: the hull before it, H_j, the port's record, and the added point."""
     stages = sampled.stages()
     for before, after, record in zip(stages, stages[1:], sampled.hull.history[1:], strict=False):
         yield before, after, record, record.added[0]
@@ -128,9 +128,7 @@ def _equations(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _last_hull(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each stage, whether its equations all support the set only if they are those of the hull of all
-    points.
-    """
+    """Yield, for each hull H_j, whether all its equations support the set only if it is the hull of the whole set."""
     hull_planes = {facet.plane for facet in sampled.judge.facets}
     stages = sampled.stages()
     for stage in stages:
@@ -154,7 +152,7 @@ def _struck_inside(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _contained_points(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each point in H_j that is not a vertex of H_j, whether it is not a vertex of the last hull."""
+    """Yield, for each point in the hull H_j except its vertices, whether it is not a vertex of the last hull either."""
     for stage in sampled.stages():
         for k, point in enumerate(sampled.points):
             if k not in stage.vertices and all(plane_value(plane, point) <= 0 for plane in stage.equations):
@@ -199,9 +197,7 @@ def _largest_of_all(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each new point that is outside only one facet, whether this facet is replaced by one on each of its
-    edges.
-    """
+    """Yield, for each new point outside a single facet, whether one new facet on each of its edges replaces it."""
     for before, after, record, added in _steps(sampled):
         if record.outside == 1:
             replaced = {*before.defining[record.checked - 1]}
@@ -256,7 +252,7 @@ def _vertex_when_added(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each lattice point, whether it is in H_k+1 if and only if it is in H_k or in the added triangle."""
+    """Yield, for each lattice point, whether the hull H_k+1 consists of H_k and the added triangle."""
     plane = sampled.judge.plane
     assert plane is not None
     lattice = [
@@ -272,7 +268,7 @@ def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each lattice point, whether it is in H_k+1 if and only if it is in H_k or in an added tetrahedron."""
+    """Yield, for each lattice point, whether the hull H_k+1 consists of H_k and the added tetrahedra."""
     lattice: list[Point] = [(x, y, z) for x, y, z in product(range(-5, 6, 2), repeat=3)]
     for before, after, record, added in _steps(sampled):
         apex = sampled.points[added]
@@ -302,7 +298,7 @@ def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
 
 
 def _convexity(sampled: SampledSet) -> Iterator[bool]:
-    """Yield whether replacing only equation NETC gives a convex body just if the point is outside no other equation."""
+    """Yield whether replacing only one plane keeps the body convex if and only if no other plane is visible."""
     inner = [sampled.points[k] for k in sampled.hull.history[0].added]
     for before, after, record, added in _steps(sampled):
         # Page 30: replace only equation NETC, by the planes through its sides and the new point.

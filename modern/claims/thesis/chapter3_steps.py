@@ -90,7 +90,7 @@ def coplanarity_test(cases: int = CASES) -> Check:
 
 @claim("thesis.53", full=300)
 def common_first_steps(cases: int = CASES) -> Check:
-    """Check that a flat set keeps its first three points if one more point, outside its plane, is added to it."""
+    """Check that the first three points of a flat set stay the same if one point outside its plane is added."""
     checks = []
     for sampled in sampled_sets(2, cases):
         # Multiply the coordinates so that the mean moved by one unit, a point just outside the plane, has integers.
@@ -132,7 +132,7 @@ def mean_of_first_hull(cases: int = CASES) -> Check:
 
 @claim("thesis.67")
 def outside_convention() -> Check:
-    """Check that the printed definition of "outside" also calls a point outside that is inside the line x = 0."""
+    """Check that the printed definition of "outside" also calls an inside point outside the line x = 0."""
     ((x, _, _),) = counterexample_points("both_sides.csv")
     message = f"at the point x is {x}: by the printed definition it is both inside and outside the line x = 0"
     return slip(x >= 0, x < 0, "a positive value", message)
@@ -154,7 +154,7 @@ def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:
 
 @claim("thesis.87")
 def fourth_point_by_largest() -> Check:
-    """Check a tetrahedron whose fourth corner is on the negative side, so that the largest value is 0."""
+    """Check a set for which the printed rule for the fourth point (the largest value) gives no tetrahedron."""
     points = counterexample_points("negative_side.csv")
     plane = plane_as_printed(*points[:3])
     values = [plane_value(plane, point) for point in points]
@@ -198,7 +198,7 @@ def _visible(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximat
 
 @claim("thesis.199")
 def planes_i_and_m() -> Check:
-    """Check that planes i and m have two common points, but not plane j, where j is the number of the hull H_j."""
+    """Check that the text means planes i and m: these have two common points, whereas planes i and j do not."""
     pairs, with_j = [], []
     for sampled, before, _, visible in _visible(CASES):
         j = sampled.stages().index(before)
@@ -210,7 +210,7 @@ def planes_i_and_m() -> Check:
 
 @claim("thesis.98", full=300)
 def planes_of_same_points(cases: int = CASES) -> Check:
-    """Check that the two common points of planes are found although the planes list them at different positions."""
+    """Check that planes of the same points are recognised although they list these points in different orders."""
     positions = [
         _same_places(before.defining[i], before.defining[m], edge)
         for _, before, _, visible in _visible(cases)
@@ -254,7 +254,7 @@ def order_of_replacement(cases: int = CASES) -> Check:
 
 @claim("thesis.96")
 def without_constant_term() -> Check:
-    """Check that, for a cube away from the origin, a plane without its term D has the centre on the wrong side."""
+    """Check that without the constant term D the centre of a cube is outside some planes of the cube."""
     *corners, middle = counterexample_points("without_d.csv")
     planes = [facet.plane for facet in exact_hull(corners).facets]
     values = [(dot(plane[:3], middle), plane_value(plane, middle)) for plane in planes]

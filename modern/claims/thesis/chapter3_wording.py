@@ -109,7 +109,7 @@ def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
 @claim("thesis.79", dimension="2", full=300)
 @claim("thesis.101", dimension="3", full=300)
 def last_equation_accepted(dimension: str, cases: int = CASES) -> Check:
-    """Check that the last equation of a stage (NETC = NE) may be no support, although all are at the end."""
+    """Check that the hull need not be complete when NETC = NE: the last equation may not have been tested yet."""
     flat = dimension == "2"
     points = [(0, 3, 0), (0, 2, 0), (4, 4, 0), (4, 3, 0)]
     if not flat:
@@ -132,7 +132,7 @@ def program3_against_program2() -> Check:
 
 @claim("thesis.269")
 def consecutive_hulls() -> Check:
-    """Check that stages H_1 to H_f make f - 1 pairs (H_j, H_j+1), so that the index j + 1 starts at 2."""
+    """Check that the pairs of hulls (H_j, H_j+1) begin with (H_1, H_2), so that the index j + 1 starts at 2."""
     checks: list[bool] = []
     numbers: set[int] = set()
     for sampled in (*sampled_sets(2, CASES), *sampled_sets(3, CASES)):

@@ -90,14 +90,14 @@ def number_of_extremes(claim: str) -> Check:
 
 
 def _equations(theorem: Theorem) -> Check:
-    """Check that each equation is 0 at the points named in its row, and that the points have the stated extremes."""
+    """Check that each equation of the example is 0 at the points named in its row, and the extreme points are right."""
     faults = theorem_faults(theorem, load_text())
     message = "each printed equation is 0 at the points named in its row, and all stated extremes are right"
     return exhibited(not faults, faults[0] if faults else message)
 
 
 def _signs(theorem: Theorem) -> Check:
-    """Check that the text states correctly which points are outside and which inside the planes of its equations."""
+    """Check that the example states correctly which points are outside and which inside the planes of its equations."""
     right = sum((theorem.plane(n).at(_point(theorem, p)) > 0) == (sign == "+") for n, p, sign in theorem.signs)
     return exhibited(right == len(theorem.signs), f"{right} of {len(theorem.signs)} signs are as stated")
 
@@ -250,7 +250,7 @@ def slips_of_4_8(which: str) -> Check:
 
 
 def _is_one(name: str, at: tuple[int, int, int]) -> bool:
-    """Return True if a point of theorem 4.8 has these coordinates and satisfies each equation that names it."""
+    """Return True if a point of theorem 4.8 has the given coordinates and satisfies each equation that names it."""
     theorem = theorem_of("4.8")
     point = _point(theorem, name)
     values = [plane.at(point) for plane in theorem.planes if name in plane.vertices]

@@ -48,7 +48,7 @@ def outside_of_two_lines() -> Check:
 
 @claim("thesis.243")
 def third_equation() -> Check:
-    """Check that the third equation of H_1 is not 0 at P_1, so that it is not that of the plane of the triangle."""
+    """Check that the third equation of H_1 is that of a line: it is not 0 at all points of the triangle's plane."""
     at_first_point = _values(X1, Y1)[2]
     message = "the third equation is 0 on the line of P_2 and P_3 but not at P_1"
     return slip(not at_first_point.terms, lines_of_figure_3().holds, "a line", message)

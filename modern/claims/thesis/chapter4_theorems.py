@@ -69,7 +69,7 @@ def sign_e() -> Check:
 
 @claim("thesis.242")
 def bars_of_page_50() -> Check:
-    """Check the distance from a line as page 50 gives it: it needs absolute value bars around all three terms."""
+    """Check that the distance from a line on page 50 needs absolute value bars around all three terms."""
     a, b, c, p, q = 3, -2, 5, (1, 4), (3, 7)
     as_text = [
         _distance_squared((x, y), p, q) * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2
@@ -86,7 +86,7 @@ def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]
 
 @claim("thesis.138")
 def choice_of_first_triangle() -> Check:
-    """Check that a point may be outside two lines of a triangle that is not chosen by the rule for H_1."""
+    """Check that theorem 4.7 needs the rule for H_1: a point may be outside two lines of another triangle."""
     triangle, point = [(0, 0, 0), (2, 0, 0), (0, 2, 0)], (-1, -1, 0)
     outside = sum(plane_value(facet.plane, point) > 0 for facet in exact_hull(triangle).facets)
     return exhibited(outside == 2, "(-1, -1) is outside two lines of the triangle (0, 0), (2, 0), (0, 2)")
@@ -94,7 +94,7 @@ def choice_of_first_triangle() -> Check:
 
 @claim("thesis.145")
 def gap_in_4_7() -> Check:
-    """Check a case that the proof of 4.7 does not exclude: outside one line of H_k, but two lines of H_k+1."""
+    """Check a case that the proof of theorem 4.7 overlooks: a point outside one line of H_k, but two lines of H_k+1."""
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
     lines = [facet.plane for facet in exact_hull(square).facets]
     after = [facet.plane for facet in exact_hull([*square, (5, 2, 0)]).facets]

@@ -39,7 +39,7 @@ _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
 
 @claim("thesis.280")
 def error_in_program() -> Check:
-    """Check that ERROR IN PROGRAM ends two runs: one meets a fault of program 3, the other has too many digits."""
+    """Check that ERROR IN PROGRAM can mean a fault of program 3, or that the arithmetic has too few digits."""
     names = ("throughc.deck", "zeroplane.deck")
     ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
     hulls = [convex_hull([*exact_points(deck_of(name))[0].values()]) for name in names]
@@ -78,7 +78,7 @@ def points_are_coplanar() -> Check:
 
 @claim("thesis.178")
 def underflow() -> Check:
-    """Check that multiplying one-digit coordinates by a power of ten can change the result, because of underflow."""
+    """Check that multiplying the coordinates of a set by a power of ten can change the result, because of underflow."""
     hulls = [_first_run(exponent) for exponent in ("E+01", "E-17")]
     names = [run.final.name for run in hulls]
     check = two_kinds_of_error()

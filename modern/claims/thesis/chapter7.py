@@ -213,14 +213,14 @@ def two_kinds_of_error() -> Check:
 
 @claim("thesis.248")
 def errors_of_machine() -> Check:
-    """Check that three points do not satisfy the plane through them in eight digits, but do in exact arithmetic."""
+    """Check that in eight digits three points may not satisfy the equation of their own plane."""
     passed = bool(_misses(_THREE)) and not _misses(_THREE, "exact")
     return exhibited(passed and two_kinds_of_error().holds, "three points miss their own plane in eight digits only")
 
 
 @claim("thesis.179")
 def errors_on_any_computer() -> Check:
-    """Check that binary numbers of 53 bits have such errors too, whereas exact arithmetic has none."""
+    """Check that rounding errors also occur with binary numbers of 53 bits, and not in exact arithmetic."""
     thirds = [(Fraction(1, 3), Fraction(1, 7), Fraction(k, 11)) for k in range(3)]
     as_floats = [Fraction(float(x)) != x for point in thirds for x in point if x.denominator > 1]
     check = exhibited(_misses(_THREE) and all(as_floats), "eight digits and 53 bits truncate or round numbers")
@@ -243,7 +243,7 @@ def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
 
 @claim("thesis.183")
 def points_off_own_plane() -> Check:
-    """Check three points with three-digit coordinates that do not all satisfy the plane through them."""
+    """Check that three points with three-digit coordinates may not satisfy the equation of their own plane."""
     missed = _misses(_THREE)
     return exhibited(bool(missed), f"the plane through three points misses {', '.join(str(_THREE[k]) for k in missed)}")
 
@@ -289,7 +289,7 @@ def interval_instead_of_rejection() -> Check:
 
 @claim("thesis.188")
 def value_against_distance() -> Check:
-    """Check that the value of a plane's equation at a point may differ from the distance: 1/100 at the distance 1."""
+    """Check that the value of a plane's equation may be much smaller than the distance: 1/100 at the distance 1."""
     csv_rows, _ = csv_points(counterexample("short_normal.csv"), "short_normal.csv")
     p, q, r, x = (tuple(map(Fraction, map(str, point))) for point in csv_rows)
     a, b, c, d = plane(p, q, r)  # type: ignore[arg-type]

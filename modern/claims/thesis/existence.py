@@ -30,7 +30,7 @@ PLANES: tuple[tuple[Lattice, int], ...] = (
 
 
 def coincidences(extremes: Sequence[Extreme] = EXTREMES) -> Iterator[tuple[frozenset[Extreme], ...]]:
-    """Yield each way to divide the extremes into groups that one point has in common.
+    """Yield each way in which some of the six extreme points of a set can be the same point.
 
     No group contains both the largest and the smallest value of a coordinate: all points would then be equal in it.
     """

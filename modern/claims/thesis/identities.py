@@ -60,7 +60,7 @@ def coordinate_planes() -> Proof:
 
 
 def perpendicular_projection() -> Proof:
-    """Prove that the image of a triangle in a coordinate plane has the area of one coefficient of its plane."""
+    """Prove that a coefficient of a triangle's plane is the area of its projection on a coordinate plane."""
     *normal, _ = _plane(P, Q, X)
     pairs = (1, 2), (2, 0), (0, 1)
     images = [bracket(*((p[i], p[j]) for p in (P, Q, X))) for i, j in pairs]
@@ -89,13 +89,13 @@ def _c_0(a: Point, b: Point, k: Point) -> Polynomial:
 
 
 def coefficient_c_0() -> Proof:
-    """Prove that C_0 is the coefficient C of (3.4)."""
+    """Prove that the sum C_0 of page 46 is the coefficient C that equation (3.4) gives."""
     *_, c, _ = _plane(P, Q, X)
     return Proof("C_0 is the C of (3.4)", "Both are the same polynomial.", _all_zero("C_0 = C", [_c_0(P, Q, X) - c]))
 
 
 def other_letters() -> Proof:
-    """Prove that C_0 with z for y is -B, and with z for x it is -A."""
+    """Prove that the sum C_0 of page 46 becomes -B if y is replaced by z, and -A if x is replaced by z."""
     a, b, *_ = _plane(P, Q, X)
     with_z = [_c_0(*((p[i], p[j]) for p in (P, Q, X))) for i, j in ((0, 2), (2, 1))]
     return Proof(
@@ -117,7 +117,7 @@ def proof_of_identity(proof: Callable[[], Proof]) -> Check:
 
 @claim("thesis.129")
 def sum_of_page_46() -> Check:
-    """Check that the printed sum for a point k between a and b is 0, but has other terms than the substitution."""
+    """Check that the printed sum of page 46 is 0 as claimed, but has other terms than the substitution gives."""
     xa, ya, xb, yb, share = variables("x_a y_a x_b y_b lambda")
     rest = 1 - share
     k = (share * xa + rest * xb, share * ya + rest * yb)
@@ -140,7 +140,7 @@ def _v(x: Point, i: Point) -> Polynomial:
 
 @claim("thesis.50")
 def display_of_page_14() -> Check:
-    """Check V: with the index 1 in the first factors, as in our text, it is not 0 at a point of the line."""
+    """Check that the formula for V on page 14, with the index 1 of the OCR text, is not 0 on the line."""
     names = ("p", "q", "x")
     at = dict(zip(names, counterexample_points("v_as_our_text.csv"), strict=True))
     values = {f"{name}_{axis}": c for name in names for axis, c in zip("xyz", at[name], strict=True)}
@@ -150,14 +150,14 @@ def display_of_page_14() -> Check:
 
 @claim("thesis.287")
 def display_of_page_41() -> Check:
-    """Check V: with the index 1 for every i, as in our text, it is 0 at every point."""
+    """Check that the formula for V on page 41, with the index 1 of the OCR text for every i, is 0 at every point."""
     is_wrong = not _v(P, P).terms
     return theorem_4_3().check().misprinted(is_wrong, "i for 1 in the differences from the point i")
 
 
 @claim("thesis.120", "thesis.234")
 def displays_of_page_42() -> Check:
-    """Check the square of the distance: with the lost signs and the repeated rows of our text it is not V / D^2."""
+    """Check that the formula for the squared distance on page 42 is wrong with the signs that the OCR text has lost."""
     (_, ux, uy, uz), (_, wy, _) = (0, *minus(Q, P)), minus(Q, X)
     as_text = (wy * uz - uz * uy) * (wy * uz - uz * uy) + 2 * (ux * uy - uy * uz) * (ux * uy - uy * uz)
     is_wrong = (as_text - _v(X, X)).terms

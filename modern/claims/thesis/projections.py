@@ -83,7 +83,7 @@ def _goes_through(start: Point, face: Sequence[Point]) -> bool:
 
 @claim("thesis.273")
 def sum_that_ends_with_plus() -> Check:
-    """Check that the printed sum lacks its last term, and that it is right with the product D_0 D_C, which is 0."""
+    """Check that the printed sum lacks its last term, the product D_0 D_C of the constant terms, which is 0."""
     *_, last = "A_0A_C + B_0B_C + C_0C_C +".split("+")
     right = coordinate_planes().check().holds
     return slip(last.strip(), right, "a sum without the plus, or with D_0 D_C", "D_C is 0 for a coordinate plane")

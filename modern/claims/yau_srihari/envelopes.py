@@ -70,7 +70,7 @@ def _hull() -> OctreeHull:
 
 
 def _placed(voxels: tuple[Point, ...]) -> tuple[Point, ...]:
-    """Return the voxels of a solid as indices into its array."""
+    """Return the coordinates of a solid's voxels as indices into its array."""
     low = [min(axis) for axis in zip(*voxels, strict=True)]
     return tuple((x - low[0], y - low[1], z - low[2]) for x, y, z in voxels)
 
@@ -225,7 +225,7 @@ def _upper_heights() -> tuple[set[Point], set[Point]]:
 
 @claim("yau-srihari.55", "yau-srihari.56", "yau-srihari.64", full=500)
 def extreme_points(cases: int = 5) -> Check:
-    """Check that each vertex of the lower envelope is a point of the floor, extreme in its row and column."""
+    """Check that each vertex of the lower envelope is an extreme point of its row and of its column of the floor."""
 
     def among(voxels: tuple[Point, ...]) -> bool:
         hull = hull_of(voxels)
@@ -237,7 +237,7 @@ def extreme_points(cases: int = 5) -> Check:
 
 @claim("yau-srihari.84", full=500)
 def integer_normals(cases: int = 5) -> Check:
-    """Check that all normals of faces and in the queue are integers and perpendicular to their edges."""
+    """Check that all normals that the algorithm computes are integer vectors perpendicular to their edges."""
 
     def are_integers(voxels: tuple[Point, ...]) -> bool:
         sides = hull_of(voxels).lower, hull_of(voxels).upper
@@ -272,7 +272,7 @@ def triangles_of_a_hull(cases: int = CASES) -> Check:
 
 @claim("yau-srihari.99")
 def another_vertex() -> Check:
-    """Check that the corners of a lower face in the reverse order, v3 v2 v1, give a normal that points up."""
+    """Check that the face v3 v2 v1 of theorem 2, as printed, is only the known face with the opposite normal."""
     reversed_ = [normal_of(*reversed(face.vertices[:3])) for face in _hull().lower.faces]
     faces = [face.normal for face in _hull().lower.faces]
     message = f"the normals of {len(reversed_)} reversed faces point up, unlike those of faces of the envelope"
@@ -281,7 +281,7 @@ def another_vertex() -> Check:
 
 @claim("yau-srihari.90")
 def epigraph_at_inner_nodes() -> Check:
-    """Check that an inner node with the heights 0, 1, 1, 1 is full as printed, although its epigraph is not."""
+    """Check that the printed rule makes a node of the octree full although part of it is below the envelope."""
     tops = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
     tree = written(no_columns(2), {place: Leaf(top) for place, top in tops.items()})
     voxels_as_printed = 8 if tree.low == 0 else 0

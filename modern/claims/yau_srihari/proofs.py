@@ -22,7 +22,7 @@ from modern.claims.yau_srihari.envelopes import algorithm_as_printed
 
 
 def combination_above() -> Step:
-    """Return the step that a combination of points above a graph is not below that combination of graph points."""
+    """Return the step that a combination of points above a convex graph is not below the graph."""
     m, z_1, z_2, floor_1, floor_2 = variables("m z_1 z_2 floor_1 floor_2")
     return Step(
         "a combination of points on or above the floor is on or above that of the floor",

@@ -72,7 +72,7 @@ def simple_with_a_tunnel() -> Check:
 
 @claim("yau-srihari.85", full=500)
 def queued_edges_reversed(cases: int = 5) -> Check:
-    """Check that an edge enters the queue in one direction (u1 u3 or u3 u2) and leaves it in the reverse one."""
+    """Check that a face enters an edge into the queue in one direction and removes it in the reverse direction."""
     same, reverse, neither = 0, 0, 0
     for voxels in SOLIDS.cases(cases):
         hull = hull_of(voxels)
@@ -98,7 +98,7 @@ FLOORS: Generator[tuple[Point, ...]] = Generator("floors of about 13 columns of 
 
 @claim("yau-srihari.128", full=1_000)
 def row_and_column_steps(cases: int = 12) -> Check:
-    """Check that a step by rows and then one by columns keep all vertices; some other points remain too."""
+    """Check that the reductions by rows and then by columns keep all vertices, though some other points remain too."""
     checks, larger = [], 0
     for floor_ in FLOORS.cases(cases):
         heights_ = {(x, y): z for x, y, z in floor_}
@@ -125,7 +125,7 @@ def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
 
 @claim("yau-srihari.129")
 def angle_counts() -> Check:
-    """Count the angles that the tree search computes for two floors: a diagonal valley, and half a ball."""
+    """Count the angles that the search of the quadtree computes for two floors: a diagonal valley, and half a ball."""
     # One point is raised, so that the preprocessing removes it.
     valley = {(x, y): (x - y) ** 2 + 9 * (x == y == 5) for x in range(16) for y in range(16)}
     counts = []
