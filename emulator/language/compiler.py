@@ -291,7 +291,7 @@ class _Translation:
             if ("variable", name) in self.emitter.allocator.entries:
                 raise Refused(place, f"{name} was used before its DIMENSION", 9)
             if 0 in shape:
-                raise Refused(place, f"{name}: a dimension of zero", 9)
+                raise Refused(place, f"{name}: a dimension must be at least 1, found 0", 9)
             if math.prod(shape) > _LARGEST:
                 raise Refused(place, f"OVERLAP: {name} needs {math.prod(shape) * FIELD} positions")
             self.emitter.arrays[name] = shape
@@ -374,7 +374,7 @@ class _Translation:
         # An indexed list is a loop: set the variable, transfer the items, step and test at the bottom.
         if isinstance(item, tree.Loop):
             if depth > 2:
-                raise Refused(statement.place, "lists are nested too deep")
+                raise Refused(statement.place, "the parentheses of this list are nested too deep")
             variable, step, limit = self._loop(item, statement.place)
             self.loops.append((variable, step, limit, len(emitter.code)))
             number = len(self.loops) - 1

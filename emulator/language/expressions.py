@@ -136,14 +136,18 @@ class Emitter:
         term, addend = argument, 0
         if isinstance(argument, Sum):
             if argument.minus or len(argument.rest) != 1:
-                raise Refused(argument.place, "a subscript is v, c, v+c, v-c, c*v, c*v+c or c*v-c")
+                raise Refused(
+                    argument.place, "expected a subscript v, c, v+c, v-c, c*v, c*v+c or c*v-c (variable v, constant c)"
+                )
             (sign, constant), term = argument.rest[0], argument.first
             addend = (1 if sign == "+" else -1) * self._whole(constant)
         # What remains is v, c, c*v or c*c, where a product must begin with its constant.
         factor = 1
         if isinstance(term, Product):
             if len(term.rest) != 1 or term.rest[0][0] != "*":
-                raise Refused(term.place, "a subscript is v, c, v+c, v-c, c*v, c*v+c or c*v-c")
+                raise Refused(
+                    term.place, "expected a subscript v, c, v+c, v-c, c*v, c*v+c or c*v-c (variable v, constant c)"
+                )
             factor, term = self._whole(term.first), term.rest[0][1]
         # A constant subscript has no variable.  Its factor and its constant are combined into the addend.
         if isinstance(term, Number):
@@ -154,7 +158,7 @@ class Emitter:
             or term.name in self.arrays
             or not is_fixed_name(term.name)
         ):
-            raise Refused(term.place, "the variable of a subscript is a fixed-point variable without subscript")
+            raise Refused(term.place, "the variable of a subscript must be a fixed-point variable without subscript")
         return self.variable(term).address, factor, addend
 
     @staticmethod
@@ -164,7 +168,7 @@ class Emitter:
         return int(expression.text)
 
     def fixed(self, expression: Expression) -> bool:
-        """Return True for a fixed-point expression.  Raise Refused (error type 5) if it mixes both modes."""
+        """Return True for a fixed-point (integer) expression.  Raise Refused if integers and floats are mixed."""
         # Every level of parentheses calls this method, so the mode is cached to keep the time for deep expressions
         # linear.
         mode = self.modes.get(id(expression))
@@ -320,9 +324,9 @@ class Emitter:
     def _function(self, reference: Reference) -> None:
         name = function_of(reference, self.arrays)
         if len(reference.arguments) != 1:
-            raise Refused(reference.place, f"{reference.name} takes one argument")
+            raise Refused(reference.place, f"{reference.name} needs exactly one argument")
         if self.fixed(reference.arguments[0]):
-            raise Refused(reference.place, f"{reference.name} takes a floating-point argument", 5)
+            raise Refused(reference.place, f"{reference.name} needs a floating-point argument", 5)
         self.load(reference.arguments[0])
         self.emit(op.FUNCTION, address=LIBRARY.index(name))
         self.held = -1

@@ -46,8 +46,8 @@ class FormatSpec:
     """A FORMAT as a flat sequence of specifications, with repeat counts and groups expanded.
 
     ``again`` is the index at which a list with more items than fields continues: the start of the last group that
-    contains a field, with all its repetitions, or without such a group the first specification (IBM FORTRAN II-D,
-    executed).
+    contains a field, with all its repetitions, or without such a group the first specification (as in IBM FORTRAN
+    II-D).
     """
 
     specs: tuple[Spec, ...]
@@ -166,10 +166,12 @@ class _Reader:
     def specification(self) -> FormatSpec:
         """Read the whole FORMAT, from its opening parenthesis to its closing one."""
         if self.peek() != "(":
-            raise _refused(self.place(), "a FORMAT's specification begins with a parenthesis")
+            raise _refused(self.place(), "expected a parenthesis at the beginning of the FORMAT's specification")
         specs = self.group()
         if self.peek():
-            raise _refused(self.place(), f"{self.peek()!r} after the end of the FORMAT")
+            raise _refused(
+                self.place(), f"expected nothing after the FORMAT's closing parenthesis, found {self.peek()!r}"
+            )
         return FormatSpec(tuple(specs), self.again)
 
     def number(self) -> str:
@@ -191,7 +193,7 @@ class _Reader:
         while True:
             char = self.peek()
             if char == "":
-                raise _refused(self.place(), "the FORMAT does not end with a parenthesis")
+                raise _refused(self.place(), "expected a closing parenthesis at the end of the FORMAT")
             if char == ")":
                 self.at += 1
                 return specs
@@ -228,7 +230,7 @@ class _Reader:
         # X and H take their width before the letter, so they cannot have a repeat count (p. 41, 42).
         if letter in ("X", "H"):
             if not count:
-                raise _refused(start, f"{letter} needs its width before it")
+                raise _refused(start, f"{letter} needs a width before it")
             return [self.literal(letter, int(count), start)], False
         if letter in FOREIGN_FIELDS:
             raise Refused(self.place(), FOREIGN_FIELDS[letter], 11, about=f"{letter} field")
@@ -239,7 +241,7 @@ class _Reader:
         self.at += 1
         width = self.number()
         if not width or int(width) == 0:
-            raise _refused(self.place(), f"{letter} needs a width")
+            raise _refused(self.place(), f"{letter} needs a width after it")
         decimals = ""
         if letter in ("E", "F"):
             if self.peek() != ".":
@@ -248,24 +250,24 @@ class _Reader:
             self.at += 1
             # A blank between the point and the decimals is error type 11 (p. 56).
             if self.text[self.at : self.at + 1] == " ":
-                raise _refused(self.place(), f"a blank after the point of {letter}{width}.")
+                raise _refused(self.place(), f"expected a number of decimals after {letter}{width}., found a blank")
             decimals = self.number()
             if not decimals:
-                raise _refused(self.place(), f"{letter}{width}. has no number of decimals")
+                raise _refused(self.place(), f"{letter}{width}. needs a number of decimals after the point")
         # No record is longer than a line of the typewriter (p. 43).
         if int(width) > MAX_RECORD:
-            raise _refused(start, f"a field of {width} columns")
+            raise _refused(start, f"a field has at most {MAX_RECORD} columns, found {width}")
         return [Field(_KINDS[letter], int(width), int(decimals or 0))] * self.repeat(count, start), True
 
     def repeat(self, count: str, start: Place) -> int:
         if count and int(count) == 0:
-            raise _refused(start, "a repeat count of zero")
+            raise _refused(start, "a repeat count must be at least 1, found 0")
         return int(count or 1)
 
     def literal(self, letter: str, width: int, start: Place) -> Literal:
         begun, self.at = self.begun, self.at + 1
         if width == 0:
-            raise _refused(start, f"0{letter} has no width")
+            raise _refused(start, f"the width before {letter} must be at least 1, found 0")
         if width > MAX_LITERAL:
             message = f"{width}{letter}: the width of X and H is at most {MAX_LITERAL}; use two in a row"
             self.warnings.append(Diagnostic(start.card, start.column, message, 11, warning=True))

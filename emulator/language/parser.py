@@ -190,7 +190,7 @@ def parse_statement(source: Source) -> tree.Statement:
             raise Refused(source.place, _AFTER_MARK)
     label = _statement_number(source.label, source.place) if source.label else 0
     if len(source.text) > MAX_LENGTH:
-        raise Refused(source.place, f"a statement of more than {MAX_LENGTH} characters")
+        raise Refused(source.place, f"the statement has more than {MAX_LENGTH} characters")
     text = "\n".join(card.text for card in source.cards)
     if source.kind == "format":
         return tree.Statement(label, source.place, text, tree.Format(source.text, source.places))
@@ -199,7 +199,7 @@ def parse_statement(source: Source) -> tree.Statement:
         if _FORMAT_LIKE.match(source.text):
             raise Refused(source.place, "FORMAT is misspelled", 10)
         if source.text.startswith("FORMAT"):
-            raise Refused(source.place, "no parenthesis follows FORMAT", 11)
+            raise Refused(source.place, "expected a parenthesis after FORMAT", 11)
         raise Refused(source.place, f"not a statement of this FORTRAN: {source.text[:40]}")
     # The builder is recursive, so the depth is limited before parsing.
     if _depth(source.text) > MAX_NESTING:

@@ -65,7 +65,7 @@ Expression = Number | Reference | Power | Product | Sum
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """``variable = expression``.  The value is converted to the mode of the variable (p. 21)."""
+    """The statement ``variable = expression``.  The value is converted to the type of the variable (p. 21)."""
 
     target: Reference
     value: Expression

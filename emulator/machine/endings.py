@@ -70,7 +70,7 @@ class Ending:
 
     @property
     def span(self) -> tuple[int, int] | None:
-        """The first and last card of the loop, or None without a loop."""
+        """The first and last card of the endless loop that ended the run, or None if there was none."""
         cards = [line.place.card for line in self.loop]
         return (min(cards), max(cards)) if cards else None
 
@@ -175,7 +175,7 @@ def out_of_bounds(program: Program, at: int, decision: int, address: int, subscr
 
 
 def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> Ending:
-    """Return the ending of a run that used a field which is undefined or, according to ``kind``, has the wrong mode."""
+    """Return the ending of a run that used a field which is undefined or has a number of the wrong kind."""
     ending = replace(stopped(program, "undefined", at, decision), name=program.storage.name_of(address))
     if kind == UNDEFINED:
         return ending

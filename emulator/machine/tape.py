@@ -36,7 +36,8 @@ Taped = tuple[int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Test:
-    """An IF on the tape: its instruction, the index of the number that it tests, and its three targets.
+    """An IF on the tape: its instruction, the index of the number that it tests, and the instructions it
+    branches to.
 
     The targets are those for a negative number, zero and a positive number; ``taken`` is the one the machine took.
     """
@@ -47,7 +48,7 @@ class Test:
     taken: int
 
     def target(self, number: Number) -> int:
-        """Return the target that the IF takes for this number, which may come from another arithmetic."""
+        """Return the instruction to which the IF branches for a number, which may come from another arithmetic."""
         return self.targets[1 + (number > 0) - (number < 0)]
 
 
@@ -164,13 +165,13 @@ class TapeNumbers(Numbers):
         return self.inner.write(field, value[:2])
 
     def function(self, name: str, value: Number) -> tuple[Number, str]:
-        raise Undecided(f"a tape holds no {name}")
+        raise Undecided(f"{name} cannot be recorded for other arithmetics")
 
     def power(self, base: Number, exponent: Number) -> tuple[Number, str]:
-        raise Undecided("a tape holds no powers")
+        raise Undecided("a power cannot be recorded for other arithmetics")
 
     def integer_power(self, base: Number, count: int) -> tuple[Number, str]:
-        raise Undecided("a tape holds no powers")
+        raise Undecided("a power cannot be recorded for other arithmetics")
 
 
 def record(program: Program, deck: Deck, options: Options) -> Tape:

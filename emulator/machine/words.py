@@ -115,7 +115,8 @@ def place_of(line: Line) -> str:
 
 
 def notes(program: Program, result: Result, reported: Collection[tuple[int, int]] = ()) -> Iterator[str]:
-    """Yield the messages after a run: its warnings, a note if an empty hopper ended it, and its error codes.
+    """Yield the messages after a run: its warnings, a note if it ended because no card was left, and its error
+    codes.
 
     reported: fields, as pairs of card and column, that another part of the program has already warned about.
     """

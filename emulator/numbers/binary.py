@@ -107,7 +107,7 @@ class FloatNumbers(Numbers):
 
     def to_integer(self, value: float) -> int:
         if value - value != 0:
-            raise Undecided(f"{self.name} has no integer for {value}")
+            raise Undecided(f"{self.name} cannot convert {value} to an integer")
         size = int(abs(value)) % 10000
         return -size if value < 0 else size
 
@@ -166,7 +166,7 @@ class FloatNumbers(Numbers):
         if value == 0:
             return 0, MINUS_ZERO if math.copysign(1, value) < 0 else ZERO
         if value - value != 0:
-            raise Undecided(f"{value} cannot be put on a card")
+            raise Undecided(f"{value} cannot be written on a card")
         sign, decimals, power = Decimal(self._shortest(value)).as_tuple()
         assert isinstance(power, int)
         size = int("".join(map(str, decimals)))

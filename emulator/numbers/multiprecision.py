@@ -88,7 +88,7 @@ class MultiprecisionNumbers(Numbers):
 
     def to_integer(self, value: Any) -> int:
         if not self._context.isfinite(value):
-            raise Undecided(f"{self.name} has no integer for {value}")
+            raise Undecided(f"{self.name} cannot convert {value} to an integer")
         size = int(abs(value)) % 10000
         return -size if value < 0 else size
 
@@ -173,7 +173,7 @@ class MultiprecisionNumbers(Numbers):
     def cut(self, value: Any, digits: int) -> tuple[int, int]:
         exact = self.exact(value, digits)
         if exact is None:
-            raise Undecided(f"{value} cannot be put on a card")
+            raise Undecided(f"{value} cannot be written on a card")
         return cut_decimal(*self._shortest(value, exact), digits) if exact else (0, ZERO)
 
     def text(self, value: Any) -> str:

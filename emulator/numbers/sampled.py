@@ -138,7 +138,7 @@ class SampledNumbers(Numbers):
     def cut(self, value: Values, digits: int) -> tuple[int, int]:
         mean = self.exact(value, 0)
         if mean is None:
-            raise Undecided("a number that is not finite in every run cannot be put on a card")
+            raise Undecided("a number that is not finite in every run cannot be written on a card")
         if len(set(self.signs(value))) == 1 and not mean:
             return self.members[0].cut(value[0], digits)
         return _cut(mean, digits)

@@ -43,7 +43,7 @@ class Addresses:
         return self.labels[str(label)] - 3
 
     def operand(self, call: str, field: int, subscript: int, at: int) -> str:
-        """Return an instruction with its operand, preceded by the code that computes the operand's subscript, if any.
+        """Return an instruction with its operand, after code that computes the subscript of the operand, if it has one.
 
         Parameters
         ----------

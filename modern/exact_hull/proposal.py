@@ -195,7 +195,7 @@ class _Growing:
         self.made = end
 
     def _signed(self, values: Floats, points: Ints, triangles: Ints) -> Floats:
-        """Return values of planes at points.  A value of doubtful sign becomes its exact sign times 1e-300."""
+        """Return values of planes at points.  If rounding hides a sign, the value is the exact sign times 1e-300."""
         doubtful = np.flatnonzero(~(abs(values) > self.bounds[triangles]))
         if doubtful.size and not self.exact:
             distinct, places = np.unique(triangles[doubtful], return_inverse=True)

@@ -44,7 +44,7 @@ def surface(text: str, source: str) -> FileMesh:
         elif tokens[0][0] == "f":
             faces.append(tuple(_corner(source, line, token, vertices_before, len(points)) for token in tokens[1:]))
             if not faces[-1]:
-                raise error(source, line, tokens[0], "a face has at least one vertex")
+                raise error(source, line, tokens[0], "a face needs at least one vertex")
     return FileMesh(source, points, point_lines, tuple(faces))
 
 

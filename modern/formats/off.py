@@ -30,7 +30,9 @@ def parse_off(text: str, source: str) -> FileMesh:
     if head is not None and head[1][0][0][:1].isalpha():
         line, tokens = head
         if tokens[0][0] != "OFF":
-            raise error(source, line, tokens[0], f"{quoted(tokens[0][0])} is not supported, only plain OFF")
+            raise error(
+                source, line, tokens[0], f"{quoted(tokens[0][0])} is not supported; write the points as plain ASCII OFF"
+            )
         # The numbers of vertices and faces may stand in the same line as the heading OFF.
         head = (line, tokens[1:]) if len(tokens) > 1 else next(lines, None)
     if head is None:
@@ -54,7 +56,7 @@ def parse_off(text: str, source: str) -> FileMesh:
 def _face(source: str, line: int, tokens: list[Token], vertices: int) -> tuple[int, ...]:
     size = count(source, line, tokens[0])
     if size < 1:
-        raise error(source, line, tokens[0], "a face has at least one vertex")
+        raise error(source, line, tokens[0], "a face needs at least one vertex")
     if len(tokens) <= size:
         raise error(source, line, tokens[-1], f"the face ends after {len(tokens) - 1} of {size} vertices")
     face = tuple(count(source, line, token) for token in tokens[1 : size + 1])

@@ -35,7 +35,7 @@ class Remaining:
         self.keeper = self.keeper[1:]
 
     def strike_inside(self, points: PointTable, vertices: int, table: Equations) -> list[int]:
-        """Remove the points inside all planes or lines.  Return their input indices, in the order of ``points``."""
+        """Remove the points on the inner side of all planes or lines.  Return their input indices, in order."""
         self.eliminated_any = False
         if len(points) <= vertices:
             return []

@@ -83,7 +83,7 @@ class Refusals:
 
     @property
     def stopped(self) -> str:
-        """The message after which the run punched no further card for its data set, or an empty text."""
+        """The message that rejected the data set and after which no card was punched for it, or an empty text."""
         return self._stopped or self._last
 
 

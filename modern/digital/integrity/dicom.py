@@ -56,10 +56,10 @@ class _Elements:
 
     def _check(self, count: int) -> None:
         position = self.file.tell()
-        if count > self.size - position:
-            raise VolumeError(
-                f"{self.path}: damaged or truncated: expected {count} bytes at {position}, found {self.size - position}"
-            )
+        available = self.size - position
+        if count > available:
+            message = f"expected {count} bytes at byte {position}, found {available}"
+            raise VolumeError(f"{self.path}: damaged or truncated: {message}")
 
     def tag(self) -> tuple[int, int]:
         group, element = struct.unpack(f"{self.order}2H", self.read(4))
@@ -73,7 +73,7 @@ class _Elements:
         if kind in _SHORT:
             return kind, struct.unpack(f"{self.order}H", self.read(2))[0]
         if kind not in _LONG:
-            raise VolumeError(f"{self.path}: damaged: invalid element at {self.file.tell() - 6}")
+            raise VolumeError(f"{self.path}: damaged: invalid element at byte {self.file.tell() - 6}")
         return kind, struct.unpack(f"{self.order}2xI", self.read(6))[0]
 
     def read_set(self, end: int | None, depth: int = 0) -> None:
@@ -106,7 +106,7 @@ class _Elements:
             if tag == _SEQUENCE_END and end is None:
                 break
             if tag != _ITEM:
-                raise VolumeError(f"{self.path}: damaged: expected an item at {self.file.tell() - 8}")
+                raise VolumeError(f"{self.path}: damaged: expected an item at byte {self.file.tell() - 8}")
             if parent == _PIXELS:
                 self.skip(item)
             else:

@@ -99,7 +99,9 @@ class _Reader:
         if code is None:
             return tag, b""
         if count > _MOST_VALUES:
-            raise VolumeError(f"{self.path}: damaged: tag {tag} has {count} values")
+            raise VolumeError(
+                f"{self.path}: damaged: expected at most {_MOST_VALUES} values of tag {tag}, found {count}"
+            )
         form = f"{self.order}{count}{code}"
         length = struct.calcsize(form)
         if length > len(inline):

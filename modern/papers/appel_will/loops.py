@@ -16,7 +16,7 @@ TIMES = 2
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """Options for steps of the paper's appendix that are wrong or unclear as printed.
+    """Options for steps of the paper's appendix that are wrong or unclear as printed.  L1 and L2 begin a loop.
 
     ``dot_condition``: of the admissible lines L2, prefer one whose direction has a positive dot product with that of
     L1 (the condition of the main text for two lines that define a plane), otherwise take the first. If False, the

@@ -93,7 +93,7 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
 def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
     """Place the points of a planar map: those of the face ``outer`` on the unit circle, all others inside.
 
-    The first side of ``outer`` is at the bottom. The surfaces may run in either sense. Every line must be on two of
+    The first side of ``outer`` is at the bottom. The surfaces may run in either direction. Every line must be on two of
     them.
     """
     border = surfaces[outer]

@@ -1,4 +1,4 @@
-"""Compute each published result of Appel and Will, as lines in the words of the print.
+"""Compute each published result of Appel and Will, as lines worded like those in the paper.
 
 The object of Fig. 4 is read from the corrected print. The paper draws the other objects without coordinates; those that
 this project chose for them are in ``coordinates.toml`` next to the print.

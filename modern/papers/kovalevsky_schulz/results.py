@@ -1,4 +1,4 @@
-"""Compute each published result of Kovalevsky and Schulz, as lines in the words of the print.
+"""Compute each published result of Kovalevsky and Schulz, as lines worded like those in the paper.
 
 The paper does not define its bodies. The definitions here reproduce its numbers: the ball of diameter 32 is centred on
 a voxel, and the half-balls of Table 5 are centred on a corner of voxels. All hulls are hulls of the voxels' corners.

@@ -1,4 +1,4 @@
-"""Compute each published result of Nakamae and Nishita, as lines in the words of the print."""
+"""Compute each published result of Nakamae and Nishita, as lines worded like those in the paper."""
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction

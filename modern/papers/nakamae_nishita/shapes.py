@@ -33,7 +33,8 @@ def cuboid(name: str, x: Fraction, y: Fraction, z: Fraction) -> Polyhedron:
 def column(name: str, base: Sequence[Vector], along: Vector) -> Polyhedron:
     """Return the prism over a convex polygon. Its vertices are those of the base, then those of the top.
 
-    The base may run in either sense. Raise SceneError if it is not a plane convex polygon or ``along`` is in its plane.
+    The base may run in either direction. Raise SceneError if it is not a plane convex polygon or ``along`` is in its
+    plane.
     """
     normal = _normal(name, base)
     rise = dot(normal, along)

@@ -29,7 +29,7 @@ ACROSS, UP, ALONG = 1, 2, 0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Octree:
-    """The cubes that together fill a solid, as the full leaves of an octree.
+    """The cubes that together fill a solid: the full leaves of an octree, whose voxels all belong to the solid.
 
     ``side`` is the side of the cube, a power of two. ``codes`` and ``levels``, of shape (n,), describe the leaves by
     increasing code. Level 0 is the whole cube, and a leaf of level l has the side ``side >> l``. No eight leaves fill

@@ -133,7 +133,7 @@ def test_statement_beyond_the_largest_machine_is_rejected() -> None:
     """Characters beyond the limit are not parsed."""
     assert errors(*continued("A=B", "+C" * 33, 290), "END") == ()
     (message,) = errors(*continued("A=B", "+C" * 33, 400), "END")
-    assert (message.card, message.message) == (1, "a statement of more than 20000 characters")
+    assert (message.card, message.message) == (1, "the statement has more than 20000 characters")
 
 
 def test_formats_beyond_the_largest_machine_give_one_message() -> None:

@@ -246,8 +246,8 @@ def test_wrong_hollerith_count_gets_a_suggestion(text: str, column: int, words: 
     ("text", "words"),
     [
         ("(3HABC,A4)", FOREIGN_FIELDS["A"]),
-        ("(3HABC,I4", "the FORMAT does not end with a parenthesis"),
-        ("(3HABC,I)", "I needs a width"),
+        ("(3HABC,I4", "expected a closing parenthesis at the end of the FORMAT"),
+        ("(3HABC,I)", "I needs a width after it"),
         ("(3HABC,F4,4HDEFG)", "F4 lacks a decimal point and a number of decimals, as in F4.4"),
     ],
 )

@@ -84,7 +84,7 @@ def test_invalid_specification_is_error_11(text: str) -> None:
     """C26-5619 p. 56: a wrong letter, or a missing point or number of decimals."""
     lines = [f"5 FORMAT{text}", "END"]
     if text == "I4":
-        assert errors(*lines)[0].message == "no parenthesis follows FORMAT"
+        assert errors(*lines)[0].message == "expected a parenthesis after FORMAT"
         return
     (message,) = errors(*lines)
     assert (message.card, message.number) == (1, 11)
@@ -97,7 +97,7 @@ def test_invalid_specification_is_error_11(text: str) -> None:
         ("(I4,B4)", 13, "'B' is not a specification; the codes are I, E, F, X, H and /"),
         ("(I4,4)", 14, "')' is not a specification"),
         ("(I4,4".ljust(64), 72, "'the end' is not a specification"),
-        ("(I4".ljust(64), 72, "the FORMAT does not end with a parenthesis"),
+        ("(I4".ljust(64), 72, "expected a closing parenthesis at the end of the FORMAT"),
         ("(10000I1)", 15, "the number 10000 in a FORMAT is too large"),
         ("((((I4))))", 12, "groups are nested too deep"),
     ],

@@ -31,7 +31,11 @@ def test_all_variants_of_plain_off_have_the_same_mesh(text: str) -> None:
 BAD_OFF = [
     ("empty", "", "line 1, column 1: the numbers of vertices and faces are missing"),
     ("heading-only", "OFF\n", "line 2, column 1: the numbers of vertices"),
-    ("coff", GOOD.replace("OFF", "COFF"), "line 1, column 1: 'COFF' is not supported, only plain OFF"),
+    (
+        "coff",
+        GOOD.replace("OFF", "COFF"),
+        "line 1, column 1: 'COFF' is not supported; write the points as plain ASCII OFF",
+    ),
     ("binary", GOOD.replace("OFF", "OFF BINARY"), "line 1, column 5: expected the numbers of vertices, faces"),
     ("count", GOOD.replace("3 1 3", "3 x 3"), "line 2, column 3: 'x' is not a count"),
     ("negative", GOOD.replace("3 1 3", "-3 1 3"), "line 2, column 1: '-3' is not a count"),
@@ -51,7 +55,7 @@ BAD_OFF = [
     ("no-face", GOOD.replace("3 0 1 2\n", ""), "line 6, column 1: the file ends after 0 of 1 faces"),
     ("short-face", GOOD.replace("3 0 1 2", "4 0 1 2"), "line 6, column 7: the face ends after 3 of 4 vertices"),
     ("no-vertex", GOOD.replace("3 0 1 2", "3 0 1 3"), "line 6, column 7: there is no vertex 3; they are numbered"),
-    ("empty-face", GOOD.replace("3 0 1 2", "0"), "line 6, column 1: a face has at least one vertex"),
+    ("empty-face", GOOD.replace("3 0 1 2", "0"), "line 6, column 1: a face needs at least one vertex"),
     ("bad-colour", GOOD.replace("3 0 1 2", "3 0 1 2 red"), "line 6, column 9: 'red' is not a decimal number"),
     ("more", GOOD + " 1\n", "line 7, column 2: expected the end of the file"),
 ]
