@@ -37,7 +37,7 @@ def distance(a: str, b: str) -> int:
 
 @cache
 def _representatives() -> Mapping[int, str]:
-    """Map every character of a pair of confusables to the first character of its class."""
+    """Map each confusable character to the first character of its class of characters that may be confused."""
     group: dict[str, str] = {}
     for pair in table():
         if pair.cls == "confusable" and len(pair.witness) == len(pair.lemma) == 1:
@@ -49,13 +49,13 @@ def _representatives() -> Mapping[int, str]:
 
 @cache
 def folded(text: str) -> str:
-    """Return a text with each character replaced by the representative of those with which it may be confused."""
+    """Return a text in which each confusable character is replaced by the representative of its class."""
     return text.translate(_representatives())
 
 
 @cache
 def _pair_costs() -> Mapping[tuple[str, str], float]:
-    """Return the costs of (character of the card, character of the transcription) that the table pairs."""
+    """Return the cost of each pair (card's character, transcription's character) of the table of confusables."""
     return {
         (p.lemma, p.witness): CONFUSABLE
         for p in table()

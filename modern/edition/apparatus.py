@@ -37,7 +37,7 @@ Certainty = Literal["certain", "probable", "conjecture"]
 
 
 class ApparatusError(EmulatorError, ValueError):
-    """A row that cannot be read or does not fit the text; the message names the row."""
+    """An error in a row of the apparatus that cannot be read or does not fit the text; the message names the row."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -243,7 +243,7 @@ def built_without(text: Text, row_id: str) -> tuple[frozenset[str], tuple[Line, 
 
 
 class RowMisfit(ApparatusError):
-    """Raised if the fragment of a row does not occur at the place that the row names."""
+    """An error: the fragment that a row replaces does not occur at the place that the row names."""
 
     def __init__(self, row_id: str, message: str) -> None:
         super().__init__(f"row {row_id}: {message}")
@@ -291,7 +291,7 @@ class _Page:
         self._at[line.id] = Line(line.id, text, line.page, (*line.rows, row.id))
 
     def _insert(self, row: Row, behind: Line, texts: Sequence[str], inserted: int) -> int:
-        """Insert lines after the line ``behind``, numbered within the row, and return the last number used."""
+        """Insert lines of a row after the line ``behind``, number them, and return the last number used."""
         if texts:
             new = [f"{row.id}.{inserted + k}" for k in range(1, len(texts) + 1)]
             at = self._order.index(behind.id) + 1
@@ -303,7 +303,7 @@ class _Page:
 
 @lru_cache(4096)
 def on_form(text: str) -> str:
-    """Return a statement in the columns of the coding form (C26-5619 p. 12).  Comments are unchanged."""
+    """Return a statement with its number and text in the columns of the coding form (C26-5619 p. 12)."""
     if text.startswith("C  "):
         return text
     label_and_statement = text.strip()

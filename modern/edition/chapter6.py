@@ -32,7 +32,7 @@ Role = Literal[
 
 
 class LayoutError(ValueError):
-    """An invalid layout; the message names the card or the device file."""
+    """An error in the layout of chapter 6; the message names the card or the device file."""
 
 
 @dataclass(frozen=True, slots=True)

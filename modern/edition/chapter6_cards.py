@@ -21,7 +21,7 @@ _BLANK = " \t"
 
 
 class TranscriptError(ValueError):
-    """The corrected print does not fit its cards; the message names device file, card, line and columns."""
+    """An error: the corrected print does not fit on its cards; the message names file, card, line and columns."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ def _text_and_layout() -> tuple[Text, Layout]:
 
 
 def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
-    """Return what ``load_chapter`` returns, for a text and a layout that have been read already."""
+    """Return the chapter built from a text and a layout that have been read already."""
     applied = tuple(text.default if layers is None else layers)
     return _chapter(text, build(text, applied, without), layout, applied, frozenset(without), {})
 

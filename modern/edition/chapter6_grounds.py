@@ -100,7 +100,7 @@ def integers(card: Card) -> tuple[int, ...]:
 
 
 def of_role(chapter: Chapter, example: int, program: int, role: Role, device: Device = "punch") -> tuple[Card, ...]:
-    """Return the cards of one role in the order of the device file."""
+    """Return the cards of a device file that have a given role, in the order of the file."""
     return tuple(card for card in cards(chapter, example, program, device) if card.role == role)
 
 
@@ -210,7 +210,7 @@ def _order(chapter: Chapter, row: Row, ground: Ground) -> bool:
 
 
 def _by_columns(chapter: Chapter, row: Row, ids: Sequence[str]) -> bool:
-    """Return True if the named lines of the witness are not in the order of their columns, and the row sorts them."""
+    """Return True if the named lines of the witness are out of order by their columns, and the row sorts them."""
     witness = [line for line in chapter.text.witness if line.id in ids]
     ordered = sorted(witness, key=lambda line: len(line.text) - len(line.text.lstrip()))
     others = frozenset(r.id for r in chapter.text.rows) - {row.id}

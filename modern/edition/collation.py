@@ -117,7 +117,7 @@ def _marks() -> frozenset[str]:
 
 
 def _pairs(aligned: Mapping[int, tuple[str, tuple[int, ...]]]) -> tuple[Pair, ...]:
-    """Return the pairs that the transcription may have exchanged (see the module)."""
+    """Return the pairs of characters that the transcription may have confused (see the module's docstring)."""
     places: Counter[str] = Counter()
     errors: Counter[tuple[str, str]] = Counter()
     for n, (line, _) in aligned.items():
@@ -176,7 +176,7 @@ def _readings(n: int, aligned: tuple[str, ...] | None, pairs: tuple[Pair, ...]) 
 
 
 def _kind(token: str) -> str:
-    """Return the kind of a token: number, name, operator, or empty for what no card can have."""
+    """Return the kind of a token: number, name, operator, or an empty text for characters that no card can have."""
     for kind, pattern in (("number", r"\d+"), ("name", r"[A-Z][A-Z0-9]*"), ("sign", r"[-+*/=.,()]+")):
         if re.fullmatch(pattern, token):
             return kind
@@ -265,7 +265,7 @@ def report(collation: Collation) -> Iterator[str]:
 
 
 def shared_errors(collation: Collation) -> tuple[int, int]:
-    """Return how many misreadings of our OCR text a transcription shares, and of how many whose cards it has.
+    """Return how many misreadings of the OCR text a transcription shares, and how many it could share.
 
     A transcription that shares most of them was probably made from the same OCR or scan and is not independent.
     """
@@ -278,7 +278,7 @@ def shared_errors(collation: Collation) -> tuple[int, int]:
 
 
 def _of_row(collation: Collation, row: Row) -> Iterator[tuple[Verdict, bool]]:
-    """Yield the verdict on each place of a row, and whether the transcription has the reading of our witness there."""
+    """Yield, for each place that a row changes, the verdict, and whether the transcription has the OCR reading."""
     for n, rival in row_rivals(row):
         card = collation.cards[n]
         if card.lines:

@@ -16,7 +16,7 @@ Rates = Mapping[Pair, float]
 
 @cache
 def rates() -> Rates:
-    """Return the rate of each pair in the listings.  A mark that the OCR inserts counts per character of the text."""
+    """Return the rate at which the OCR confused each pair of characters in the listings."""
     uses = attested(row for name in programs.TEXTS for row in programs.text(name).rows)
     text = "\n".join(card.text for name in programs.TEXTS for card in programs.committed(name).cards)
     size = len("".join(text.split()))
@@ -28,7 +28,7 @@ def rates() -> Rates:
 
 
 def uniform(share: float, text: str) -> Rates:
-    """Return one rate for all pairs of the table, such that about ``share`` of the characters of a text change."""
+    """Return the same rate for all pairs of characters, so that about ``share`` of a text's characters change."""
     pairs = [pair for pair in table() if pair.cls not in ("comment", "zero") and pair.lemma + pair.witness]
     size = len("".join(text.split()))
     opportunities = sum(text.count(pair.lemma) if pair.lemma else size / 20 for pair in pairs)
@@ -39,7 +39,7 @@ def uniform(share: float, text: str) -> Rates:
 def damaged(
     text: str, chances: Rates, random: Random, allowed: Callable[[str, int], bool] = lambda text, at: True
 ) -> list[str]:
-    """Return the damaged text of each character of a text, with marks inserted after it.
+    """Damage a text and return what becomes of each of its characters, with any marks inserted after it.
 
     A pair of several characters is returned at its first character.  ``allowed`` tells which characters may change.
     """
@@ -61,7 +61,7 @@ def damaged(
 
 
 def _drawn(pairs: Sequence[Pair], chances: Rates, random: Random) -> Pair | None:
-    """Return one of the pairs, each with its own chance, or none."""
+    """Return one of the pairs, chosen at random by the rates of the pairs, or None."""
     number = random.random()
     for pair in pairs:
         number -= chances[pair]

@@ -13,7 +13,7 @@ from modern.edition.apparatus import Change
 
 @dataclass(frozen=True, slots=True)
 class Edit:
-    """The characters ``first`` to ``last`` (exclusive) become ``new``.
+    """A replacement of the characters ``first`` to ``last`` (exclusive) of a text by ``new``.
 
     ``moved`` is the number of a displaced piece: the edit that removes it and the edit that inserts it share it.
     """
@@ -25,7 +25,7 @@ class Edit:
 
 
 def solid(text: str) -> str:
-    """Return a text without its blanks."""
+    """Return a text with all blanks removed."""
     return "".join(text.split())
 
 

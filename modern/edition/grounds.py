@@ -162,7 +162,7 @@ def _built(row: Row) -> Deck:
 
 
 def _without(row: Row, step: Step | None) -> Deck:
-    """Return the deck without a row and the rows that depend on it, or without one step of the row."""
+    """Return the deck without a row and the rows that depend on it, or without one replacement of the row."""
     if step is None:
         dependents, _ = built_without(programs.text(row.text), row.id)
         return programs.built(_name(row), layers_for(row), dependents)
@@ -276,7 +276,7 @@ def _has_room(program: Program, ending: Ending) -> bool:
 
 
 def ground_deck(name: str) -> Deck | None:
-    """Return a deck that a row names: the input of an example, or a deck of ``fortran_src/grounds``."""
+    """Return a deck that the ground of a row names: an example's input, or a deck of ``fortran_src/grounds``."""
     examples = {f"example{number}": number for number in chapter6.EXAMPLES}
     if name in examples:
         return chapter6.input_deck(examples[name])
@@ -310,7 +310,7 @@ def _reason(ending: Ending | EmulatorError) -> tuple[object, ...]:
 
 @cache
 def _with_row(name: str, layers: tuple[str, ...], deck_name: str) -> _Outcome:
-    """Return the outcome of a deck with all rows.  It is cached, because one deck is used to judge many rows."""
+    """Return the outcome of a data deck with all rows applied; it is cached because many rows use the same deck."""
     data = ground_deck(deck_name)
     assert data is not None
     return _outcome(name, layers, programs.with_layers(name, layers), data)
@@ -348,7 +348,7 @@ def _forced(row: Row, step: Step | None) -> tuple[bool, str]:
 
 
 def _card(deck: Deck, place: str) -> str:
-    """Return the statement with number LABEL, or the n-th after it for LABEL+n, without blanks and number."""
+    """Return the text of the statement with a label such as ``147+1``, without blanks and number."""
     label, _, steps = place.partition("+")
     statements = list(sources(deck))
     at = next(i for i, s in enumerate(statements) if s.label == label)

@@ -1,4 +1,4 @@
-"""The answers from the page that the edition includes: ``fortran_src/readings.csv`` of a state.
+"""Readings that someone has confirmed or corrected on the printed page, stored in ``fortran_src/readings.csv``.
 
 The edition as published has no such file, because nobody who worked on it has seen the pages.
 :mod:`modern.edition.page_readings` writes the file from filled proof sheets, which are tables with the columns
@@ -22,7 +22,7 @@ READER, DATE = "reader", "date"
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """An answer from the page.
+    """One answer of a reader of the printed page.
 
     ``outcome`` is ``confirmed``, ``changed``, ``answered`` (an open question) or ``unreadable``.  ``card`` is the card
     as the page has it, and ``row`` the row of the apparatus that was added for it.  ``rows`` are the rows that the
@@ -43,7 +43,7 @@ class Reading:
 
 @cache
 def page_readings() -> tuple[Reading, ...]:
-    """Return the answers from the page that the edition includes; none as published."""
+    """Return the answers of readers of the page that this edition includes; the published edition has none."""
     file = files("fortran_src").joinpath(READINGS)
     return stored_readings(file.read_text(encoding="utf-8")) if file.is_file() else ()
 

@@ -1,4 +1,4 @@
-"""Answers from the page: read a filled proof sheet, and make a state of the edition that includes the answers.
+"""Read a completed proof sheet, and make a state of the edition (a copy of its data) that includes the answers.
 
 A state is a folder with a copy of the data ``fortran_src``: apparatus, decks and ``readings.csv``, the answers so far.
 The installed package is never changed.  A maintainer compares the state with the repository and merges it.
@@ -67,7 +67,7 @@ def read_sheet(name: str, text: str) -> tuple[Reading, ...]:
 
 
 def _answered(place: str, page: str, entry: Item | Question, answer: str, reader: str, day: str) -> Reading:
-    """Return the answer to an item or question.  Raise FileError, which begins with ``place``."""
+    """Return the answer of a sheet to an item or a question. Raise FileError, whose message begins with ``place``."""
     program = entry.program if isinstance(entry, Item) else ""
     result = Reading(entry.id, page, program, "unreadable", answer, "", "", "", reader, day)
     choice = next((choice for choice in entry.choices if choice.letter == answer.upper()), None)
@@ -162,7 +162,10 @@ def _applied(data: Path, readings: Sequence[Reading]) -> Iterator[Reading]:
 
 
 def _line_of(text: Text, reading: Reading) -> Line:
-    """Return the line of a card after the layer ``ocr``.  Raise ApparatusError if later rows make it another one."""
+    """Return the line of a card after the layer ``ocr``. Raise ApparatusError if later rows replace it.
+
+    Raise ApparatusError if later rows replace this card.
+    """
     number = int(reading.item.split("-")[1])
     final = build(text, programs.built_in(text.id).layers)[number - 1]
     for line in build(text, ("ocr",)):

@@ -92,12 +92,12 @@ def steps(row: Row) -> tuple[Step, ...] | None:
 
 @lru_cache(65536)
 def explains(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> bool:
-    """Return True if the OCR, by exchanging these pairs, can have made the witness from the lemma."""
+    """Return True if the OCR can have made the witness from the lemma by confusing these pairs of characters."""
     return abs(len(witness) - len(lemma)) < 12 and _way(witness, lemma, pairs) is not None
 
 
 def _way(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> list[tuple[int, int, Pair]] | None:
-    """Return the pairs of a cheapest alignment of both texts: equal characters cost nothing, a pair costs one.
+    """Return the pairs of characters in a cheapest alignment of both texts.
 
     This is the dynamic programme of an edit distance, over (position in the witness, position in the lemma).  Each cell
     stores the cell from which it was reached, so that the pairs can be traced back from the end.
@@ -150,7 +150,7 @@ def without_step(row: Row, step: Step) -> Row:
 
 
 def _blanked(text: str, at: int, length: int, instead: str) -> str:
-    """Replace ``length`` characters of the text, beginning with the ``at``-th that is not blank."""
+    """Replace ``length`` characters of a text by blanks, from the ``at``-th character that is not blank."""
     positions = [n for n, char in enumerate(text) if not char.isspace()]
     first = positions[at] if at < len(positions) else len(text)
     last = positions[at + length - 1] + 1 if length else first
@@ -158,7 +158,7 @@ def _blanked(text: str, at: int, length: int, instead: str) -> str:
 
 
 def attested(rows: Iterable[Row]) -> Counter[tuple[str, str]]:
-    """Count the places where rows of the layer ``ocr`` use each pair."""
+    """Count in how many places the rows of the layer ``ocr`` use each pair of characters."""
     uses: Counter[tuple[str, str]] = Counter()
     for row in rows:
         if row.layer == "ocr" and row.kind in CLASSES:

@@ -123,7 +123,7 @@ def _fault(card: str) -> int | None:
 
 
 def _progress(card: str) -> int:
-    """Return a number that grows with the column of the first error and falls with characters that no card has."""
+    """Return a score of a damaged card, which grows with the column of the first error."""
     return (_fault(card) or 0) - 100 * sum(char in _BAD or not char.isascii() for char in card)
 
 
@@ -142,7 +142,7 @@ def _exchanges(card: str) -> Iterator[tuple[str, Pair]]:
 
 
 def _by_form(program: _Program, n: int) -> None:
-    """Find the readings of a card with the fewest exchanges that are statements.  Words without signs are a comment."""
+    """Find the readings of a card that are statements and need the fewest exchanges of characters."""
     card = program.cards[n]
     if (re.fullmatch(r"[A-Z -]{9,}", card) and " " in card.strip()) or re.fullmatch(r"[A-Z-]{15,}", card):
         program.done[n] = Restored(n, "C" + "".join(card.split()), "certain", "parse")
@@ -191,7 +191,7 @@ def _names(card: str) -> frozenset[str]:
 
 
 def _by_compiler(program: _Program) -> None:
-    """Keep the readings that the rest of the program allows: numbers that exist, numbers not used twice, names set."""
+    """Keep the readings of a card with which the whole program compiles."""
     for n, readings in list(program.open.items()):
         others = [card for k, card in enumerate(program.cards) if k != n and k not in program.open]
         numbers = Counter(_labels(card)[0] for card in others)
@@ -241,7 +241,7 @@ def _form(card: str) -> str:
 
 
 def _decide(program: _Program, n: int, forms: Counter[str], weights: Mapping[str, int]) -> None:
-    """Choose among readings that all compile: by the print, by siblings, and last by the attested exchanges."""
+    """Choose among readings that all compile: by printed results, by similar cards, then by frequent exchanges."""
     readings = program.open[n]
     present = program.cards[n]
     if len(readings) <= 12 and program.trials:
@@ -268,7 +268,7 @@ def _decide(program: _Program, n: int, forms: Counter[str], weights: Mapping[str
 
 
 def _compiling(program: _Program, n: int) -> list[tuple[str, tuple[Pair, ...]]]:
-    """Return the readings of a card by one exchange that the program allows."""
+    """Return the readings of a card that differ by one exchange and with which the program compiles."""
     card = program.cards[n]
     others = [text for k, text in enumerate(program.cards) if k != n]
     numbers = {_labels(text)[0] for text in others}
@@ -283,7 +283,7 @@ def _compiling(program: _Program, n: int) -> list[tuple[str, tuple[Pair, ...]]]:
 
 
 def _unlike_siblings(program: _Program, forms: Counter[str]) -> None:
-    """Emend a card that compiles if a name in it occurs nowhere else, or if only another reading has siblings."""
+    """Emend a card with a name that occurs nowhere else, or for which only another reading has similar cards."""
     uses = Counter(name for card in program.cards for name in _names(card))
     for n, card in enumerate(program.cards):
         abstained = n in program.done and program.done[n].certainty == "abstained"
@@ -302,7 +302,7 @@ def _unlike_siblings(program: _Program, forms: Counter[str]) -> None:
 
 
 def _matching(program: _Program, n: int, text: str) -> int:
-    """Return the score of the program with a reading, over all its printed results."""
+    """Return how many printed results the program reproduces with a reading, as a score."""
     return score(_with(program, n, text), program.trials)
 
 
@@ -350,7 +350,7 @@ _FORBIDDEN = re.compile(r"\.(?:f|txt|deck|output|punch|csv|md|jsonl?)$|program\d
 
 
 def seal() -> None:
-    """Reject every later attempt of this process to open a listing, witness, apparatus or test, and to run programs."""
+    """Prevent this process from opening a listing, witness, apparatus or test, and from running programs."""
 
     def watch(event: str, arguments: tuple[Any, ...]) -> None:
         if event in ("subprocess.Popen", "os.system", "os.exec", "os.posix_spawn", "socket.connect"):

@@ -47,7 +47,7 @@ class Segments:
 
 
 def reading(pieces: Iterable[Piece], layers: Collection[str]) -> str:
-    """Return the text of the pieces after the rows of these layers."""
+    """Return the text of the pieces after applying the rows of the given layers."""
     return "".join(
         piece if isinstance(piece, str) else reading(piece.new if piece.row.layer in layers else piece.old, layers)
         for piece in pieces

@@ -34,7 +34,7 @@ DEPENDS: Mapping[str, str] = {
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A possible reading: its letter, the token, and the whole card with it (empty if the page lacks the card)."""
+    """A possible reading of a token: its letter on the sheet, the token, and the whole card with this reading."""
 
     letter: str
     token: str
@@ -134,7 +134,7 @@ def silent_readings() -> list[dict[str, str]]:
 
 
 def _items(name: str) -> dict[int, list[Item]]:
-    """Return the items of a program by card.  Variants that alter the same token are rivals in one item."""
+    """Return the items of a program by card. Silent readings of the same token are choices of one item."""
     by_card = {statement.card: statement for statement in statements(name)}
     tokens: dict[tuple[int, int, int], list[tuple[str, str, str]]] = {}
     for row in silent_readings():
@@ -171,7 +171,7 @@ def _item(
 
 
 def _altered_token(was: str, reads: str, columns: Sequence[int]) -> tuple[int, int, str]:
-    """Return the span of the altered token in ``was``, and the token in ``reads``.
+    """Return the columns of the token that differs between two readings of a card, and its altered text.
 
     A token is a run of letters and digits without a blank between them on the card; ``columns`` has their columns.
     """

@@ -40,7 +40,7 @@ class Document:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Lines ``first`` to ``last`` of a witness, copied from line ``at`` of the document on.
+    """A range of lines of a witness, and the lines of the document from which they were copied.
 
     With ``part``, the witness has only some of the words of each line.
     """

@@ -63,7 +63,7 @@ NO_E = 999
 
 @dataclass
 class _Tally:
-    """The counts of a run: decisions judged, alarms at right decisions and at the first wrong one, and so on."""
+    """The counts of one run: decisions examined, alarms at right ones, an alarm at the first wrong one, and so on."""
 
     tests: int = 0
     first: str = ""
@@ -77,7 +77,7 @@ class _Tally:
 
 
 def alarms(sample: Sample, run: HullRun) -> Figures:
-    """Decisions up to the first wrong one, and the alarms of stochastic arithmetic, intervals, twice the digits and e.
+    """Count the decisions up to the first wrong one, and the alarms that each method of error analysis raises.
 
     ``first`` is the statement of the first wrong decision.  For each method M: ``M_false`` counts alarms at right
     decisions and ``M_spoils`` the right decisions that M would change; ``M_caught`` and ``M_repaired`` are 1 if M
@@ -117,7 +117,7 @@ def alarms(sample: Sample, run: HullRun) -> Figures:
 
 
 def _decided(tape: Tape, seed: int) -> Iterator[tuple[Test, dict[str, Any]]]:
-    """Yield each test of a tape up to the first wrong one, with the number in each arithmetic."""
+    """Yield each decision of a recorded run up to the first wrong one, with the tested number in each arithmetic."""
     exact = exactly(tape, DIGITS)
     wrong = (k for k, test in enumerate(tape.tests) if test.target(exact[test.place]) != test.taken)
     tape = tape.until(next(wrong, len(tape.tests) - 1))
@@ -152,7 +152,7 @@ def _rules(seed: int) -> Rules:
 
 
 def _estimated(drawn: Any, factor: float) -> list[tuple[float, bool, float]]:
-    """Return for each number its mean, whether it lacks significant digits, and its number of significant digits.
+    """Return for each number the mean of its samples, whether it lacks significant digits, and how many it has.
 
     Samples that are all equal are certain.
     """
@@ -178,7 +178,7 @@ def _with_e(program: str) -> frozenset[str]:
 
 
 def _judged(tally: _Tally, test: Test, known: Mapping[str, Any], has_e: bool) -> bool:
-    """Count what the methods say of a decision.  Return True if the machine decided wrongly."""
+    """Count the alarms of all methods at one decision. Return True if the machine decided wrongly."""
 
     target = test.target
     right = target(known["exact"])
@@ -218,7 +218,7 @@ def _judged(tally: _Tally, test: Test, known: Mapping[str, Any], has_e: bool) ->
 
 
 def _count_digits(tally: _Tally, known: Mapping[str, Any], bounds: Interval) -> None:
-    """Compare the estimated with the true number of digits, if the number has an error."""
+    """Add the estimated and the true number of digits of a number to the counts, if the number has an error."""
     mantissa, exponent = known["machine"]
     ratio = float(known["exact"]) / (mantissa * 10.0 ** (exponent - DIGITS))
     # A relative error below the last digit of the machine is a rounding error of this computation.

@@ -1,4 +1,4 @@
-"""The layout of a chart, computed before it is drawn: the offsets of its series, and whether each needs a panel.
+"""The layout of a chart, computed before drawing: how far its series are moved apart, and whether each needs a panel.
 
 Series with equal values are drawn side by side, shifted by a few typographic points, or, if their x values are too
 close for that, each in a separate panel.
@@ -25,7 +25,7 @@ _MANY_BARS = 48
 
 
 def number(value: float, percent: bool = False, power: bool = False) -> str:
-    """Format a number at an axis without superfluous digits: ``−1.5``; .35 as ``35 %``; with ``power``, -3 as 10⁻³."""
+    """Format a number for the label of an axis: ``−1.5``; .35 as ``35 %``; with ``power``, -3 as 10⁻³."""
     text = f"10^{value:.10g}" if power else f"{100 * value:.10g} %" if percent else f"{value:.10g}"
     return typeset(text)
 
@@ -42,7 +42,7 @@ def panels(chart: Chart) -> bool:
 
 
 def steps(chart: Lines) -> tuple[float, ...]:
-    """Return how far each series is drawn to the right of its x values, so that none hides another.
+    """Return how far each series must be moved to the right so that no series hides another.
 
     The shifts are in typographic points, and as large as the gaps between the x values allow.
     """
@@ -84,7 +84,7 @@ def _nearest(chart: Lines) -> float:
 
 
 def _heights(chart: Lines) -> list[dict[float, float]]:
-    """Return for each series the heights of its markers by x, in points."""
+    """Return for each series the heights of its markers, in points, by x value."""
     ascending = sorted(set(values(chart)))
     height_of = dict(zip(ascending, _scaled(ascending, HEIGHT, chart.log_y), strict=True))
     return [{float(x): height_of[e.value] for x, e in series.points} for series in chart.series]

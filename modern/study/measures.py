@@ -29,7 +29,7 @@ _MILLISECOND = Decimal("0.001")
 
 
 def machine_time(sample: Sample, run: HullRun) -> Figures:
-    """Seconds that all programs take on a 1620, separately for processor, reader, punch and typewriter.
+    """Compute the seconds that a run takes on a 1620: processor, reader, punch and typewriter.
 
     ``model_low`` and ``model_high`` bound the sum by the systematic error of the model (emulator/machine/timing.py).
     """
@@ -44,7 +44,7 @@ def machine_time(sample: Sample, run: HullRun) -> Figures:
 
 
 def operations(sample: Sample, run: HullRun) -> Figures:
-    """Floating-point operations of all programs: additions (with subtractions), products and quotients."""
+    """Count the floating-point operations of a run's programs: additions, subtractions, products, quotients."""
     counts: Counter[str] = Counter()
     for step in run.steps:
         counts.update(dict(measure(step.program, step.result).operations))
@@ -56,7 +56,7 @@ def operations(sample: Sample, run: HullRun) -> Figures:
 
 
 def plane_table(sample: Sample, run: Hull) -> Figures:
-    """The largest number of entries that a run uses at once in program 3's plane table, from the port's history.
+    """Find the largest number of entries of program 3's plane table that are in use at once.
 
     New planes are appended before the planes they replace are deleted, so a stage that begins with L planes and
     replaces m of them reaches L + 2m + 1 entries (thesis p. 32, statements 126 to 140).
@@ -69,7 +69,7 @@ def plane_table(sample: Sample, run: Hull) -> Figures:
 
 
 def divergence(sample: Sample, run: HullRun) -> Figures:
-    """The first statement at which eight-digit and exact arithmetic decide differently on the same cards.
+    """Find the first statement at which eight-digit and exact arithmetic decide differently on the same cards.
 
     ``diverges`` names program and statement.  It is ``cards to program3`` if all decisions of program 1 agree but a
     plane that it punched with eight digits misses its own points, which no arithmetic of the next program can correct.

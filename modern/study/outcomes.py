@@ -81,7 +81,7 @@ _SHOWN = Context(prec=6)
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """The answer of a route to a sample; ``order`` holds the order of the vertices and planes of a right hull."""
+    """The result of one route for one sample; ``order`` holds the order of the vertices and planes of a right hull."""
 
     outcome: Outcome
     detail: str = ""
@@ -90,7 +90,7 @@ class Answer:
 
 
 def answer_of_run(run: HullRun, sample: Sample, options: Options) -> Answer:
-    """Return the answer of a run of the programs with these options."""
+    """Run the programs with the given options and return the result of the run."""
     for step in run.steps:
         message = refusal(step.result)
         if message:
@@ -119,13 +119,13 @@ def answer_of_hull(hull: Hull, sample: Sample) -> Answer:
 
 
 def reordered(answer: Answer, reference: Answer) -> Answer:
-    """Return the answer, marked as reordered if it and the reference are right but have different orders."""
+    """Return the result, marked as reordered if it and the reference are right but differ in order."""
     differs = answer.outcome == reference.outcome == "right" and answer.order != reference.order
     return replace(answer, outcome="reordered") if differs else answer
 
 
 def position(program: Program, line: Line) -> str:
-    """Return the position of a statement in the notation of the apparatus.
+    """Return the position of a statement in the notation of the apparatus, such as ``132+3``.
 
     This is its number, ``147``, or the statements since the last number, ``132+3``, or since the beginning, ``+3``.
     """
@@ -157,7 +157,7 @@ def _looping_at(step: Step) -> str:
 
 
 def _reached(step: Step) -> str:
-    """Return the element with the subscript out of bounds, ``program3 A(99)``, or the statement that used it."""
+    """Return the array element with the subscript out of bounds, ``program3 A(99)``, or the statement that used it."""
     ending = step.result.ending
     if not ending.name:
         return _stopped_at(step)
@@ -186,7 +186,7 @@ def _determined(outcome: compared.Outcome, sample: Sample, hull: CardHull | Hull
 
 
 def _fault(outcome: compared.Outcome, sample: Sample, difference: Disagreement, hull: CardHull | Hull) -> Fault | None:
-    """Return the first fault of a hull in the order of the table at the top of this module; None if it has none."""
+    """Return the first fault of a hull, in the order of the table at the top of this module, or None."""
     faults: tuple[tuple[object, Fault], ...] = (
         (outcome.dimension != sample.hull.dimension, "dimension wrong"),
         (outcome.strange, "coordinates changed"),

@@ -239,7 +239,7 @@ def _errors(series: Series) -> list[list[float]]:
 
 
 def _line(axes: Any, chart: Lines, k: int, shift: float) -> None:
-    """Draw the line, markers and error bars of a series, shifted by that many points to the right."""
+    """Draw the line, markers and error bars of a series, moved to the right by the given number of points."""
     from matplotlib.transforms import ScaledTranslation
 
     series, colour = chart.series[k], COLOURS[k % len(COLOURS)]
@@ -280,7 +280,7 @@ def _scales(axes: Any, chart: Lines, margin: float = 0.0) -> None:
 
 
 def _range(numbers: list[float], logarithmic: bool, margin: float = 0.0) -> tuple[float, float] | None:
-    """Return the limits of an axis that shows these numbers with a margin; None if the axis can show none of them."""
+    """Return the limits of an axis that shows the given numbers with a margin, or None if it can show none of them."""
     finite = [value for value in numbers if isfinite(value) and (value > 0 or not logarithmic)]
     if not finite:
         return None
@@ -295,7 +295,7 @@ def _range(numbers: list[float], logarithmic: bool, margin: float = 0.0) -> tupl
 def _numbers(
     axis: Any, limits: tuple[float, float], logarithmic: bool, powers: bool, percent: bool, only_integers: bool
 ) -> None:
-    """Set the tick labels of an axis.  A logarithmic axis has 1, 2, 5, 10, 20 and so on, or powers of ten if long."""
+    """Set the tick labels of an axis; those of a logarithmic axis are 1, 2, 5, 10, 20 and so on, or powers of ten."""
     from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
     if logarithmic:

@@ -1,4 +1,5 @@
-"""Data sheets with decimals: how often the programs reject them, and how many of them explain two rejections in 70.
+"""Study data sheets with decimals: how often the programs reject them, and how many explain two failures in seventy
+sets.
 
 The thesis attributes its two failures to the eight digits of the machine.  The programs reject sets like the data sheet
 of chapter 5 (:func:`modern.study.families.thesis.data_sheet`) more often if more of their coordinates are decimals.
@@ -22,7 +23,7 @@ FORMS = {"alone": "as on the sheet (.0146)", "added": "added to a whole number (
 
 
 def cells(samples: int, route: Programs) -> tuple[Cell, ...]:
-    """Return a cell for each share and form of decimals, with one route."""
+    """Return the cells of the study: one for each share of decimals and each form of them."""
     return tuple(
         Cell(
             {"decimals": share, "form": form},
@@ -49,7 +50,7 @@ class Sheets:
 
     @property
     def rate(self) -> Interval:
-        """Return the share of these sets that are rejected."""
+        """Return the share of these data sheets that the programs reject."""
         return exact(self.refused, self.sets)
 
 
@@ -87,7 +88,7 @@ def table(sheets: tuple[Sheets, ...]) -> Table:
 
 
 def needed(sheets: Sheets) -> str:
-    """Return for how many sheets in seventy two rejections are most probable, as a range, or ``-`` if for none."""
+    """Return how many of seventy sets must be data sheets to make two rejections most probable, as a range."""
     if not sheets.refused:
         return "-"
     low, high = (SEVENTY * bound / sheets.rate.value for bound in TWO_LIKELIEST)

@@ -1,4 +1,4 @@
-"""Send the samples of a chunk through a route, the programs or the port, and collect the answers."""
+"""Compute the hulls of a chunk of samples by one route, the programs or the port, and collect the results."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
@@ -23,7 +23,7 @@ from modern.thesis.job import HullRun, Load, run_hull
 
 
 def carry_out(route: Route, samples: Sequence[Sample], runs: Runs) -> list[Answer]:
-    """Send each sample through the route.  ``runs`` stores runs of programs that several routes of a sample share."""
+    """Compute the hull of each sample by the route. ``runs`` stores runs that several routes of a sample share."""
     if isinstance(route, Programs):
         return _programs(route, samples, runs)
     return [_port(route, sample) for sample in samples]

@@ -1,4 +1,4 @@
-"""Carry out a study in a folder: check the plan, begin or resume it, work through its chunks, write the report."""
+"""Run a study in a folder: check the plan, begin or resume the study, compute its chunks, and write the report."""
 
 import os
 import sqlite3
@@ -49,7 +49,7 @@ def run_study(
     quiet: bool = False,
     command: Sequence[str] = (),
 ) -> Report:
-    """Carry out a plan in a folder, write its report there and return it.
+    """Run the study of a plan in a folder, write its report there and return the report.
 
     The rows, and therefore the report, do not depend on interruptions, on the number of workers or on the machine.
 
@@ -136,7 +136,7 @@ def verify_study(folder: Path) -> tuple[Plan, int, list[str]]:
 
 
 def plain_lines(plan: Plan) -> tuple[str, ...]:
-    """Return a line for each reason why routes of a plan need the plain engine; none if all can be compiled."""
+    """Return a line for each reason why routes of a plan cannot be compiled and need the plain engine."""
     reasons = dict.fromkeys(why_plain(options_of(route)) for route in _program_routes(plan))
     return tuple(reason for reason in reasons if reason)
 
@@ -150,7 +150,7 @@ def _program_routes(plan: Plan) -> Iterable[Programs]:
 
 
 def cut_lines(plan: Plan) -> tuple[str, ...]:
-    """Return a note for each route whose numbers lose digits on the cards between the programs."""
+    """Return a note for each route whose numbers lose digits because cards between the programs hold only eight."""
     return tuple(
         f"route {route.name}: the cards between the programs hold {CARD_DIGITS} digits of a number; "
         "uncut = true keeps all digits"

@@ -38,7 +38,7 @@ class Sample:
         }
 
     def points_read(self, rules: Rules) -> Sequence[Vector]:
-        """Return the points as an arithmetic reads them from cards; it truncates them if it has fewer digits."""
+        """Return the points as an arithmetic reads them from cards, truncated if the arithmetic has fewer digits."""
         if rules.digits >= CARD_DIGITS:
             return self.points
         points = []
@@ -49,7 +49,7 @@ class Sample:
 
 
 def judge(drawn: Drawn, name: str) -> Sample:
-    """Return the sample of a drawn set, with its exact hull.  Raise ValueError if no deck can hold its points."""
+    """Return the sample of a point set with its exact hull. Raise ValueError if the points do not fit on cards."""
     deck = data_deck(drawn.points, name)
     points = tuple(tuple(map(Fraction, point)) for point in drawn.points)
     hull = exact_hull(drawn.points)

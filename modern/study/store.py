@@ -111,7 +111,7 @@ class Store:
         return digest.hexdigest()
 
     def counts(self, *columns: str, cell: int | None = None, route: str | None = None) -> dict[tuple[Any, ...], int]:
-        """Return how many answers have each combination of the values of columns or tags (``tags.kind``), sorted."""
+        """Count the results by the values of columns or tags (such as ``tags.kind``), sorted by these values."""
         names = [_column(name) for name in columns]
         selected = {name: value for name, value in (("cell", cell), ("route", route)) if value is not None}
         condition = " AND ".join(f"runs.{name} = ?" for name in selected)

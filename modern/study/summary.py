@@ -11,7 +11,7 @@ from modern.study.store import Store
 
 
 def values(plan: Plan, key: str) -> tuple[Value, ...]:
-    """Return the values that one parameter of the keys has in a plan, in the order of the cells."""
+    """Return the values that one parameter has in the keys of a plan's cells, in the order of the cells."""
     return tuple(dict.fromkeys(cell.key[key] for cell in plan.cells if key in cell.key))
 
 
@@ -42,7 +42,7 @@ class Summary:
         return self.of(cell, route) - self.hits(cell, route)
 
     def sound_from(self, cell: int, route: Callable[[int], str], tried: Sequence[int]) -> int | None:
-        """Return the least of the ascending numbers such that no sample failed at it or at a later number, or None."""
+        """Return the least of the ascending numbers such that no sample failed at it or at a greater one, or None."""
         least = None
         for number in reversed(tried):
             if self.failed(cell, route(number)):

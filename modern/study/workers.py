@@ -1,4 +1,4 @@
-"""Work through the chunks of a study in this process, in worker processes or on a dask.distributed cluster.
+"""Compute the chunks of a study in this process, in worker processes or on a dask.distributed cluster.
 
 A chunk is a run of consecutive samples of one cell.  Its result is the JSONL text of its rows.  Worker processes and
 clusters are both executors of :mod:`concurrent.futures` and share one loop, which submits chunks and waits for them.
@@ -80,7 +80,7 @@ def _row(cell: int, index: int, seed: str, sample: Sample, answers: dict[str, An
 
 
 def work_on(cell: Cell, seed: int, chunk: Chunk) -> RowsOrError:
-    """Return the rows of a chunk, or the message of the error that prevents them."""
+    """Compute the rows of a chunk, or return the message of the error that prevents this."""
     try:
         return chunk_text(cell, seed, chunk), ""
     except EmulatorError as error:
@@ -196,7 +196,7 @@ def on_cluster(plan: Plan, chunks: Sequence[Chunk], client: Any) -> Generator[Fi
 
 
 def _loaded() -> None:
-    """Do nothing; a worker can only call this if it can import hull1620."""
+    """Do nothing. A worker of a cluster can call this function only if it can import hull1620."""
 
 
 def _work_on_cluster(expected: dict[str, str], cell: Cell, seed: int, chunk: Chunk) -> RowsOrError:

@@ -97,7 +97,7 @@ class _Group:
     false: Counter[str] = field(default_factory=Counter)
 
     def add(self, figures: Mapping[str, Any]) -> None:
-        """Count a run."""
+        """Add the figures of one run to the counts."""
         is_wrong = bool(figures["first"])
         self.wrong, self.sound = self.wrong + is_wrong, self.sound + (not is_wrong)
         self.right_decisions += figures["tests"] - is_wrong
@@ -126,11 +126,11 @@ class _Group:
         return _Group(*(getattr(self, part.name) + getattr(other, part.name) for part in fields(self)))
 
     def best_e(self) -> int:
-        """Return the least power that notices the most wrong decisions."""
+        """Return the exponent k of the least e = 10**k that notices the most wrong decisions."""
         return max(POWERS, key=lambda k: self.noticed[e_name(k)])
 
     def share(self, counter: Counter[str], name: str) -> Interval | None:
-        """Return the share of a method's runs: of those with a wrong decision, or of the sound ones."""
+        """Return a counter of a method as a share of the runs with a wrong decision, or of the sound runs."""
         of = self.sound if counter is self.alarmed or counter is self.spoiled else self.wrong
         return exact(counter[name], of) if of else None
 
@@ -251,7 +251,7 @@ def _places(rows: _Rows) -> Table:
 
 
 def _costs(rows: _Rows) -> Table:
-    """Return the cost of the methods in the instruction times of a 1620 Model 1 (A26-5706-3)."""
+    """Return a table of the time that each method takes, computed with the instruction times of a 1620 Model 1."""
     ops = rows.operations
 
     def microseconds(p: int) -> int:

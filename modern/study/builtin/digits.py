@@ -32,12 +32,12 @@ def working(digits: int) -> str:
 
 
 def exact_zeros(digits: int) -> int:
-    """Return the working digits that make every test for zero exact for integer coordinates of ``digits`` digits."""
+    """Return the number of digits with which every test for zero is exact, for coordinates of ``digits`` digits."""
     return 3 * digits + 1
 
 
 def enough(digits: int) -> int:
-    """Return the working digits that are always enough for integer coordinates of ``digits`` digits."""
+    """Return the number of digits with which no hull fails, for integer coordinates of ``digits`` digits."""
     return 3 * digits + 4
 
 
@@ -66,7 +66,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 
 def least(counts: Summary, cell: int) -> int | None:
-    """Return the least P such that no set of the cell failed at this or a greater P.  Return None if there is none."""
+    """Return the least number P of digits such that no set of the cell failed with P or more digits, or None."""
     return counts.sound_from(cell, working, WORKING)
 
 

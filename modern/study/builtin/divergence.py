@@ -68,7 +68,7 @@ class _Divergences:
 
     @property
     def places(self) -> tuple[str, ...]:
-        """Return the statements, the most frequent first, equally frequent ones by name."""
+        """Return the statements at which the runs first disagree, the most frequent first, then by name."""
         names = {name for _, name in self.counts if name != NOWHERE}
         return tuple(sorted(names, key=lambda name: (-self.total(name), name)))
 

@@ -1,4 +1,5 @@
-"""Study e of chapter 7: which e makes sets acceptable, which e makes hulls wrong, and if one e works for all sets.
+"""Study the tolerance e of chapter 7: which e avoids rejections, which e gives wrong hulls, and whether one e always
+works.
 
 The thesis (p. 117-118) proposes to count a value from -e to +e as zero.  It warns that a point near a plane may then
 count as a point on the plane, so that a vertex is not recognized.  The programs with the layers ``epsilon`` and
@@ -101,15 +102,15 @@ class _Rows:
     swallowed: Mapping[tuple[int, str], int]
 
     def swallows(self, cell: int, route: str) -> Interval:
-        """Return the share of sets with a swallowed vertex: e makes the route miss it, or count a solid as flat."""
+        """Return the share of sets in which a tolerance e makes a route miss a vertex or treat a solid as flat."""
         return exact(self.swallowed.get((cell, route), 0), self.counts.of(cell, route))
 
     def clean(self, cell: int, name: Name, tried: tuple[int, ...]) -> list[int]:
-        """Return the exponents k at which no set of the cell failed with e = 10**k."""
+        """Return the exponents k such that no set of the cell failed with the tolerance e = 10**k."""
         return [k for k in tried if not self.counts.failed(cell, name(k))]
 
     def begins(self, cell: int, name: Name, tried: tuple[int, ...]) -> int | None:
-        """Return the least exponent k such that 10**k and every greater e swallow a vertex of some set.
+        """Return the least exponent k such that e = 10**k and every greater e lose a vertex of some set, or None.
 
         Return None if the greatest e swallows none.  A vertex that is missed only at a smaller e is missed because of
         the arithmetic and not because of e.
@@ -265,7 +266,7 @@ def _same_as_port(store: Store) -> tuple[int, int]:
 
 
 def _wrong_outside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:
-    """Return how many sets have a wrong hull at an e below (or above) the e without failures, and the total."""
+    """Return how many sets have a wrong hull with an e below (or above) those without failures, and the total."""
     wrong = of = 0
     for number, cell in enumerate(plan.cells):
         clean = rows.clean(number, taken, ABSOLUTE)

@@ -91,12 +91,12 @@ def _in_minutes(seconds: Interval) -> Interval:
 
 
 def _by_model(time: _Time) -> str:
-    """Return the mean minutes with the systematic error of the processor's times."""
+    """Return the mean minutes with the interval of the timing model's systematic error."""
     return f"{time.model[0] / _MINUTE:.2f} to {time.model[1] / _MINUTE:.2f}"
 
 
 def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float, _Time]]:
-    """Return the numbers N of points and the times for one kind of set, without each N at which no set was timed."""
+    """Return the numbers N of points at which runs of one kind of set were timed, and the times."""
     return [(float(cell.key["n"]), times[k]) for k, cell in cells(plan, sets=name) if k in times]
 
 

@@ -94,14 +94,14 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Pairs:
-    """An arithmetic compared with truncation on the same sets: the numbers of sets with better and worse results."""
+    """The comparison of an arithmetic with truncation: the numbers of sets with better and with worse results."""
 
     better: int
     worse: int
 
     @property
     def verdict(self) -> str:
-        """The verdict on an arithmetic, which the exact interval of its share of better sets determines."""
+        """The verdict on an arithmetic: better than truncation, worse, or no significant difference."""
         if self.better + self.worse == 0:
             return "no difference"
         share = exact(self.better, self.better + self.worse)
@@ -127,7 +127,7 @@ def report(plan: Plan, store: Store) -> Report:
 
 
 def _compared(plan: Plan, store: Store, way: str, test: str) -> _Pairs:
-    """Compare an arithmetic with truncation on each set: is the hull found or, in the interval test, how often?"""
+    """Compare the result of an arithmetic with that of truncation on each set."""
     better = worse = 0
     names = {way: (way, *(within(way, k) for k in WIDTHS)) for way in (way, TRUNCATING)}
     way_of = {route: way for way, routes in names.items() for route in routes}

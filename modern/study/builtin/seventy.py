@@ -93,11 +93,11 @@ class _Route:
 
     @property
     def mean(self) -> Interval:
-        """Return the failures to expect in seventy sets.  Sets are independent, so their number is binomial."""
+        """Return the expected number of failures in seventy sets, with its binomial interval."""
         return count(self.failed, self.sets, SEVENTY)
 
     def groups(self, least: int, most: int = SEVENTY) -> Interval:
-        """Return the share of those groups of seventy sets that have from ``least`` to ``most`` failures."""
+        """Return the share of groups of seventy sets that have ``least`` to ``most`` failures."""
         return exact(sum(least <= n <= most for n in self.failures), len(self.failures))
 
 

@@ -119,7 +119,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Pair:
-    """A set whose hull is found with and without the translation: cell, planes per point, and both sets of figures."""
+    """A set whose hull is found with and without moving the origin, and the figures of both runs."""
 
     cell: int
     ratio: float
@@ -127,12 +127,12 @@ class _Pair:
     moved: Mapping[str, float]
 
     def saved(self, part: str) -> float:
-        """Return the share of a figure that the translation saves; negative if it costs."""
+        """Return the share of a figure that moving the origin saves; it is negative if moving costs more."""
         return (self.plain[part] - self.moved[part]) / self.plain[part] if self.plain[part] else 0.0
 
     @property
     def saved_in_all(self) -> float:
-        """Return the share of the total time that the translation saves, including reader, punch and typewriter."""
+        """Return the share of the total time, with reader, punch and typewriter, that moving the origin saves."""
         plain, moved = (
             sum(value for name, value in figures.items() if name.startswith("seconds_"))
             for figures in (self.plain, self.moved)

@@ -1,4 +1,4 @@
-"""Point sets that are given and not drawn: those that the thesis prints, and those of a user."""
+"""Families of point sets that are not random: the sets that the thesis prints, and the points of a user's file."""
 
 from collections.abc import Sequence
 from functools import cache
@@ -29,7 +29,7 @@ def published_sets() -> dict[str, tuple[Point, ...]]:
 
 
 def published(draw: Draw, sets: Sequence[str] = (), shuffle: bool = False) -> Drawn:
-    """The published sets in turn: sample k is the k-th of the named ``sets`` (default: all), cyclically.
+    """The point sets printed in the thesis: sample k is the k-th of the named ``sets`` (default: all), cyclically.
 
     ``shuffle`` changes the order of the points at random.
     """
@@ -42,7 +42,7 @@ def published(draw: Draw, sets: Sequence[str] = (), shuffle: bool = False) -> Dr
 
 
 def points(draw: Draw, points: Sequence[Sequence[str]], n: Count = 0, shuffle: bool = False, name: str = "") -> Drawn:
-    """The points of the plan, all of them or ``n`` drawn from them; ``shuffle`` changes their order at random."""
+    """The points of a plan, or ``n`` of them drawn at random; ``shuffle`` changes their order at random."""
     in_plan = [(str(x), str(y), str(z)) for x, y, z in points]
     if n:
         count = draw.count(n)
@@ -58,7 +58,7 @@ def points(draw: Draw, points: Sequence[Sequence[str]], n: Count = 0, shuffle: b
 
 
 def file_family(draw: Draw, path: str, n: Count = 0, shuffle: bool = False, name: str = "") -> Drawn:
-    """The points of a file next to the plan, with the parameters of ``points``.  The manifest holds the points."""
+    """The points of a file in the folder of the plan, with the parameters of the family ``points``."""
     return points(draw, file_points(path), n, shuffle, name)
 
 

@@ -13,7 +13,7 @@ FINE = 10**12
 
 
 def integers(draw: Draw, digits: int, n: Count) -> Drawn:
-    """Integers from -(10**digits - 1) to 10**digits - 1, each coordinate uniformly distributed."""
+    """Points whose coordinates are random integers from -(10**digits - 1) to 10**digits - 1."""
     size = size_of(digits)
 
     def point() -> Whole:
@@ -23,7 +23,7 @@ def integers(draw: Draw, digits: int, n: Count) -> Drawn:
 
 
 def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
-    """Integers from centre - most to centre + most, each coordinate uniformly distributed."""
+    """Points whose coordinates are random integers from centre - most to centre + most."""
     if not isinstance(most, int) or not isinstance(centre, int) or most < 1 or abs(centre) + most > size_of(DIGITS):
         raise FamilyError(f"most is {most}, centre {centre}; a card holds integers of {DIGITS} digits")
 
@@ -35,7 +35,7 @@ def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
 
 
 def decimals(draw: Draw, digits: int, n: Count, exponent: Count = (0, 1)) -> Drawn:
-    """Decimals of exactly ``digits`` significant digits and either sign, as .12345 times a power of ten.
+    """Points whose coordinates are decimals of exactly ``digits`` digits: .12345 times a power of ten, of either sign.
 
     exponent: the power, or the least and the greatest power, from which it is drawn for each coordinate separately.
     Coordinates with different powers have digits in different decimal places, so their difference has more digits.
@@ -102,7 +102,7 @@ def nearest(number: int, divisor: int) -> int:
 
 
 def prism(draw: Draw, digits: int, n: Count) -> Drawn:
-    """A polygon and its copy moved along an axis: an even number of points, at least 6, in random order.
+    """The points of a prism, in random order: a polygon and its copy moved along an axis, at least 6 points.
 
     The points of the polygon are rounded from a circle.  All coordinates have absolute values up to 10**digits - 1.
     """
@@ -114,7 +114,7 @@ def prism(draw: Draw, digits: int, n: Count) -> Drawn:
 
 
 def pyramid(draw: Draw, digits: int, n: Count) -> Drawn:
-    """A polygon and an apex, at least 4 points, in random order, with coordinates up to 10**digits - 1."""
+    """The points of a pyramid, in random order: a polygon and an apex, at least 4 points."""
     size = size_of(digits)
     base = _base(draw, max(3, draw.count(n) - 1), size)
     apex = draw.whole(-size, size), draw.whole(-size, size), draw.whole(1, size)
@@ -122,7 +122,7 @@ def pyramid(draw: Draw, digits: int, n: Count) -> Drawn:
 
 
 def near_coplanar(draw: Draw, digits: int, n: Count, gap: int) -> Drawn:
-    """Points of a plane, about a third of them raised or lowered by 10**-gap.
+    """Points nearly in one plane: about a third of them are raised or lowered by 10**-gap.
 
     x and y are integers of up to ``digits`` digits, and z = p x + q y + s 10**-gap with p, q and s among -1, 0 and 1.
     There are at least 4 points, and at least one lies off the plane.  If z has more than eight digits, no card holds

@@ -39,7 +39,7 @@ _SHEET_N, _SHEET_SIZE, _PLACES, _UNIT = 8, 12, 4, 10_000
 def thesis(
     draw: Draw, kinds: Mapping[str, int] | None = None, n: Count = N, decimals: int = 0, form: str = "alone"
 ) -> Drawn:
-    """A set whose kind is drawn by weight (default: the kinds of chapter 6, equally likely).
+    """A set like those of the thesis, of a kind chosen at random (default: the kinds of chapter 6, equally likely).
 
     n: the number of points, for kinds without a fixed number.  decimals: how many of 1,000 coordinates of a data sheet
     are decimals.  form: ``alone`` replaces an integer by the decimal, as printed; ``added`` adds the decimal to the
@@ -115,7 +115,7 @@ def slab(draw: Draw, count: int) -> list[Whole]:
 
 
 def plane_and_points(draw: Draw, count: int) -> list[Whole]:
-    """Return two points, then points of a plane that does not contain them, in the order of example 6."""
+    """Return two points, then several points of a plane that contains neither of them, as in example 6."""
     inner = plane(draw, max(count - 2, 2))
     outer = [p for p in draw.distinct(len(inner) + 2, lambda: _in_box(draw, _SMALL)) if p not in inner][:2]
     return [*outer, *inner]
