@@ -92,7 +92,7 @@ def _collate(args: argparse.Namespace) -> int:
 
 
 def _use(state: str) -> None:
-    """Let this process read the data of a state instead of the installed data.  Raise UsageError."""
+    """Read the edition's data from a state (a changed copy of the data) instead of the installed data."""
     if not os.path.isfile(os.path.join(state, "fortran_src", READINGS)):
         raise UsageError(f"{state}: expected a folder that --sheet wrote; it has no fortran_src/{READINGS}")
     if programs.text.cache_info().currsize:
@@ -102,7 +102,7 @@ def _use(state: str) -> None:
 
 
 def _write_sheets(folder: str) -> int:
-    """Write a sheet for each page as HTML and CSV, and as PDF where Typst and the fonts of the book exist."""
+    """Write a proof sheet for each page as HTML and CSV, and as PDF if Typst and the fonts are installed."""
     from modern.publication import proof_sheets
     from modern.publication.building import BuildError
 
@@ -125,7 +125,7 @@ def _write_sheets(folder: str) -> int:
 
 
 def _read_sheets(args: argparse.Namespace) -> int:
-    """Write the state with the answers of the sheets, and check it in a new process that reads its data."""
+    """Write a state of the edition with the answers of proof sheets, and check it in a new process."""
     if not args.state:
         raise UsageError("--sheet needs --state FOLDER, the folder to which the changed edition is written")
     readings = [reading for name in args.sheet for reading in read_sheet(source_name(name), read_text(name))]
@@ -156,7 +156,7 @@ def _line(proof: Proof) -> str:
 
 
 def show(row: Row, width: int) -> Iterator[str]:
-    """Yield an emendation with its documentation, as lines of at most ``width`` columns."""
+    """Yield the lines that describe one emendation, at most ``width`` columns wide."""
     yield f"{row.id}  {row.text}  p. {row.page}  {programs.cards_of(row)}  [{row.layer}, {row.kind}, {row.certainty}]"
     line = row.changes[0].line
     yield from _folded("source", f"{place(row.text, line) or f'after row {line}'}; cause: {row.cause}", width)

@@ -111,7 +111,7 @@ def _written(
     joined: Joined | None,
     eye: Sequence[Fraction] | None,
 ) -> str:
-    """Return the contents of the output file: a picture, or the hull as OFF."""
+    """Return the contents of the output file: a picture, or the hull in the OFF format."""
     name = "" if args.points == "-" else os.path.basename(args.points) if os.path.exists(args.points) else args.points
     if args.map:
         faces = hull.surfaces if joined is None else joined_surfaces(hull, joined)
@@ -124,7 +124,7 @@ def _written(
 
 
 def _pair(text: str) -> tuple[int, int]:
-    """Return the indices (2, 6) for the text ``3-7``, which counts the points from 1.  Raise UsageError."""
+    """Return the two indices, from 0, for a pair such as ``3-7``, which counts points from 1. Raise UsageError."""
     match = re.fullmatch(r"([0-9]{1,9})[-,]([0-9]{1,9})", text.strip())
     if not match:
         raise UsageError(f"--star-of: expected a line I-J by the numbers of its points, found {quoted(text)}")
@@ -132,12 +132,12 @@ def _pair(text: str) -> tuple[int, int]:
 
 
 def _names(args: argparse.Namespace) -> Sequence[str]:
-    """Return the names of the rules of the paper that ``--literal`` or ``--printed`` applies as printed."""
+    """Return the names of the rules that ``--literal`` or ``--printed`` applies as the paper prints them."""
     return PRINTED if args.literal else [name.strip() for name in (args.printed or "").split(",") if name.strip()]
 
 
 def _method(args: argparse.Namespace) -> Method:
-    """Return the method, with the rules that the options name applied as printed.  Raise UsageError."""
+    """Return the method of the paper with the rules that the options select as printed. Raise UsageError."""
     try:
         return printed(*_names(args))
     except ValueError as error:
@@ -182,7 +182,7 @@ def _report(
 
 
 def _summary(source: Input, inputs: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Iterator[str]:
-    """Yield the report of many points: one line for each table."""
+    """Yield the short report for many points: one line for each table."""
     yield _first_line(source, inputs)
     if hull.preprocessing is not None:
         deleted_first = counted(len(hull.preprocessing.deleted), "point")
@@ -208,7 +208,7 @@ def _summary(source: Input, inputs: Sequence[Surface], hull: Assembled, joined: 
 
 
 def _sizes(loops: Sequence[Sequence[int]]) -> str:
-    """Return how many loops have each number of lines: `` (4 of 3 lines, 1 of 5 lines)``."""
+    """Return the numbers of loops by their numbers of lines: `` (4 of 3 lines, 1 of 5 lines)``."""
     sizes = Counter(map(len, loops))
     return f" ({', '.join(f'{sizes[size]} of {size} lines' for size in sorted(sizes))})" if sizes else ""
 
@@ -224,7 +224,7 @@ def _kind(hull: Assembled) -> str:
 
 
 def _compared(inputs: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Fates:
-    """Return what happened to each input surface: kept, respecified or deleted."""
+    """Return what happened to each surface of the object in its hull: kept, respecified or deleted."""
     if joined is None:
         return hull.fates(inputs)
     return fates_by_points(inputs, joined_points(hull, joined), joined_surfaces(hull, joined))
@@ -243,7 +243,7 @@ def _preprocessing(preprocessing: Preprocessing) -> Iterator[str]:
 
 
 def _growth(loop: Loop, width: int) -> Iterator[str]:
-    """Yield the start of a loop, and how often each edge has been used after the loop, in tables that fit the width."""
+    """Yield the first lines of each loop and the use count of each edge after it, in tables that fit the width."""
     yield f"  type {loop.kind}, SP {loop.start + 1}, MP {loop.match + 1}"
     cell = len(str(len(loop.uses))) + 1
     columns = max(1, (width - len("  IUC(L)")) // cell)

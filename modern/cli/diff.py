@@ -101,7 +101,7 @@ def _routes(args: argparse.Namespace, source: Input, points: list[Vector]) -> It
 
 
 def _deck(source: Input) -> Deck | str:
-    """Return the points as a data deck, or the reason why they do not fit on one."""
+    """Return the points as a data deck, or a message if a deck cannot hold them."""
     if len(source.points) > MAX_POINTS:
         return f"{len(source.points)} points; the programs accept {MAX_POINTS}"
     try:
@@ -135,7 +135,7 @@ def _table(routes: list[Route], exact: Outcome, source: Input) -> Iterator[str]:
 
 
 def _notes(outcome: Outcome) -> list[str]:
-    """Return the notes on an outcome that are printed below the table."""
+    """Return the notes on the result of a route that are printed below the table."""
     notes = [] if outcome.ending is None else [outcome.ending.message]
     if outcome.faulty:
         notes.append(f"equations {', '.join(map(str, outcome.faulty))} do not vanish at their points")

@@ -90,7 +90,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _runs(args: argparse.Namespace, studied: Numbers) -> SampledNumbers:
-    """Return the stochastic runs that the options name.  Raise UsageError."""
+    """Return the stochastic runs that the options request. Raise UsageError."""
     if isinstance(studied, SampledNumbers):
         if args.runs is not None or args.seed is not None or args.proportional or args.majority:
             raise UsageError(
@@ -106,7 +106,7 @@ def _runs(args: argparse.Namespace, studied: Numbers) -> SampledNumbers:
 
 
 def _run(program: Program, deck: Deck, options: Options, reference: Numbers) -> tuple[Machine, Result | None]:
-    """Run the program in another arithmetic.  The result is None if the deck is bad for it."""
+    """Run the program in another arithmetic. Return None as result if that arithmetic cannot read the deck."""
     machine = Machine(program, deck, replace(options, numbers=reference))
     try:
         return machine, machine.run()
@@ -115,7 +115,7 @@ def _run(program: Program, deck: Deck, options: Options, reference: Numbers) -> 
 
 
 def _truth(reference: Numbers, divergence: Divergence) -> Numbers:
-    """Return the reference, or 200 bits if the reference could not finish the run."""
+    """Return the run in the reference arithmetic, or in 200 bits if the reference could not finish."""
     ending = divergence.endings[1]
     return numbers("mp:200") if ending is not None and ending.kind == "undecided" else reference
 
@@ -154,7 +154,7 @@ def _numbers(result: Result, truth: Numbers, reference: Result | None, runs: Sam
 
 
 def _common(first: str, second: str, digits: float) -> float:
-    """Return the digits in which a number agrees with its reference: all, if its last printed digit differs by one."""
+    """Return the number of digits in which a printed number agrees with its reference."""
     a, b = Fraction(first), Fraction(second)
     if abs(a - b) <= Fraction(10) ** int(Decimal(first).as_tuple().exponent):
         return digits
@@ -174,7 +174,7 @@ def _estimated(estimated: Estimate | None) -> tuple[str, str]:
 
 
 def _verdict(estimated: Estimate | None, true: float | None) -> str:
-    """Return what a reader may believe of a number."""
+    """Return how many digits of a number the reader may believe, as text."""
     if estimated is None:
         return "not estimated"
     if estimated.is_exact:
@@ -194,7 +194,7 @@ def _decisions(
     sampling: Sampling,
     runs: Independent | None,
 ) -> Table:
-    """Return the decisions on which the runs disagree, and the first one that the reference takes otherwise."""
+    """Return the decisions on which stochastic runs disagree, and the first that the reference decides otherwise."""
     first = divergence.first_decision
     sentences = [f"{divergence.arithmetics[1]}: {counted(divergence.tested, 'decision')} compared, none differs"]
     if first is not None:
@@ -249,7 +249,7 @@ def _statements(divergence: Divergence, sampling: Sampling) -> Table:
 
 
 def _cards(rows: Sequence[Sensitivity], omitted: int) -> Table:
-    """Return the effect of one unit in the last digit of each number on the cards, the largest first."""
+    """Return how much the results change if the last digit of a number on a card changes by one, largest first."""
 
     def size(row: Sensitivity) -> float:
         return math.inf if row.branches else row.change or 0.0
@@ -296,7 +296,7 @@ def _terminal(heading: str, tables: Sequence[Table]) -> Iterator[str]:
 
 
 def _sizes(table: Table, width: int) -> dict[str, int]:
-    """Return the width of each column.  If a terminal is narrow, heads, statements and verdicts take several lines."""
+    """Return the width of each column of a table; on a narrow terminal some cells take several lines."""
     columns = dict(zip(table.heads, zip(*table.rows, strict=True), strict=True))
     sizes = {head: max(map(len, (head, *cells))) for head, cells in columns.items()}
     if 2 * len(sizes) + sum(sizes.values()) > width:
@@ -344,7 +344,7 @@ $parts
 
 
 def _html(heading: str, tables: Sequence[Table]) -> str:
-    """Return a self-contained page."""
+    """Return the report as a self-contained HTML page."""
     parts = []
     for table in tables:
         parts += [f"<h2>{escape(table.title)}</h2>", *(f"<p>{escape(sentence)}</p>" for sentence in table.sentences)]

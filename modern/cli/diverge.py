@@ -50,7 +50,7 @@ def _report(divergence: Divergence, width: int, values: bool) -> Iterator[str]:
 
 
 def _limit_message(divergence: Divergence) -> str:
-    """Return the message of the statement limit if it stopped both runs in step, otherwise an empty string."""
+    """Return a message if the statement limit stopped both runs, otherwise an empty string."""
     return next((ending.message for ending in divergence.endings if ending and ending.kind == "limit"), "")
 
 
@@ -108,7 +108,7 @@ def _wrapped(text: str, width: int) -> list[str]:
 
 
 def _table(divergence: Divergence, width: int) -> Iterator[str]:
-    """Yield a row for each statement that lost at least a tenth of a digit."""
+    """Yield a table row for each statement that lost at least a tenth of a digit."""
     losing = [loss for loss in divergence.losses if loss.worst]
     until = ", up to that decision" if divergence.decisions else ""
     yield from _wrapped(f"digits lost, of {divergence.digits:.1f}{until}", width)

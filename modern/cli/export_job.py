@@ -68,7 +68,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def folder_of(exported: Job, source: str, punched: tuple[str, ...], switches: list[int]) -> dict[str, str]:
-    """Return the files of a job by name."""
+    """Return the files of a job for a compiler of the time, by name."""
     decks = {"job.cards": tuple(exported.cards())}
     if exported.compiler == "pdq":
         decks = {"program.cards": exported.source, "data.cards": exported.data}

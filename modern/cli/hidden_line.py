@@ -85,7 +85,7 @@ def _near_plane_notes(drawing: Drawing) -> Iterator[str]:
 
 
 def _sight(args: argparse.Namespace, sight: Sight) -> Sight:
-    """Return the view of the scene, changed by the options.  Raise SceneError."""
+    """Return the view of the scene with the changes that the options request. Raise SceneError."""
     eye = None if args.eye is None else _vector(args.eye)
     towards = None if args.towards is None else _vector(args.towards)
     near = sight.near if args.near is None else _distance(args.near)

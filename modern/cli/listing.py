@@ -74,7 +74,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _answers(name: str | None) -> tuple[str, str] | None:
-    """Return the name and text of the file of answers, or None.  Raise UsageError for the terminal."""
+    """Return the name and the text of the operator's file, or None. Raise UsageError for a terminal."""
     if name == "":
         raise UsageError(
             "--operator: the listing command cannot ask at the terminal; use --operator=FILE with a file or a log"
@@ -125,7 +125,7 @@ def _commentary(args: argparse.Namespace) -> tuple[dict[int, list[str]], list[st
 
 
 def _write(path: str, lines: Iterable[str]) -> None:
-    """Write lines to a file or to standard output; lines wider than a terminal are truncated there."""
+    """Write lines to a file or to standard output; lines for a terminal are truncated to its width."""
     width = _width(path)
     write_text(path, "".join(line[:width].rstrip() + "\n" for line in lines))
 
@@ -200,7 +200,7 @@ def _comparison(divergence: Divergence) -> Iterator[str]:
 def _rows(
     program: Program, result: Result, divergence: Divergence | None, sampling: Sampling | None
 ) -> dict[int, _Row]:
-    """Return the statistics by the first card of each statement."""
+    """Return the statistics of each statement by its first card."""
     counts = dict(measure(program, result).statements)
     seconds = shares(program, result)
     total = sum(seconds) or 1.0

@@ -59,7 +59,7 @@ def _in_space(volume: Volume) -> Volume:
 
 
 def _printed(args: argparse.Namespace) -> Printed:
-    """Return which statements of the paper to apply as printed instead of corrected.  Raise UsageError."""
+    """Return the statements of the paper that the options apply as printed. Raise UsageError."""
     if args.literal:
         return LITERAL
     try:
@@ -69,7 +69,7 @@ def _printed(args: argparse.Namespace) -> Printed:
 
 
 def _compared(literal: NDArray[np.bool_], corrected: NDArray[np.bool_]) -> int:
-    """Print how the hull by the printed statements differs from the corrected one; return the exit code."""
+    """Print how the hull computed with statements as printed differs from the corrected one; return the exit code."""
     missing, extra = int(np.count_nonzero(corrected & ~literal)), int(np.count_nonzero(literal & ~corrected))
     print(f"compared with the corrected algorithm: {counted(missing, 'voxel')} missing, {extra} extra")
     return DIFFERS if missing or extra else OK
@@ -99,7 +99,7 @@ def _summary(name: str, envelope: Envelope, columns: int) -> str:
 
 
 def _table(name: str, heights: dict[Place, int]) -> Iterator[str]:
-    """Yield a table of heights, with the greatest y in the first row."""
+    """Yield the lines of a table of heights, with the greatest y in the first row."""
     columns = range(min(x for x, _ in heights), max(x for x, _ in heights) + 1)
     rows = range(max(y for _, y in heights), min(y for _, y in heights) - 1, -1)
     width = max(len(str(number)) for number in (*heights.values(), *columns))
@@ -112,7 +112,7 @@ def _table(name: str, heights: dict[Place, int]) -> Iterator[str]:
 
 
 def _side(name: str, envelope: Envelope, columns: int, origin: Point, sign: int, trace: bool) -> Iterator[str]:
-    """Yield the envelope of the floor (``sign`` 1) or of the ceiling, whose heights are negated (-1)."""
+    """Yield the report on the lower envelope (``sign`` 1), or on the upper envelope, whose heights are negated (-1)."""
 
     def at(point: Point) -> Point:
         return point[0] + origin[0], point[1] + origin[1], sign * point[2] + origin[2]
@@ -159,6 +159,6 @@ def _tuple(numbers: Iterable[int]) -> str:
 
 
 def _wrapped(points: Iterable[str]) -> list[str]:
-    """Return lines of at most 120 characters."""
+    """Break text into lines of at most 120 characters."""
     text = " ".join(points)
     return textwrap.wrap(text, 120, initial_indent="  ", subsequent_indent="  ", break_on_hyphens=False)

@@ -165,7 +165,7 @@ def _example_lines(
 
 
 def _same(verdict: Verdict) -> str:
-    """Return the parts of a result that is exact in another order, with counts, and nothing for other results."""
+    """Return which parts of a result agree in another order, with their counts; nothing for other verdicts."""
     counted = ", ".join(f"{count} {_PARTS[part]}" for part, count in verdict.same)
     return f"the same {counted}" if counted else ""
 

@@ -68,7 +68,7 @@ def main(args: argparse.Namespace) -> int:
 def _logged(
     args: argparse.Namespace, log: FromFile | None, results: Sequence[tuple[Program, Result]]
 ) -> Iterator[tuple[Program, Deck]]:
-    """Yield the program and the deck of each load of a log; ``results`` has those that have run."""
+    """Yield the program and the deck of each load in an operator's log."""
     for load in log.loads if log is not None else ():
         name = load.program.removesuffix(".f")
         if log is None or not load.program:

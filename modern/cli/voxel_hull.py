@@ -118,7 +118,7 @@ def _tabulate_labels(args: argparse.Namespace) -> None:
 
 
 def _label(label: int, volume: Volume, args: argparse.Namespace) -> tuple[Row, Write]:
-    """Return a label's row of the table, and the function that writes the label's hull as a mesh."""
+    """Return a label's row in the table of measures, and a function that writes the label's hull as a mesh."""
     hull = _hull(volume, args)
     row = (centres_row if args.centres else solid_row)(label, hull.measures())
     # The text, not the hull, is kept until all labels are done, because it needs less memory.

@@ -66,7 +66,7 @@ class Path:
 
 @dataclass(frozen=True, slots=True)
 class Landing:
-    """A connector from which a line leads to a box: its centre, and the corners of that line."""
+    """A connector from which a line leads to a box of the flow chart: its centre, and the corners of the line."""
 
     box: int
     centre: tuple[int, int]
@@ -237,7 +237,7 @@ def _page(flow: Flow, first: int, end: int) -> Page:
 
 
 def _side(flow: Flow, place: int, k: int) -> Where:
-    """Return the side of the boxes on which the line of an exit runs if it does not go straight down."""
+    """Return the side of the boxes on which the line of an exit runs, if it does not go straight down."""
     way = flow.boxes[place].exits[k]
     if way.side != "down":
         return way.side
@@ -267,7 +267,7 @@ def _rails(flow: Flow, inside: range) -> list[_Rail]:
 
 
 def _lanes(rails: Sequence[_Rail]) -> dict[tuple[int, Where], int]:
-    """Assign lanes to rails, to the shortest first; rails without a free lane are omitted."""
+    """Assign vertical lanes to the shared lines of jumps (rails), the shortest first."""
     taken: dict[tuple[Where, int], list[_Rail]] = {}
     lanes: dict[tuple[int, Where], int] = {}
     for rail in sorted(rails, key=lambda r: (r.last - r.first, r.first, r.target)):
@@ -284,7 +284,7 @@ def _lanes(rails: Sequence[_Rail]) -> dict[tuple[int, Where], int]:
 def _stack(
     flow: Flow, inside: range, landed: set[int], joined: set[int]
 ) -> tuple[tuple[Placed, ...], list[int], list[int], list[int]]:
-    """Stack the boxes; return them with the coordinates of :class:`_Plan`: turns, lands and joins."""
+    """Stack the boxes of a page and return them with the coordinates that :class:`_Plan` describes."""
     placed: list[Placed] = []
     turns, lands, joins = [], [], []
     y = MARGIN

@@ -60,7 +60,7 @@ def _extent(chart: Chart) -> tuple[int, int]:
 
 
 def _short(box: Box) -> str:
-    """Return the text of a connector to a box: its statement number, or ``c`` and the number of its card."""
+    """Return the text in a connector to a box: the box's statement number, or ``c`` and a card number."""
     return box.label or f"c{box.cards[0]}"
 
 
@@ -129,7 +129,7 @@ def _outline(*corners: tuple[int, int]) -> str:
 
 
 def _taken(box: Box, path: Path, middle: int) -> Iterator[str]:
-    """Yield the condition of an exit next to its start.  ``middle`` is the vertical middle of the box."""
+    """Yield the text of an exit's condition next to the start of its line."""
     way = box.exits[path.way]
     if not way.taken:
         return

@@ -33,7 +33,7 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Gloss:
-    """The meaning of a variable.
+    """The explanation of a variable of a program.
 
     ``limits`` are the smallest and the largest value of an integer variable; None for a floating-point variable.
     ``set_in`` and ``used_in`` are the titles of the blocks that change and read the variable.

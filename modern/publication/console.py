@@ -152,7 +152,7 @@ def packages(wheel: Path) -> bytes:
 
 
 def packed(files: Mapping[str, bytes]) -> bytes:
-    """Compress files into one: the length of an index in four bytes, the index with their sizes, and their bytes."""
+    """Pack several files into one compressed file with an index of their sizes."""
     index = json.dumps({name: len(content) for name, content in files.items()}).encode()
     return gzip.compress(len(index).to_bytes(4, "little") + index + b"".join(files.values()), mtime=0)
 

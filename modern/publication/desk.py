@@ -43,11 +43,11 @@ _ENDED = "the run has ended: press Load to load the deck again"
 
 
 class _Unanswered(Exception):
-    """The machine waits for the operator, and the page has not sent an action."""
+    """Raised when the machine waits for the operator, and the page has not sent an action yet."""
 
 
 class _Visitor(FromFile):
-    """An operator whose actions come from a log, and after its last line from the page."""
+    """The operator of the page: its actions come from a log first, and then from the visitor."""
 
     def __init__(self, log: str = "") -> None:
         super().__init__("log", log)
@@ -213,7 +213,7 @@ class Desk:
         return self._answer() | answer
 
     def act(self, line: str) -> Answer:
-        """Process a command of the operator, or ``ENTER`` and a line for ACCEPT. The answer has ``lines`` to show."""
+        """Carry out a command of the operator, or ``ENTER`` and a line for ACCEPT."""
         session = self._session
         if session is None or self._ending:
             return {"lines": [_ENDED if session else _EMPTY]}
@@ -293,7 +293,7 @@ class Desk:
         return self._record.stages
 
     def show(self, line: str) -> Answer:
-        """Execute a command that only shows something, such as ``VARIABLES``; the answer has ``lines``."""
+        """Carry out a command that only shows something, such as ``VARIABLES``."""
         session = self._session
         lines = command(session, line, self._cards, _WIDTH) if session else []
         return {"lines": lines if isinstance(lines, list) else []}
@@ -355,7 +355,7 @@ class Desk:
         return deck_from_text(str(deck[0]), str(deck[1]))
 
     def _keep(self, name: str, text: str) -> None:
-        """Write the cards of a visitor's program or deck into the log."""
+        """Write the cards of a program or deck that the visitor typed into the log."""
         if self._texts.get(name) != text:
             self._texts[name] = text
             self._earlier += f"CARDS {name}\n" + "".join(f"CARD {card}\n" for card in text.splitlines())

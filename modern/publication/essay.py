@@ -32,7 +32,7 @@ def card() -> str:
 
 
 def growth(eye: Eye | None = None, width: int = 250) -> tuple[Frame, ...]:
-    """Return the stages of the example's hull in the order of the program."""
+    """Return the successive hulls of the example, in the order in which the program makes them."""
     points = parse_input(input_deck(EXAMPLE).text(), f"example{EXAMPLE}").points
     return frames(convex_hull(points, "exact", history=True), eye, width=width)
 

@@ -83,7 +83,7 @@ def example(number: int) -> tuple[Part, ...]:
 
 @cache
 def homes() -> dict[str, tuple[int, str]]:
-    """Return, for each row of the apparatus, the first example and device whose page shows it."""
+    """Return, for each emendation, the first example and device on whose page it is shown."""
     first_shown: dict[str, tuple[int, str]] = {}
     for number in EXAMPLES:
         for part in example(number):
@@ -93,7 +93,7 @@ def homes() -> dict[str, tuple[int, str]]:
 
 
 def rest() -> tuple[Row, ...]:
-    """Return the rows of chapter 6 that concern no card, but remove text between cards, such as page numbers."""
+    """Return the emendations of chapter 6 that change no card, but remove text between cards, such as page numbers."""
     return tuple(row for row in load_chapter().text.rows if row.id not in homes())
 
 

@@ -219,7 +219,7 @@ def _pieces(
 
 
 def _base(text: Text, line: str) -> str:
-    """Return the witness line from which a card was made, or an empty string for a card that a row inserts.
+    """Return the witness line from which a card was made, or an empty string for a card that an emendation inserts.
 
     The id of a card made by a row is the row's id and a count: ``P1-012.2``.
     """
@@ -294,7 +294,7 @@ def _pairs(line: str, card: str) -> list[tuple[int, int]]:
 
 
 def _spans(text: str, indices: Collection[int]) -> Iterator[Span]:
-    """Join characters to spans, which neither begin nor end with a blank but may contain blanks."""
+    """Join neighbouring character positions to spans, which neither begin nor end with a blank."""
     remaining = [index for index in sorted(indices) if not text[index].isspace()]
     while remaining:
         first = last = remaining.pop(0)

@@ -27,7 +27,7 @@ _PLACE = re.compile(r"\{\{ *([a-z][\w.-]*) *\}\}")
 
 
 class FigureError(ValueError):
-    """A document names an unknown figure, or the table of a figure lacks its cell."""
+    """An error: a document quotes an unknown figure, or a table lacks the cell of a figure."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +160,7 @@ def _statements() -> Iterator[tuple[str, str]]:
 def _counted(
     prefix: str, table: str, columns: Sequence[str], numbers: Mapping[str, Counter[Any]]
 ) -> Iterator[tuple[str, str]]:
-    """Yield every number by document and column, and a table of all of them."""
+    """Yield the number of statements by document and verdict, and a table of all of them."""
     total = "count" if table == "table" else "graded"
     lines = [("document", "statements", *columns), ("---", *("--:",) * (1 + len(columns)))]
     for document, counted in numbers.items():

@@ -76,7 +76,7 @@ def flow(program: Program) -> Flow:
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """The instructions of a statement or, if ``begins`` is False, the instructions that close a DO."""
+    """The instructions of a statement, or those that close a DO (``begins`` is False)."""
 
     start: int
     end: int
@@ -104,7 +104,7 @@ def _parts(program: Program) -> list[_Part]:
 
 
 def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
-    """Return the box of a part, whose exits name their targets by the indices of the parts."""
+    """Return the box of a flow chart for a group of instructions; its exits name targets by group index."""
     index_of = {known.start: index for index, known in enumerate(parts)}
     code = program.code[part.start : part.end]
     last = code[-1]

@@ -45,7 +45,7 @@ class Run:
 
     @property
     def between(self) -> str:
-        """The bounds as text."""
+        """The bounds of the time as text."""
         return f"{self.bounds[0]:.1f} to {self.bounds[1]:.1f} s"
 
 

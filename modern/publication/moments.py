@@ -47,7 +47,7 @@ class State:
     faces: Faces = ()
 
     def outline(self) -> tuple[frozenset[Point], frozenset[frozenset[Point]]]:
-        """Return the points and the faces without their order."""
+        """Return the points and the faces, each without their order, for comparing two moments."""
         return frozenset(self.points), frozenset(map(frozenset, self.faces))
 
 
@@ -211,7 +211,7 @@ def _projection(cloud: Sequence[Point]) -> tuple[Callable[[Point], tuple[float, 
 
 
 def _eye(points: Sequence[Vector]) -> Eye:
-    """Return a direction of view that is perpendicular to collinear or coplanar points."""
+    """Return a direction of view for a picture of points; it is perpendicular to collinear or coplanar points."""
     apart = [line for point in points if any(line := minus(point, points[0]))]
     normal = next((n for line in apart if any(n := cross(apart[0], line))), None)
     if normal is None:

@@ -33,7 +33,7 @@ _STAGES = {"R": (100, 106, 170), "KK": (100, 103, 174)}
 
 
 def stage_labels(program: Program) -> tuple[int, int, int]:
-    """Return the statements that begin a data set, a new hull, and its output; zeros if the program grows no hull."""
+    """Return the statement numbers at which a data set, a new hull, and the output begin, or zeros."""
     storage = program.storage
     if all(storage.fields_of(name) for name in ("NE", "NV", "MM", "NN")):
         for name, labels in _STAGES.items():
@@ -145,7 +145,7 @@ def formats(program: Program) -> list[list[Any]]:
 
 
 def touched(program: Program) -> list[list[list[str]]]:
-    """Return for each card the names that its statement writes, and those that it reads, from the object code."""
+    """Return, for each card, the names that its statement writes and the names that it reads."""
     cards = max(line.place.card for line in program.statements)
     names: list[tuple[dict[str, None], dict[str, None]]] = [({}, {}) for _ in range(cards)]
     reading = False

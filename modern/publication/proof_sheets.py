@@ -56,13 +56,13 @@ form.addEventListener('submit', event => {
 
 
 def files(sheet: Sheet) -> dict[str, str]:
-    """Return the text files of a sheet by name: the HTML form, and the table to fill."""
+    """Return the text files of a proof sheet by name: the HTML form, and the table to fill in."""
     stem = f"page-{int(sheet.page):03}"
     return {f"{stem}.html": html(sheet), f"{stem}.csv": table(sheet)}
 
 
 def table(sheet: Sheet) -> str:
-    """Return the CSV table of a sheet."""
+    """Return the CSV table of a proof sheet."""
     entries: tuple[Item | Question, ...] = (*sheet.items, *sheet.questions)
     return blank_table(
         [
@@ -102,7 +102,7 @@ def _depends(entry: Item | Question) -> str:
 
 
 def html(sheet: Sheet) -> str:
-    """Return a sheet as a page with a form, which saves its answers as a file without a server."""
+    """Return a proof sheet as an HTML form, which saves its answers as a file without a server."""
     title = f"Proof sheet for page {sheet.page}"
     body = "".join(_html_cards(sheet)) + "".join(map(_html_question, sheet.questions))
     introduction = escape(_INTRODUCTION.format(page=sheet.page))
@@ -157,7 +157,7 @@ def _html_choices(entry: Item | Question) -> str:
 
 
 def typst(sheet: Sheet) -> str:
-    """Return a sheet as Typst markup for paper."""
+    """Return a proof sheet as Typst markup for printing."""
     cards = "".join(_typst_cards(sheet)) + "".join(_typst_question(question) for question in sheet.questions)
     return f"""#let blank(width) = box(width: width, line(length: 100%, stroke: 0.4pt))
 #set page(paper: "a4", margin: (x: 20mm, y: 18mm), numbering: "1 / 1",
@@ -215,7 +215,7 @@ def _say(text: str) -> str:
 
 
 def pdf(sheet: Sheet) -> bytes:
-    """Return a sheet as PDF.  Raise ImportError outside a checkout, and BuildError without Typst."""
+    """Return a proof sheet as PDF. Raise ImportError outside a checkout, and BuildError without Typst."""
     from modern.publication.book.build import pdf as typeset  # the book is not part of the wheel
 
     with tempfile.TemporaryDirectory(prefix="sheet-") as folder:

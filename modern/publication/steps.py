@@ -54,7 +54,7 @@ class Pane:
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """The picture of a step: its name, strokes, faces, and points with True for a hidden point."""
+    """The picture of one step of a method: its name, line segments, faces, and points (True for a hidden point)."""
 
     name: str
     strokes: tuple[Stroke, ...] = ()

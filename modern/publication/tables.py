@@ -51,7 +51,7 @@ def csv_text(table: Sequence[Column]) -> str:
 
 
 def _parts(path: str, name: str, cells: Sequence[str]) -> list[Column]:
-    """Return a column as it is, or as the numbers that its cells contain."""
+    """Return a column unchanged, or as several columns if its cells contain an estimate with an interval."""
     about = description(path, name)
     values = [cell for cell in cells if cell not in MISSING]
     if values and all(map(_INTERVAL.fullmatch, values)):
@@ -83,7 +83,7 @@ def _groups(pattern: re.Pattern[str], cell: str) -> list[str]:
 
 
 def _range(cell: str) -> tuple[str, str, str]:
-    """Return the power of a range ("10^" or ""), and its ends; the second is empty if the cell is one number."""
+    """Return the two ends of a range of numbers, and the prefix "10^" if they are exponents."""
     power, low, high = _groups(_RANGE, cell)
     return power, low, high
 

@@ -135,7 +135,7 @@ def _witness(div: Element, edition: _Edition, lines: Iterable[Segments]) -> None
 
 
 def _ab(div: Element, edition: _Edition, place: str, kind: str, pieces: tuple[Piece, ...]) -> None:
-    """Write a line as ``ab``.  The id of witness line 17 ends with ``l17``, that of an inserted line with its row."""
+    """Write a line of the witness, or an inserted line, as an ``ab`` element with an id."""
     attributes = {ID: f"{edition.text.id}-{place}", "type": kind, _SPACE: "preserve"}
     number = place.removeprefix("l") if place.startswith("l") else ""
     ab = SubElement(div, "ab", attributes | ({"n": number} if number else {}))
@@ -206,7 +206,7 @@ def _notes(app: Element, row: Row) -> None:
 
 
 def _features(parent: Element, values: Mapping[str, object]) -> None:
-    """Write a mapping as a feature structure; ``kind`` is its type."""
+    """Write a mapping as a TEI feature structure of the type ``kind``."""
     structure = SubElement(parent, "fs", {"type": str(values["kind"])} if "kind" in values else {})
     for key, value in values.items():
         if key != "kind":

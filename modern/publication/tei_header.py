@@ -49,7 +49,7 @@ class Heading:
 
 
 def add(parent: Element, name: str, content: str, **attributes: str) -> Element:
-    """Add an element with a text to ``parent`` and return it."""
+    """Add an element with a text to the element ``parent`` and return the new element."""
     child = SubElement(parent, name, attributes)
     child.text = content
     return child

@@ -61,11 +61,11 @@ class Uses:
     names: tuple[Name, ...]
 
     def to(self, card: int) -> tuple[Jump, ...]:
-        """Return the references to a card."""
+        """Return the references from other cards to a card."""
         return tuple(jump for jump in self.jumps if jump.target == card)
 
     def of(self, card: int) -> tuple[str, ...]:
-        """Return the names on a card."""
+        """Return the names that occur on a card."""
         return tuple(name.name for name in self.names if card in (*name.declared, *name.set, *name.used))
 
 

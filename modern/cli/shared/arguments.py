@@ -163,7 +163,7 @@ def points_argument(parser: ArgumentParser, metavar: str = "POINTS", note: str =
 
 
 def listed(names: Iterable[str]) -> str:
-    """Return ``a, b or c``."""
+    """Join items to a text such as ``a, b or c``."""
     *others, last = names
     return f"{', '.join(others)} or {last}"
 
@@ -229,7 +229,7 @@ def complete(parser: ArgumentParser) -> None:
         sys.exit(1)
 
     class Candidates(BaseCompleter):
-        """The names that the argument accepts, and files."""
+        """The words with which the shell may complete an argument: the given names, and files."""
 
         def __call__(
             self, *, prefix: str, action: Action, parser: ArgumentParser, parsed_args: Namespace

@@ -87,7 +87,7 @@ def report_stream(args: argparse.Namespace) -> TextIO:
 
 
 def print_report(args: argparse.Namespace, lines: Iterable[str]) -> None:
-    """Print the lines of a report on ``report_stream``."""
+    """Print the lines of a report to the stream that ``report_stream`` returns."""
     for line in lines:
         print(line, file=report_stream(args))
 
@@ -131,7 +131,7 @@ def write_json(args: argparse.Namespace, document: object) -> None:
 
 
 def counted(count: int, noun: str) -> str:
-    """Return ``1 voxel`` or ``2 voxels``."""
+    """Return a count with its noun in the right number: ``1 voxel`` or ``2 voxels``."""
     return f"{count} {noun}{'s' * (count != 1)}"
 
 

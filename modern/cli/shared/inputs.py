@@ -64,7 +64,7 @@ def punch_epsilon(deck: Deck, epsilon: str) -> Deck:
 
 
 def deck_for(program: str, name: str) -> Deck:
-    """Return the deck ``name``, which must hold points if the program is program 1.  Raise EmulatorError."""
+    """Return the deck ``name`` for a program; for program 1 the deck must hold points. Raise EmulatorError."""
     return deck_of(name, points=program in ("program1", "program1_examples"))
 
 

@@ -79,7 +79,7 @@ def measure_lines(measures: Measures, unit: str, corners: bool) -> Iterator[str]
 
 
 def table(rows: Sequence[Row], unit: str) -> Iterator[str]:
-    """Yield the rows as a table with headings, and a line on the units."""
+    """Yield the lines of a table of measures with headings, and a line about the units."""
     lines = [[cell.name.replace("_", " ") for cell in rows[0]]]
     lines += [[_to_digits(cell.number, TABLE_DIGITS) for cell in row] for row in rows]
     yield from aligned(lines, right=True)

@@ -69,7 +69,7 @@ def attended(args: argparse.Namespace, program: Program | None = None) -> Iterat
 
 
 def _has_questions(args: argparse.Namespace, program: Program) -> bool:
-    """Return True if the deck is a file, all standard streams are a terminal, and the program has ACCEPT or PAUSE."""
+    """Return True if a person at the terminal can answer questions of the program (ACCEPT or PAUSE)."""
     if not (args.deck and os.path.isfile(args.deck)):
         return False
     if not all(map(is_terminal, (sys.stdin, sys.stdout, sys.stderr))):

@@ -51,13 +51,13 @@ def load_program(args: argparse.Namespace) -> Program:
 
 
 def load_program_and_data(args: argparse.Namespace) -> tuple[Program, Deck]:
-    """Return the compiled ``PROGRAM.f`` and the deck of the cards after its END.  Raise EmulatorError."""
+    """Return the compiled program and the deck of the data cards after its END. Raise EmulatorError."""
     deck = source_deck(args)
     return compile_deck(deck), Deck(deck.source, parse(deck).data)
 
 
 def machine_options(args: argparse.Namespace) -> Options:
-    """Return the machine that the options describe.  Raise UsageError for an unknown arithmetic or a limit below 1.
+    """Return the machine options that the arguments describe. Raise UsageError.
 
     Only the programs of the thesis require complete data sets.
     """

@@ -66,7 +66,7 @@ def print_ending(result: Result) -> None:
 
 
 class _StreamError(Exception):
-    """A standard stream failed.  It is not an OSError, so that ``writing`` does not blame a named file for it."""
+    """An error of a standard stream, which ``writing`` must not report as an error of a named file."""
 
     def __init__(self, error: OSError) -> None:
         super().__init__()
@@ -128,7 +128,7 @@ def streaming(args: argparse.Namespace, show: Callable[[str], None] | None = Non
 
 @contextmanager
 def tracing(path: str | None) -> Iterator[Tracer | None]:
-    """Yield a tracer that writes to ``path``, or None without a path.  The file is written completely at the end."""
+    """Yield a tracer that writes the trace of a run to ``path``, or None without a path."""
     if not path:
         yield None
         return

@@ -24,7 +24,7 @@ _NARROWEST = 24
 
 @dataclass(frozen=True, slots=True)
 class _Pair:
-    """A line of each text with the same number, and the masks below them."""
+    """A line of each text at the same position, and the carets that mark their differences."""
 
     mark: Mark
     lines: tuple[str, str]
@@ -32,7 +32,7 @@ class _Pair:
 
 
 def masks_by_column(first: str, second: str) -> Masks:
-    """Return the masks of two cards, which are compared column by column."""
+    """Return the marks of differences between two cards, which are compared column by column."""
     width = max(len(first), len(second))
     differ = [a != b for a, b in zip(first.ljust(width), second.ljust(width), strict=True)]
     mask = "".join("^" if differs else " " for differs in differ).rstrip()
@@ -40,7 +40,7 @@ def masks_by_column(first: str, second: str) -> Masks:
 
 
 def masks_by_text(first: str, second: str) -> Masks:
-    """Return the masks of two printed lines, whose spacing is ignored."""
+    """Return the marks of differences between two printed lines, whose spacing is ignored."""
     masks = [["^" if c.strip() else " " for c in line] for line in (first, second)]
     for block in SequenceMatcher(None, first, second, autojunk=False).get_matching_blocks():
         for mask, start in zip(masks, (block.a, block.b), strict=True):

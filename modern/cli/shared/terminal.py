@@ -58,7 +58,7 @@ class Keys:
         return min(max(columns or 80, NARROWEST), WIDEST) - 1
 
     def write(self, text: str) -> None:
-        """Show text, unless the terminal has been closed."""
+        """Show text on the terminal, unless the terminal has been closed."""
         data = text.encode("ascii", "backslashreplace")
         while data and not self.is_gone:
             try:
@@ -224,7 +224,7 @@ class Terminal(Operator):
         return ""
 
     def _erase(self, prompt: str, count: int) -> None:
-        """Erase the last characters.
+        """Erase the last characters of the line that the operator is typing.
 
         Backspace cannot go back to an earlier row of the screen, so that the remaining text is then shown on a new row.
         """

@@ -19,7 +19,7 @@ _SPACES = dict(zip(("lps", "ras"), ANATOMICAL, strict=False))
 
 
 def scan_of(args: argparse.Namespace) -> Scan:
-    """Read the scan ``VOLUME``.
+    """Read the scan that the argument ``VOLUME`` names. Raise FileError, VolumeError or UsageError.
 
     Raise FileError, VolumeError, or UsageError for arguments that are not numbers.
     """
@@ -35,7 +35,7 @@ def scan_of(args: argparse.Namespace) -> Scan:
 
 
 def choice_of(args: argparse.Namespace) -> Choice:
-    """Return the selection by value that the arguments describe.  Raise UsageError."""
+    """Return which voxels belong to the solid, by their values, as the arguments request. Raise UsageError."""
     if args.threshold is None:
         return Choice(labels=tuple(dict.fromkeys(args.label)))
     try:
@@ -56,12 +56,12 @@ def volume_of(args: argparse.Namespace) -> tuple[Volume, tuple[str, ...]]:
 
 
 def note_lines(notes: Sequence[str]) -> Iterator[str]:
-    """Return notes as printable lines."""
+    """Return notes on a volume as lines without control characters."""
     return (printable(f"note: {note}") for note in notes)
 
 
 def in_space(world: World | None, space: str) -> World | None:
-    """Return physical coordinates turned as ``--space`` asks, or None for voxel indices.  Raise UsageError."""
+    """Return physical coordinates in the orientation that ``--space`` requests, or None for voxel indices."""
     if space == "index" or world is None:
         if space in _SPACES:
             raise UsageError(

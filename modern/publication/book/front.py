@@ -74,7 +74,7 @@ def how_to_read() -> Iterator[str]:
 
 
 def made(argument: str, save: SavePicture) -> str:
-    """Return the printed form of a figure of the essay (``story card``, ``home verdicts``, ...), or an empty text."""
+    """Return the printed form of a generated part of a page, such as ``story card``, or an empty text."""
     makers: dict[str, Callable[[SavePicture], str]] = {
         "story card": _card,
         "story growth": _growth,
@@ -148,7 +148,7 @@ def bibliography(literature: str, persons: Mapping[str, str]) -> Iterator[str]:
 
 
 def _cited(document: Document) -> str:
-    """Return a document as a bibliographic entry; unknown fields are named as unknown."""
+    """Return a document as an entry of the bibliography; unknown fields are called unknown."""
     volume = f", {document.volume}" if document.volume not in ("", "unknown") else ""
     pages = f", pp. {document.extent}" if document.extent != "unknown" else ", volume and pages unknown"
     doi = f" doi:{document.doi}." if document.doi.startswith("10.") else ""

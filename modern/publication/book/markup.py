@@ -38,17 +38,17 @@ def string(text: str) -> str:
 
 
 def say(text: str) -> str:
-    """Return plain text as markup."""
+    """Return plain text as Typst markup."""
     return f"#{string(text)};" if text else ""
 
 
 def code(text: str) -> str:
-    """Return program text within a line."""
+    """Return program text within a line as Typst markup."""
     return f"#raw({string(text)});"
 
 
 def block(text: str, size: str = "7.8pt") -> str:
-    """Return lines of a program as a block."""
+    """Return lines of a program as a block of Typst markup."""
     return f"#listing({size}, {string(text.rstrip(chr(10)))})\n\n"
 
 
@@ -65,12 +65,12 @@ def label(*parts: str) -> str:
 
 
 def heading(title: str, level: int, place: str) -> str:
-    """Return a heading with its label."""
+    """Return a heading with its label as Typst markup."""
     return f"{'=' * level} {say(title)} <{place}>\n\n"
 
 
 def to(place: str, content: str) -> str:
-    """Return a reference to a label: the given markup and the page number."""
+    """Return a Typst reference to a label: the given markup, followed by the page number."""
     return f"#to(<{place}>)[{content}]"
 
 
@@ -81,7 +81,7 @@ def table(
     longest: Sequence[int] | None = None,
     right: Collection[int] = (),
 ) -> str:
-    """Return a table.
+    """Return a table as Typst markup.
 
     ``widths`` are the longest cell of each column in characters, ``longest`` the longest words.  ``right`` are the
     columns of numbers, which are aligned to the right.
@@ -216,7 +216,7 @@ class Markdown:
         return table(head, body, widths, least, right)
 
     def _entry(self, subject: str) -> str:
-        """Return a mark for the index if a label or a name is one of its subjects."""
+        """Return a mark for the index of the book if a label or a name is a subject of the index."""
         return f"#idx({string(self.subjects[subject])});" if subject in self.subjects else ""
 
     def _inline(self, token: Token) -> str:

@@ -33,7 +33,7 @@ _SHORT = {"holds": "holds", "holds with a condition": "with a condition", "does 
 
 
 def fitted(svg: str) -> str:
-    """Return a picture with the fonts of the book and without links."""
+    """Return an SVG picture with the fonts of the book and without links."""
     svg = re.sub(r"</?a\b[^>]*>", "", svg)
 
     def font(match: re.Match[str]) -> str:
@@ -112,7 +112,7 @@ def _places(row: Row, listing: Facing) -> str:
 
 
 def _grouped(rows: Iterable[Row], places: Mapping[str, str] | None = None) -> Iterator[str]:
-    """Yield the notes on rows; rows of one kind with the same reason share one note.
+    """Yield the textual notes on emendations; emendations of one kind with the same reason share a note.
 
     ``places`` names the cards that each row changes.
     """
@@ -197,7 +197,7 @@ def _head(row: Row) -> str:
 
 
 def _reading(text: str) -> str:
-    """Return a reading as code; a long one is abbreviated in the middle."""
+    """Return a reading of a card as code, abbreviated in the middle if it is long."""
     if len(text) > _LONGEST:
         text = f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 3 :]}"
     return code(text) if text else "–"

@@ -62,7 +62,7 @@ def column(name: str, inner: str) -> str:
 
 
 def sign(character: str, meaning: str) -> str:
-    """Return a sign with its meaning as tooltip and for screen readers."""
+    """Return a sign with its meaning as a tooltip and for screen readers."""
     return text("span", character, cls="sign", title=meaning, role="img", aria_label=meaning)
 
 

@@ -42,7 +42,7 @@ class MadeDirective(SphinxDirective):
     final_argument_whitespace = True
 
     def run(self) -> list[nodes.Node]:
-        """Return the nodes.  The build fails if the name or the argument is unknown."""
+        """Return the nodes of the generated sections. An unknown name or argument ends the build."""
         name, argument = self.arguments[0], "".join(self.arguments[1:])
         try:
             content = make(name, argument)

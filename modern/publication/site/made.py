@@ -62,7 +62,7 @@ def names() -> tuple[str, ...]:
 
 
 def make(name: str, argument: str) -> Made:
-    """Generate the content of that name for an argument.  Raise ValueError if either is unknown."""
+    """Generate the content named ``name`` for an argument. Raise ValueError if either is unknown."""
     if name not in names():
         raise ValueError(f"unknown page {name!r}; expected one of {', '.join(names())}")
     maker: Maker = import_module(f"{pages.__name__}.{name.replace('-', '_')}")

@@ -78,7 +78,7 @@ def _examples() -> str:
 
 
 def _agreement(example: int, state: State) -> str:
-    """Return the verdict on an example's cards for one of the two states of program 1, compared with the print."""
+    """Return the verdict on an example's cards for one of the two states of program 1."""
     reports = [report for report in reproduce((example,), states=(state,)) if not report.stated]
     kinds = Counter(report.verdict.kind for report in reports)
     return ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))

@@ -1,4 +1,4 @@
-"""A list of the pages below a page, each with the sentence that says what it contains."""
+"""Make the list of the pages below a page, with a sentence about the contents of each."""
 
 import re
 

@@ -163,7 +163,7 @@ def example_runs() -> list[Run]:
 
 
 def seconds_of(run: Run) -> tuple[float, ...]:
-    """Return the seconds of each of :data:`PARTS`."""
+    """Return the seconds that a run takes in each of :data:`PARTS` of the machine."""
     return tuple(sum(row.seconds for row in run.rows if row.cause in causes) for causes in PARTS.values())
 
 

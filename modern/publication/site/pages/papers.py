@@ -90,7 +90,7 @@ def _solid(solid: Solid, number: str) -> str:
 
 
 def within(hull: Assembled) -> tuple[int, int]:
-    """Return the first pair of vertices whose image lies strictly inside its star polygon."""
+    """Return the first pair of vertices that the star polygon test finds to be no edge."""
     for pair in combinations(hull.vertices, 2):
         images = star(hull, pair).images
         if all(vorticity(a, b) > 0 for a, b in zip(images, (*images[1:], images[0]), strict=True)):

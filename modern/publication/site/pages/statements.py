@@ -32,7 +32,7 @@ def make(argument: str) -> Made:
 
 
 def _controls(document: str) -> str:
-    """Return the form that chooses the statements shown, with the number of statements in each column."""
+    """Return the form with which a reader chooses the statements to show, with the number of each kind."""
     numbers = counts(document)
     boxes = ""
     for name in COLUMNS:

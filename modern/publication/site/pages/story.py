@@ -35,7 +35,7 @@ def _growth() -> str:
 
 
 def _truncation() -> str:
-    """Return a slider for x of the first of three points, and the values of their plane at them in eight digits."""
+    """Return a slider for a coordinate of a point, and the values of a plane in eight digits that depend on it."""
     rows = [(x, *essay.plane_row(x)) for x in XS]
     shown = [[text("span", str(cell)) for cell in row] for row in rows if row[0] in essay.XS]
     summary = element(
