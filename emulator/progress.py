@@ -46,7 +46,7 @@ class Progress:
             self._show(now)
 
     def close(self) -> None:
-        """Show the final count and end the line."""
+        """Show the final count of completed samples, and end the line on the terminal."""
         if self._bar:
             self._show(self.clock())
             self._say("\n")

@@ -105,7 +105,7 @@ class Hull:
 
     @property
     def duplicates(self) -> tuple[tuple[int, int], ...]:
-        """Pairs of a point and the first point with the same coordinates."""
+        """Pairs of indices: a point, and the first point with the same coordinates."""
         return self.record.duplicates
 
     @property
@@ -128,7 +128,7 @@ class Hull:
 
     @property
     def exact_points(self) -> tuple[Vector, ...]:
-        """The points as fractions."""
+        """The coordinates of all points as Fractions."""
         return tuple(coordinates(point) for point in self.record.points)
 
     @cached_property
@@ -363,7 +363,7 @@ def _direction(eye: Sequence[Any]) -> list[Fraction]:
     except (TypeError, ValueError) as error:
         raise ArgumentError(f"eye: {error}") from None
     if len(direction) != 3:
-        raise ExportError(f"the direction of view has three numbers, not {len(direction)}")
+        raise ExportError(f"expected a direction of view with 3 numbers, found {len(direction)}")
     return direction
 
 

@@ -37,7 +37,7 @@ from emulator.numbers.work import multiplied
 
 
 class Start(NamedTuple):
-    """Core storage before a run."""
+    """The contents of core storage before a run: mantissa and exponent of each field."""
 
     mantissas: Row
     exponents: Row

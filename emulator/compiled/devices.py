@@ -121,7 +121,7 @@ class Desk(NamedTuple):
 
 
 class Report(NamedTuple):
-    """The results: a row for each deck, and the log."""
+    """The results of a block of decks: one row of numbers for each deck, and a log of what the devices did."""
 
     ends: Sequence[Row]
     registers: Sequence[Row]

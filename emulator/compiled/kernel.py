@@ -33,7 +33,7 @@ Row = MutableSequence[int]
 
 
 class Core(NamedTuple):
-    """Core storage and the sense switches."""
+    """The state that a program changes or tests: core storage, and the sense switches on the console."""
 
     mantissas: Row
     exponents: Row

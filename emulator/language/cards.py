@@ -86,7 +86,7 @@ def deck_from_text(source: str, text: str) -> Deck:
     if lines and lines[-1] == "":
         lines.pop()
     if len(lines) > MAX_CARDS:
-        raise DeckError(f"{source}: {len(lines)} cards; the limit is {MAX_CARDS}")
+        raise DeckError(f"{source}: expected at most {MAX_CARDS} cards, found {len(lines)}")
     return deck_from_lines(source, lines)
 
 

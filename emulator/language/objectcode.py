@@ -71,7 +71,7 @@ SELECT, SWITCH, FLOAT, FIX, FUNCTION, POWER, POWERX, BEGIN, FINISH, PAUSE, STOP 
 
 @dataclass(frozen=True, slots=True)
 class Instruction:
-    """One instruction, described in the module docstring."""
+    """An instruction of object code: operation, address, subscript and second operand, all integers."""
 
     operation: int
     address: int
@@ -186,12 +186,12 @@ class Program:
         return any(i.operation == BEGIN and self.verbs[i.address] in verbs for i in self.code)
 
     def line_at(self, pc: int) -> Line:
-        """Return the statement that the instruction at ``pc`` belongs to."""
+        """Return the FORTRAN statement to which the instruction at index ``pc`` belongs."""
         return self.statements[self.statement_numbers[min(pc, len(self.code) - 1)]]
 
     @cached_property
     def statement_numbers(self) -> tuple[int, ...]:
-        """The index of the statement that each instruction belongs to."""
+        """The index of the FORTRAN statement to which each instruction belongs."""
         numbers: list[int] = []
         statement = 0
         for instruction in self.code:
@@ -234,7 +234,7 @@ class Flat(NamedTuple):
 
 
 def flatten(program: Program) -> Flat:
-    """Return the object code of a program in flat form."""
+    """Return the object code of a program as flat sequences of integers."""
     targets: list[int] = []
     starts: list[int] = []
     # A branch table is flattened to its length and its targets, and instructions refer to its start.

@@ -216,7 +216,7 @@ def parse_statement(source: Source) -> tree.Statement:
             number = 7
         raise Refused(*_token_message(error, source), number) from None
     except UnexpectedInput:
-        raise Refused(source.place, f"does not parse; the form is {form}", number) from None
+        raise Refused(source.place, f"the statement does not parse; the form is {form}", number) from None
     return tree.Statement(label, source.place, text, body)
 
 

@@ -86,11 +86,11 @@ def statement_columns(card: Card, first: int = 1) -> str:
 
 
 def is_comment(card: Card) -> bool:
-    """Return True for a blank card, and for one with C in column 1 and two blanks or without the form of a statement.
+    """Return True for a card that is a comment: blank, or with C in column 1 and not in the form of a statement.
 
-    The manual (p. 12) requires two blanks after the C.  IBM's FORTRAN II-D and PDQ FORTRAN also accept ``C-----`` and
-    ``C TEXT`` (executed).  :func:`may_be_comment` treats a card with C in column 1 that has the form of a statement but
-    does not parse.
+    A card with C and two blanks is always a comment, as the manual (p. 12) requires.  IBM's FORTRAN II-D and PDQ
+    FORTRAN, when executed, also accept ``C-----`` and ``C TEXT``.  :func:`may_be_comment` treats a card with C in
+    column 1 that has the form of a statement but does not parse.
     """
     if not statement_columns(card).strip() or card.text.ljust(3).startswith("C  "):
         return True

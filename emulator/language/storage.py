@@ -59,7 +59,7 @@ class Storage:
 
     @property
     def length(self) -> int:
-        """The number of fields that the emulator keeps: all of the map, and the constants of DO statements."""
+        """The number of storage fields that the emulator keeps, including those for the constants of DO statements."""
         return self.fields + len(self.immediates)
 
     def arrays(self) -> Iterator[Entry]:
@@ -90,7 +90,7 @@ class Storage:
         return range(field, field + 1)
 
     def name_of(self, address: int) -> str:
-        """Return the name of a field: ``NE``, ``X(3)``, ``constant 4.``."""
+        """Return the name of what a storage field holds, such as ``NE``, ``X(3)`` or ``constant 4.``."""
         if self.fields <= address < self.length:
             return f"constant {self.immediates[address - self.fields][1]}"
         try:

@@ -34,7 +34,7 @@ class Reference:
 
 @dataclass(frozen=True, slots=True)
 class Power:
-    """The expression ``base ** exponent`` (p. 19, rule 2)."""
+    """The expression ``base ** exponent``, a power (p. 19, rule 2)."""
 
     base: Expression
     exponent: Expression
@@ -73,7 +73,7 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class GoTo:
-    """The statement ``GO TO n``."""
+    """The statement ``GO TO n``, which branches to statement number n."""
 
     label: int
 

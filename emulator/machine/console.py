@@ -40,7 +40,7 @@ class Cards:
     punched: str = ""
 
     def see(self, events: Sequence[Event]) -> None:
-        """Remember the last card read and the last card punched among further events."""
+        """Update the last card read and the last card punched from further events of the run."""
         for event in events:
             if event.what == "read":
                 self.read = event.text

@@ -103,7 +103,7 @@ class Devices:
         self._format = 0
 
     def line_at(self, pc: int) -> Line:
-        """Return the statement of an instruction."""
+        """Return the FORTRAN statement to which an instruction belongs."""
         return self.program.line_at(pc)
 
     def begin(self, address: int) -> None:
@@ -352,5 +352,5 @@ class Devices:
         self.notices[notice] = None
 
     def ending(self, kind: Kind) -> Ending:
-        """Return an ending of the given kind at the current statement."""
+        """Return the description of an end of the run, of the given kind, at the current statement."""
         return stopped(self.program, kind, self.state.at, self.state.decision)

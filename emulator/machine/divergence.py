@@ -238,7 +238,7 @@ class JournaledRun:
         return len(self._records) + len(_printed(self.session.devices.events)) + 1
 
     def entries(self) -> Iterator[Entry]:
-        """Yield the entries of the journal while the run advances."""
+        """Advance the run, and yield the entries of its journal (decisions and stores) as they are recorded."""
         goal = 0
         while self.ending is None:
             goal = min(goal + _STRIDE, self._limit)
@@ -274,7 +274,7 @@ def _raise_common_error(runs: list[JournaledRun]) -> None:
 
 
 def _ended(runs: list[JournaledRun], entry: Entry | None, reference_entry: Entry | None) -> str:
-    """Return a text on how the runs ended whose journals have no further entry, or "" if both ended in the same way."""
+    """Describe how those runs ended whose journals have no further entry.  Return "" if both ended in the same way."""
     if entry is None and reference_entry is None and runs[0].ending == runs[1].ending:
         return ""
     stopped = [run for run, last in zip(runs, (entry, reference_entry), strict=True) if last is None]

@@ -104,7 +104,7 @@ class _Walk(ABC):
 
 @dataclass
 class Output(_Walk):
-    """An output statement in progress.  ``emit`` receives each finished record."""
+    """The execution of an output statement, field by field.  ``emit`` is a function that receives finished records."""
 
     emit: Callable[[str], None]
     width: int = 0
@@ -134,7 +134,7 @@ class Output(_Walk):
 
 @dataclass
 class Input(_Walk):
-    """An input statement in progress.  ``fetch`` returns the next card."""
+    """The execution of an input statement, field by field.  ``fetch`` is a function that returns the next card."""
 
     fetch: Callable[[], Card]
     card: Card

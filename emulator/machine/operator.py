@@ -48,7 +48,7 @@ class Operator:
         self._keyboard = iter(keyboard)
 
     def happened(self, events: Sequence[Event]) -> None:
-        """Receive the events of the devices, in order."""
+        """Tell the operator what the devices did, as a sequence of events in order."""
 
     def attend(self, session: Session) -> Iterator[Action]:
         """Yield the operator's actions while the machine runs.  Called at the start and after each slice."""

@@ -32,7 +32,7 @@ class Tracer:
         self._line = line
 
     def close(self) -> None:
-        """Write the line of the last statement."""
+        """Write the trace line of the last statement, which has no successor to trigger it."""
         if self._line is None or self._machine is None:
             return
         line, self._line = self._line, None
@@ -56,7 +56,7 @@ def effect(machine: Session, line: Line) -> str:
 
 
 def contents(machine: Session, address: int) -> str:
-    """Return the contents of a storage field as text."""
+    """Return the contents of a storage field as text, in the form of its kind (integer or floating point)."""
     # A field is shown by its current kind, since programs may store either mode with --bounds core.
     value, kind = machine.state.values[address], machine.state.kinds[address]
     if kind == UNDEFINED:

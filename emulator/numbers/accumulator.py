@@ -24,7 +24,7 @@ State = tuple[int, int, int]
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return FAC + number.  Adding zero changes nothing, except that the sum of two zeros is +0 in some profiles."""
+    """Return the sum of the accumulator (FAC) and a number.  Adding zero changes nothing, except the sign of a zero."""
     # IBM's subroutine tests for zero operands first: x + 0 is x unchanged, 0 + x is x, and profiles differ in 0 + 0.
     if mb == 0:
         if ma == 0 and not rules.as_1962:
@@ -37,12 +37,12 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 
 
 def subtract(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return FAC - number.  The sign of the number is reversed before the addition, except if it is zero."""
+    """Return the accumulator (FAC) minus a number, by adding the number with its sign reversed, except a zero."""
     return add(ma, ea, -mb, eb, rules)
 
 
 def subtract_reversed(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return number - FAC as the subroutine FSBR computes it: FAC - number, with the sign of the result reversed."""
+    """Return a number minus the accumulator (FAC), computed like the subroutine FSBR as -(FAC - number)."""
     # If the operands cancel, the reversal turns the zero into -0.  The thesis prints such zeros
     # (emulator/language/expressions.py).
     m, e, event = add(ma, ea, -mb, eb, rules)
@@ -51,7 +51,7 @@ def subtract_reversed(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State
 
 
 def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return FAC * number.  A product with a zero factor is +0."""
+    """Return the product of the accumulator (FAC) and a number.  A product with a zero factor is +0."""
     if ma == 0 or mb == 0:
         return 0, ZERO, 0
     m, e = multiply_digits(ma, ea, mb, eb, rules)
@@ -59,7 +59,7 @@ def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 
 
 def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return FAC / number.  A zero dividend gives +0, and a zero divisor gives the largest number."""
+    """Return the accumulator (FAC) divided by a number.  0/x is +0, and x/0 is the largest number."""
     if mb == 0:
         return largest(-1 if ma < 0 and not rules.as_1962 else 1, rules), MAX_EXPONENT, ZERO_DIVISOR
     if ma == 0:

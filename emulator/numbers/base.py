@@ -104,7 +104,7 @@ class Numbers(ABC):
         return value
 
     def from_integer(self, value: int) -> Number:
-        """Convert a fixed-point number to floating point, as FLOAT does."""
+        """Convert an integer (fixed-point number) to floating point, as the library routine FLOAT does."""
         return self.decimal(value, 0)
 
     @abstractmethod

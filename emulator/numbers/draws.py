@@ -35,7 +35,7 @@ MAX_SEED = 2**32 - 1
 
 
 def mix(word: int) -> int:
-    """Return the finalizer of MurmurHash3 for an integer of 32 bits."""
+    """Return a 32-bit integer with its bits thoroughly mixed (the last step of the hash function MurmurHash3)."""
     # The products may exceed 64 bits, which compiled code drops; the mask keeps only the lowest 32 bits anyway.
     word ^= word >> 16
     word = word * 0x85EBCA6B & 0xFFFFFFFF
@@ -45,7 +45,7 @@ def mix(word: int) -> int:
 
 
 def key_of(seed: int) -> int:
-    """Return the key of a seed, which :func:`draw` expects."""
+    """Return the number derived from a seed that :func:`draw` expects as its first argument."""
     return mix(seed ^ 0x9E3779B9)
 
 

@@ -176,7 +176,7 @@ def _parts(value: Exact) -> tuple[tuple[int, Rational], ...]:
 
 
 def _length(value: Exact) -> int:
-    """Return the total number of bits of all parts of a number."""
+    """Return the total number of bits of all integers that make up a number."""
     return sum(n.bit_length() + c.numerator.bit_length() + c.denominator.bit_length() for n, c in _parts(value))
 
 

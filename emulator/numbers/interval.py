@@ -28,7 +28,7 @@ _RANGE = 10**6
 
 
 def _within_range(operation: Callable[..., Any]) -> Callable[..., Any]:
-    """Let an operation raise Undecided instead of Overflow."""
+    """Wrap an operation of the class so that an overflow raises Undecided, with a message that states the range."""
 
     @wraps(operation)
     def checked(*operands: Any) -> Any:
@@ -116,7 +116,7 @@ class IntervalNumbers(Numbers):
             low = ends[0] if value[0] > 0 or value[1] < 0 else Decimal(0)
             return (self._roots(low)[0], self._roots(ends[1])[1]), ""
         if name == "LOG" and value[0] <= 0:
-            raise Undecided(f"interval arithmetic has no logarithm of {self.text(value)}")
+            raise Undecided(f"interval arithmetic cannot compute the logarithm of {self.text(value)}")
         if name == "ATAN":
             from mpmath.libmp import mpi_atan
 
@@ -136,7 +136,7 @@ class IntervalNumbers(Numbers):
     @_within_range
     def power(self, base: Interval, exponent: Interval) -> tuple[Interval, str]:
         if base[0] <= 0:
-            raise Undecided(f"interval arithmetic has no power of {self.text(base)}")
+            raise Undecided(f"interval arithmetic cannot compute a power of {self.text(base)}")
         iv = self._mpmath
         return self._exponential(iv.log(self._iv(base)) * self._iv(exponent)), ""
 

@@ -88,7 +88,7 @@ def terms_of(value: Rational | RootSum) -> tuple[tuple[int, Rational], ...]:
 
 
 def product(m: int, c: Rational, n: int, d: Rational) -> tuple[int, Rational]:
-    """Return ``c*sqrt(m) * d*sqrt(n)`` as radicand and coefficient."""
+    """Return the product of ``c*sqrt(m)`` and ``d*sqrt(n)`` as a pair of radicand and coefficient."""
     if m == n:
         return 1, c * d * m
     return m * n, c * d

@@ -220,7 +220,7 @@ class _Generator:
         return f"{d.CALL}{entry:05d}{entry - 1:05d}"
 
     def _targets(self, branch: int) -> list[str]:
-        """Return the addresses of the statement numbers of a branch."""
+        """Return the addresses of all statements to which a branch instruction may branch."""
         pcs = self.program.branches[branch]
         return [address(self.addresses.branch(self.program.line_at(pc).label)) for pc in pcs]
 

@@ -71,7 +71,7 @@ class Formula:
     condition: str = ""
 
     def text(self) -> str:
-        """Return the formula as FPCore."""
+        """Return the formula as FPCore text."""
         symbols = [Symbol(name) for name in self.arguments]
         ranges = " ".join(f"(<= -{self.most} {name} {self.most})" for name in self.arguments)
         ranges += f" {self.condition}" if self.condition else ""

@@ -16,7 +16,7 @@ from emulator.language.objectcode import Instruction, Line, Program
 
 @dataclass(frozen=True, slots=True)
 class Constant:
-    """A constant, as its text in the source."""
+    """A constant of the program, as the text that the source has for it."""
 
     text: str
 
@@ -32,7 +32,7 @@ class Index:
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """A variable, or an element of an array with its subscripts."""
+    """A variable, or an array element with its subscripts, as an operand."""
 
     name: str
     indices: tuple[Index, ...] = ()
@@ -85,7 +85,7 @@ class Test:
 
 @dataclass(frozen=True, slots=True)
 class Select:
-    """A computed GO TO."""
+    """A computed GO TO, with the variable that selects one of its labels."""
 
     selector: Expression
     labels: tuple[int, ...]
@@ -101,7 +101,7 @@ class Switch:
 
 @dataclass(frozen=True, slots=True)
 class GoTo:
-    """A branch."""
+    """A branch to a label."""
 
     label: int
 
@@ -301,5 +301,5 @@ class _Walk:
 
 
 def steps(program: Program) -> Iterator[Step]:
-    """Yield the steps of a program in the order of its object code."""
+    """Convert a program to steps, and yield them in the order of its object code."""
     return _Walk(program).steps()

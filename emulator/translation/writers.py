@@ -151,7 +151,7 @@ class Writer(ABC):
 
 
 class CWriter(Writer):
-    """A writer of C11, in the part that is also C++."""
+    """The writer of C11 source text, which C++ compilers also accept."""
 
     def head(self) -> Iterator[str]:
         program = self.program
@@ -250,7 +250,7 @@ class CWriter(Writer):
 
 
 class FortranWriter(Writer):
-    """A writer of free-form Fortran 2018."""
+    """The writer of source text in free-form Fortran 2018."""
 
     def head(self) -> Iterator[str]:
         yield f"! {self.program.source}, translated from 1620 FORTRAN by hull1620."

@@ -34,7 +34,7 @@ class Agreement:
 
 
 def data_sets(cards: Sequence[str]) -> list[list[str]]:
-    """Return the cards that a run punched, one list for each data set."""
+    """Divide the cards that a run punched into one list for each data set."""
     bounds = [*(n - 1 for n, card in enumerate(cards) if card == HEADING and n), len(cards)]
     return [list(cards[a:b]) for a, b in pairwise(bounds)]
 

@@ -34,7 +34,7 @@ def random_points(count: int, seed: int) -> list[Point]:
 
 
 def data_deck(points: Sequence[Point]) -> Deck:
-    """Return the deck for program 1: N, and one card for each point."""
+    """Return the input deck of program 1 for these points: a card with N, then one card for each point."""
     return deck.data_deck([list(map(str, point)) for point in points], "random deck")
 
 

@@ -188,5 +188,5 @@ def formulas() -> Mapping[str, list[Formula]]:
 
 
 def fpcore(name: str) -> str:
-    """Return the formulas of a document as a file of FPCore."""
+    """Return the formulas of a document as the text of an FPCore file."""
     return document(formulas()[name], HEADING.format(document=name))

@@ -41,7 +41,7 @@ class Row:
 
     @property
     def each(self) -> float:
-        """The median seconds for one deck."""
+        """The median of the seconds that one deck takes."""
         return self.figure.median / self.decks
 
 

@@ -40,7 +40,7 @@ class Sensitivity:
 
 
 def records_of(result: Result) -> list[str]:
-    """Return the punched cards and typed lines of a run, in order."""
+    """Return the records of a run, its punched cards and typed lines, in order."""
     return [event.text for event in result.events if event.what in ("punch", "type")]
 
 

@@ -101,7 +101,7 @@ def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
 
 
 def across(line: Vector) -> Eye:
-    """Return a horizontal direction of view from the front, at right angles to the direction ``line``."""
+    """Return a horizontal direction of view at right angles to the direction ``line``, chosen from the front."""
     if not (line[0] or line[1]):
         return 0, -1, 0
     x, y, _ = lowest((line[1], -line[0], Fraction(0)))

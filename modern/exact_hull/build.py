@@ -66,7 +66,7 @@ def _on_facets(
 
 
 def _corners(facets: Sequence[Facet]) -> Any:
-    """Return the corners of all polygons, with repetitions."""
+    """Return the vertex indices of all polygons in one array, with repetitions."""
     return facets.corners if isinstance(facets, Facets) else [index for facet in facets for index in facet.polygon]
 
 

@@ -54,7 +54,7 @@ def _is_plane(plane: Sequence[int]) -> bool:
 
 
 def rank(vectors: Iterable[Sequence[int]]) -> int:
-    """Return the rank of vectors of three integers."""
+    """Return the rank of a set of vectors with three integer components."""
     rest = iter(vectors)
     first = next(filter(any, rest), None)
     if first is None:

@@ -104,7 +104,7 @@ class Coordinates(LazyMembers[IntPoint]):
         return self.numbers.dtype.kind
 
     def integers(self, indices: Any = slice(None)) -> Objects:
-        """Return the points with these indices as Python integers (k, 3)."""
+        """Return the points with these indices as Python integers, shape (k, 3)."""
         return _integers(self.numbers[indices], self.scale)
 
     def floats(self) -> Floats:
@@ -127,7 +127,7 @@ class Coordinates(LazyMembers[IntPoint]):
 
     @cached_property
     def duplicates(self) -> tuple[tuple[int, int], ...]:
-        """Pairs of a point and the first point equal to it, sorted."""
+        """Pairs of indices, sorted: a point, and the first point equal to it."""
         if self._make is None or self.kind == "O":
             suspects, rows = list(range(len(self))), list(self.all())
             if len(set(rows)) == len(rows):

@@ -118,7 +118,7 @@ def faces(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint
 
 
 def _face(triangles: Sequence[tuple[int, ...]], points: Sequence[IntPoint]) -> tuple[int, ...]:
-    """Return the polygon that triangles of one plane fill."""
+    """Return the polygon that triangles in one plane fill together, as a facet."""
     return rotated(triangles[0] if len(triangles) == 1 else corners_only(_outline(triangles), points))
 
 

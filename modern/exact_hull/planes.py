@@ -107,7 +107,7 @@ class Planes:
 
     @cached_property
     def _axes(self) -> Ints:
-        """The axis to which each plane is perpendicular, or -1."""
+        """The coordinate axis to which each plane is perpendicular, or -1 if there is none."""
         zeros = self.table[:, :3] == 0
         return np.where(zeros.sum(axis=1) == 2, zeros.argmin(axis=1), -1)
 

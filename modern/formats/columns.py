@@ -1,4 +1,4 @@
-"""Text in aligned columns, for tables on a terminal."""
+"""Align text in columns, for tables on a terminal."""
 
 from collections.abc import Iterable, Iterator, Sequence
 

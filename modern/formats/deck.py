@@ -49,7 +49,7 @@ class DeckWarning:
 
     @property
     def message(self) -> str:
-        """The warning as one line."""
+        """The warning as one line for the user."""
         message = self.text
         if self.remark is not None:
             message = f"{self.name}: {self.remark.message}" if self.name else f"{self.remark.message}: {self.text}"

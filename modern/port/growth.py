@@ -97,7 +97,7 @@ Watcher = Callable[[Equations, tuple[int, ...], int, int, list[int]], None]
 
 
 class Growing(Protocol):
-    """A hull under construction: the state of program 2 or 3."""
+    """The state of program 2 or 3: a hull under construction, a polygon or a polyhedron."""
 
     points: PointTable
     remaining: Remaining

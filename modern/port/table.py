@@ -44,7 +44,7 @@ class PointTable:
         return removed
 
     def input_indices(self, positions: slice | Sequence[int] | NDArray[np.int64]) -> tuple[int, ...]:
-        """Return the input indices of the points at the given positions."""
+        """Return the indices that the points at the given positions of this table have in the input."""
         selection = positions if isinstance(positions, slice) else np.asarray(positions, np.int64)
         return tuple(self.input_index[selection].tolist())
 

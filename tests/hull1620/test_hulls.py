@@ -208,7 +208,7 @@ def test_all_functions_draw_the_same_picture() -> None:
     assert hull._repr_svg_() == hull.draw() == hull1620.draw(CUBE) == hull1620.draw(hull)
     assert hull.draw().startswith("<svg ")
     assert hull.draw(eye=(1, 2.5, np.float32(3)), title="a cube") == hull1620.draw(CUBE, (2, 5, 6), "a cube")
-    with pytest.raises(hull1620.ExportError, match="has three numbers, not 2"):
+    with pytest.raises(hull1620.ExportError, match="expected a direction of view with 3 numbers, found 2"):
         hull.draw(eye=(1, 2))
 
 

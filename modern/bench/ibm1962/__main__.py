@@ -33,7 +33,7 @@ VERBS = ("READ", "ACCEPT", "PUNCH", "TYPE", "PRINT")
 
 
 def parser() -> argparse.ArgumentParser:
-    """Return the parser of the command line."""
+    """Return the parser for the arguments of ``python -m modern.bench.ibm1962``."""
     result = argparse.ArgumentParser(
         prog="python -m modern.bench.ibm1962",
         description=__doc__,

@@ -96,7 +96,7 @@ def _means() -> str:
 
 
 def program_digest(name: str) -> str:
-    """Return the digest of a built-in program's object cards."""
+    """Return the hash (digest) of the object cards of a built-in program."""
     return digest(object_cards(programs.program(name), CORE))
 
 

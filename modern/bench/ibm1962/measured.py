@@ -50,7 +50,7 @@ def measure(cases: Sequence[tuple[Statement, tuple[str, ...]]], deck: Sequence[s
 
 
 def load() -> list[Measured]:
-    """Return the recorded statements."""
+    """Return all recorded statements with their results, from the file in the tests' data."""
     return [_parsed(line) for line in FILE.read_text(encoding="ascii").splitlines()]
 
 

@@ -41,7 +41,7 @@ class TimedRun:
     model: float
 
     def row(self) -> tuple[str, ...]:
-        """Return the run as a row of the table."""
+        """Return the measurement as a row of the table in docs/ibm1962."""
         return self.deck, self.program, f"{self.library:.1f}", f"{self.model:.1f}", f"{self.library / self.model:.3f}"
 
 

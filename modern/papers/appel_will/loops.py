@@ -105,7 +105,7 @@ def intersect(edges: Sequence[Pair], first: int, second: int) -> Intersection | 
 
 
 def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) -> LoopTable:
-    """Find the loops of convex edges by steps 1 to 10 of the appendix."""
+    """Find all loops (borders of faces) of the convex edges, by steps 1 to 10 of the paper's appendix."""
     vertices = sorted({end for edge in edges for end in edge})
     uses = [0] * len(edges)  # step 1: all counts IUC are 0
     table = _Table(points, vertices, edges, uses, [], rules)

@@ -66,7 +66,7 @@ class CurrentPolyhedron:
     """
 
     def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int], coplanar: Coplanar) -> None:
-        """Build the tetrahedron of four points that are not coplanar."""
+        """Begin with the tetrahedron of four points, whose indices are ``simplex`` and which are not coplanar."""
         self.points = points
         low = [min(column) for column in zip(*points, strict=True)]
         self.shifted = [(x - low[0], y - low[1], z - low[2]) for x, y, z in points]

@@ -135,12 +135,12 @@ class Tables:
 
     @property
     def encloses(self) -> bool:
-        """True if contour V encloses contour V' (property 2 in the paper)."""
+        """True if contour V encloses contour V' in the picture (property 2 in the paper)."""
         return not any(-1 in row for row in self.pl)
 
     @property
     def enclosed(self) -> bool:
-        """True if contour V' encloses contour V (property 2 in the paper)."""
+        """True if contour V' encloses contour V in the picture (property 2 in the paper)."""
         return not any(-1 in row for row in self.lp)
 
 

@@ -20,7 +20,7 @@ from modern.papers.yau_srihari.quadtree import Place, Quadtree, ceiling, floor, 
 
 
 def components(volume: NDArray[np.bool_]) -> int:
-    """Count the 6-connected components of an array of voxels."""
+    """Count the connected components of an array of voxels, in which voxels with a common face are connected."""
     # An empty cell after every line separates the runs of neighbouring lines in the flat array.
     padded = np.zeros((volume.shape[0], *(length + 1 for length in volume.shape[1:])), dtype=np.bool_)
     padded[(slice(None), *(slice(-1) for _ in volume.shape[1:]))] = volume

@@ -50,7 +50,7 @@ class Octree:
 
     @property
     def depth(self) -> int:
-        """The level at which a cube of the tree is a single voxel."""
+        """The lowest level of the tree, at which a cube is a single voxel."""
         return self.side.bit_length() - 1
 
     def voxels(self) -> Grid:
@@ -73,7 +73,7 @@ def interleaved(x: Grid, y: Grid) -> Grid:
 
 
 def side_for(length: int) -> int:
-    """Return the least power of two that is not less than ``length``."""
+    """Return the side of the smallest cube for an octree: the least power of two from ``length`` on."""
     return 1 << max(0, length - 1).bit_length()
 
 

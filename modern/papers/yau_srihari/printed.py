@@ -53,7 +53,7 @@ class Printed:
         return cls(**dict.fromkeys(names, True))
 
     def names(self) -> tuple[str, ...]:
-        """Return the names of the statements applied as printed."""
+        """Return the names of the statements that are applied as printed."""
         return tuple(name for name in NAMES if getattr(self, name))
 
 

@@ -76,12 +76,12 @@ def sons_of(tree: Quadtree) -> tuple[Quadtree, ...]:
 
 
 def floor(tree: Octree) -> Quadtree:
-    """Return the lowest voxel of each column of a solid.  Section 5 visits octants in order; the first counts."""
+    """Return the height of the lowest voxel of each column of a solid, as a quadtree (section 5)."""
     return _lowest(tree, downward=False)
 
 
 def ceiling(tree: Octree) -> Quadtree:
-    """Return the highest voxel of each column of a solid.  Section 5 visits octants in order; the last counts."""
+    """Return the height of the highest voxel of each column of a solid, as a quadtree (section 5)."""
     return mirrored(_lowest(tree, downward=True))
 
 
