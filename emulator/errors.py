@@ -152,7 +152,7 @@ class Explanation:
 
 @cache
 def explanations() -> Mapping[str, Explanation]:
-    """Return the explanations of all error types 5 to 13 (C26-5619 p. 56) and codes E1 to E8, F1 to F9."""
+    """Return explanations of all error messages: types 5 to 13 of the compiler, codes E1 to E8, F1 to F9 of a run."""
     # These imports are inside the function because every command loads this module, but few commands need explanations.
     import tomllib
     from importlib.resources import files

@@ -72,7 +72,7 @@ class Hull:
 
     @property
     def status(self) -> str:
-        """``determined`` if there is a hull, otherwise the error message of the programs of 1963."""
+        """``determined`` if there is a hull, otherwise the reason, such as an error message of the 1963 programs."""
         return self.record.status
 
     @property

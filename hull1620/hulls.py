@@ -179,7 +179,7 @@ def read_points(path: Path) -> Sequence[tuple[str, str, str]]:
 
 
 def data_deck(points: Points, truncate: bool = False, epsilon: Epsilon = None) -> Deck:
-    """Return points as a data deck for the programs of 1963: a card with N, then a card for each point.
+    """Return points as a deck of input cards for the programs of 1963: a card with N, then one for each point.
 
     Parameters
     ----------

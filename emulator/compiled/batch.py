@@ -144,7 +144,7 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
 
 
 def _ending(program: Program, options: Options, run: Run) -> Ending:
-    """Convert the reason for which a compiled run ended, a number, to the ending that the interpreter would report."""
+    """Convert the number that says why a compiled run ended to the same ending that the interpreter would report."""
     registers = run.registers
     at, decision, address = registers[kernel.AT], registers[kernel.DECISION], registers[kernel.ADDRESS]
     subscripts = registers[kernel.INDEX], registers[kernel.INDEX2]

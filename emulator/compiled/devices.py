@@ -286,7 +286,7 @@ def end_record(marks: Marks, cards: Cards, desk: Desk) -> int:
 
 
 def put(letter: int, line: Row, length: int, desk: Desk) -> int:
-    """Write a line to the log, after a letter that says which device produced it."""
+    """Write a line to the log, preceded by a letter that names the operation, such as PUNCHED or TYPED."""
     log, used = desk.log, desk.devices[USED]
     if used + length + 2 > len(log):
         return LOG_FULL
@@ -317,7 +317,7 @@ def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
 
 
 def stamp(number: int, desk: Desk) -> None:
-    """Write a number to the log, always with the number of digits STAMP."""
+    """Write a number to the log with a fixed number of digits, STAMP."""
     used = desk.devices[USED]
     for k in range(STAMP):
         desk.log[used + STAMP - 1 - k] = DIGIT + number % 10

@@ -41,7 +41,7 @@ class Core(NamedTuple):
 
 
 def owe(registers: Row, steps: int) -> None:
-    """Add the extra steps of a slow operation to the work of the run, which grows by one for every STEPS steps."""
+    """Count the extra steps of a slow operation as work of the run: every STEPS steps are one unit of work."""
     steps += registers[OWED]
     registers[OWED] = steps % STEPS
     registers[COSTLY] += steps // STEPS

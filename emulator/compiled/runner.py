@@ -125,12 +125,12 @@ class Run:
     pauses: list[int]
 
     def lines(self) -> list[str]:
-        """Return the lines of the log, each a letter and a text."""
+        """Return the lines of the log; each consists of a letter that names the operation and a text."""
         return self.log.decode("ascii").split("\n")[:-1]
 
 
 class Runner:
-    """A compiled program, ready to run over blocks of decks.
+    """A compiled program, ready to run blocks of decks.
 
     Raise what Machine raises, and emulator.jit.functions.NotInstalled.
     """
@@ -195,7 +195,7 @@ class Runner:
         return [self._run(d) for d in range(self.kernel(*self._arguments(packed)))]
 
     def _arguments(self, packed: list[bytes]) -> tuple[Any, ...]:
-        """Return the arguments of the compiled function for these decks."""
+        """Return the arguments with which the compiled function runs these decks."""
         first = _row(accumulate((len(deck) // COLUMNS for deck in packed), initial=0))
         cards = devices.Cards(_codes(b"".join(packed)), first)
         return self.code, self.forms, self.start, cards, self.core, self.tools, self.report, self.rules, self.setting

@@ -310,7 +310,7 @@ class _Translation:
         return self.emitter.variable(reference)
 
     def _loop(self, loop: tree.Do | tree.Loop, place: tree.Place) -> tuple[int, int, int]:
-        """Emit code that gives the variable of a DO its first value.  Return the fields of variable, step, limit."""
+        """Emit code that gives the variable of a DO its first value.  Return the fields of variable, step and limit."""
         variable = self._fixed_variable(loop.variable, "the variable of a DO")
         bounds = []
         for bound in (loop.first, loop.last, loop.step or tree.Number("1", place)):

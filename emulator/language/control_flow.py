@@ -13,9 +13,10 @@ from emulator.language.objectcode import Line, Program
 
 
 def successors(program: Program) -> list[tuple[int, ...]]:
-    """Return the possible successors of each instruction.  The index after the last one stands for the end of the run.
+    """Return, for each instruction, the indices of the instructions that may be executed next.
 
-    A READ may end the run, because the card reader may have no card left.
+    The index after the last instruction stands for the end of the run.  A READ may end the run, because the card reader
+    may have no card left.
     """
     end = len(program.code)
     following: list[tuple[int, ...]] = []

@@ -338,7 +338,7 @@ def is_fixed_name(name: str) -> bool:
 
 
 def function_of(reference: Reference, arrays: dict[str, tuple[int, ...]]) -> str:
-    """Return the name of the library function that a reference calls, or an empty string."""
+    """Return the name of the library function that an expression such as ``SIN(X)`` calls, or an empty string."""
     if not reference.arguments or reference.name in arrays:
         return ""
     name = reference.name.removesuffix("F")

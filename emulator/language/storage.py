@@ -34,7 +34,7 @@ class Entry:
     shape: tuple[int, ...] = ()
 
     def element(self, index: int) -> str:
-        """Return the name of the field ``index`` places after the first: ``X(3)``, ``A(2,1)``, or a variable."""
+        """Return the name of an array element, ``index`` fields after the first: ``X(3)`` or ``A(2,1)``."""
         # Arrays of two dimensions are stored by columns: the first subscript varies fastest.
         if not self.shape:
             return self.name
@@ -66,7 +66,7 @@ class Storage:
         return (entry for entry in self.entries if entry.shape)
 
     def entry_of(self, address: int) -> Entry:
-        """Return the entry that contains a field.  Raise KeyError for an address outside the data."""
+        """Return the variable or array that owns a storage field.  Raise KeyError for an address outside the data."""
         if not 0 <= address < self.fields:
             raise KeyError(address)
         return self.entries[bisect_right(self.entries, address, key=attrgetter("first")) - 1]
@@ -122,7 +122,7 @@ class Allocator:
         return address if address < _PROVISIONAL else address - _PROVISIONAL + self.used
 
     def place(self, kind: str, name: str, shape: tuple[int, ...] = ()) -> Entry:
-        """Return the storage of a name, which is reserved when it first appears. ``kind`` is e.g. ``variable``."""
+        """Return the storage of a name of a ``kind`` such as ``variable``, reserved when the name first appears."""
         key = (kind, name)
         if key not in self.entries:
             size = 1

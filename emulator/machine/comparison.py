@@ -224,7 +224,7 @@ class Comparison:
         return self._line(pc) if pc < len(self._statement_of) else None
 
     def losses(self) -> tuple[Loss, ...]:
-        """Return the digits lost by each statement, the largest loss first, then in order of cards."""
+        """Return how many digits each statement lost, the largest loss first, then in the order of cards."""
         lines = self._program.statements
         losses = [_loss(lines[statement], tally) for statement, tally in self._tallies.items()]
         return tuple(sorted(losses, key=lambda loss: (-loss.worst, -loss.median, loss.line.place.card)))
@@ -243,7 +243,7 @@ def _logarithm(value: Fraction) -> float:
 
 
 def _text(numbers: Numbers, value: Number, exact: Fraction | int | None) -> str:
-    """Return ``exact`` as text if it is given, otherwise the value as its arithmetic prints it."""
+    """Return a number as text: its exact value if that is given, otherwise as its arithmetic prints it."""
     if value is None:
         return "undefined"
     if isinstance(value, int):

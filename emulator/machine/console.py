@@ -148,7 +148,10 @@ def _named(session: Session, name: str, width: int) -> list[str]:
 
 
 def _core(session: Session, place: str, width: int) -> list[str]:
-    """Return the fields near a place, in order of address.  Addresses decrease as the numbers of elements increase."""
+    """Return lines with the storage fields around a variable or address, in order of address.
+
+    Addresses decrease as the numbers of array elements increase.
+    """
     core = session.options.core
     # An address may be that of any digit of a field; fields are numbered downward from the top of core storage.
     if place.isascii() and place.isdigit() and len(place) < 6:

@@ -85,7 +85,7 @@ class Divergence:
 
     @property
     def outcomes(self) -> tuple[str, ...]:
-        """One line about the end of both runs, or one line for each run if their ends differ.
+        """One line about how both runs ended, or one line for each run if they ended differently.
 
         A line that would only repeat ``apart`` is omitted.
         """

@@ -76,7 +76,7 @@ class Ending:
 
     @property
     def outcome(self) -> str:
-        """One line that says how the run ended, for normal and other endings."""
+        """One line that says how the run ended, whether normally or not."""
         if self.kind == "hopper" and self.line is not None:
             return f"the hopper was empty at the READ of {self.line.name}"
         return self.message or ("STOP" if self.kind == "stop" else "the end of the program")
@@ -188,7 +188,7 @@ def stopped(program: Program, kind: Kind, at: int, decision: int, subscripts: tu
 
 
 def decided(program: Program, decision: int) -> Line | None:
-    """Return the last IF or computed GO TO, or None if ``decision`` is 0.  Instructions count from 1."""
+    """Return the IF or computed GO TO with the number ``decision``, counting instructions from 1, or None for 0."""
     return program.line_at(decision - 1) if decision else None
 
 

@@ -28,7 +28,7 @@ Output = Callable[[Sequence[Event]], None]
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """A line of an operator's file: its number, the work of its AT clause, and the action."""
+    """A line of an operator's file: its number, the action, and the amount of work after which to perform it."""
 
     number: int
     at: int | None

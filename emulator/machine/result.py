@@ -127,5 +127,5 @@ def statements_begun(program: Program, counts: Sequence[int]) -> int:
 
 
 def machine_errors(occurrences: Mapping[tuple[str, int], int]) -> tuple[MachineError, ...]:
-    """Return the error codes in order.  ``occurrences`` holds the number of occurrences of each code on each card."""
+    """Return the error codes of a run, in order, from the number of occurrences of each code on each card."""
     return tuple(MachineError(code, card, times) for (code, card), times in sorted(occurrences.items()))

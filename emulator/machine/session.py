@@ -274,7 +274,7 @@ class Session:
         return self._ending or self.halt
 
     def _wait_for_line(self, trouble: str) -> None:
-        """Halt until the operator types a line.  A bad line returns here, with ``trouble`` as the reason."""
+        """Halt until the operator types a line; ``trouble`` says why the previous line was invalid, if it was."""
         self._checkpoint = _Checkpoint(self) if self.retypes else None
         self.halt = Halt("accept", self.devices.line_at(self.state.at), trouble=trouble)
 
@@ -380,7 +380,7 @@ class _Checkpoint:
         self._listed, self._fields, self._notices = list(devices.listed), dict(devices.fields), dict(devices.notices)
 
     def restore(self, session: Session) -> None:
-        """Restore the session.  Output that the devices have already made stays."""
+        """Restore the session to the saved state.  Cards already punched and lines already typed remain."""
         devices = session.devices
         session._pending = self._pending
         # The interpreter and the devices hold references to these lists, so the lists are changed in place.

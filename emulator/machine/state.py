@@ -38,7 +38,7 @@ class Journal:
 
 
 def recorded_instructions(program: Program) -> list[bool]:
-    """Return a flag for each instruction: True if a journal records it, because it changes a named field."""
+    """Return a list with True for each instruction that a journal records, because it changes a named field."""
     recorded = []
     reading = False
     variables = [e for e in program.storage.entries if e.kind in ("variable", "array")]
@@ -109,7 +109,7 @@ Table = dict[int, Sequence[int]]
 
 
 def subscript_table(code: Flat) -> Table:
-    """Return the subscripts of a program by their index in :attr:`Flat.table`."""
+    """Return the subscripts of a program in a table, keyed by their index in :attr:`Flat.table`."""
     return {k: code.table[k : k + SUBSCRIPT] for k in range(0, len(code.table), SUBSCRIPT)}
 
 

@@ -83,7 +83,7 @@ class Tape:
         return Tape(*code, self.mantissas[:end], self.exponents[:end], tests)
 
     def is_rounded(self, exact: Sequence[Number], digits: int) -> bool:
-        """Return True if a number of the machine differs from its exact value."""
+        """Return True if rounding changed any number on the tape: if one differs from its exact value."""
         for operation, m, e, value in zip(self.operations, self.mantissas, self.exponents, exact, strict=False):
             if operation != LEAF and (value != Decimal(m).scaleb(e - digits) if m else value):
                 return True

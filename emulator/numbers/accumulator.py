@@ -24,7 +24,7 @@ State = tuple[int, int, int]
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return the sum of the accumulator (FAC) and a number.  Adding zero changes nothing, except the sign of a zero."""
+    """Return the sum of the accumulator (FAC) and a number.  In some profiles, the sum of two zeros is +0."""
     # IBM's subroutine tests for zero operands first: x + 0 is x unchanged, 0 + x is x, and profiles differ in 0 + 0.
     if mb == 0:
         if ma == 0 and not rules.as_1962:
@@ -99,19 +99,19 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> State
 
 
 def negate(m: int, e: int) -> tuple[int, int]:
-    """Return FAC with its sign reversed, also the sign of a zero (subroutine RSGN)."""
+    """Return the accumulator (FAC) with its sign reversed, also that of a zero."""
     if m == 0:
         return 0, (MINUS_ZERO if e == ZERO else ZERO)
     return -m, e
 
 
 def largest(sign: int, rules: Rules) -> int:
-    """Return the mantissa of the largest number, with the sign of ``sign``, which must not be 0."""
+    """Return the mantissa of the largest number of the machine, with the sign of ``sign``, which must not be 0."""
     return rules.limit - 1 if sign > 0 else 1 - rules.limit
 
 
 def in_range(m: int, e: int, over: int, rules: Rules) -> State:
-    """Return a result and its event: 0, ``over`` if the number is too large, or ``over + 1`` if it is too small.
+    """Check the range of a result.  Return it and its event: 0, ``over`` if too large, or ``over + 1`` if too small.
 
     A number that is too large becomes the largest number, and one that is too small a zero, with the same sign.
     """
@@ -123,7 +123,7 @@ def in_range(m: int, e: int, over: int, rules: Rules) -> State:
 
 
 def divide_fixed(dividend: int, divisor: int) -> tuple[int, int]:
-    """Return a fixed-point quotient truncated to an integer, and its event.  Division by 0 gives 9999."""
+    """Divide two integers.  Return the truncated quotient and an event, 0 or an error; x/0 gives 9999."""
     if divisor == 0:
         return 9999, FIXED_ZERO_DIVISOR
     size = abs(dividend) // abs(divisor)

@@ -219,7 +219,7 @@ def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
 
 
 def from_integer(value: int, rules: Rules) -> tuple[int, int]:
-    """Convert a fixed-point number to floating point.  Digits beyond the first P are dropped."""
+    """Convert an integer to floating point.  Digits beyond the first P are dropped."""
     if value == 0:
         return 0, ZERO
     size = value if value > 0 else -value
@@ -234,7 +234,7 @@ def from_integer(value: int, rules: Rules) -> tuple[int, int]:
 
 
 def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
-    """Convert to fixed point: keep the sign and the four digits left of the decimal point (C26-5619 p. 21)."""
+    """Convert a floating-point number to an integer: keep the sign and four digits left of the point (p. 21)."""
     if exponent <= 0:
         return 0
     size: int = mantissa if mantissa > 0 else -mantissa

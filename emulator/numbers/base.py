@@ -43,12 +43,12 @@ class Undecided(Exception):
 
 @lru_cache(maxsize=128)
 def lossless_rules(digits: int) -> Rules:
-    """Return truncating rules with so many digits that columns of a card are read and written without loss."""
+    """Return rules for so many digits that reading and writing a card loses none."""
     return rules_of(digits)
 
 
 class Numbers(ABC):
-    """An arithmetic for the object code.  Only random rounding has a state (:meth:`fresh`)."""
+    """The base class of the arithmetics that can run object code."""
 
     @property
     @abstractmethod
@@ -100,7 +100,7 @@ class Numbers(ABC):
         """Return -1, 0 or 1, for the three branches of an IF.  Raise Undecided if the sign is unknown."""
 
     def checked(self, value: Number) -> Number:
-        """Return a number in the form in which a field stores it.  Raise Undecided if it is too long for a field."""
+        """Return a number in the form that is stored.  Raise Undecided if it is too long to be stored."""
         return value
 
     def from_integer(self, value: int) -> Number:
@@ -109,7 +109,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def to_integer(self, value: Number) -> int:
-        """Return the sign and the four digits left of the decimal point, as FIX does (p. 21).  May raise Undecided."""
+        """Convert a number to an integer: its sign and the four digits left of the point.  May raise Undecided."""
 
     @abstractmethod
     def function(self, name: str, value: Number) -> tuple[Number, str]:

@@ -161,7 +161,7 @@ def read_floating(columns: MutableSequence[int], width: int, decimals: int, rule
 
 
 def read_fixed(columns: MutableSequence[int], width: int) -> tuple[int, int]:
-    """Read an I field.  Return its last four digits with the sign, and the status.  The columns are squeezed."""
+    """Read an integer (I field).  Return its last four digits with the sign, and the status."""
     length, status = squeeze(columns, width)
     if length == 0:
         return 0, status
@@ -284,7 +284,7 @@ def write_floating(
 
 
 def write_fixed(columns: MutableSequence[int], at: int, width: int, value: int) -> int:
-    """Write an I field: the low-order digits that fit, right-justified, with a minus sign before them if negative."""
+    """Write an integer (I field), right-justified, with its minus sign.  Leading digits that do not fit are lost."""
     size = -value if value < 0 else value
     # A minus sign takes one column.  High-order digits that do not fit are lost (C26-5619 p. 38).
     room = width - 1 if value < 0 else width

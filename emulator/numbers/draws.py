@@ -50,7 +50,7 @@ def key_of(seed: int) -> int:
 
 
 def draw(key: int, count: int) -> int:
-    """Return the random number of operation ``count`` for the key of a seed."""
+    """Return the random number for operation ``count`` of a run, from the key of the run's seed."""
     return mix(mix(count & 0xFFFFFFFF) ^ key) * DRAWS >> 32
 
 

@@ -167,7 +167,7 @@ class ExactNumbers(Numbers):
 
 
 def _too_long(base: Exact, count: int) -> bool:
-    """Return True if a power is certainly too long: an integer of n bits is at least 2**(n - 1)."""
+    """Return True if the power ``base ** count`` certainly has too many bits to be computed."""
     return not isinstance(base, RootSum) and (_longest(base) - 1) * abs(count) > MAX_BITS
 
 
@@ -181,7 +181,7 @@ def _length(value: Exact) -> int:
 
 
 def _longest(value: Exact) -> int:
-    """Return the number of bits of the longest numerator or denominator."""
+    """Return the number of bits of the longest numerator or denominator in a number."""
     return max(max(c.numerator.bit_length(), c.denominator.bit_length()) for _, c in _parts(value))
 
 
@@ -202,7 +202,7 @@ def _root_steps(operation: str, first: Exact, second: Exact) -> int:
 
 
 def _power_steps(base: Exact, count: int) -> int:
-    """Estimate the steps of a power computed by squaring.  Its last products are the longest."""
+    """Estimate the steps of a power computed by repeated squaring."""
     bits = min(_longest(base) * abs(count), 2 * MAX_BITS)
     if base in (0, 1, -1) or _too_long(base, count):
         return 0

@@ -54,7 +54,7 @@ class Value:
 
 @lru_cache(maxsize=4096)
 def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
-    """Return SIN, COS, ATAN, EXP, LOG or SQRT of a number."""
+    """Compute a library function, SIN, COS, ATAN, EXP, LOG or SQRT, of a number."""
     if name == "SQRT":
         return _sqrt(mantissa, exponent, rules)
     if mantissa == 0:
@@ -286,7 +286,7 @@ def _decisive(rules: Rules) -> int:
 
 
 def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
-    """Round a value to P digits that lies within 10**-200 of a number with few digits, as if it were that number."""
+    """Round a value to P digits, given that it equals a number with few digits to within 10**-200."""
     number, power_of_ten = _digits(value, context)
     text, digits = str(abs(number)), _decisive(rules)
     size = int(text[:digits]) + (text[digits] == "9")
@@ -294,7 +294,7 @@ def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
 
 
 def _cut(number: int, power_of_ten: int, rules: Rules) -> tuple[int, int]:
-    """Return ``number * 10**power_of_ten`` with P digits, rounded as products are."""
+    """Return the number ``number * 10**power_of_ten`` with P digits, rounded like products."""
     extra = _RANDOM if rules.random else 1
     size, exponent = cut_decimal(abs(number), power_of_ten, rules.digits + extra)
     if rules.random:

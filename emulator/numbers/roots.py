@@ -61,7 +61,7 @@ class RootSum:
             bits *= 2
 
     def _low(self, bits: int) -> int:
-        """Return an integer L such that ``L <= value * 2**bits <= L + number of terms``."""
+        """Return an integer L that bounds the sum from below: ``L <= value * 2**bits <= L + number of terms``."""
         total = 0
         for radicand, coefficient in self.terms:
             # Each term is rounded down.  A positive term becomes its integer square root r, a negative term -r - 1.
@@ -71,7 +71,7 @@ class RootSum:
         return total
 
     def floor(self, over: int = 1, under: int = 1) -> int:
-        """Return the largest integer not above ``value * over / under``, which is irrational."""
+        """Return the largest integer that does not exceed ``value * over / under``."""
         scaled = self * Fraction(over, under)
         assert isinstance(scaled, RootSum)
         bits = _FIRST_BITS
@@ -95,7 +95,7 @@ def product(m: int, c: Rational, n: int, d: Rational) -> tuple[int, Rational]:
 
 
 def gathered(terms: Iterable[tuple[int, Rational]]) -> Rational | RootSum:
-    """Add terms; merge those whose roots are multiples of each other.  Raise Undecided for more than MAX_ROOTS."""
+    """Add terms, and merge roots that are multiples of each other.  Raise Undecided if more than MAX_ROOTS remain."""
     coefficients: dict[int, Rational] = {}
     for radicand, coefficient in terms:
         if radicand in coefficients:
@@ -131,7 +131,7 @@ def square_root(value: Rational) -> Rational | RootSum:
 
 
 def quotient(dividend: Rational | RootSum, divisor: RootSum) -> Rational | RootSum | None:
-    """Return a quotient if the divisor is a sum of one or two roots, or None for a longer divisor."""
+    """Divide by a sum of one or two square roots.  Return None for a divisor with more."""
     if len(divisor.terms) > 2:
         return None
     # (a + b) * (a - b) is rational if a and b are terms of a sum of roots: multiply by the conjugate.

@@ -30,7 +30,7 @@ class Addresses:
 
     @cached_property
     def labels(self) -> dict[str, int]:
-        """The address of the field of each statement number: the position of its last digit."""
+        """The address of the storage field of each statement number: the position of its last digit."""
         entries = self.program.storage.entries
         return {entry.name: self.units(entry.first) for entry in entries if entry.kind == "statement number"}
 
@@ -75,7 +75,7 @@ class Addresses:
         return text + call + address(self.units(variable))
 
     def _steps(self, part: Subscript) -> list[tuple[str, int]]:
-        """Return the steps that compute a subscript: for each, its code and the position of the number it subtracts."""
+        """Return the code that computes a subscript, in steps; with each comes the position of a number to subtract."""
         steps = []
         if part.v2 >= 0:
             code = self._product(part.v2, part.rows * part.c2)

@@ -62,7 +62,7 @@ def deck(name: str) -> list[str]:
 
 
 def numbers(card: str) -> list[str]:
-    """Return the numbers of a card, with the exponents of PDQ FORTRAN in the notation of IBM's compilers."""
+    """Return the numbers on a card; exponents punched by PDQ FORTRAN are converted to IBM's notation."""
     return NUMBER.findall(re.sub(r"E (?=\d\d)", "E+", card))
 
 
@@ -76,7 +76,7 @@ def kind(expected: str, punched: str) -> str:
 
 
 def differences(expected: str, punched: str) -> list[str]:
-    """Return the classes of all differences between two cards."""
+    """Return the classes (such as ``last digits``) of all differences between two cards."""
     ours, theirs = numbers(expected), numbers(punched)
     text = [re.sub(r"[ E]", "", NUMBER.sub("", re.sub(r"E (?=\d\d)", "E+", c))) for c in (expected, punched)]
     if text[0] != text[1] or len(ours) != len(theirs):

@@ -71,12 +71,12 @@ def address(position: int) -> str:
 
 
 def immediate(value: int) -> str:
-    """Return a fixed-point number as the second operand (Q) of an instruction that contains its operand."""
+    """Return an integer as the second operand of an instruction that contains the number itself (Q part)."""
     return "0" + flagged(f"{value:04d}")
 
 
 def wide_immediate(value: int) -> str:
-    """Return the same as :func:`immediate`, with a second flag further left, as in DO limits and subscripts."""
+    """Return an integer as the second operand of an instruction, with a second flag, as in DO limits and subscripts."""
     return "]" + flagged(f"{value:04d}")
 
 
@@ -87,7 +87,7 @@ def floating_field(mantissa: int, exponent: int) -> str:
 
 
 def card_text(positions: Iterable[int]) -> str:
-    """Return positions of core storage, given as integers, as the characters that a card holds for them."""
+    """Return the characters that stand on a card for digits of core storage, given as integers."""
     return "".join((FLAGGED if position & FLAG else PLAIN)[position % FLAG] for position in positions)
 
 

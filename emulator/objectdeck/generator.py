@@ -109,7 +109,7 @@ class _Generator:
             self.at += len(self.units[-1].digits)
 
     def _count(self, instruction: Instruction) -> None:
-        """Begin a statement: output the FORMATs before it, and record the position of its number."""
+        """Begin a statement: output the FORMATs that precede it, and record the position of the statement."""
         counter = self.program.counters[instruction.address]
         if counter.begins:
             self._formats_before(counter.statement)
@@ -156,7 +156,7 @@ class _Generator:
         )
 
     def _is_past_branch(self, pc: int) -> bool:
-        """Return True if no path leads to END: it has no number, and the statement before it always branches."""
+        """Return True if control never reaches END: it has no number, and the statement before it always branches."""
         before = pc - 1
         while before >= 0 and self.program.code[before].operation == op.COUNT:
             before -= 1
@@ -232,7 +232,7 @@ class _Generator:
         return compare + to_zero + d.BRANCH_INDICATOR + positive + d.HIGH + d.BRANCH + negative
 
     def _select(self, instruction: Instruction) -> str:
-        """Return the code of a computed GO TO.  Its table has four digits for each statement number, the last first."""
+        """Return the code of a computed GO TO.  Its table has four digits for each statement number, last one first."""
         targets = self._targets(instruction.second)
         selector = address(self.addresses.units(instruction.address))
         branch = self.at + 60

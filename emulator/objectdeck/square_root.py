@@ -77,7 +77,7 @@ _INSTRUCTION = 12
 
 
 def square_root(start: int) -> str:
-    """Return the digits of the routine, to be loaded at position ``start``, which is also its entry point."""
+    """Return the square root routine as digits for core storage from ``start`` on; a program calls it at ``start``."""
     places = {name: start + _INSTRUCTION * index for index, (name, *_) in enumerate(_LINES)}
     at = start + _INSTRUCTION * len(_LINES)
     for name, digits in _FIELDS:

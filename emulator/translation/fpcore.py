@@ -84,7 +84,7 @@ class Formula:
 
 
 def document(formulas: Sequence[Formula], heading: str) -> str:
-    """Return an FPCore file with these formulas, after ``heading`` as a comment."""
+    """Return the text of an FPCore file with these formulas, after ``heading`` as a comment."""
     comment = "".join(f"; {line}\n" for line in heading.splitlines())
     return comment + "".join("\n" + formula.text() for formula in formulas)
 

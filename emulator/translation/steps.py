@@ -126,7 +126,7 @@ class Repeat:
 
 @dataclass(frozen=True, slots=True)
 class List:
-    """The beginning of an input or output list. ``verb`` is READ, ACCEPT, PUNCH, PRINT or TYPE, ``format`` a number."""
+    """The beginning of a list of an input or output statement, with its verb, such as READ, and FORMAT number."""
 
     verb: str
     format: int

@@ -108,7 +108,7 @@ class Writer(ABC):
     def call(self, function: str, operands: Sequence[str]) -> str: ...
 
     def expression(self, node: Expression, at_least: int = _SUM) -> str:
-        """Return an expression as text, in parentheses if its precedence is below ``at_least``."""
+        """Return an expression as source text, in parentheses if its precedence is below ``at_least``."""
         match node:
             case Constant(text):
                 return self.constant(text)
@@ -136,7 +136,7 @@ class Writer(ABC):
         return f"({text})" if precedence < at_least else text
 
     def divisor(self, text: str) -> str:
-        """Return a divisor in a form that compilers accept, even if it is the constant zero."""
+        """Return the source text of a divisor in a form that compilers accept, even for the constant zero."""
         return text
 
     @abstractmethod

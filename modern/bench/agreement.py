@@ -21,7 +21,7 @@ _ZERO = " .00000000E-99"
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """Counts of decks with the same results, different digits or a different hull, and the first difference."""
+    """Numbers of decks with the same results, other digits or another hull, and the first difference."""
 
     same: int
     digits: int

@@ -128,7 +128,7 @@ def _cases(sets: int) -> Iterator[_Case]:
 
 
 def _judged(case: _Case) -> tuple[str, dict[str, object]]:
-    """Return the table of a deck's decisions as text, and the deck's entry in ``verdicts.json``."""
+    """Return the table of a deck's decisions as text, and the data on the deck for ``verdicts.json``."""
     result, exact = run_with_decisions(case.program, case.deck, numbers(EXACT))
     runs = {column: _compared(case, name, exact) for column, name in STUDIED.items()}
     lines = {line.place.card: line.text for line in case.program.statements}

@@ -133,7 +133,7 @@ def samples(count: int) -> Iterator[Deck]:
 
 
 def steps_of(deck: Deck, arithmetic: Numbers) -> Iterator[tuple[Step, list[Decision]]]:
-    """Run program 1 on a deck, then the program that it names.  Yield both runs with their decisions."""
+    """Run program 1 on a deck, then program 2 or 3.  Yield both runs with their decisions."""
     number: int | None = 1
     while number is not None:
         program = programs.program(f"program{number}")

@@ -32,7 +32,7 @@ class Compiler:
 
 
 def compiler() -> Compiler:
-    """Return the compiler that FC names, otherwise the first one installed. Raise NoCompiler if none is installed."""
+    """Return the Fortran compiler named by FC, or the first one installed.  Raise NoCompiler if there is none."""
     try:
         command_of_fc = shlex.split(os.environ.get("FC", ""))
     except ValueError as error:
@@ -66,7 +66,7 @@ def built(deck: Deck, fortran: Compiler, folder: Path) -> Path:
 
 
 def run(program: Path, cards: Path, punched: Path) -> None:
-    """Run the program on a file of cards in its own folder. Raise NoCompiler if it fails or does not end."""
+    """Run a native program on a file of cards, in a folder of its own. Raise NoCompiler if it fails or does not end."""
     with cards.open("rb") as source, punched.open("wb") as target:
         try:
             process = subprocess.run(

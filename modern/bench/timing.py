@@ -73,7 +73,7 @@ class Curve:
     points: Sequence[tuple[int, float]]
 
     def slope(self, least: int = 0) -> float | None:
-        """Return the exponent of growth, fitted to logarithms by least squares, for sizes from ``least`` on."""
+        """Return the exponent with which seconds grow with size, by least squares, for sizes from ``least`` on."""
         logs = [(math.log(count), math.log(seconds)) for count, seconds in self.points if count >= least]
         if len(logs) < 2:
             return None

@@ -53,7 +53,7 @@ class Disagreement:
 
 
 def disagreement(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> Disagreement:
-    """Compare a hull that was computed in any way with the exact hull, whose data ``judge`` holds."""
+    """Compare any computed hull (``outcome``) with the exact hull of the same points (``judge``)."""
     missed, added = judge.vertices - outcome.vertices, outcome.vertices - judge.vertices
     classes = dict.fromkeys(outcome.boundary, "boundary") | dict.fromkeys(outcome.inside, "inside")
     exact_classes = dict.fromkeys(judge.boundary, "boundary") | dict.fromkeys(judge.inside, "inside")
@@ -152,7 +152,7 @@ def _excluded(equations: Sequence[Equation], points: Sequence[Vector]) -> tuple[
 
 
 def _root(square: Fraction) -> Fraction:
-    """Return a square root truncated after about twelve significant digits."""
+    """Return a square root as a fraction, truncated after about twelve significant digits."""
     digits = 10 ** max(12, 12 + len(str(square.denominator)) // 2)
     return Fraction(isqrt(square.numerator * digits * digits // square.denominator), digits)
 

@@ -101,7 +101,7 @@ def from_hull(name: str, hull: Hull) -> Outcome:
 
 
 def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
-    """Convert an exact hull to the form for comparisons.  A polygon's edges become projected lines."""
+    """Convert an exact hull to the form for comparisons.  A polygon's edges become lines in the projected plane."""
     if hull.dimension == 3:
         equations = [_four([Fraction(c) for c in hull.plane_of(facet)]) for facet in hull.facets]
     elif hull.dimension == 2:

@@ -30,7 +30,7 @@ from modern.comparison.sensitivity import NUMBER, records_of, shape_of
 
 @dataclass(frozen=True, slots=True)
 class StatementDigits:
-    """The estimated significant digits of the values that one statement stored.
+    """The estimated number of significant digits of the values that one statement stored in the random runs.
 
     ``worst`` and ``median`` are those of Stott Parker's estimate, and ``sure`` is the fewest by Sohier's.
     ``times`` counts the values, ``inexact`` those that differ between the runs, and ``zeros`` the computational zeros

@@ -101,7 +101,7 @@ def parse_raw(data: bytes, source: str, shape: Sequence[int] | None, dtype: str)
 
 
 def check_size(shape: Sequence[int], source: str) -> None:
-    """Raise VolumeError for a shape with more than ``MAX_CELLS`` voxels; the message states this limit."""
+    """Raise VolumeError for a volume of this shape if it has more than ``MAX_CELLS`` voxels."""
     if min(shape, default=0) < 0:
         raise VolumeError(f"{source}: invalid shape {quoted(str(tuple(shape)))}")
     if max(math.prod(shape), *shape, 0) > MAX_CELLS:

@@ -65,7 +65,7 @@ class DigitalHull:
 
     @property
     def world(self) -> World | None:
-        """The position of the filled voxels in physical coordinates, or None if it is unknown."""
+        """The position of the hull's voxels in physical coordinates, or None if it is unknown."""
         world = self.source.world
         return None if world is None else world.moved(self.source.origin)
 

@@ -250,5 +250,5 @@ def _world(facts: dict[str, Any], path: str) -> World | None:
 
 
 def _plain(message: str) -> str:
-    """Return a library's message on one line, without control characters."""
+    """Return a message of the library SimpleITK as one line, without control characters."""
     return " ".join("".join(c if c.isprintable() else " " for c in message).split())

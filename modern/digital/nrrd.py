@@ -133,7 +133,7 @@ def _split(data: bytes) -> tuple[bytes, bytes]:
 
 
 def _fields(head: bytes, source: str) -> dict[str, tuple[int, str]]:
-    """Return every field of the header in lower case with its line, without comments and key/value pairs."""
+    """Return the fields of a header by name in lower case, with their lines, but no comments and key/value pairs."""
     fields: dict[str, tuple[int, str]] = {}
     for line, raw in enumerate(head.decode("latin-1").splitlines(), 1):
         if line == 1 or raw.startswith("#") or not raw.strip():

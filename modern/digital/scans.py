@@ -50,7 +50,7 @@ class Scan:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A selection of voxels by value: at least ``threshold``, or one of ``labels``; else all except 0."""
+    """The user's selection of voxels by value: at least ``threshold``, or one of ``labels``; else all except 0."""
 
     threshold: Fraction | None = None
     labels: tuple[int, ...] = ()
@@ -125,7 +125,7 @@ def label_notes(scan: Scan) -> tuple[str, ...]:
 
 
 def label_boxes(scan: Scan, labels: Sequence[int] = ()) -> dict[int, tuple[slice, ...]]:
-    """Return, for each label, the slices that enclose its voxels.  Raise NoVoxels for a given label that is absent."""
+    """Return, for each label, slices for the box that contains its voxels.  Raise NoVoxels for an absent label."""
     sides: dict[int, list[slice]] = {}
     for axis in range(scan.values.ndim):
         first: dict[int, int] = {}

@@ -150,7 +150,7 @@ def voxel_volume(world: World | None) -> Fraction:
 
 
 def length_text(text: str) -> Fraction:
-    """Read a number of a header, of at most 100 digits and an exponent from -400 to 400. Raise ValueError otherwise."""
+    """Read a number of a file header.  Raise ValueError if it has more than 100 digits or a huge exponent."""
     _, whole, fraction, exponent = split_decimal(text)
     if len(whole) + len(fraction) > _MOST_DIGITS or abs(exponent) > _MOST_EXPONENT:
         raise ValueError(f"{quoted(text)} has more than {_MOST_DIGITS} digits or an exponent beyond {_MOST_EXPONENT}")
@@ -163,7 +163,7 @@ def decimal_or_fraction(value: Fraction) -> str:
 
 
 def determinant(rows: Sequence[Sequence[Fraction]]) -> Fraction:
-    """Return the determinant of one to three rows by expansion along the first row."""
+    """Return the determinant of a square matrix with one to three rows."""
     if len(rows) == 1:
         return rows[0][0]
     total = Fraction(0)

@@ -77,7 +77,7 @@ def draw_svg(
 
 
 def filter_scene(picture: Scene, show: Show) -> Scene:
-    """Return the picture without the parts that the user does not want to show."""
+    """Return the picture without the parts that the user chose not to show."""
     if not show.points:
         picture = replace(picture, boundary=(), inside=())
     if not show.hidden:

@@ -57,7 +57,7 @@ def lay_out(picture: Scene, width: int) -> Layout:
 
 
 def fit(images: Sequence[Flat], width: int, highest: int, margin: int = MARGIN) -> tuple[Callable[[Flat], Pixel], int]:
-    """Return a function that converts positions to pixels so that all fit the width and height, and the height used."""
+    """Return a function that converts positions to pixels so that all fit, and the height of the picture."""
     x_min, x_max = _ends(image[0] for image in images)
     y_min, y_max = _ends(image[1] for image in images)
     available = width - 2 * margin

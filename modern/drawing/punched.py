@@ -39,12 +39,12 @@ _FORM = (
 
 
 def column_centre(column: int) -> int:
-    """Return the distance of a column, counted from 1, from the left edge in hundredths of a pixel."""
+    """Return the distance of the centre of a column (1 to 80) from the left edge, in hundredths of a pixel."""
     return (251 + 87 * (column - 1)) * _INCH // 1000
 
 
 def row_centre(row: str) -> int:
-    """Return the distance of a row of holes from the top edge in hundredths of a pixel; ``row`` is its name."""
+    """Return the distance of a row of holes, given by its name, from the top edge in hundredths of a pixel."""
     return _INCH // 4 * (ROWS.index(row) + 1)
 
 

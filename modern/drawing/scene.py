@@ -131,7 +131,7 @@ def _direction(
 def _edges(
     surface: Mesh, faces: Sequence[tuple[int, ...]], normals: Sequence[Vector], signs: Sequence[int]
 ) -> tuple[Edge, ...]:
-    """Return every edge between faces of different planes, each with its visibility, or the only edge of a segment."""
+    """Return every edge between faces in different planes, with its visibility, or the only edge of a segment."""
     if surface.dimension < 2:
         return tuple(Edge(a, b, False) for a, b in surface.edges() if surface.dimension)
     classified = classify(faces, signs, lambda a, b: _parallel(normals[a], normals[b]))

@@ -101,7 +101,7 @@ def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
 
 
 def across(line: Vector) -> Eye:
-    """Return a horizontal direction of view at right angles to the direction ``line``, chosen from the front."""
+    """Return a horizontal direction of view at right angles to a segment, whose direction is ``line``."""
     if not (line[0] or line[1]):
         return 0, -1, 0
     x, y, _ = lowest((line[1], -line[0], Fraction(0)))
@@ -109,7 +109,7 @@ def across(line: Vector) -> Eye:
 
 
 def towards(normal: Vector) -> Eye:
-    """Return the direction of view perpendicular to a polygon: from above, or else from the front or the right."""
+    """Return the direction of view at right angles to a polygon: from above, else from the front or the right."""
     x, y, z = lowest(normal)
     return (x, y, z) if (z, -y, x) > (0, 0, 0) else (-x, -y, -z)
 

@@ -117,7 +117,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     facets: list[Facet] = []
 
     def classified(dimension: int, facets: Sequence[Facet], boundary: Ints) -> ExactHull:
-        """Return the result before it is proved.  ``facets`` and ``boundary`` use indices of distinct points."""
+        """Return the hull and the class of each point, not yet proved.  Indices are those of distinct points."""
         vertices = np.unique(_corners(facets) if len(facets) else [0])
         inside = np.ones(len(distinct), np.bool_)
         inside[vertices] = False

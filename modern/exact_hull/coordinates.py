@@ -191,7 +191,7 @@ def _integers(rows: NDArray[Any], scale: int) -> Objects:
 
 
 def _shifted(floats: Floats, exponent: int) -> Floats:
-    """Return the floats multiplied by 2**exponent; an overflow gives an infinity."""
+    """Return the floats multiplied by 2**exponent.  A number that overflows becomes an infinity."""
     with np.errstate(over="ignore"):
         return np.ldexp(floats, exponent)
 
@@ -205,7 +205,7 @@ def nearest(over: int, under: int) -> float:
 
 
 def _plain(points: Any, kind: type) -> TypeGuard[Sequence[Any]]:
-    """Return True if the points are a list of tuples or lists of three numbers of this type."""
+    """Return True if the points are a list of tuples or lists of three numbers of the type ``kind``."""
     return (
         isinstance(points, list | tuple)
         and set(map(type, points)) <= {tuple, list}

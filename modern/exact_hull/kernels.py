@@ -154,7 +154,7 @@ def add(terms: Any, count: int, number: float) -> int:
 
 
 def product_error(x: float, y: float, product: float) -> float:
-    """Return x y - product exactly, where ``product`` is the rounded product."""
+    """Return the exact rounding error of a product: x y - product."""
     scaled = _SPLITTER * x
     x_high = scaled - (scaled - x)
     x_low = x - x_high
@@ -174,7 +174,7 @@ def difference(x: float, y: float, part: int) -> float:
 
 
 def orientation(terms: Any, places: Any, corners: Any, slot: int, p: int) -> float:
-    """Return a number with the sign of the determinant of b - a, c - a, p - a for corners a, b, c."""
+    """Return a number with the exact sign of the determinant that tells on which side of a triangle ``p`` is."""
     a, b, c = corners[slot, 0], corners[slot, 1], corners[slot, 2]
     count = 0
     for i, j, k, sign in _PRODUCTS:

@@ -60,7 +60,7 @@ class Polygons:
 
 
 def polygons(hull: ExactHull, facets: Facets) -> Polygons:
-    """Return the sides of all polygons.  Raise CertificateError if the polygons do not form a closed surface."""
+    """Return the sides of a hull's polygons.  Raise CertificateError if the polygons do not form a closed surface."""
     require(bool(facets), "there are no facets")
     corner, count = facets.corners, facets.counts
     if count.min() < 3:

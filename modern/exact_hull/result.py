@@ -40,7 +40,7 @@ class Facet:
 
 
 class Facets(LazyTuple[Facet]):
-    """Facets as arrays.  It equals the tuple of the facets, which are made on access.
+    """The facets of a hull as arrays.  An instance equals the tuple of the facets, which are made on access.
 
     ``planes`` (m, 4) are Python integers. ``corners`` are those of all polygons in a row, of ``counts`` corners each.
     """

@@ -137,7 +137,7 @@ def with_epsilon(deck: Deck, epsilon: object) -> Deck:
 
 
 def read_coordinates(card: Card, rules: Rules) -> tuple[FieldNumber, FieldNumber, FieldNumber]:
-    """Return x, y and z of a valid card as a machine with these arithmetic rules reads them."""
+    """Return x, y and z of a valid card as a machine with these arithmetic rules would read them."""
     x, y, z = (read_floating(COORDINATE, columns, rules) for _, columns in _fields(card))
     return x, y, z
 

@@ -1,4 +1,4 @@
-"""HTML: a self-contained page that shows a hull, which the reader can rotate.
+"""Write a hull as HTML: a self-contained page on which the reader can rotate it.
 
 The page responds to dragging, the arrow keys, the mouse wheel, +, - and 0.  Without JavaScript it shows a notice and a
 table of the exact vertices.

@@ -1,4 +1,4 @@
-"""JSON: the complete data of a hull, with every number exact.
+"""Write and read JSON: the complete data of a hull, with every number exact.
 
 Coordinates and coefficients are strings, decimals or fractions ``p/q``.  The integers of equations in lowest terms are
 strings too, because many JSON readers round large numbers.  Indices refer to ``points`` and count from 0.  The reader

@@ -1,4 +1,4 @@
-"""The Wavefront OBJ format: polygons and decimal text, both preserved.
+"""Write and read the Wavefront OBJ format: polygons and decimal text, both preserved.
 
 A polyhedron is written with its faces (``f``), a polygon with one face, a segment as a line (``l``), a point as ``p``.
 The reader returns the vertices (``v``) and ignores anything after their x, y and z (a weight or a colour).  For a

@@ -1,4 +1,4 @@
-"""OFF, the Object File Format of Geomview (manual, section "OFF Files"): polygons and decimal text, both preserved.
+"""Write and read OFF, the Object File Format of Geomview (manual, section "OFF Files"): polygons and decimal text.
 
 A polyhedron is written with its faces, a polygon with one face, a segment as two vertices and a point as one vertex,
 both without faces.  The reader accepts the plain ASCII form: one vertex or face in a line, comments after ``#``.

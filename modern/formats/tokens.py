@@ -24,7 +24,7 @@ class FileMesh:
 
 
 def lines(text: str, comment: str = "#") -> Iterator[Line]:
-    """Yield the lines that have tokens.  Text after the mark ``comment`` is ignored, unless the mark is empty."""
+    """Yield the lines of a text that have tokens, without comments, which begin with the mark ``comment``."""
     for line_number, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
         content = line.split(comment, 1)[0] if comment else line
         tokens = [(match[0], match.start() + 1) for match in re.finditer(r"\S+", content)]

@@ -84,7 +84,7 @@ class LazyMembers(LazyTuple[T]):
 
 
 class PointTexts(LazyMembers[tuple[str, str, str]]):
-    """Points whose coordinates are exact text, which is only made on access.
+    """A sequence of points whose coordinates are exact text, computed when they are accessed.
 
     ``floats`` returns a new array of the nearest doubles (n, 3).  ``numbers`` is an array of them, or None.
     """
@@ -227,7 +227,7 @@ class Hull:
 
 
 class HullRefused(EmulatorError):
-    """Raised if a procedure finds no hull in its arithmetic; ``result`` holds the incomplete result with its status."""
+    """Raised if a procedure finds no hull in its arithmetic; ``result`` holds the incomplete result and the reason."""
 
     def __init__(self, result: Any) -> None:
         way = "a smaller epsilon may find" if result.status == NOT_CLOSED else "'exact' always finds"

@@ -77,7 +77,7 @@ class Mesh:
         return len(known) == len(edges) and all((b, a) in known for a, b in edges)
 
     def triangles(self) -> tuple[Triangle, ...]:
-        """Return the faces split into triangles, each from its first vertex."""
+        """Return the faces divided into triangles, all from the first vertex of the face."""
         fans = ([face] if len(face) == 3 else zip(repeat(face[0]), face[1:-1], face[2:]) for face in self.faces)
         return tuple(chain.from_iterable(fans))
 

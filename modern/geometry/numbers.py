@@ -58,7 +58,7 @@ def decimal(text: str) -> Exact:
 
 
 def number(text: str) -> Fraction:
-    """Return the value of a decimal string or of a fraction ``p/q``.  Raise ValueError with a short message."""
+    """Return the value of text that is a decimal or a fraction ``p/q``.  Raise ValueError with a short message."""
     stripped = text.strip()
     quotient = _QUOTIENT.fullmatch(stripped)
     try:

@@ -43,7 +43,7 @@ class Arithmetic(ABC):
         """Convert a coordinate; ``minus`` marks a zero with a minus sign.  Raise RangeError if it is too large."""
 
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
-        """Convert a tolerance for values of the given degree.  Raise RangeError if it is too large."""
+        """Convert a tolerance for values of the given degree (see the module).  Raise RangeError if it is too large."""
         return self.number(size)
 
     @cached_property
@@ -68,7 +68,7 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def exact(self, value: Scalar, degree: int) -> Exact:
-        """Return the exact value of a number of the given degree (see the module's docstring)."""
+        """Return the exact value of a number; ``degree`` is the number of coordinates multiplied in it."""
 
     @abstractmethod
     def text(self, value: Scalar, degree: int) -> str:
@@ -142,7 +142,7 @@ Point = tuple[Number, Number, Number]
 
 
 def less(total: Number, product: Number) -> Number:
-    """Return ``total - product`` as the 1620's compiler computes it: product - total, sign reversed."""
+    """Return ``total - product`` as the 1620's compiler computes it, as ``-(product - total)``."""
     return -(product - total)
 
 

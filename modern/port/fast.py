@@ -79,7 +79,7 @@ def _in_range(arithmetic: FloatArithmetic, points: PointTable, slack: Slack | No
 
 @cache
 def load(name: str) -> Steps:
-    """Return the steps with kernels compiled for ``float64`` or ``float32``. Raise NotInstalled if numba is missing."""
+    """Return the two steps of program 3, compiled for ``float64`` or ``float32``.  Raise NotInstalled without numba."""
     # Arrays of one element tell numba the types.
     sample, sample_index = np.zeros((4, 1), name), np.zeros(1, np.int64)
     cloud = Cloud(sample[:3].copy(), sample_index, sample_index, sample_index)
@@ -95,7 +95,7 @@ def load(name: str) -> Steps:
 
 
 def with_kernels(grow: Function, find_satisfied: Function) -> Steps:
-    """Wrap the kernels, compiled or as plain Python functions, as the two operations of :class:`Steps`."""
+    """Return the two steps of program 3 that run the given kernels, compiled or as plain Python functions."""
 
     def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
         """Add the next vertex to the hull, or as many as the kernel can if no caller watches the growth."""

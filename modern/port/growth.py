@@ -119,7 +119,7 @@ Hull = TypeVar("Hull", bound=Growing)
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """The effect of adding a vertex: points added and eliminated, by input index, and the equations involved."""
+    """The effect of adding a vertex: the points added and eliminated, and the numbers of the equations involved."""
 
     added: tuple[int, ...]
     checked: int
@@ -146,7 +146,7 @@ def stage(hull: Growing, first: bool) -> Grown | None:
 
 
 def grow(hull: Hull, grow_stage: Callable[[Hull, bool], Grown | None] = stage) -> None:
-    """Run ``grow_stage`` until no point is outside.  One call may add several vertices if no caller watches."""
+    """Run ``grow_stage``, which adds one or more vertices, until no point is outside the hull."""
     hull.remaining.begin(len(hull.points) - hull.vertices)
     growth = grow_stage(hull, True)
     while growth:

@@ -47,7 +47,7 @@ BLOCK = 256
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
-    """Return the first slot from ``first`` to ``last`` whose plane shows that the point is not inside, or -1."""
+    """Return the first plane from slot ``first`` to ``last`` that the point is on or outside of, or -1."""
     for slot in range(first, last):
         if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
             return slot
@@ -172,7 +172,7 @@ def sort_descending(order: NDArray[np.int64], values: NDArray[Any], first: int, 
 
 
 def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, state: Any, rules: Any) -> int:
-    """Write three new planes into empty slots for each plane to be replaced.
+    """Write three new planes into empty slots for each plane to be replaced by the new vertex.
 
     Return flags that tell which corrections of the listing this needed, or -1 if only numpy can run the stage.
     """
@@ -245,7 +245,7 @@ def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) ->
 
 
 def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
-    """Return True if deleting equal planes in pairs leaves at most one plane after some pair."""
+    """Return True if the listing would fail here: a deleted pair of equal planes leaves at most one plane after it."""
     remaining = count
     for k in range(count):
         if partner[k] < 0:
@@ -329,7 +329,7 @@ def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: 
 
 
 def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: Any, e: Any) -> int:
-    """Count the points on the plane, with the same loop as :func:`count_above`."""
+    """Count the points on a plane, without branches, like :func:`count_above`."""
     x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
     count = 0
     for k in range(len(x)):
@@ -338,7 +338,7 @@ def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: An
 
 
 def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], indices: NDArray[np.int64]) -> int:
-    """List the points on each plane, as many as the arrays hold, and return the total number."""
+    """List the points on each plane as far as the array has room, and return their total number."""
     k, count = 0, coordinates.shape[1]
     for slot in range(len(slots.alive)):
         plane_equation, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k

@@ -46,7 +46,7 @@ def direction(arithmetic: Arithmetic, p: Point, q: Point) -> int:
 
 
 def line_equations(p: Point, q: Point, perpendicular: int, zero: Scalar) -> tuple[Four, Four]:
-    """Return two plane equations A x + B y + C z + D = 0 that together describe a line (statements 113 to 123)."""
+    """Return two planes A x + B y + C z + D = 0 that intersect in the line through two points (statement 113 on)."""
     equations = []
     for i, j in _PAIRS[perpendicular]:
         a, b, c = line(p[i], p[j], q[i], q[j], p[i], p[j])
@@ -136,7 +136,7 @@ def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, t
 
 
 def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
-    """Return C, a point inside the hull: the mean of the first ``count`` points (statement 199+1)."""
+    """Return C, a point inside the hull: the mean of the first ``count`` points (statement 199)."""
     x, y, z = (row[:count] for row in points.rows)
 
     def average(row: Vector) -> Scalar:

@@ -103,7 +103,7 @@ class Faces:
 
 
 class Historian:
-    """A recorder of the construction, called for each hull H_j.  ``stages`` converts the records on first access."""
+    """A recorder of the construction.  It is called for each hull H_j; ``stages`` returns the records."""
 
     def __init__(self, points: PointTable) -> None:
         self.points = points

@@ -170,12 +170,12 @@ def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, in
 
 
 def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the end points, renumbered without the points that are not vertices."""
+    """Return the numbers of the vertices at the ends of the lines, counting vertices only."""
     return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 
 def listed_numbers(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the end points as the listing computes them, sometimes wrongly (statement 179+2 on)."""
+    """Return the numbers of the vertices at the ends as the listing computes them, sometimes wrongly (179+2 on)."""
     numbers = []
     for number in ends.ravel().tolist():
         # The listing compares with the number already lowered, so it can skip a point that is no vertex.

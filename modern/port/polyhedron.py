@@ -20,7 +20,7 @@ LISTED_PLANES, PLANES = 98, 193
 
 @dataclass(frozen=True)
 class Fresh:
-    """The planes through a new vertex, and flags: does a plane pass through C, or have only zero coefficients?"""
+    """The planes through a new vertex, and flags: does one pass through the inner point C, or have only zeros?"""
 
     coefficients: Vector
     defining: NDArray[np.int64]
@@ -142,7 +142,7 @@ class Polyhedron:
         return retained
 
     def stop(self, first_equation: int, above: dict[int, Scalar], new: int) -> None:
-        """Replace the planes one by one, as the listing does, to find the statement at which it fails; then raise
+        """Repeat the failing stage plane by plane, as the listing does, to find the statement at which it stops; raise
         Stopped.
 
         A plane of zeros is an error. A plane through the new point that has this point outside is replaced by a copy of
@@ -197,7 +197,7 @@ def strike_repeats(table: Equations, on: On, count: int, progress: growth.Progre
 
 
 def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
-    """Return the indices from 1 on of equations that hold at more points than the three that define them."""
+    """Return the indices, except 0, of equations that hold at more points than the three that define them."""
     three = np.flatnonzero(np.fromiter(map(len, on), np.int64, len(on)) == 3)
     only_defining = np.zeros(len(on), np.bool_)
     if three.size:

@@ -192,7 +192,7 @@ class _Run:
         )
 
     def finished(self, label: str) -> Hull:
-        """Return the result, for which the statement ``label`` was decisive, with points and corrections so far."""
+        """Return the result for the statement ``label`` that decided it, with points and corrections so far."""
         return replace(
             self.result,
             statement=label,

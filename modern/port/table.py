@@ -147,7 +147,7 @@ class Equations:
         return snapped(self.arithmetic, at(tuple(self.coefficients), point), self.tolerances)
 
     def values(self, coefficients: Vector, point: tuple[Scalar, ...]) -> Vector:
-        """Return the values at one point of the given equations, which need not be in the table."""
+        """Return the values of the given equations at one point."""
         slack = self.slack.of(tuple(coefficients)) if self.slack else None
         return snapped(self.arithmetic, at(tuple(coefficients), point), slack)
 

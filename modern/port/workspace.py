@@ -90,17 +90,17 @@ class Rules(NamedTuple):
 
 
 def is_outside(value: Any, e: Any) -> bool:
-    """Return True if the value is positive. Values from -e to +e count as zero."""
+    """Return True if a plane's value at a point shows that the point is outside.  From -e to +e it counts as zero."""
     return value > 0 and value > e  # type: ignore[no-any-return]
 
 
 def is_not_inside(value: Any, e: Any) -> bool:
-    """Return True if the value is zero or positive. Values from -e to +e count as zero."""
+    """Return True if a plane's value at a point shows that it is outside or on the plane, to within e."""
     return value >= 0 or value >= -e  # type: ignore[no-any-return]
 
 
 def is_on(value: Any, e: Any) -> bool:
-    """Return True if the value is zero. Values from -e to +e count as zero."""
+    """Return True if a plane's value at a point shows that it is on the plane, to within e."""
     return value == 0 or abs(value) <= e  # type: ignore[no-any-return]
 
 

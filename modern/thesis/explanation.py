@@ -59,7 +59,7 @@ _DETAILS: dict[Kind, str] = {
 
 
 def digits_of(arithmetic: str) -> str:
-    """Return words for the digits of an arithmetic, to be used as the plural subject of a sentence."""
+    """Return words such as "eight digits" for an arithmetic, as the plural subject of a sentence."""
     return "eight digits" if arithmetic == "truncating" else f"the digits of {arithmetic}"
 
 

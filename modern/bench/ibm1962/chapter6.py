@@ -29,7 +29,7 @@ SAME, DIFFERENT = "same", "different"
 
 @dataclass(frozen=True, slots=True)
 class CardVerdict:
-    """The verdict on one punched card; ``card`` counts the cards of a program's run from 1."""
+    """The verdict on one punched card; ``card`` is its number, from 1, among the cards of a program's run."""
 
     example: int
     program: int
@@ -87,7 +87,7 @@ def digest(cards: Sequence[str]) -> str:
 
 
 def _means() -> str:
-    """Return TOML text that identifies the means: digests of the library and the programs, and the simulator."""
+    """Return TOML text that identifies what was used: hashes of the library and the programs, and the simulator."""
     version = subprocess.run([simulator()], input=b"quit\n", capture_output=True, check=False).stdout.decode("latin1")
     title = next((line.strip() for line in version.splitlines() if "1620" in line), "unknown")
     lines = [f'library = "{digest(library())}"', f'simulator = "{" ".join(title.split())}"', "", "[programs]"]

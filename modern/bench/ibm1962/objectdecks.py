@@ -59,7 +59,7 @@ class Comparison:
     error: str = ""
 
     def differences(self) -> Iterator[tuple[str, str]]:
-        """Yield each pair of different cards or lines, of the library and of the emulator."""
+        """Yield each pair of cards or lines that differ, first the library's and then the emulator's."""
         for library, emulator in zip(self.library, self.emulator, strict=True):
             length = max(len(library), len(emulator))
             padded = [(*side, *[""] * (length - len(side))) for side in (library, emulator)]

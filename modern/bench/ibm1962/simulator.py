@@ -60,7 +60,7 @@ class Run:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """An object program for the loaded library: start, positions to set, data cards, positions to return."""
+    """A program to run on the loaded library: its start, positions of storage to set and to return, and data cards."""
 
     start: int
     stored: Mapping[int, Sequence[int]]

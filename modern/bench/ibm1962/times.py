@@ -74,7 +74,7 @@ def timed() -> Iterator[TimedRun]:
 
 
 def table(runs: Iterator[TimedRun]) -> str:
-    """Return the table of timed runs as CSV text."""
+    """Return the measured runs as the text of a CSV table."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows((HEAD, *(each.row() for each in runs)))
     return text.getvalue()

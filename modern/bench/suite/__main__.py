@@ -29,7 +29,7 @@ def command_lines() -> Iterator[str]:
 
 
 def engine_lines() -> Iterator[str]:
-    """Measure the engines: one run over one deck, and ``hull1620 bench`` over a thousand decks."""
+    """Measure the engines, on one deck and with ``hull1620 bench`` on a thousand decks.  Yield the results as lines."""
     deck = data_deck(random_points(POINTS, 1))
     middle = deck_from_lines("middle", Machine(programs.program("program1"), deck).run().punched)
     program = programs.program("program3")

@@ -100,7 +100,7 @@ def process_of(name: str, diameter: int) -> Work:
 
 
 def works(volume: Volume) -> dict[str, Work]:
-    """Return the functions to be timed, which compute hulls of a solid's voxel centres, by name."""
+    """Return the functions to be timed, by name.  Each computes a hull of a solid's voxel centres."""
     return {
         OCTREE: lambda: octree_hull(volume),
         CELLS: lambda: voxel_hull(volume, CENTRES),
@@ -153,7 +153,7 @@ def by_scikit_image(array: Any) -> Any:
 
 
 def memory(side: int, way: str) -> str:
-    """Measure the peak memory of a process that fills the hull of a ball.  Return it as text, with the limit."""
+    """Measure the peak memory of filling the hull of a ball.  Return it as text, with the limit it must not exceed."""
     size, most = peak(side, way)
     return f"{most / 1e6:.0f} MB, bar {(4 * size + 300e6) / 1e6:.0f} MB"
 

@@ -52,7 +52,7 @@ def figures() -> Iterator[Figure]:
 
 
 def growth() -> dict[str, list[tuple[int, float, int]]]:
-    """Measure the median seconds of all steps and the number of overlapping pairs, by arrangement and size."""
+    """Measure median seconds of all steps, and the overlapping pairs, by arrangement and number of cuboids."""
     rows_by_arrangement: dict[str, list[tuple[int, float, int]]] = {}
     for name, arrangement in (("in a grid of three dimensions", block), ("on a floor, few overlap", field)):
         rows_by_arrangement[name] = [

@@ -74,7 +74,7 @@ def eight_digits(points: Any) -> Any:
 
 
 def judge(points: Any) -> dict[str, Work]:
-    """Return functions that compute the exact hull: with numpy alone and, if numba is installed, with compiled code.
+    """Return functions that compute the exact hull of points: with numpy alone and, if numba is installed, compiled.
 
     Their results have vertices, triangles and the certificate.
     """
@@ -85,7 +85,7 @@ def judge(points: Any) -> dict[str, Work]:
 
 
 def port(points: Any) -> dict[str, Work]:
-    """Return functions that run Butler's procedure in float64: with numpy alone and, with numba, compiled."""
+    """Return functions that run Butler's procedure on points in float64: with numpy alone and, with numba, compiled."""
     works: dict[str, Work] = {"port, numpy": lambda: convex_hull(points, "float64", fast=False)}
     if find_spec("numba"):
         works["port, fast"] = lambda: convex_hull(points, "float64", fast=True)
@@ -95,7 +95,7 @@ def port(points: Any) -> dict[str, Work]:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Hull functions to compare on one point set, timed in turn in processor seconds; programs of others come last."""
+    """Hull functions that are timed on one point set in turn; programs of others (the peers) come last."""
 
     points: str
     rows: tuple[Figure, ...]
@@ -150,7 +150,7 @@ def lines(largest: int = 1_000_000) -> Iterator[str]:
 
 
 def starts() -> Iterator[Figure]:
-    """Time whole processes that compute one small hull: without compiled code, with it, and with compilation."""
+    """Time whole processes that compute one small hull: without compiled code, with it, and while it is compiled."""
     if not find_spec("numba"):
         return
     yield timed("a process with one small hull, numpy", small_hull(False))

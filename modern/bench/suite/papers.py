@@ -87,7 +87,7 @@ def cell_lists(largest: int = LARGEST_BALL) -> Iterator[Figure]:
 
 
 def cell_list(volume: solids.Volume, of: Of, neighbours: int, coplanar: Coplanar, bar: str) -> Figure:
-    """Measure the cell list of a solid's hull, with the time for each local corner in the figure's note."""
+    """Measure the cell list of a solid's hull.  The note of the result has the time for each local corner."""
     corners = len(local_corners(volume, of, neighbours))
     figure = timed(
         f"cell list, {volume.source}, {of}, {neighbours}, {coplanar}",

@@ -70,7 +70,7 @@ class Missing(Exception):
 
 
 def qhull() -> Peer:
-    """Return a function that prepares a Qhull run on doubles.  Raise Missing if scipy is not installed."""
+    """Return a function that prepares points for Qhull and returns the call to time.  Raise Missing without scipy."""
     try:
         from scipy.spatial import ConvexHull
     except ImportError:
@@ -84,7 +84,7 @@ def qhull() -> Peer:
 
 
 def cgal(folder: Path) -> Peer:
-    """Return a function that prepares a CGAL run on doubles in a process.  Raise Missing if it cannot be compiled."""
+    """Return a function that prepares points for CGAL, in a process, and returns the call to time.  Raise Missing."""
     command_of_cxx = shlex.split(os.environ.get("CXX", ""))
     command = command_of_cxx or next(([name] for name in COMPILERS if shutil.which(name)), [])
     if not command or not shutil.which(command[0]):

@@ -44,7 +44,7 @@ Affine = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class NiftiHeader:
-    """The facts from a NIfTI header: sizes, positions by name (qform, sform), and a note about scaled values or ""."""
+    """The contents of a NIfTI header: sizes, positions by name (qform, sform), and a note about scaled values or ""."""
 
     sizes: tuple[int, ...]
     spacing: tuple[float, ...]
@@ -161,7 +161,7 @@ def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
 
 
 def _distance(first: Affine, second: Affine, header: NiftiHeader, spacing: bool = True) -> float:
-    """Return how far apart two positions place a corner of the volume, at most; 0 if the distance is negligible.
+    """Return the largest distance between two positions of a corner of the volume, or 0 if it is negligible.
 
     If ``spacing`` is false, only directions and origins are compared: both positions are given the steps of ``pixdim``.
     """

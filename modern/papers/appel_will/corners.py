@@ -41,12 +41,12 @@ class Preprocessing:
 
 
 def triple_product(i: IntPoint, k: IntPoint, l: IntPoint) -> int:  # noqa: E741  # the paper's letters
-    """Return the triple product [IKL], the determinant with the columns I, K and L."""
+    """Return the triple product of three vectors, [IKL] in the paper: the determinant with these columns."""
     return dot(i, cross(k, l))
 
 
 def corners(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[Corner, ...]:
-    """Compute the triple product [IKL] of every edge of oriented surfaces."""
+    """Compute, for every edge of the polyhedron, the triple product whose sign tells if the edge is reentrant."""
     return tuple(Corner(line, triple_product(*vectors(points, surfaces, line))) for line in lines(surfaces))
 
 

@@ -57,7 +57,7 @@ class Loop:
 
 @dataclass(frozen=True, slots=True)
 class LoopTable:
-    """All loops in the order in which they were found. ``stopped`` says why the search failed, or is empty."""
+    """All loops (borders of faces) in the order of the search; ``stopped`` says why the search failed, or ""."""
 
     loops: tuple[Loop, ...]
     uses: tuple[int, ...]
@@ -129,7 +129,7 @@ def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) 
 
 
 def surface(entries: Sequence[int], edges: Sequence[Pair]) -> tuple[int, ...]:
-    """List the points around a face: the start LC1 of each positive entry, the end LC2 of each negative one."""
+    """List the points around a face: the first end of each edge of its loop, in the direction of the loop."""
     return tuple(edges[abs(entry) - 1][0 if entry > 0 else 1] for entry in entries)
 
 
@@ -181,7 +181,7 @@ def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
 
 
 def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
-    """Return True if no points are on one side of the plane of the two edges (steps 6 and 7)."""
+    """Return True if no point is on one of the two sides of the plane through two edges (steps 6 and 7)."""
     normal, origin = _plane(table.points, crossing)
     heights = (dot(normal, minus(table.points[p], origin)) for p in table.vertices)
     sides = {(height > 0) - (height < 0) for height in heights}

@@ -94,7 +94,7 @@ def solid_svg(
 
 
 def as_mesh(hull: Assembled, points: Sequence[Point]) -> Mesh:
-    """Return the assembled hull as a mesh with its points in the order of the vertex list."""
+    """Convert the assembled hull to a mesh with its points in the order of the vertex list."""
     places = {index: place for place, index in enumerate(hull.vertices)}
     faces = tuple(tuple(places[index] for index in surface) for surface in hull.outward())
     return Mesh(hull.dimension, tuple(points[index] for index in hull.vertices), faces)

@@ -201,7 +201,7 @@ def _map_rows(hull: Assembled) -> Iterator[str]:
 
 
 def _from_lowest(surface: Surface) -> Surface:
-    """Return the points of a surface from its lowest number, towards the lower of the two neighbouring numbers."""
+    """List the points around a surface, beginning with the lowest number and going to the lower of its neighbours."""
     start = surface.index(min(surface))
     cycle = surface[start:] + surface[:start]
     return cycle if cycle[1] < cycle[-1] else (cycle[0], *cycle[:0:-1])

@@ -17,12 +17,12 @@ StarTest = Callable[[Sequence[Image]], bool]
 
 
 def vorticity(a: Image, b: Image) -> int:
-    """Return twice the area of the triangle C, a, b, positive if it runs counterclockwise (Fig. 8); C is the origin."""
+    """Return twice the area of the triangle of C, the origin, and two points, positive if counterclockwise (Fig. 8)."""
     return a[0] * b[1] - a[1] * b[0]
 
 
 def on_one_ray(a: Image, b: Image) -> bool:
-    """Return True if a and b lie in the same direction from the origin C (I and II of Fig. 12), not opposite."""
+    """Return True if two projected points lie in the same direction from C, the origin (I and II of Fig. 12)."""
     return vorticity(a, b) == 0 and a[0] * b[0] + a[1] * b[1] > 0
 
 
@@ -97,7 +97,7 @@ Pair = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Deleted:
-    """A point deleted from the vertex list because it lies on the line between two others (Fig. 13)."""
+    """A point that was deleted from the list because it lies on the line between two others (Fig. 13)."""
 
     point: int
     between: Pair
@@ -105,7 +105,7 @@ class Deleted:
 
 @dataclass(frozen=True, slots=True)
 class Edges:
-    """The result of all tests: edges (i, j) with i < j, deleted points, and the number of projections."""
+    """The result of testing all pairs of points: the edges (i, j) of the hull, the deleted points, and a count."""
 
     edges: tuple[Pair, ...]
     deleted: tuple[Deleted, ...]

@@ -102,7 +102,7 @@ def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[S
 
 
 def lines(surfaces: Sequence[Surface]) -> tuple[Line, ...]:
-    """List every line of oriented surfaces once, directed as on its surface of lower number."""
+    """List every line of the polyhedron once, in its direction on the surface with the lower number."""
     owner = {line: number for number, surface in enumerate(surfaces) for line in sides(surface)}
     both_sides = ((line, number, owner[line[1], line[0]]) for line, number in owner.items())
     return tuple(Line(line, on, beyond) for line, on, beyond in both_sides if on < beyond)

@@ -30,7 +30,7 @@ class CellListError(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class Vertex:
-    """A vertex in a cell list (Table 1). ``edges``: -e for each edge e that starts here, +e if it ends here."""
+    """A vertex in a cell list (Table 1). ``edges`` has -e for an edge e that starts here, +e for one that ends here."""
 
     point: IntPoint
     edges: tuple[int, ...]
@@ -95,7 +95,7 @@ class CellList:
         return Economical(self.points, tuple(face.vertices for face in self.faces))
 
     def planes(self) -> tuple[Plane, ...]:
-        """Return (a, b, c, d) of each face in lowest terms; in the polyhedron a x + b y + c z + d is at most 0."""
+        """Return the plane (a, b, c, d) of each face in lowest terms; inside, a x + b y + c z + d is at most 0."""
         return tuple(planes_of(self.points, [face.vertices for face in self.faces]))
 
 
@@ -114,7 +114,7 @@ def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> li
 
 
 def _shifted(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Array]:
-    """Return the least coordinates, and the points relative to them: as int64 if the values of all planes fit."""
+    """Move the points so that the least coordinates are 0.  Return these and the points, as int64 if large enough."""
     x, y, z = (min(axis) for axis in zip(*points, strict=True))
     shifted = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
     extent = max(map(max, shifted))
@@ -223,7 +223,7 @@ def expanded(encoding: Economical) -> CellList:
 
 
 def _check_cycles(sizes: Numbers, start: Numbers, face: Numbers, count: int) -> None:
-    """Raise CellListError for a face with fewer than three, repeated or nonexistent vertices."""
+    """Raise CellListError if a face has fewer than three vertices, a repeated one, or one that does not exist."""
     too_short = np.flatnonzero(sizes < 3)
     order = np.lexsort((start, face))
     twice = (face[order][1:] == face[order][:-1]) & (start[order][1:] == start[order][:-1])

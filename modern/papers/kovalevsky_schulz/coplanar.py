@@ -141,7 +141,7 @@ class _Growing:
         return dot(plane[:3], self.points[k]) + plane[3]
 
     def convex_cycle(self, plane: Plane, corners: Sequence[int]) -> tuple[int, ...]:
-        """Return the hull of points in a plane, counterclockwise as seen from outside, beginning with the smallest."""
+        """Return the hull of points in a plane as a cycle, counterclockwise from outside, the smallest index first."""
         # Dropping the coordinate with the largest normal component projects the plane one to one. Exchanging the
         # other two if that component is negative keeps the sense of rotation.
         axis = max(range(3), key=lambda k: abs(plane[k]))
@@ -153,7 +153,7 @@ class _Growing:
         return cycle[start:] + cycle[:start]
 
     def chain(self, order: Sequence[int], u: int, v: int) -> list[int]:
-        """Return half of the hull of sorted points, in the coordinates u and v (Andrew's monotone chain)."""
+        """Return half of the convex hull of sorted points in two coordinates (Andrew's monotone chain)."""
         chain: list[int] = []
         for k in order:
             # A point where the chain turns right or goes straight on is no vertex of the face.

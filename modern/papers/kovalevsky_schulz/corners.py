@@ -59,7 +59,7 @@ def _extra(volume: Volume, of: Of) -> int:
 
 
 def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points]:
-    """Return two lists of local corners, found by the test with 6 neighbours and by the test with 26."""
+    """Return the local corners (points that can be vertices) twice: as tested with 6 neighbours and with 26."""
     extra = _extra(volume, of)
     # The slabs are cut across the axis with the largest stride, so that each is contiguous in memory.
     order = sorted(range(3), key=lambda axis: -abs(volume.array.strides[axis]))
@@ -134,5 +134,5 @@ def local_corners(volume: Volume, of: Of = VERTICES, neighbours: int = 26) -> Po
 
 
 def _steps() -> Iterator[tuple[int, ...]]:
-    """Yield the step to one neighbour of each pair of opposite neighbours."""
+    """Yield 13 of the 26 neighbours of a grid point, one of each pair of opposite ones, as steps to them."""
     return (step for step in product((-1, 0, 1), repeat=3) if step > (0, 0, 0))

@@ -84,7 +84,7 @@ class Surface:
 
     @property
     def triangles(self) -> CellList:
-        """The triangles that result from inserting points one by one. Raises VolumeError if none were inserted."""
+        """The triangles that result from inserting points one by one.  Raise VolumeError if none were inserted."""
         if self.triangulation is None:
             raise VolumeError("triangles exist only if points are inserted: set the order, for example to raster")
         return self.triangulation
@@ -201,7 +201,7 @@ def _surface(points: Points, order: Order | None, coplanar: Coplanar) -> Surface
 
 
 def ordered(points: Points, order: Order) -> Points:
-    """Sort points in raster order into the order of insertion. Raise ValueError for an unknown order."""
+    """Sort points, given in raster order, into the requested order of insertion.  Raise ValueError if it is unknown."""
     if order == SHUFFLED:
         return np.random.default_rng(_SEED).permutation(points)
     if order != RASTER:

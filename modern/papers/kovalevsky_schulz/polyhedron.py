@@ -121,7 +121,9 @@ class CurrentPolyhedron:
         return visible
 
     def _visible(self, number: int, first: int) -> list[int]:
-        """Return the sorted numbers of the faces visible from a point (Definition VI), by a search from ``first``."""
+        """Return the sorted numbers of all faces visible from a point, by a search that starts at the face
+        ``first``.
+        """
         x, y, z = self.shifted[number]
         faces, sides, least = self.faces, self.sides, self.least
         visible, tested = [first], {first}

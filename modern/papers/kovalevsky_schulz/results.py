@@ -69,7 +69,7 @@ def _tetrahedron() -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:
-    """Compute Table 4 from the three counts that the paper prints for a body known only as a picture."""
+    """Compute the paper's Table 4 from the three counts it prints; the body itself is known only as a picture."""
     # One Marching Cubes vertex lies in every voxel face. Formulas (5) and (6) then give the numbers of integers.
     voxel_faces = int(surface.split()[-2])
     triangles = cube_triangles(voxel_faces)

@@ -45,7 +45,7 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Bodies:
-    """The convex polyhedra of a file, and notes for the user, one line each, on how they were obtained."""
+    """The convex polyhedra read from a file, and notes for the user on how they were obtained, one line each."""
 
     polyhedra: tuple[Polyhedron, ...]
     notes: tuple[str, ...]
@@ -53,7 +53,7 @@ class Bodies:
 
 @dataclass(frozen=True, slots=True)
 class _Component:
-    """Connected faces and their vertices, sorted, as indices in the file."""
+    """A connected part of a surface: its faces and vertices, sorted, as indices in the file."""
 
     name: str
     faces: tuple[int, ...]

@@ -28,7 +28,7 @@ class Passage:
 
     @property
     def order(self) -> int:
-        """The number of contours, 0 or 1, that this passage adds to those that hide the segment's start."""
+        """The number of contours, 0 or 1, that this passage adds to those hiding the segment's first end."""
         return sum(index == -1 for _, index in self.marks)
 
 
@@ -78,7 +78,7 @@ def clipped(values: Values, first: int, last: int) -> Passage:
 def as_printed(
     values: Values, first: int, last: int, ends: tuple[Homogeneous, Homogeneous], contour: Sequence[Homogeneous]
 ) -> Passage:
-    """Compute the passage as printed, which misses an intersection at a vertex, because only d = -4 counts."""
+    """Compute the passage as the paper prints it, which misses an intersection at a vertex of the contour."""
     a, b, c = line_through(_flat(ends[0]), _flat(ends[1]))
     sides = [sign(a * x + b * y + c * w) for x, y, _, w in contour]
     places = []

@@ -1,4 +1,4 @@
-"""Draw a scene with hidden lines eliminated: the paper's third step (sections 3.2 to 3.5) after its first two."""
+"""Draw a scene with hidden lines removed: the complete method, whose third step is in sections 3.2 to 3.5."""
 
 import math
 import time
@@ -199,7 +199,7 @@ def _relations(
 def _pass(
     behind: list[list[tuple[int, Passage]]], far: Solid, near: Solid, of_near: Values, without: Collection[str]
 ) -> None:
-    """Record where the far polyhedron's segments pass behind the near one."""
+    """Record where the segments of the farther polyhedron pass behind the nearer one."""
     contour = near.images[: len(near.contour)]
     for course, segment in zip(behind, far.segments, strict=True):
         if ENDS in without:

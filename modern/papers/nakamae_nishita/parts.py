@@ -115,7 +115,7 @@ def make(item: Part) -> Iterator[Polyhedron]:
 
 
 def _figure(place: str, shape: Polyhedron, corners: tuple[Vector, ...]) -> Figure:
-    """Find the face on which a figure lies.  On a plate it is the side from which the corners run clockwise."""
+    """Find the face on which a figure lies.  On a plate, that is the side from which its corners run clockwise."""
     if len(corners) < 3:
         raise SceneError(f"{place}: figures: expected at least 3 corners, found {len(corners)}")
     for order, face in enumerate(shape.faces):

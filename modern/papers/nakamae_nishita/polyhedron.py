@@ -17,7 +17,7 @@ from modern.geometry.vectors import N, Vector, area_vector, cross, dot, lowest, 
 
 
 class SceneError(EmulatorError):
-    """Raised if a scene cannot be drawn because a file, a shape or the arrangement is invalid, in one line."""
+    """Raised if a scene cannot be drawn: a file, a shape or the arrangement is invalid.  The message is one line."""
 
 
 @dataclass(frozen=True, slots=True)

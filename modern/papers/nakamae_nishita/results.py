@@ -18,7 +18,7 @@ _OTHER_SIDE = (-34, 37, 41)
 
 
 def produced(_: Lines) -> Lines:
-    """Compute the lines of each result that can be computed, keyed by its id; the printed lines are not needed."""
+    """Compute the lines of each published result that can be computed, keyed by its id."""
     lines: dict[str, Sequence[str]] = dict(_crossing_numbers())
     drawings = {name: drawing(name) for name in names()}
     most = max(

@@ -34,7 +34,7 @@ def half_cell_expansion(region: Voxels) -> Voxels:
 
 
 def is_simple(region: Voxels) -> bool:
-    """Return True if a region is 6-connected and every line along an axis meets it in at most one run (3.2.3)."""
+    """Return True if a set of voxels is 6-connected and no line along an axis meets it in more than one run (3.2.3)."""
     if components(region) != 1:
         return False
     for axis in range(3):

@@ -168,7 +168,7 @@ def envelope(floor: Quadtree, printed: Printed) -> Envelope:
 
 
 def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
-    """Return the first queue: the reversed edges above the border of H(A), each with an upright face's normal."""
+    """Return the first queue: the edges above the border of the plane hull, reversed, each with a starting normal."""
     return {(end, start): normal_of(start, end, (start[0], start[1], start[2] + 1)) for start, end in edges}
 
 
@@ -211,7 +211,7 @@ def _by_steps(
 
 
 def _most(points: Sized) -> int:
-    """Return a number that no envelope of these points reaches with its faces, to stop endless constructions."""
+    """Return a number of faces that no envelope of these points can have, to stop an endless construction."""
     return 8 * len(points) + 8
 
 
@@ -254,7 +254,7 @@ def _update_queue(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tu
 
 
 def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
-    """Return the tree with the heights of all faces, whose columns are marked, except the vertices."""
+    """Return the tree with the heights of all faces entered; their columns are marked as done, except vertices."""
     triangles, planes = [], []
     for face in faces:
         first, *rest = face.vertices
@@ -281,7 +281,7 @@ def _polygon(start: Point, end: Point, in_plane: list[Point]) -> tuple[Point, ..
 
 
 def _leaves(face: Face, printed: Printed) -> dict[Place, Leaf]:
-    """Return the heights of a face's columns, marked except at its vertices, which the neighbouring faces need."""
+    """Return the heights of a face in its columns, marked as done except at its vertices, which other faces share."""
     unmarked = () if printed.marks else [vertex[:2] for vertex in face.vertices]
     return {
         place: Leaf(_rounded(*face.height(*place), printed), marked=place not in unmarked) for place in face.places()

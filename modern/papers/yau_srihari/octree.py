@@ -61,7 +61,7 @@ class Octree:
         return np.stack([_gathered(self.codes, bit, self.depth) for bit in (ACROSS, UP, ALONG)], axis=1)
 
     def at_level(self, level: int) -> tuple[Grid, Grid, Grid]:
-        """Return x, y, z of the full cubes of a level, in units of their side, in the order of their codes."""
+        """Return x, y, z of the full cubes at a level, in units of the cube's side, in the order of their codes."""
         codes = self.codes[self.levels == level] >> 3 * (self.depth - level)
         x, y, z = (_gathered(codes, bit, level) for bit in (ACROSS, UP, ALONG))
         return x, y, z
@@ -78,7 +78,7 @@ def side_for(length: int) -> int:
 
 
 def tree_of(side: int, leaves: Iterator[tuple[int, Grid, Grid, Grid]]) -> Octree:
-    """Build a tree from full cubes, given as their level and x, y, z in units of the cube's side."""
+    """Build an octree from full cubes, each given by its level and x, y, z in units of the cube's side."""
     depth = side.bit_length() - 1
     codes, levels = [np.zeros(0, dtype=np.int64)], [np.zeros(0, dtype=np.int64)]
     for level, x, y, z in leaves:
@@ -122,7 +122,7 @@ def nodes(tree: Octree) -> int:
 
 
 def divided(tree: Octree, level: int) -> int:
-    """Count the nodes of a level that are divided, because some but not all of their voxels are full."""
+    """Count the nodes of a level that are divided, because only some of their voxels belong to the solid."""
     ancestors = tree.codes[tree.levels > level] >> 3 * (tree.depth - level)
     return int(np.count_nonzero(np.diff(ancestors))) + bool(len(ancestors))
 
@@ -194,7 +194,7 @@ def _bits(numbers: Grid, count: int, old_distance: int, new_distance: int) -> Gr
 
 
 def _within(a: Octree, b: Octree, deeper: int) -> NDArray[np.bool_]:
-    """Return, for each leaf of ``a``, True if a leaf of ``b`` contains it and is at least ``deeper`` levels larger."""
+    """Return, for each full cube of ``a``, True if one of ``b``, at least ``deeper`` levels larger, contains it."""
     if not len(b.codes):
         return np.zeros(len(a.codes), dtype=np.bool_)
     # The voxels of a leaf have consecutive codes, so only the last leaf of b that does not begin later can contain it.

@@ -49,13 +49,13 @@ class Quadtree:
 
     @property
     def low(self) -> int | None:
-        """The least height of unmarked columns, the value of a node in the paper's floor tree, or None."""
+        """The least height of columns not yet marked as done, or None; a node of the paper's floor tree holds it."""
         unmarked = self.values[self.there & ~self.marked]
         return int(unmarked.min()) if unmarked.size else None
 
     @property
     def high(self) -> int | None:
-        """The greatest height of unmarked columns, or None.  Only section 4.6.2 as printed needs it."""
+        """The greatest height of columns not yet marked as done, or None; only section 4.6.2 as printed needs it."""
         unmarked = self.values[self.there & ~self.marked]
         return int(unmarked.max()) if unmarked.size else None
 
@@ -137,7 +137,7 @@ def with_columns(tree: Quadtree, x: Grid, y: Grid, z: Grid, marked: Truth | bool
 
 
 def written(tree: Quadtree, cells: Mapping[Place, Leaf]) -> Quadtree:
-    """Return the tree with the heights and marks of some columns replaced."""
+    """Return the tree with the heights and marks of the given columns replaced."""
     x, y = np.array([*cells], dtype=np.int64).reshape(-1, 2).T
     values = np.array([leaf.value for leaf in cells.values()], dtype=np.int64)
     return with_columns(tree, x, y, values, np.array([leaf.marked for leaf in cells.values()], dtype=np.bool_))

@@ -53,7 +53,7 @@ class Search:
     angles: int = 0
 
     def run(self, tree: Quadtree) -> list[Point]:
-        """Return the unmarked points of the tree that lie in the plane of the edge's second face."""
+        """Return the unmarked points in the plane of the edge's second face."""
         levels = bounds_by_level(tree)
         self._visit(levels, len(levels) - 1, 0, 0)
         return self.points
@@ -78,7 +78,7 @@ class Search:
         return ex * (y - self.start[1]) < ey * (x - self.start[0])
 
     def _visit(self, levels: list[tuple[Grid, Grid]], up: int, i: int, j: int) -> None:
-        """Search the square (i, j) of side 2 ** ``up``, and its quarters unless the bounds exclude them."""
+        """Search a square of the tree, and its quarters unless the bounds exclude them."""
         self.visited += 1
         low, side = levels[up][0].item(i, j), 1 << up
         # Rule 1 of section 4.6.2: a square on the known side of the edge, or without points, is skipped.
@@ -105,7 +105,7 @@ class Search:
                 self._visit(levels, up - 1, k, m)
 
     def bounds(self, low: int, high: int, x: int, y: int, side: int) -> Bounds:
-        """Return the paper's bounds delta_1 and delta_2 for the scores of points in a square at (x, y).
+        """Return bounds for the scores of points in a square: the paper's delta_1 and delta_2.
 
         Some point of the square scores at least delta_1, and none scores more than delta_2. Both are None if the
         corners of the square do not determine them.
