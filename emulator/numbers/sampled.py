@@ -116,13 +116,13 @@ class SampledNumbers(Numbers):
 
     def sign(self, value: Values) -> int:
         signs = Counter(self.signs(value))
-        if len(signs) == 1:
-            return next(iter(signs))
-        (first, most), (_, second) = signs.most_common(2)
-        if self.choice == MAJORITY and most > second:
+        (first, most), *others = signs.most_common(2)
+        if len(set(value)) == 1 or (self.choice == MAJORITY and (not others or most > others[0][1])):
             return first
         estimated = self.estimate(value)
         if estimated is None:
+            if not others:
+                return first
             raise Undecided(f"{self.name} cannot determine a sign, because the number is not finite in every run")
         mean = estimated.mean
         return 0 if estimated.is_zero and self.choice != MAJORITY else (mean > 0) - (mean < 0)

@@ -5,8 +5,9 @@ Let m be the mean of N values, s their standard deviation (with N - 1) and r = s
 - *Stott Parker*: the digits common to the runs, ``-log10(r)`` (D. S. Parker, Monte Carlo arithmetic, UCLA CSD-970002,
   1997).
 - *CESTAC*: the digits of the mean, ``log10(sqrt(N) / (r t))``, where t is Student's value for N - 1 degrees of freedom
-  and 95 % (J. Vignes, Math. Comput. Simulation 35 (1993) 233-261).  If it is not positive, the number is a
-  *computational zero*: no digit of it is significant.  CADNA prints such a number as ``@.0``.
+  and 95 % (J. Vignes, Math. Comput. Simulation 35 (1993) 233-261).  A number with fewer than half a digit is a
+  *computational zero*: no digit of it is significant.  CADNA rounds the estimate to an integer and prints such a number
+  as ``@.0``.  Vignes's definition of a computational zero is an estimate of at most 0.
 - *Sohier*: the digits that a run has with probability 95 %, at the confidence 95 %, if the errors are normal:
   ``-log10(r) - log10((N - 1) / c) / 2 - log10(z)``, where c is the 2.5 % quantile of the chi-square distribution and z
   the 97.5 % quantile of the normal one (D. Sohier et al., Confidence intervals for stochastic arithmetic, ACM Trans.
@@ -60,7 +61,7 @@ def estimate(values: Sequence[Fraction | int | None], digits: float) -> Estimate
     width = math.log10((count - 1) / chi_square(count - 1)) / 2
     sohier = parker - width - math.log10(NormalDist().inv_cdf((1 + _LEVEL) / 2))
     first, second, third = (min(max(estimated, 0.0), digits) for estimated in (parker, cestac, sohier))
-    return Estimate(mean, first, second, third, cestac <= 0, False)
+    return Estimate(mean, first, second, third, cestac < 0.5, False)
 
 
 def _float(value: Fraction) -> float:

@@ -166,9 +166,9 @@ def _fraction(value: Fraction | int | None) -> Fraction | None:
 
 
 def _vote(votes: _Votes, signs: Sequence[int], branch: Sequence[int], taken: int) -> None:
-    """Count an execution of an IF, and count it again as a disagreement if the runs would take different branches."""
+    """Count an execution of an IF, and count it as disputed if a run would take another branch than the common one."""
     votes.times += 1
-    if len({branch[1 + sign] for sign in signs}) > 1:
+    if {branch[1 + sign] for sign in signs} != {branch[1 + taken]}:
         votes.disputed += 1
         if votes.disputed == 1:
             votes.time, votes.signs, votes.taken = votes.times, Counter(signs), taken

@@ -1,24 +1,36 @@
 """Textbook cases of numerical error in stochastic binary arithmetic, against their published significant digits.
 
-CADNA's outputs are those of its examples, http://cadna.lip6.fr/Examples_Dir/ (ex1.php to ex6.php).
+The examples of CADNA and their outputs are those of "CADNA for C/C++ source codes", LIP6, 2015, section 4.2 (the user's
+guide, also docs/ug_cadna.pdf in github.com/thelfer/cadna at 6795a76), and of http://cadna.lip6.fr/Examples_Dir/.  CADNA
+prints the estimate rounded to an integer, and at most 7 or 15 digits.  The estimate of three runs varies with the seed,
+so medians over several seeds are compared.
 """
 
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from functools import cache
 from math import log10
+from statistics import median
 
 from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Program
 from emulator.numbers.sampled import SampledNumbers
 from emulator.numbers.stochastic import stochastic
 from modern.comparison.sampling import Printed, in_step
 
 
+@cache
+def compiled(*lines: str) -> Program:
+    cards = [line if line[:5].strip().isdigit() else f"      {line}" for line in (*lines, "END")]
+    return compile_deck(deck_from_lines("program", cards))
+
+
 def printed(name: str, *lines: str, data: tuple[str, ...] = ()) -> tuple[Printed, ...]:
     """Return the numbers that a program prints in stochastic runs in step."""
-    cards = [line if line[:5].strip().isdigit() else f"      {line}" for line in (*lines, "END")]
     numbers = stochastic(name)
     assert isinstance(numbers, SampledNumbers)
-    return in_step(compile_deck(deck_from_lines("program", cards)), deck_from_lines("deck", data), numbers).printed
+    return in_step(compiled(*lines), deck_from_lines("deck", data), numbers).printed
 
 
 def digits(number: Printed) -> float:
@@ -28,11 +40,25 @@ def digits(number: Printed) -> float:
 
 
 SEEDS = range(1, 60, 10)
+
+
+def printed_in_runs(
+    bits: int, *lines: str, seeds: Iterable[int] = SEEDS, data: tuple[str, ...] = ()
+) -> list[list[float]]:
+    """Return the digits of every printed number, for three runs in step from each seed."""
+    return [list(map(digits, printed(f"stochastic:{bits}b:{s}-{s + 2}", *lines, data=data))) for s in seeds]
+
+
+def assert_within_one(runs: list[list[float]], published: Sequence[int], most: int) -> None:
+    for estimates, number in zip(zip(*runs, strict=True), published, strict=True):
+        assert abs(min(round(median(estimates)), most) - number) <= 1
+
+
 RUMP = ("P=9.*X*X*X*X-Y*Y*Y*Y+2.*Y*Y", "TYPE 1,P", "    1 FORMAT(E20.12)")
 
 
 def test_rumps_polynomial_has_no_digit_at_one_point_and_fifteen_at_another() -> None:
-    """S. M. Rump 1983; CADNA, example 1: P(10864, 18817) = @.0 and P(1/3, 2/3) = 0.802469135802469."""
+    """S. M. Rump 1983; CADNA's site, example 1: P(10864, 18817) = @.0 and P(1/3, 2/3) = 0.802469135802469."""
     for seed in SEEDS:
         name = f"stochastic:53b:{seed}-{seed + 2}"
         assert digits(printed(name, "X=10864.", "Y=18817.", *RUMP)[0]) == 0
@@ -40,7 +66,7 @@ def test_rumps_polynomial_has_no_digit_at_one_point_and_fifteen_at_another() -> 
 
 
 def test_rumps_royal_pain_has_no_digit() -> None:
-    """S. M. Rump 1988: -0.827396059946821 (54767/66192); double precision gives another sign or 1E21."""
+    """S. M. Rump 1988; CADNA, example 1: res = @.0.  The exact value is -54767/66192."""
     (value,) = printed(
         "stochastic:53b:1-10",
         *("A=77617.", "B=33096.", "B2=B*B", "B4=B2*B2", "B6=B4*B2", "B8=B4*B4"),
@@ -50,21 +76,18 @@ def test_rumps_royal_pain_has_no_digit() -> None:
     assert digits(value) == 0
 
 
-def test_mullers_recurrence_has_no_digit_after_iteration_15() -> None:
-    """J.-M. Muller 1989; CADNA, example 4: no significant result in double precision after iteration 15."""
-    values = printed(
-        "stochastic:53b:1-10",
-        *("A=5.5", "B=61./11.", "DO 2 I=3,25", "C=B", "B=111.-1130./B+3000./(A*B)", "A=C", "    2 TYPE 1,B"),
-        "    1 FORMAT(E20.12)",
-    )
-    estimated = {iteration: digits(value) for iteration, value in enumerate(values, 3)}
-    assert estimated[3] > 13
-    assert max(estimated[iteration] for iteration in (16, 17)) <= 1
-    assert estimated[13] > 0
+def test_mullers_recurrence_has_the_digits_that_cadna_prints() -> None:
+    """J.-M. Muller 1989; CADNA, example 4: U(3) = 0.55901639344262E+001 to U(30) = 0.100000000000000E+003.
+
+    The numbers after U(17) have digits again, but of a wrong limit: 100 instead of 6.
+    """
+    published = [14, 13, 12, 11, 9, 8, 7, 6, 4, 3, 2, 1, 0, 0, 0, 1, 3, 4, 5, 6, 8, 9, 10, 11, 12, 14, 15, 15]
+    lines = ("A=5.5", "B=61./11.", "DO 2 I=3,30", "C=B", "B=111.-1130./B+3000./(A*B)", "A=C", "    2 TYPE 1,B")
+    assert_within_one(printed_in_runs(53, *lines, "    1 FORMAT(E20.12)"), published, 15)
 
 
 def test_newtons_method_at_a_double_root_keeps_eight_digits() -> None:
-    """CADNA, example 5: x(24) = 0.42857143 for the double root 3/7."""
+    """CADNA's site, example 5: x(24) = 0.42857143 for the double root 3/7."""
     values = printed(
         "stochastic:53b:1-3",
         *("Y=.5", "DO 2 I=1,100", "X=Y"),
@@ -78,8 +101,8 @@ def test_newtons_method_at_a_double_root_keeps_eight_digits() -> None:
 GAUSS = (
     *("DIMENSION A(4,5)", "READ 1,((A(I,J),J=1,5),I=1,4)", "    1 FORMAT(5E12.5)", "DO 40 I=1,3", "P=0.", "L=I"),
     *("DO 20 J=I,4", "Q=A(J,I)", "IF(Q)11,12,12", "   11 Q=-Q", "   12 IF(Q-P)20,20,13", "   13 P=Q", "L=J"),
-    *("   20 CONTINUE", "DO 21 J=I,5", "Q=A(I,J)", "A(I,J)=A(L,J)", "   21 A(L,J)=Q", "P=A(I,I)", "M=I+1"),
-    *("DO 22 J=M,5", "   22 A(I,J)=A(I,J)/P", "DO 40 K=M,4", "P=A(K,I)", "DO 40 J=M,5"),
+    *("   20 CONTINUE", "DO 21 J=I,5", "Q=A(I,J)", "A(I,J)=A(L,J)", "   21 A(L,J)=Q", "P=1./A(I,I)", "M=I+1"),
+    *("DO 22 J=M,5", "   22 A(I,J)=A(I,J)*P", "DO 40 K=M,4", "P=A(K,I)", "DO 40 J=M,5"),
     *("   40 A(K,J)=A(K,J)-P*A(I,J)", "A(4,5)=A(4,5)/A(4,4)", "DO 50 N=1,3", "I=4-N", "M=I+1", "DO 50 J=M,4"),
     *("   50 A(I,5)=A(I,5)-A(I,J)*A(J,5)", "DO 60 I=1,4", "   60 TYPE 61,A(I,5)", "   61 FORMAT(E16.8)"),
 )
@@ -91,21 +114,14 @@ SYSTEM = (
 )
 
 
-def test_linear_system_of_cadna_has_three_four_six_and_seven_digits_in_single_precision() -> None:
-    """CADNA, example 6: 0.999, 1.000, 0.999999E-8 and 1.000000, because @.0 is not taken as a pivot.
-
-    If the three runs agree on the pivot by chance, the first three numbers have no digit.
-    """
-    estimates = []
-    for seed in SEEDS:
-        values = printed(f"stochastic:24b:{seed}-{seed + 2}", *GAUSS, data=SYSTEM)
-        estimates.append([digits(value) for value in values])
-        if max(estimates[-1][:3]) > 1:
-            for value, exact, published in zip(values, ("1", "1", "1E-8", "1"), (3, 4, 6, 7), strict=True):
-                assert abs(digits(value) - published) <= 1.1
-                assert value.estimate is not None
-                assert abs(value.estimate.mean / Fraction(exact) - 1) < Fraction(1, 10 ** (published - 2))
-    assert sum(max(row[:3]) > 1 for row in estimates) >= len(SEEDS) / 2
+def test_linear_system_of_cadna_has_its_digits_in_single_precision() -> None:
+    """CADNA, example 6: 0.99E+000, 0.100E+001, 0.999999E-008, 0.100000E+001, because @.0 is not taken as a pivot."""
+    runs = printed_in_runs(24, *GAUSS, seeds=range(1, 60, 3), data=SYSTEM)
+    assert_within_one(runs, (2, 3, 6, 6), 7)
+    assert min(map(min, runs)) > 1.5
+    for value, exact in zip(printed("stochastic:24b:1-3", *GAUSS, data=SYSTEM), ("1", "1", "1E-8", "1"), strict=True):
+        assert value.estimate is not None
+        assert abs(value.estimate.mean / Fraction(exact) - 1) < Fraction(1, 10)
 
 
 def test_quadratic_of_kahan_has_half_the_digits() -> None:
@@ -120,20 +136,38 @@ def test_quadratic_of_kahan_has_half_the_digits() -> None:
     assert abs(values[0].estimate.mean - Fraction("1.000000028975958")) < Fraction(1, 10**7)
 
 
-def test_discriminant_of_cadnas_quadratic_has_no_digit() -> None:
-    """CADNA, example 2: the discriminant of .3 x**2 - 2.1 x + 3.675 is 0, which standard arithmetic does not find."""
-    lines = ("A=.3", "B=-2.1/A", "C=3.675/A", "D=B*B-4.*C", "TYPE 1,D", "    1 FORMAT(E16.8)")
-    assert max(digits(printed(f"stochastic:24b:{seed}-{seed + 2}", *lines)[0]) for seed in SEEDS) < 1
+def test_discriminant_of_cadnas_quadratic_is_zero_and_its_root_has_seven_digits() -> None:
+    """CADNA, example 2, .3 x**2 - 2.1 x + 3.675: d = @.0, and the double solution is 0.3499999E+001.
+
+    Doubles find two complex roots.  In a few runs, all three discriminants are equal by chance.
+    """
+    lines = ("A=.3", "B=-2.1/A", "C=3.675/A", "D=B*B-4.*C", "TYPE 1,D", "IF(D)3,2,3", "    2 X=-B*.5", "TYPE 1,X")
+    runs = printed_in_runs(24, *lines, "    3 STOP", "    1 FORMAT(E16.8)", seeds=range(1, 90, 3))
+    double = [estimates for estimates in runs if len(estimates) == 2]
+    assert len(double) >= 0.85 * len(runs)
+    assert_within_one(double, (0, 7), 7)
 
 
-def test_digits_of_the_determinant_of_a_hilbert_matrix_are_its_true_digits_within_one() -> None:
-    """CADNA, example 3, shows the gradual loss at size 11; the exact determinant is the reciprocal of OEIS A005249."""
-    (value,) = printed(
-        "stochastic:53b:1-3",
+def test_pivots_and_determinant_of_a_hilbert_matrix_have_the_digits_that_cadna_prints() -> None:
+    """CADNA, example 3: pivots 0.100000000000000E+001 to 0.13E-011, determinant 0.30E-064.
+
+    The exact determinant is the reciprocal of an entry of OEIS A005249.
+    """
+    lines = (
         *("DIMENSION A(11,11)", "N=11", "DO 1 I=1,N", "DO 1 J=1,N", "K=I+J-1", "P=K", "    1 A(I,J)=1./P"),
-        *("D=1.", "L=N-1", "DO 3 I=1,L", "P=A(I,I)", "D=D*P", "M=I+1", "DO 2 J=M,N", "    2 A(I,J)=A(I,J)/P"),
-        *("DO 3 J=M,N", "Q=A(J,I)", "DO 3 K=M,N", "    3 A(J,K)=A(J,K)-Q*A(I,K)", "D=D*A(N,N)", "TYPE 4,D"),
-        "    4 FORMAT(E16.8)",
+        *("D=1.", "L=N-1", "DO 3 I=1,L", "TYPE 4,A(I,I)", "D=D*A(I,I)", "X=1./A(I,I)", "M=I+1", "DO 2 J=M,N"),
+        *("    2 A(I,J)=A(I,J)*X", "DO 3 J=M,N", "X=A(J,I)", "DO 3 K=M,N", "    3 A(J,K)=A(J,K)-X*A(I,K)"),
+        *("TYPE 4,A(N,N)", "D=D*A(N,N)", "TYPE 4,D", "    4 FORMAT(E16.8)"),
     )
+    assert_within_one(printed_in_runs(53, *lines), (15, 15, 14, 12, 11, 9, 8, 7, 6, 4, 2, 2), 15)
+    value = printed("stochastic:53b:1-3", *lines)[-1]
     assert value.estimate is not None
-    assert abs(digits(value) + log10(abs(float(value.estimate.mean / Fraction("3.0190953345e-65") - 1)))) <= 1
+    assert abs(digits(value) + log10(abs(float(value.estimate.mean / Fraction("3.0190953344493e-65") - 1)))) <= 1
+
+
+def test_share_of_runs_that_agree_on_a_wrong_number_is_cadnas() -> None:
+    """CADNA, example 7, "when CADNA fails": 24,666 of 100,000 computations have no digit lost and a wrong result."""
+    lines = ("X=6.83561E+5", "Y=6.83560E+5", "Z=1.00000000007", "R=Z-X", "S=Z-Y", "R=R+Y", "S=S+X", "S=S-2.", "R=R+S")
+    runs = printed_in_runs(53, *lines, "TYPE 1,R", "    1 FORMAT(E20.12)", seeds=range(1, 600, 3))
+    wrong = sum(estimates[0] > 1 for estimates in runs)
+    assert abs(wrong / len(runs) - 0.24666) <= 3 * (0.24666 * 0.75334 / len(runs)) ** 0.5
