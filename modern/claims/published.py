@@ -143,7 +143,7 @@ def read_results(paper: Paper, folder: Traversable) -> tuple[PublishedResult, ..
             )
         )
     if free:
-        raise ApparatusError(f"{text.id}: lines {', '.join(free)} do not belong to any result")
+        raise ApparatusError(f"{text.id}: lines {', '.join(free)} belong to no result; name them in results.toml")
     return tuple(results)
 
 

@@ -225,7 +225,7 @@ def judge(statement: Statement, results: Results) -> Judged:
         graded.append((USED, "used"))
         messages.append(f"used by {row.code}")
     if bool(graded) == (row.verdict == UNTESTABLE) and not row.results:
-        raise StatementError(f"{row.id}: the verdict is {row.verdict!r}, and there is {'a' if graded else 'no'} check")
+        raise StatementError(f"{row.id}: the verdict is {row.verdict!r}, but there is {'a' if graded else 'no'} check")
     if not graded:
         return Judged(statement, None, "")
     worst = max((verdict for verdict, _ in graded), key=_FROM_BEST.index)

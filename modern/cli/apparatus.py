@@ -54,10 +54,10 @@ def main(args: argparse.Namespace) -> int:
     if args.collate is not None:
         return _collate(args)
     if args.json is not None or args.csv is not None:
-        raise UsageError("--json and --csv write a collation and need --collate")
+        raise UsageError("--json and --csv write a collation; add --collate FILE")
     rows = _rows(args)
     if args.text is not None and not (args.check and args.program is None and args.layer is None):
-        raise UsageError("--text needs --check, without --program and --layer")
+        raise UsageError("--text can only be used with --check, and not with --program or --layer")
     if not args.check:
         width = max(48, min(shutil.get_terminal_size((100, 24)).columns, 120))
         for row in rows:
@@ -131,7 +131,7 @@ def _read_sheets(args: argparse.Namespace) -> int:
     readings = [reading for name in args.sheet for reading in read_sheet(source_name(name), read_text(name))]
     for item, times in Counter(reading.item for reading in readings).items():
         if times > 1:
-            raise UsageError(f"item {item} is answered on {times} sheets")
+            raise UsageError(f"item {item} is answered on {times} sheets; keep only one answer")
     stored = write_state(args.state, readings)
     for reading in readings:
         print(

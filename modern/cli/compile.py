@@ -15,7 +15,7 @@ from modern.cli.shared.programs import load_program
 
 def main(args: argparse.Namespace) -> int:
     if args.library and not args.object:
-        raise UsageError("--library needs --object")
+        raise UsageError("--library applies only to an object deck; add --object")
     program = load_program(args)
     lines = _deck(program, args.core, args.library) if args.object else listing(program)
     write_text(args.output, "".join(f"{line}\n" for line in lines))

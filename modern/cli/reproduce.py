@@ -243,7 +243,9 @@ def _paint(text: str, kind: str, colour: bool) -> str:
 
 
 def _indented(text: str, width: int) -> list[str]:
-    return textwrap.wrap(text, max(40, width), initial_indent="      ", subsequent_indent="      ")
+    return textwrap.wrap(
+        text, max(40, width), initial_indent="      ", subsequent_indent="      ", break_on_hyphens=False
+    )
 
 
 def _document(

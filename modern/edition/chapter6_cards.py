@@ -179,7 +179,7 @@ class _Reader:
     def take(self, field: Field, number: int, shape: CardShape) -> Token:
         place = f"{self._name}: card {number} ({shape.id}), columns {field.first} to {field.last}"
         if not self._seek():
-            raise TranscriptError(f"{place}: the printed lines end before it")
+            raise TranscriptError(f"{place}: the printed lines end before this field")
         line = self._lines[self._line]
         token = self._word(field.width) if field.word else self._number(field.width)
         if token is None:

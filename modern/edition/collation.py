@@ -220,7 +220,7 @@ def _card(n: int, raw: list[object]) -> CollatedCard:
     program, number, lines, letters, others = raw
     card = edition_cards()[n]
     if (program, number) != (card.program, card.number) or not isinstance(lines, list) or not isinstance(others, dict):
-        raise ValueError(f"card {program} {number}")
+        raise ValueError(f"unknown card {program} {number}")
     readings = []
     for k, ((a, b), letter) in enumerate(zip(spans(n), str(letters), strict=True)):
         token = card.solid[a:b]

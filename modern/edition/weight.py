@@ -269,7 +269,7 @@ def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int =
     contains answers for other listings, or if it cannot be written.
     """
     if runs and not any(Path(runs).glob("*/deck.cards")):
-        raise FileError(f"{runs}: no folder in it has a deck.cards")
+        raise FileError(f"{runs}: expected folders that contain a file deck.cards, found none")
     sample = ordered()[: most or None]
     print_of = hashlib.sha256("".join(programs.committed(n).text() for n in programs.NAMES).encode()).hexdigest()
     path = folder / "variants.jsonl"

@@ -47,7 +47,7 @@ def read_citation(text: str) -> Mapping[str, Any]:
     try:
         import yaml
     except ImportError:
-        raise BuildError("PyYAML reads CITATION.cff: pip install 'hull1620[edition]'") from None
+        raise BuildError("PyYAML, which reads CITATION.cff, is missing: pip install 'hull1620[edition]'") from None
     fields: dict[str, Any] = yaml.safe_load(text)
     return fields
 

@@ -160,7 +160,7 @@ def packed(files: Mapping[str, bytes]) -> bytes:
 def _compiled(npm: Path, archives: Sequence[bytes]) -> list[bytes]:
     """Return the archives with compiled modules instead of their source."""
     if not (node := shutil.which("node")):
-        raise BuildError("node is missing; it compiles the modules of the emulator in the browser")
+        raise BuildError("node, which compiles the modules of the emulator in the browser, is missing; install Node.js")
     with tempfile.TemporaryDirectory() as folder:
         paths = [Path(folder) / f"{number}.zip" for number in range(len(archives))]
         for path, archive in zip(paths, archives, strict=True):

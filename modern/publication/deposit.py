@@ -111,7 +111,7 @@ def gather(dist: Path, rows: Path | None = None, root: Path = ROOT) -> Parts:
     files |= {f"tei/{name}": text.encode() for name, text in archive(about.version).items()}
     if rows is not None:
         if not rows.is_dir():
-            raise BuildError(f"{rows}: not a folder")
+            raise BuildError(f"{rows}: expected a folder with the rows of studies")
         files |= {f"rows/{name}": data for name, data in _tree(rows)}
     return Parts(files, frozenset(executable))
 
@@ -307,7 +307,7 @@ def write(out: Path, parts: Parts, root: Path = ROOT) -> tuple[Path, Path]:
     try:
         import bagit
     except ImportError:
-        raise BuildError("bagit packs the deposit: pip install 'hull1620[edition]'") from None
+        raise BuildError("bagit, which packs the deposit, is missing: pip install 'hull1620[edition]'") from None
     about = described(root)
     name = f"{about.name}-{about.version}-deposit"
     bag, archive = out / name, out / f"{name}.tar.gz"

@@ -102,7 +102,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     except OSError as error:
         raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
     except ValueError:
-        raise StudyFileError(f"{path}: not the manifest of a study") from None
+        raise StudyFileError(f"{path}: expected the manifest of a study") from None
     return document
 
 

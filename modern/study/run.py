@@ -218,7 +218,7 @@ def check_plan(plan: Plan) -> None:
         files += -(-cell.samples // cell.chunk)
     if files > MOST_FILES:
         raise PlanError(
-            f"{plan.name}: {plan.samples:,} samples need {files:,} files of rows; a study has at most {MOST_FILES:,}"
+            f"{plan.name}: {plan.samples:,} samples need {files:,} files of rows, at most {MOST_FILES:,}; enlarge chunk"
         )
 
 
@@ -228,7 +228,7 @@ def check_cell(cell: Cell, seed: int) -> None:
     if cell.samples < 1 or cell.chunk < 1:
         raise PlanError(f"{where}: samples and chunk must be at least 1")
     if not cell.routes:
-        raise PlanError(f"{where}: no routes")
+        raise PlanError(f"{where}: expected at least one route, found none")
     _check_distinct((route.name for route in cell.routes), f"{where}: two routes have the name")
     if cell.reference and cell.reference not in {route.name for route in cell.routes}:
         raise PlanError(f"{where}: the reference {quoted(cell.reference)} is not one of its routes")
@@ -238,7 +238,7 @@ def check_cell(cell: Cell, seed: int) -> None:
 def check_route(route: Route) -> None:
     """Check a route.  Raise PlanError."""
     if not route.name:
-        raise PlanError("a route has no name")
+        raise PlanError("expected a name for every route; one has none")
     for name in route.measures:
         measure_of(name)
         if name in MEASURES and (name in OF_PORT) != isinstance(route, Port):

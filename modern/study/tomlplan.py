@@ -203,7 +203,7 @@ def _route(raw: Mapping[str, Any], section: _Section) -> Route:
     route_type: type[Any] = Programs if kind == "programs" else Port
     section.check_keys(values, tuple(field.name for field in fields(route_type)))
     if not isinstance(values.get("name"), str):
-        raise section.error("it has no name")
+        raise section.error("the key 'name' is missing")
     epsilon = values.get("epsilon")
     if type(epsilon) in (int, float, str):
         values["epsilon"] = f"0{epsilon}" if str(epsilon).startswith(".") else str(epsilon)
@@ -220,7 +220,7 @@ def _route(raw: Mapping[str, Any], section: _Section) -> Route:
 
 def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, section: _Section) -> Cell:
     if "family" not in raw:
-        raise section.error("it has no family")
+        raise section.error("the key 'family' is missing")
     for name, kind, expected in _TYPES:
         section.check_type(raw, name, kind, expected)
     route_names = raw.get("routes", list(routes))

@@ -25,7 +25,7 @@ def integers(draw: Draw, digits: int, n: Count) -> Drawn:
 def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
     """Points whose coordinates are random integers from centre - most to centre + most."""
     if not isinstance(most, int) or not isinstance(centre, int) or most < 1 or abs(centre) + most > size_of(DIGITS):
-        raise FamilyError(f"most is {most}, centre {centre}; a card holds integers of {DIGITS} digits")
+        raise FamilyError(f"most = {most} around centre = {centre} gives more digits than a card holds ({DIGITS})")
 
     def point() -> Whole:
         x, y, z = (draw.whole(centre - most, centre + most) for _ in range(3))

@@ -175,9 +175,9 @@ def test_missing_evidence_is_named() -> None:
         StatementError, match=re.escape("the field 'results' names example 9, which is not a published result")
     ):
         judge(replace(row, results=("example 9",)), Judgements())
-    with pytest.raises(StatementError, match=re.escape("thesis.999: the verdict is 'holds', and there is no check")):
+    with pytest.raises(StatementError, match=re.escape("thesis.999: the verdict is 'holds', but there is no check")):
         judge(replace(row, id="thesis.999"), Judgements())
-    with pytest.raises(StatementError, match=re.escape("the verdict is 'not testable', and there is a check")):
+    with pytest.raises(StatementError, match=re.escape("the verdict is 'not testable', but there is a check")):
         judge(replace(row, verdict=UNTESTABLE), Judgements())
     with pytest.raises(
         StatementError, match=re.escape("the field 'code' names modern.port.nothing, which does not exist")

@@ -104,7 +104,7 @@ def test_answers_are_stored_and_a_run_is_resumed(tmp_path: Path) -> None:
 
 
 def test_a_folder_without_decks_is_rejected(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match=r"no folder in it has a deck\.cards$"):
+    with pytest.raises(FileError, match=r"expected folders that contain a file deck\.cards, found none$"):
         weigh(tmp_path / "out", str(tmp_path), most=1)
     assert not (tmp_path / "out").exists()
 

@@ -47,7 +47,7 @@ def test_verdicts(result: published.PublishedResult, produced: list[str], kind: 
     [
         (('"1", "2"', '"2", "3"'), "two: result two: lines 2 to 3 do not exist or are in another result"),
         (('"1", "2"', '"3", "4"'), "two: result two: lines 3 to 4 do not exist or are in another result"),
-        (('"1", "1"', '"3", "3"'), "two: lines 2 do not belong to any result"),
+        (('"1", "1"', '"3", "3"'), "two: lines 2 belong to no result; name them in results.toml"),
     ],
 )
 def test_every_line_of_the_print_belongs_to_one_result(tmp_path: Path, lines: tuple[str, str], message: str) -> None:

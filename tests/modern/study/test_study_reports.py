@@ -175,7 +175,7 @@ CELL = f"{ROUTE}[[cell]]\n"
     [
         ("name = ", "Invalid value"),
         ("name = 'x'", "expected at least one section [[route]], found none"),
-        ("[[route]]\nlimit = 3", "bad.toml: line 1: route 1: it has no name"),
+        ("[[route]]\nlimit = 3", "bad.toml: line 1: route 1: the key 'name' is missing"),
         (f"{ROUTE}limit = '3'", "line 3: route 1: limit = '3' has the wrong type"),
         (f"{ROUTE}limit = true", "limit = True has the wrong type"),
         ("x = " + "[" * 3000 + "]" * 3000, "nested too deeply"),
@@ -183,7 +183,7 @@ CELL = f"{ROUTE}[[cell]]\n"
         (ROUTE * 2, "two routes"),
         (f"{CELL}routes = ['b']\nfamily = 'thesis'", "line 4: cell 1: there is no route 'b'; the routes are a"),
         (f"{CELL}n = 3", "line 4: cell 1: unknown name 'n'; expected key, family, parameters, routes, samples"),
-        (f"{CELL}samples = 3", "line 3: cell 1: it has no family"),
+        (f"{CELL}samples = 3", "line 3: cell 1: the key 'family' is missing"),
         (f"{CELL}family = 'file'", "the family 'file' needs the parameter 'path'"),
         (f"{CELL}family = 'file'\nparameters = {{path = 'no'}}", "no such file"),
         (f"{CELL}family = 'thesis'\nsamples = '3'", "line 5: cell 1: samples: expected an integer of at"),
@@ -278,4 +278,6 @@ def test_families_and_measures_are_listed_with_parameters(capsys: pytest.Capture
     out = capsys.readouterr().out
     for name in (*FAMILIES, "file", *MEASURES):
         assert re.search(rf"^{name}\b", out, re.M), name
-    assert re.search(r"^box +most, n, centre = 0\n +Integers from centre", out, re.M)
+    assert re.search(
+        r"^box +most, n, centre = 0\n +Points whose coordinates are random integers from centre", out, re.M
+    )

@@ -241,7 +241,7 @@ def test_study_of_different_versions_or_programs_is_not_resumed(tmp_path: Path) 
             run_study(plan, folder, workers=1, quiet=True, resume=True)
     for text in ("{}", "no json", "[]", '{"plan": 3, "versions": {}, "programs_sha256": {}}'):
         path.write_text(text)
-        with pytest.raises(PlanError, match="not the manifest of a study"):
+        with pytest.raises(PlanError, match="expected the manifest of a study"):
             run_study(plan, folder, workers=1, quiet=True, resume=True)
 
 
@@ -265,7 +265,7 @@ def with_cell(**changes: Any) -> Plan:
         (replace(PLAN, cells=()), "expected at least one cell"),
         (replace(PLAN, cells=(PLAN.cells[0], PLAN.cells[0])), "two cells have the key 'n=5'"),
         (with_cell(samples=0), "samples and chunk"),
-        (with_cell(routes=()), "no routes"),
+        (with_cell(routes=()), "expected at least one route, found none"),
         (with_cell(routes=(ROUTES[0], ROUTES[0])), "two routes have the name"),
         (with_cell(reference="x"), "the reference 'x' is not one of its routes"),
         (with_cell(family="x"), "no family is called 'x'"),

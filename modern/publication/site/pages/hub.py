@@ -16,7 +16,7 @@ def make(argument: str) -> Made:
     docs = ROOT / "docs"
     match = _TREE.search((docs / f"{argument}.md").read_text(encoding="utf-8"))
     if match is None:
-        raise ValueError(f"{argument!r} has no toctree")
+        raise ValueError(f"{argument!r} has no list of pages (toctree)")
     folder = (docs / argument).parent
     items = []
     for entry in match[1].splitlines():

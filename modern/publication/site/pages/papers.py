@@ -95,7 +95,7 @@ def within(hull: Assembled) -> tuple[int, int]:
         images = star(hull, pair).images
         if all(vorticity(a, b) > 0 for a, b in zip(images, (*images[1:], images[0]), strict=True)):
             return pair
-    raise ValueError("every line lies in the hull's surface")
+    raise ValueError("expected a line that is no edge of the hull, found none")
 
 
 def _star(hull: Assembled, pair: tuple[int, int]) -> str:
