@@ -21,9 +21,6 @@ SKIPPED = {
 }
 """The number of blocks of a document that are not run; a comment before each states the reason."""
 
-IN_SHELL = ("README.md",)
-"""Documents whose commands all run in a shell, as a reader runs them."""
-
 BY_HAND = [
     page
     for page in documents.PAGES
@@ -40,7 +37,7 @@ def name(path: Path) -> str:
 def test_the_blocks_of_a_document_run(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     documents.prepare_folder(tmp_path)
     monkeypatch.chdir(tmp_path)
-    ran, skipped = documents.run(path, only_shell=name(path) in IN_SHELL)
+    ran, skipped = documents.run(path)
     languages = documents.languages(path)
     assert ran + skipped == sum(language in documents.RUN for language in languages)
     assert skipped == SKIPPED.get(name(path), 0)

@@ -1,5 +1,7 @@
 """Hypothesis strategies for source decks: mostly valid programs, and programs with a few columns changed."""
 
+from functools import cache
+
 from hypothesis import strategies as st
 
 from emulator.language.cards import CHARACTERS, RECORD_MARKS
@@ -25,6 +27,8 @@ def _sums(parts: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
     )
 
 
+# Strategies are kept, because hypothesis takes longer to check a new strategy than to draw from it.
+@cache
 def floating(functions: tuple[str, ...]) -> st.SearchStrategy[str]:
     def wider(parts: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
         return st.one_of(
@@ -43,6 +47,31 @@ FLOATING_ITEMS, FIXED_ITEMS = st.lists(_FLOATING_ITEM, max_size=4), st.lists(_FI
 ITEMS = st.lists(_FLOATING_ITEM | _FIXED_ITEM, max_size=4)
 
 
+FORMATS = st.lists(SPECS, max_size=4)
+BOUNDS = st.sampled_from(["1", "2", "N", "K", "5"])
+FORMS = st.sampled_from(["901", "902", "903", "904"])
+FORMS_WITH_ITEMS = st.sampled_from([("905", FLOATING_ITEMS), ("906", FIXED_ITEMS)])
+
+
+@cache
+def tested(functions: tuple[str, ...], powers: bool) -> st.SearchStrategy[str]:
+    """Return the expressions whose sign an IF tests."""
+    values = floating(functions) | FIXED
+    if powers:
+        values |= st.builds("({})**({})".format, floating(functions), floating(functions))
+    return values
+
+
+@cache
+def fixed_or(functions: tuple[str, ...]) -> st.SearchStrategy[str]:
+    return FIXED | floating(functions)
+
+
+@cache
+def labels_up_to(count: int) -> st.SearchStrategy[str]:
+    return st.integers(1, count).map(lambda n: str(10 * n))
+
+
 _COLUMNS = 66
 """The columns of a statement on a single card."""
 START = ["I=1", "J=2", "N=2", "K=3", "A=1.5", "B=-2.", "Z=0.", "DO 5 I=1,3", "M(I)=I", "5 X(I)=A", "M(4)=0"]
@@ -53,29 +82,26 @@ START += ["DO 6 I=1,2", "Y(I,1)=B", "6 Y(I,2)=-Z", "I=2"]
 def programs(draw: st.DrawFn, functions: tuple[str, ...] = SHORT_FUNCTIONS, powers: bool = False) -> list[str]:
     """Draw a deck of up to twenty statements, numbered 10, 20, and so on, with FORMATs 901 to 906 and an END."""
     count = draw(st.integers(2, 20))
-    labels = st.integers(1, count).map(lambda n: str(10 * n))
+    labels = labels_up_to(count)
     expressions = floating(functions)
-    values = expressions | FIXED
-    if powers:
-        values |= st.builds("({})**({})".format, expressions, expressions)
+    assigned, values = fixed_or(functions), tested(functions, powers)
     cards = ["DIMENSION X(3),Y(2,2),M(4)"]
     cards += START[: draw(st.sampled_from([len(START)] * 6 + [0, 3, 6]))]
     for n in range(1, count + 1):
         later = str(10 * draw(st.integers(min(n + 1, count), count)))
-        form, items = draw(st.sampled_from(["901", "902", "903", "904"])), ITEMS
+        form, items = draw(FORMS), ITEMS
         if draw(st.integers(0, 3)):
-            form, items = draw(st.sampled_from([("905", FLOATING_ITEMS), ("906", FIXED_ITEMS)]))
+            form, items = draw(FORMS_WITH_ITEMS)
         kind = draw(st.integers(0, 11))
         if kind <= 3:
             body = f"{draw(FLOATING_NAMES)}={draw(expressions)}"
         elif kind <= 5:
-            body = f"{draw(FIXED_NAMES)}={draw(FIXED | expressions)}"
+            body = f"{draw(FIXED_NAMES)}={draw(assigned)}"
         elif kind == 6:
             body = f"IF({draw(values)}){draw(labels)},{draw(labels)},{draw(labels)}"
         elif kind == 7:
-            bounds = st.sampled_from(["1", "2", "N", "K", "5"])
             end = later if draw(st.integers(0, 3)) == 0 else str(10 * n + 5)
-            body = f"DO {end} {draw(st.sampled_from('IJK'))}={draw(bounds)},{draw(bounds)}"
+            body = f"DO {end} {draw(st.sampled_from('IJK'))}={draw(BOUNDS)},{draw(BOUNDS)}"
         elif kind == 8:
             switch = f"IF(SENSE SWITCH {draw(st.integers(1, 4))}){draw(labels)},{draw(labels)}"
             body = draw(st.sampled_from([f"GO TO {later}", f"GO TO({later},{later}),J", switch, "PAUSE", "STOP"]))
@@ -91,7 +117,7 @@ def programs(draw: st.DrawFn, functions: tuple[str, ...] = SHORT_FUNCTIONS, powe
         if body.startswith(f"DO {10 * n + 5} "):
             cards.append(f"{10 * n + 5} {draw(FLOATING_NAMES)}={draw(expressions)}")
     for n in range(901, 905):
-        cards.append(f"{n} FORMAT({','.join(draw(st.lists(SPECS, max_size=4)))})")
+        cards.append(f"{n} FORMAT({','.join(draw(FORMATS))})")
     return [*cards, "905 FORMAT(3E14.8)", "906 FORMAT(2HI=,5I4)", "END"]
 
 

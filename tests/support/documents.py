@@ -118,16 +118,14 @@ def prepare_folder(folder: Path) -> None:
         command.chmod(0o755)
 
 
-def run(path: Path, only_shell: bool = False) -> tuple[int, int]:
-    """Run the blocks of a document in the current folder.
+def run(path: Path) -> tuple[int, int]:
+    """Run the blocks of a document in the current folder, and return the numbers of blocks run and skipped.
 
-    only_shell: run every command in a shell; otherwise simple ``hull1620`` commands run in this process, which is
-    faster.  Return the numbers of blocks run and skipped.  Raise AssertionError, or the exception of a block, which
-    names its line.
+    Simple ``hull1620`` commands run in this process, which is faster.  Raise AssertionError, or the exception of a
+    block, which names its line.
     """
-    execute = _run_in_shell if only_shell else _run_command
     ran = skipped = 0
-    for example in parsed(path, execute).examples():
+    for example in parsed(path).examples():
         try:
             example.evaluate()
         except SkipTest:
@@ -137,16 +135,12 @@ def run(path: Path, only_shell: bool = False) -> tuple[int, int]:
     return ran, skipped
 
 
-Execute = Callable[[str], tuple[int, str]]
-"""Runs a command and returns its exit code and its output."""
-
-
-def parsed(path: Path, execute: Execute) -> Document:
+def parsed(path: Path) -> Document:
     """Return the document with its blocks as examples."""
 
     def check_exit_codes(example: Example) -> None:
         for line in filter(str.strip, example.parsed.splitlines()):
-            code, output = execute(line)
+            code, output = _run_command(line)
             expected = int((re.search(r"#.*\bexit (\d)\b", line) or ["", "0"])[1])
             assert code == expected, f"{example.path}: {line}\nexit {code}\n{output}"
             assert "Traceback" not in output, f"{example.path}: {line}\n{output}"
@@ -154,7 +148,7 @@ def parsed(path: Path, execute: Execute) -> Document:
     def check_output(example: Example) -> None:
         for part in re.split(r"^\$ ", example.parsed, flags=re.MULTILINE)[1:]:
             command, _, expected = part.partition("\n")
-            output = execute(command)[1]
+            output = _run_command(command)[1]
             assert output == expected, f"{example.path}: {command}\n{output}"
 
     runners = {

@@ -58,25 +58,9 @@ def checked_ending(machine: Machine, result: Result, options: Options) -> str:
     return result.ending.kind
 
 
-@settings(max_examples=40)
-@given(programs(), DATA, OPTIONS, KEYS)
-def test_random_programs_end_with_a_result_or_an_error(
-    cards: list[str], data: list[str], options: Options, keys: list[str]
-) -> None:
-    exercise(cards, data, options, keys)
-
-
-@settings(max_examples=40)
-@given(programs(ALL_FUNCTIONS, powers=True), DATA, OPTIONS, KEYS)
-def test_random_programs_with_library_functions_end_with_a_result_or_an_error(
-    cards: list[str], data: list[str], options: Options, keys: list[str]
-) -> None:
-    exercise(cards, data, replace(options, limit=1_000), keys)
-
-
-@settings(max_examples=40)
-@given(spoilt_programs(), DATA, OPTIONS, KEYS)
-def test_corrupted_programs_end_with_a_result_or_an_error(
+@settings(max_examples=80)
+@given(st.one_of(programs(), programs(ALL_FUNCTIONS, powers=True), spoilt_programs()), DATA, OPTIONS, KEYS)
+def test_random_and_corrupted_programs_end_with_a_result_or_an_error(
     cards: list[str], data: list[str], options: Options, keys: list[str]
 ) -> None:
     exercise(cards, data, replace(options, limit=2_000), keys)

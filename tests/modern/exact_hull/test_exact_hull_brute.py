@@ -156,7 +156,7 @@ def test_trying_all_triples_finds_the_faces_of_a_cube() -> None:
     assert facets[(0, 0, -1, 0)] == (0, 6, 24, 18)
 
 
-@pytest.mark.parametrize("size", [1, 2, 3, 4, 5])
+@pytest.mark.parametrize("size", [1, 2, 3, 4])
 def test_every_small_set_of_the_3_3_3_grid_has_the_hull_of_all_triples(size: int) -> None:
     rng = random.Random(size)
     for points in classes(grid(3, 3, 3), range(size, size + 1)):
@@ -183,11 +183,10 @@ def test_every_set_of_six_points_in_a_line() -> None:
         compare([point for index, point in enumerate(line) if bits >> index & 1], rng, 2)
 
 
-@pytest.mark.parametrize("seed", range(2))
-def test_random_sets_of_the_3_3_3_grid_have_the_hull_of_all_triples(seed: int) -> None:
-    rng = random.Random(seed)
+def test_random_sets_of_the_3_3_3_grid_have_the_hull_of_all_triples() -> None:
+    rng = random.Random(0)
     points = grid(3, 3, 3)
-    for _ in range(300):
+    for _ in range(400):
         compare(rng.sample(points, rng.randint(5, 14)), rng)
     for _ in range(10):
         compare(rng.sample(points, rng.randint(15, 27)), rng)

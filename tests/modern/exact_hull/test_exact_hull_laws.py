@@ -174,12 +174,3 @@ def test_points_in_general_position_have_the_vertices_and_facets_of_qhull(seed: 
     hull, qhull = exact_hull(points), spatial.ConvexHull(points)
     assert list(hull.vertices) == sorted(qhull.vertices.tolist())
     assert {frozenset(facet.polygon) for facet in hull.facets} == {frozenset(s) for s in qhull.simplices.tolist()}
-
-
-def test_random_sets_of_eight_digits_have_the_vertices_of_qhull() -> None:
-    spatial = pytest.importorskip("scipy.spatial")
-    rng = random.Random(1963)
-    for _ in range(600):
-        count = rng.randint(4, 40)
-        points = [tuple(rng.randint(-(10**8) + 1, 10**8 - 1) for _ in range(3)) for _ in range(count)]
-        assert list(exact_hull(points).vertices) == sorted(spatial.ConvexHull(points).vertices.tolist())
