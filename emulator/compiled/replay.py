@@ -75,7 +75,8 @@ def _compiled() -> Compiled | None:
 
 
 def repetitions(tape: Tape, digits: int, rules_of_runs: Iterable[Rules]) -> Iterator[tuple[list[int], list[int]]]:
-    """Yield the mantissas and exponents of the numbers that a tape tests, repeated by each of the rules.
+    """Repeat a tape with each of the given rules; yield the mantissas and exponents of the numbers that the IFs
+    tested.
 
     The tape was recorded with ``digits`` digits; the rules have at least as many.  The numbers are in the order of
     ``tape.tests``.

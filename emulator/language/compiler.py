@@ -117,7 +117,8 @@ class _Translation:
             card = self.statements[-1].place.card
             self.diagnostics.append(Diagnostic(card, 0, "the deck has no END card", warning=True))
         if self.emitter.allocator.used > _LARGEST:
-            self._error(tree.Place(1, 0), f"OVERLAP: the data need {self.emitter.allocator.used * FIELD} positions")
+            needed = self.emitter.allocator.used * FIELD
+            self._error(tree.Place(1, 0), f"OVERLAP: the data need {needed} positions of core, more than any 1620 has")
         # If the parser rejected statements, the numbers that branches refer to may belong to them, so they cannot be
         # checked.
         if not broken:
@@ -162,7 +163,7 @@ class _Translation:
             if not isinstance(statement.body, tree.Format):
                 continue
             if positions > CORES[-1]:
-                message = f"OVERLAP: the FORMATs before this one need {positions} positions; no more are read"
+                message = f"OVERLAP: the FORMATs before this one need {positions} positions, more than any 1620 has"
                 self._error(statement.place, message)
                 break
             if not statement.label:
@@ -293,7 +294,8 @@ class _Translation:
             if 0 in shape:
                 raise Refused(place, f"{name}: a dimension must be at least 1, found 0", 9)
             if math.prod(shape) > _LARGEST:
-                raise Refused(place, f"OVERLAP: {name} needs {math.prod(shape) * FIELD} positions")
+                needed = math.prod(shape) * FIELD
+                raise Refused(place, f"OVERLAP: {name} needs {needed} positions of core, more than any 1620 has")
             self.emitter.arrays[name] = shape
             self.emitter.allocator.place("array", name, shape)
 

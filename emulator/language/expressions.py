@@ -116,7 +116,8 @@ class Emitter:
         if len(reference.arguments) != len(shape):
             raise Refused(
                 reference.place,
-                f"{reference.name} has {len(shape)} dimension{'s' * (len(shape) > 1)}, not {len(reference.arguments)}",
+                f"{reference.name} needs {len(shape)} subscript{'s' * (len(shape) > 1)} (see its DIMENSION), "
+                f"found {len(reference.arguments)}",
             )
         entry = self.allocator.place("array", reference.name, shape)
         parts = [self.subscript(argument) for argument in reference.arguments]

@@ -184,7 +184,7 @@ def _taken_as_comment(card: Card, why: str) -> Diagnostic:
 def parse_statement(source: Source) -> tree.Statement:
     """Parse a statement.  Results are cached, because many decks differ from others in single cards only."""
     if not source.text:
-        raise Refused(source.place, f"a statement number without a statement: {source.label}")
+        raise Refused(source.place, f"expected a statement after the statement number {source.label}")
     for card in source.cards:
         if statement_columns(card).rstrip() != card.columns(1, LAST_COLUMN).rstrip(f"{RECORD_MARKS} "):
             raise Refused(source.place, _AFTER_MARK)
@@ -197,7 +197,7 @@ def parse_statement(source: Source) -> tree.Statement:
     # An unknown statement that resembles a FORMAT gets the error types 10 and 11 of p. 56.
     if source.kind == "unknown":
         if _FORMAT_LIKE.match(source.text):
-            raise Refused(source.place, "FORMAT is misspelled", 10)
+            raise Refused(source.place, "the word FORMAT is misspelled", 10)
         if source.text.startswith("FORMAT"):
             raise Refused(source.place, "expected a parenthesis after FORMAT", 11)
         raise Refused(source.place, f"not a statement of this FORTRAN: {source.text[:40]}")
@@ -209,7 +209,7 @@ def parse_statement(source: Source) -> tree.Statement:
         body = _Builder(source.places).build(_tree(source.text, source.kind))
     except UnexpectedCharacters as error:
         at = source.places[error.pos_in_stream or 0]
-        raise Refused(at, f"{error.char!r} does not fit here; the form is {form}", number) from None
+        raise Refused(at, f"{error.char!r} is not allowed here; the form is {form}", number) from None
     except UnexpectedToken as error:
         # An IF that is followed by a comma is error type 7 (C26-5619 p. 56).
         if source.kind == "if" and error.token == "," and source.text[(error.token.start_pos or 1) - 1] == ")":
@@ -232,7 +232,7 @@ def _token_message(error: UnexpectedToken, source: Source) -> tuple[tree.Place, 
     if token.type == "$END":
         return source.places[-1], f"the statement ends too soon; the form is {form}"
     at = source.places[token.start_pos or 0]
-    return at, f"{str(token)!r} does not fit here; the form is {form}"
+    return at, f"{str(token)!r} is not allowed here; the form is {form}"
 
 
 def _depth(text: str) -> int:

@@ -183,7 +183,9 @@ def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> 
 
 
 def stopped(program: Program, kind: Kind, at: int, decision: int, subscripts: tuple[int, ...] = ()) -> Ending:
-    """Return an ending of the given kind at the instruction ``at``; it holds no further data except ``subscripts``."""
+    """Return the ending of a run at the instruction ``at``, for kinds of ending that need no data except
+    ``subscripts``.
+    """
     return Ending(kind, program.source, program.line_at(at), decided(program, decision), subscripts=subscripts)
 
 

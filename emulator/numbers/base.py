@@ -117,7 +117,9 @@ class Numbers(ABC):
 
     @abstractmethod
     def power(self, base: Number, exponent: Number) -> tuple[Number, str]:
-        """Return ``A ** B`` and an error code or "".  For a negative A: ``|A| ** B`` and F6.  May raise Undecided."""
+        """Return ``A ** B`` and an error code or "".  For a negative A: ``|A| ** B`` and code F6.  May raise
+        Undecided.
+        """
 
     @abstractmethod
     def integer_power(self, base: Number, count: int) -> tuple[Number, str]:

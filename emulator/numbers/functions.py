@@ -72,8 +72,7 @@ def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
 
 @lru_cache(maxsize=4096)
 def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Value:
-    """Return ``A ** B`` for a floating-point B, and for a negative A ``|A| ** B`` with error code F6, as GOTRAN
-    does.
+    """Return ``A ** B`` for a floating-point B.  For a negative A: ``|A| ** B`` with error code F6, as IBM's GOTRAN.
 
     Powers of zero are those of ``A ** J`` (OPEN-QUESTIONS 8).
     """

@@ -88,7 +88,7 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
     if len(digits) > COORDINATE.decimals and not truncate:
         raise TooManyDigits(f"{len(digits)} significant digits; a card holds 8")
     if not -99 <= exponent <= 99:
-        raise ArgumentError("out of range: the exponent of a card is -99 to 99")
+        raise ArgumentError("out of range: a card's exponent, as in .5E+01, must be -99 to 99")
     power = f"{'-' if exponent < 0 else '+'}{abs(exponent):02d}"
     return f"{'-' if minus else '+'}.{digits[:8].ljust(8, '0')}E{power}"
 

@@ -155,7 +155,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
     if digits is None:
         raise ValueError(f"{quoted(stripped)} has no finite decimal; give a number of digits to which it is rounded")
     if digits < 1:
-        raise ValueError(f"{digits} is not a number of digits to round to")
+        raise ValueError(f"digits: expected at least 1, found {digits}")
     context = Context(prec=digits, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
     return str(context.divide(Decimal(value.numerator), Decimal(value.denominator)))
 

@@ -30,7 +30,7 @@ class FloatArithmetic(Arithmetic):
         except (OverflowError, FloatingPointError):
             converted = self.dtype("inf")
         if not np.isfinite(converted):
-            raise RangeError(f"too large for {self.name}")
+            raise RangeError(f"the number is too large for {self.name}")
         return self.dtype(-0.0) if minus and value == 0 else converted
 
     def quotient(self, value: Scalar, count: int) -> Scalar:

@@ -304,7 +304,7 @@ def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.i
 
 
 def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
-    """Add the given number of vertices, or all if it is negative.  ``first`` is True if the hull is still H_1."""
+    """Add ``stages`` vertices to the hull, or all if it is negative.  ``first`` is True before the first addition."""
     while True:
         if not first:
             # No points remain, and the last test eliminated none (statement 103).
@@ -329,7 +329,7 @@ def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: 
 
 
 def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: Any, e: Any) -> int:
-    """Count the points on a plane, without branches, like :func:`count_above`."""
+    """Count the points that satisfy a plane's equation.  Like :func:`count_above`, the loop has no branches."""
     x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
     count = 0
     for k in range(len(x)):

@@ -89,7 +89,7 @@ def fields_at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
 def at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
     """Yield an endless sequence of random statements with their data cards.
 
-    They contain fields, literals, skips, slashes, groups and errors.
+    The statements contain fields, literals, skips, slashes, groups and errors.
     """
     r = random.Random(seed)
     while True:

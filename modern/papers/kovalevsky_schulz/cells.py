@@ -114,7 +114,7 @@ def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> li
 
 
 def _shifted(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Array]:
-    """Move the points so that the least coordinates are 0.  Return these and the points, as int64 if large enough."""
+    """Return the least coordinates, and the points moved by them to the origin, as int64 if that is large enough."""
     x, y, z = (min(axis) for axis in zip(*points, strict=True))
     shifted = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
     extent = max(map(max, shifted))

@@ -145,9 +145,10 @@ class Tables:
 
 
 def tables(of_near: Values, of_far: Values) -> Tables:
-    """Compute the tables PL and LP from values of formula (1), whose signs they hold.
+    """Compute the tables PL and LP, which hold the signs of the values of formula (1), for two contours V and V'.
 
-    ``of_near`` has V's segments at the vertices of V', ``of_far`` the segments of V' at the vertices of V.
+    ``of_near`` holds the values of V's segments at the vertices of V', ``of_far`` those of the segments of V' at the
+    vertices of V.
     """
     signs = [[(f > 0) - (f < 0) for f in column] for column in of_near]
     return Tables(tuple(zip(*signs, strict=True)), tuple(tuple((f > 0) - (f < 0) for f in row) for row in of_far))

@@ -173,7 +173,7 @@ def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
 
 
 def _by_candidates(edges: list[Edge], points: tuple[Point, ...]) -> tuple[Face, ...]:
-    """Find the faces in the order of the queue, each by one comparison of all points."""
+    """Find the faces of the envelope by gift wrapping: from each edge in the queue, all points are compared once."""
     queue, candidates = _queue(edges), Candidates(points)
     faces: list[Face] = []
     while queue:

@@ -103,7 +103,7 @@ def test_line_of_more_than_80_columns_is_rejected_unless_blank() -> None:
 
 
 def test_deck_with_too_many_cards_is_rejected() -> None:
-    with pytest.raises(DeckError, match="100001 cards"):
+    with pytest.raises(DeckError, match="expected at most 100000 cards, found 100001"):
         deck_from_text("x", "\n" * (cards.MAX_CARDS + 1))
     assert len(deck_from_text("x", "\n" * cards.MAX_CARDS).cards) == cards.MAX_CARDS
 

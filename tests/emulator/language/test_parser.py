@@ -136,15 +136,15 @@ REFUSED = [
     ("SUBROUTINE X", 1, 0, "SUBROUTINE belongs to FORTRAN II"),
     ("X=", 2, 0, "ends too soon"),
     ("X=A+", 4, 0, "ends too soon"),
-    ("X=A B)", 6, 0, "')' does not fit"),
+    ("X=A B)", 6, 0, "')' is not allowed"),
     ("X=(A", 4, 0, "ends too soon"),
-    ("X=A+*B", 5, 0, "'*' does not fit"),
-    ("X=A/-B", 5, 0, "'-' does not fit"),
-    ("X=A**B**C", 7, 0, "'**' does not fit"),
+    ("X=A+*B", 5, 0, "'*' is not allowed"),
+    ("X=A/-B", 5, 0, "'-' is not allowed"),
+    ("X=A**B**C", 7, 0, "'**' is not allowed"),
     ("X=A$", 4, 0, "$"),
-    ("X=1E5", 4, 0, "does not fit"),
-    ("5=X", 2, 0, "does not fit"),
-    ("X+Y=Z", 2, 0, "does not fit here; the form is variable = expression"),
+    ("X=1E5", 4, 0, "is not allowed"),
+    ("5=X", 2, 0, "is not allowed"),
+    ("X+Y=Z", 2, 0, "is not allowed here; the form is variable = expression"),
     ("ABCDEF=1.", 1, 6, "ABCDEF has more than five characters"),
     ("X=A+LENGTH", 5, 6, "LENGTH has more than five characters"),
     ("I=12345", 3, 0, "12345 has more than four digits"),
@@ -155,24 +155,24 @@ REFUSED = [
     ("GO TO 10000", 7, 0, "10000 is not between 1 and 9999"),
     ("10000 X=1.", 7, 0, "10000 is not between 1 and 9999"),
     ("IF (A) 1,2", 10, 0, "ends too soon"),
-    ("IF (A), 1,2,3", 7, 7, "',' does not fit"),
-    ("IF (A,B) 1,2,3", 6, 0, "',' does not fit"),
-    ("IF (A) 1,2,,3", 12, 0, "',' does not fit"),
+    ("IF (A), 1,2,3", 7, 7, "',' is not allowed"),
+    ("IF (A,B) 1,2,3", 6, 0, "',' is not allowed"),
+    ("IF (A) 1,2,,3", 12, 0, "',' is not allowed"),
     ("IF A 1,2,3", 1, 0, "not a statement"),
-    ("IF (SENSE SWITCH) 1,2", 17, 7, "')' does not fit"),
-    ("IF (SENSE SWITCH 1), 1,2", 20, 7, "',' does not fit"),
+    ("IF (SENSE SWITCH) 1,2", 17, 7, "')' is not allowed"),
+    ("IF (SENSE SWITCH 1), 1,2", 20, 7, "',' is not allowed"),
     ("IF (SENSE SWITCH 5) 1,2", 18, 7, "no sense switch 5"),
     ("DO 10 I=1,", 10, 8, "ends too soon"),
-    ("DO 10 I=1,2,3,4", 14, 8, "',' does not fit"),
-    (" CONTINUE 5", 11, 0, "'5' does not fit"),
+    ("DO 10 I=1,2,3,4", 14, 8, "',' is not allowed"),
+    (" CONTINUE 5", 11, 0, "'5' is not allowed"),
     ("DIMENSION X(5),", 15, 9, "ends too soon"),
     ("DIMENSION X", 11, 9, "ends too soon"),
-    ("DIMENSION X(I)", 13, 9, "'I' does not fit"),
+    ("DIMENSION X(I)", 13, 9, "'I' is not allowed"),
     ("DIMENSION X(2,3,4)", 11, 9, "X has more than two dimensions"),
     ("READ", 4, 13, "ends too soon"),
-    ("PUNCH 5,,A", 9, 13, "',' does not fit"),
-    ("PUNCH 5,3", 9, 13, "'3' does not fit"),
-    ("PUNCH 5,(A(I),I=1)", 18, 13, "')' does not fit"),
+    ("PUNCH 5,,A", 9, 13, "',' is not allowed"),
+    ("PUNCH 5,3", 9, 13, "'3' is not allowed"),
+    ("PUNCH 5,(A(I),I=1)", 18, 13, "')' is not allowed"),
     ("X=" + "(" * 61 + "A", 1, 0, f"nested more than {MAX_NESTING} deep"),
 ]
 
@@ -212,7 +212,7 @@ def test_unknown_statement_is_quoted_to_forty_characters() -> None:
 
 def test_a_statement_number_without_a_statement() -> None:
     (message,) = parsed("100").diagnostics
-    assert "a statement number without a statement" in message.message
+    assert "expected a statement after the statement number" in message.message
 
 
 def test_parsing_continues_after_an_invalid_card() -> None:

@@ -188,7 +188,7 @@ def test_a_fraction_without_finite_decimal_is_rejected_or_rounded() -> None:
     halved = [(Fraction(x, 6), y, z) for x, y, z in CUBE]
     assert {p[0] for p in tiny_off(export_text(convex_hull(halved), "off", digits=3))[0]} == {0, Fraction("0.333")}
     assert '"2/3"' in export_text(hull, "json")
-    with pytest.raises(ExportError, match="0 is not a number of digits"):
+    with pytest.raises(ExportError, match="digits: expected at least 1, found 0"):
         export_text(hull, "off", digits=0)
 
 

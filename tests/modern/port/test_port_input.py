@@ -50,8 +50,8 @@ def test_error_names_an_invalid_point(invalid: object, message: str) -> None:
     [
         ("truncating", "1e99", "point 1, coordinate y: expected a number with an exponent from -99 to 99"),
         ("truncating", "1e-101", "point 1, coordinate y: expected a number with an exponent from -99 to 99"),
-        ("float64", "1e400", "point 1, coordinate y: too large for float64"),
-        ("float32", "1e39", "point 1, coordinate y: too large for float32"),
+        ("float64", "1e400", "point 1, coordinate y: the number is too large for float64"),
+        ("float32", "1e39", "point 1, coordinate y: the number is too large for float32"),
     ],
 )
 def test_error_names_a_point_out_of_range(arithmetic: str, number: str, message: str) -> None:
