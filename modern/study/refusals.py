@@ -80,8 +80,8 @@ def table(sheets: tuple[Sheets, ...]) -> Table:
         of_seventy = with_interval(count(s.refused, s.sets, SEVENTY), 1)
         rows.append(row(f"{s.share / 10:g} %", FORMS[s.form], s.sets, s.rate, of_seventy, s.otherwise, needed(s)))
     notes = (
-        "Refused: DATA NOT ACCEPTABLE. Sheets in 70 for two: the number of such sheets among seventy sets that makes "
-        "two the most probable number of rejections, if the other sets are never rejected.",
+        "A set is refused if a program types DATA NOT ACCEPTABLE. The last column has the number of such sheets among "
+        "seventy sets that makes two the most probable number of rejections, if the other sets are never rejected.",
         *INTERVALS,
     )
     return Table("decimals", "Data sheets with decimals, as listed", head, tuple(rows), notes)
@@ -134,8 +134,8 @@ def conclusions(sheets: tuple[Sheets, ...]) -> tuple[str, ...]:
         shares = likely_shares(tuple((s.share, s.rate.value) for s in of_form))
         printed = of_form[-1]
         paragraphs.append(
-            f"Decimals {drawn}: if a third of the coordinates are decimals, as on the sheet, {percent(printed.rate)} "
-            "of the sets are rejected."
+            f"Decimals {drawn}: if a third of the coordinates are decimals, as on the data sheet, the programs reject "
+            f"{percent(printed.rate)} of the sets."
             + f" Two rejections are the most probable number if {needed(printed)} of seventy sets are such sheets"
             * bool(printed.refused)
             + (

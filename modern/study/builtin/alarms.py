@@ -196,9 +196,9 @@ def _main(rows: _Rows) -> Table:
     head = ("method", *of_wrong, "sound runs", "false alarm", "would go wrong", "alarms at right decisions")
     notes = (
         *INTERVALS,
-        "Noticed: an alarm at the first wrong decision. Announced: at an earlier decision. Sound runs: all decisions "
-        "are right. Would go wrong: the method's own decision would be wrong somewhere in a sound run. The e is the "
-        "least that notices most, chosen on these runs.",
+        "A method notices a wrong decision if it raises an alarm there, and announces it by an alarm at an earlier "
+        "decision. All decisions of a sound run are right. A method would go wrong if its own decision would be wrong "
+        "somewhere in a sound run. The e of the last row is the least that notices most, chosen on these runs.",
     )
     return Table("table", "Wrong decisions noticed, and false alarms", head, tuple(lines), notes)
 
@@ -211,7 +211,7 @@ def _families(plan: Plan, rows: _Rows) -> Table:
             key = plan.cells[number].key["sets"]
             lines.append(row(key, NAMES.get(name, name), group.wrong, noticed, group.sound, alarmed))
     head = ("sets", "method", "runs with a wrong decision", "noticed", "sound runs", "false alarm")
-    notes = (*INTERVALS, "The e is the least that notices most in the family, chosen on these runs.")
+    notes = (*INTERVALS, "The e of each family is the least that notices most there, chosen on these runs.")
     return Table("families", "Wrong decisions noticed, and false alarms, by family", head, tuple(lines), notes)
 
 
@@ -234,9 +234,9 @@ def _digit_table(rows: _Rows) -> Table:
         lines.append((title, str(rows.estimated[ESTIMATING[0]]), *shares))
     head = ("true digits", "numbers", *(NAMES[name] for name in ESTIMATING))
     notes = (
-        "Numbers that a decision tests and that are not exact, by their correct digits, rounded to an integer; below, "
-        "the mean of the estimates with Student's 95 % interval over runs. Last row: runs, and the share of them with "
-        "a number whose estimate is more than one digit too large (exact 95 % interval).",
+        "The table groups the inexact numbers that decisions test by their correct digits, rounded to an integer, and "
+        "gives the mean of the estimates with Student's 95 % interval over runs. The last row has the share of runs "
+        "with a number whose estimate is more than one digit too large (exact 95 % interval).",
     )
     return Table("digits", "Digits estimated against true digits", head, tuple(lines), notes)
 
@@ -262,9 +262,10 @@ def _costs(rows: _Rows) -> Table:
     factors["double"] = microseconds(16) / microseconds(8)
     lines = tuple((NAMES[name], f"{factors[name]:.1f}") for name in METHODS)
     notes = (
-        "Time of the digit arithmetic of a run, compared with a plain run: additions take 160 + 80 P, products 560 + "
-        "40 P + 168 P^2, quotients 160 + 740 P + 520 P^2 microseconds with P digits (A26-5706-3). Intervals: two "
-        "operations for each, which an interval that holds zero exceeds. Chapter 7's e costs a comparison.",
+        "The table compares the time of the digit arithmetic with that of a plain run: additions take 160 + 80 P, "
+        "products 560 + 40 P + 168 P^2, quotients 160 + 740 P + 520 P^2 microseconds with P digits (A26-5706-3). "
+        "Intervals take two operations for each, or more if an interval contains zero. Chapter 7's e takes a "
+        "comparison.",
     )
     return Table("cost", "Cost relative to a plain run", ("method", "times a plain run"), lines, notes)
 
@@ -319,10 +320,10 @@ def _conclusions(rows: _Rows) -> tuple[str, ...]:
         f"Of {group.wrong:,} runs in which eight-digit arithmetic took a wrong branch, CADNA's criterion noticed "
         f"{noticed['cadna3']} with three samples and {noticed['cadna10']} with ten"
         + (", fewer because more samples make the mean more certain, but not the number that decides" if fewer else "")
-        + f"; Stott Parker's criterion noticed {noticed['parker10']}. Methods that noticed all: {complete}.",
+        + f"; Stott Parker's criterion noticed {noticed['parker10']}. These methods noticed all: {complete}.",
         f"Of {hard.sound:,} runs without a wrong decision in the same families, CADNA with three samples raised an "
         f"alarm in {alarmed['cadna3']}, intervals in {alarmed['interval']} and sixteen digits in {alarmed['double']}. "
-        f"Methods without a false alarm: {silent}.",
+        f"These methods raised no false alarm: {silent}.",
         f"Chapter 7's e noticed at most {noticed[e]} of the wrong decisions, at {e}, with an alarm in {alarmed[e]} of "
         f"the runs without one. In {optimistic} of the runs with rounding errors, CADNA with three samples claimed "
         "more than one digit too many for some number that a decision tests.",

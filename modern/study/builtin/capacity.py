@@ -26,7 +26,7 @@ CORE = (20_000, 40_000, 60_000)
 LISTED, EXACT = "as listed", "exact"
 _INTERVALS = (
     "The numbers in parentheses are 95 % intervals: Student's for means, truncated at 0, and exact ones (Clopper and "
-    "Pearson) for proportions. Places are the entries of the plane table in use."
+    "Pearson) for proportions. A place is an entry of the plane table that is in use."
 )
 _NAMES = {"integers": "cube, solid", "cube": "cube, surface"}
 
@@ -124,8 +124,8 @@ def _core(peaks: dict[int, _Peak]) -> Table:
     )
     head = ("table", "places", "positions, about", "smallest core")
     notes = (
-        "The table applies to program 3 as listed, but with longer arrays. Places: entries of its plane table. The "
-        "length of its object code is an estimate (docs/reference/machine.md).",
+        "The table applies to program 3 as listed, but with longer arrays. Its places are the entries of the plane "
+        "table. The length of program 3's object code is an estimate (docs/reference/machine.md).",
     )
     return Table("storage", "Positions of core needed by program 3", head, rows, notes)
 
@@ -179,7 +179,7 @@ def _conclusions(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> tuple[
     if sufficient:
         number = sum(counts.of(k, LISTED) for k, cell in enumerate(plan.cells) if cell.key["n"] == sufficient)
         conclusions.append(
-            f"At that N, {number} sets were tried. As none of them needed more than {PLACES} entries, up to "
-            f"{100 * exact(0, number).high:.2f} % of such sets could need more (exact 95 % interval)."
+            f"None of the {number} sets that were tried at this N needed more than {PLACES} entries, so at most "
+            f"{100 * exact(0, number).high:.2f} % of such sets need more (exact 95 % interval)."
         )
     return tuple(conclusions)

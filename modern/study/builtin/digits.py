@@ -94,7 +94,7 @@ def _main(counts: Summary, cells: Cells) -> Table:
     head = ("digits d", "sets", "hull found, as listed", "hull found, corrected", *needed)
     notes = (
         *INTERVALS,
-        "No set failed at the least P. Its interval tells how many could still fail.",
+        "No set failed with the least P. The interval in the last column tells how many sets could still fail.",
     )
     return Table("table", "Digits of the coordinates against digits of the arithmetic", head, tuple(rows), notes)
 
@@ -182,10 +182,10 @@ def _conclusions(counts: Summary, cells: Cells) -> tuple[str, ...]:
     sets = counts.of(0, LISTED)
     return (
         "In eight-digit arithmetic the corrected programs found every hull if the coordinates had one of these numbers "
-        f"of digits: {listed(without_failure)}. They found no hull at all for these numbers of digits: "
+        f"of digits: {listed(without_failure)}. The programs found no hull at all for these numbers of digits: "
         f"{listed(without_hull)}.",
-        f"The failures include this part of plausible but wrong hulls: {share_of(wrong, failed)}.",
-        f"The least P is 3d + 1, with which every test for zero is exact, for {len(agree)} of {len(cells)} numbers of "
-        f"digits d. If none of {sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of such sets could fail "
-        "(exact 95 % interval). With 3d + 4 digits no set can fail.",
+        f"Plausible but wrong hulls are this part of the failures: {share_of(wrong, failed)}.",
+        f"The least P without a failure is 3d + 1, with which every test for zero is exact, for {len(agree)} of "
+        f"{len(cells)} numbers of digits d. If none of {sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of "
+        "such sets could fail (exact 95 % interval). A proof shows that no set fails with P = 3d + 4 digits.",
     )

@@ -158,8 +158,8 @@ def _main(plan: Plan, rows: _Rows) -> Table:
     head = ("sets", "of each", "hull found, e = 0", *by_way)
     notes = (
         *INTERVALS,
-        "Swallows from: the smallest tried e such that it and every larger one lost a true vertex of some set or "
-        "counted a body as flat.",
+        "The column swallows from has the smallest tried e such that this e and every larger one lost a true vertex "
+        "of some set or counted a body as flat.",
     )
     return Table("table", "Which e works", head, tuple(lines), notes)
 
@@ -224,7 +224,7 @@ def _price(plan: Plan, rows: _Rows, store: Store) -> Table:
         lines.append(row(comparison, of, wrong, exact(wrong, of) if of else None))
     notes = (
         *INTERVALS,
-        "Smaller, greater: compared with the values of e at which no set of the kind failed. A set counts once.",
+        "The table compares e with the values at which no set of the kind failed. A set counts once.",
     )
     head = ("e, as it is", "sets", "wrong hull", "of these sets")
     return Table(
@@ -245,8 +245,9 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
     same, of = _same_as_port(store)
     return (
         f"An absolute e removed all failures of these kinds of sets, which fail without e: {saved[0]}. A scaled e "
-        f"removed all failures of these kinds: {saved[1]}. Kinds that lose a vertex even at e = 0: {listed(lost)}.",
-        f"The port gives the outcome of the programs with the same e in {same:,} of {of:,} runs.",
+        f"removed all failures of these kinds of sets: {saved[1]}. These kinds lose a vertex even at e = 0: "
+        f"{listed(lost)}.",
+        f"In {same:,} of {of:,} runs, the port has the same outcome as the programs with the same e.",
     )
 
 

@@ -179,7 +179,7 @@ def _sizes(plan: Plan, counts: Summary) -> Table:
         wrong = [str(counts.hits(number, way, (WRONG,))) for way in WAYS]
         rows.append((sets, str(cell.samples), *(percent(counts.share(number, way)) for way in WAYS), " ".join(wrong)))
     head = ("sets", "of each", *WAYS, "wrong hulls")
-    notes = (*INTERVALS, "Wrong hulls: their numbers, in the order of the columns.")
+    notes = (*INTERVALS, "The last column has the numbers of wrong hulls, in the order of the other columns.")
     return Table("exact", "Hull found with the exact test", head, tuple(rows), notes)
 
 
@@ -192,7 +192,7 @@ def _widths(plan: Plan, counts: Summary) -> Table:
             shares = [percent(counts.share(number, route)) for route in routes]
             rows.append((str(cell.key["sets"]), f"10^{k}", str(cell.samples), *shares, " ".join(wrong)))
     head = ("sets", "e", "of each", *WAYS, "wrong hulls")
-    notes = (*INTERVALS, "Wrong hulls: their numbers, in the order of the columns.")
+    notes = (*INTERVALS, "The last column has the numbers of wrong hulls, in the order of the other columns.")
     return Table("interval", "Hull found with the scaled interval", head, tuple(rows), notes)
 
 
@@ -297,9 +297,9 @@ def _conclusions(plan: Plan, counts: Summary) -> tuple[str, ...]:
     ((number, cell),) = cells(plan, sets=TENTHS)
     eight, binary = counts.share(number, TRUNCATING), counts.share(number, "float64")
     return (
-        f"Sets that failed with the exact test, by arithmetic: {listed(failed)}.",
+        f"With the exact test, these numbers of sets failed, by arithmetic: {listed(failed)}.",
         f"With the exact test, all arithmetics together failed {of - right:,} times. Of these failures, {wrong:,} are "
         f"plausible but wrong hulls, and {of - right - wrong:,} are rejected sets or runs that did not end.",
-        f"Hulls found for the sets {cell.key['sets']}: {percent(eight)} by truncation to eight digits; "
-        f"{percent(binary)} by float64, which cannot represent a tenth.",
+        f"For the sets {cell.key['sets']}, truncation to eight digits finds {percent(eight)} of the hulls, and "
+        f"float64, which cannot represent a tenth, finds {percent(binary)}.",
     )

@@ -156,7 +156,7 @@ def _main(*routes: _Route) -> Table:
         rows.append(row(route.name, route.sets, route.failed, share, with_interval(route.mean), *groups))
     notes = (
         "The numbers in parentheses are exact 95 % intervals (Clopper and Pearson). The interval of failures in "
-        "70 is seventy times that of all sets, because sets are drawn independently. 70s: groups of seventy sets.",
+        "70 is seventy times that of all sets, because sets are drawn independently. A group of seventy sets is a 70.",
     )
     return Table("table", "Failures in seventy examples", head, tuple(rows), notes)
 
@@ -245,15 +245,15 @@ def _conclusions(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...],
     )
     frequent = (f"{outcome} {where}, {share_of(n, as_listed.failed)}" for (outcome, where), n in causes.most_common(3))
     conclusions = [
-        f"Seventy such sets have {with_interval(as_listed.mean)} failures with the programs as listed, "
+        f"Seventy sets like the thesis's have {with_interval(as_listed.mean)} failures with the programs as listed, "
         f"{_compared_with_two(as_listed.mean)}. Of the groups of seventy, "
         f"{percent(as_listed.groups(THESIS, THESIS))} have two failures and {percent(as_listed.groups(THESIS))} have "
         "two or more. "
         f"Two failures in seventy are {_unusual(as_listed.groups(THESIS))}.",
         f"The most frequent failures of the programs as listed are: {listed(frequent)}. DATA NOT ACCEPTABLE, the "
-        f"message for too few digits: {share_of(digits, as_listed.failed)}. Plausible but wrong hulls: "
-        f"{share_of(wrong, as_listed.failed)}.",
-        f"With the one card of row P3-025, seventy sets have {with_interval(mended.mean)} failures, which is "
+        f"message for too few digits, is this part of the failures: {share_of(digits, as_listed.failed)}. Plausible "
+        f"but wrong hulls are this part: {share_of(wrong, as_listed.failed)}.",
+        f"With one more card (emendation P3-025), seventy sets have {with_interval(mended.mean)} failures, which is "
         f"{as_listed.mean.value - mended.mean.value:.2f} fewer.",
         f"The longest run that gave a hull took {longest:,} statements; runs of {_LIMIT:,} count as endless.",
     ]

@@ -169,7 +169,8 @@ def test_rounding_reports_the_hulls_of_decimal_sets(tmp_path: Path) -> None:
         return ("DATA NOT ACCEPTABLE", "") if cell == tenths and route == "float64" else ("right", "")
 
     conclusion = report_of("rounding", plan, tmp_path / "a", outcome).conclusions[2]
-    assert "100.0 (83.2 to 100.0) % by truncation to eight digits; 0.0 (0.0 to 16.8) % by float64" in conclusion
+    assert "truncation to eight digits finds 100.0 (83.2 to 100.0) % of the hulls" in conclusion
+    assert conclusion.endswith("finds 0.0 (0.0 to 16.8) %.")
 
 
 def test_epsilon_finds_an_e_that_works_for_all_sets(tmp_path: Path) -> None:

@@ -117,7 +117,7 @@ def test_digits_report_follows_changed_rows(digits_study: tuple[Plan, Path, Repo
         after = digits.report(plan, store)
         assert digits.least(summary(store), 1) == 21
     assert after.tables[0].rows[1][4] == "21"
-    assert before.conclusions[2].startswith("The least P is 3d + 1, with which every test for zero")
+    assert before.conclusions[2].startswith("The least P without a failure is 3d + 1, with which every test for zero")
     assert "is exact, for 3 of 3 numbers" in before.conclusions[2]
     assert "is exact, for 2 of 3 numbers" in after.conclusions[2]
 
@@ -136,7 +136,7 @@ def test_capacity_reports_the_greatest_number_of_entries_of_its_rows(tmp_path: P
     assert [row[1] for row in report.tables[0].rows] == ["-", "51"]
     assert f" sets: up to {max(figures)} entries were in use at once" in report.conclusions[0]
     assert report.conclusions[0].endswith("no set needed more than 98 entries is 8.")
-    assert report.conclusions[1].startswith("At that N, 4 sets were tried. ")
+    assert report.conclusions[1].startswith("None of the 4 sets that were tried at this N needed ")
     assert report.tables[2].rows[0][1:] == ("98", str(capacity.positions(98)), "40000")
 
 
@@ -179,18 +179,18 @@ def test_divergence_report_follows_changed_rows(tmp_path: Path) -> None:
     plan = Plan(whole.name, whole.title, whole.question, tuple(selected), whole.seed)
     report = _finished(plan, tmp_path / "out", divergence)
     assert sum(int(row[1]) for row in report.tables[0].rows) == 6
-    assert report.conclusions[0].endswith("It did so for all sets of these families: whole, 2 digits.")
+    assert report.conclusions[0].endswith("All decisions agreed for all sets of these families: whole, 2 digits.")
     with closing(Store.open(tmp_path / "out", plan)) as store:
         store.query("UPDATE runs SET outcome = 'right'")
         assert "because of faults of the programs: 0 of 3," in divergence.report(plan, store).conclusions[1]
         store.query("UPDATE runs SET outcome = 'endless' WHERE place = 0")
         once = divergence.report(plan, store).conclusions[1]
-        assert once.startswith("Sets with a different decision that still give the right hull: 2 of 3,")
+        assert once.startswith("Of the sets with a different decision, this part still gives the right hull: 2 of 3,")
         assert "because of faults of the programs: 1 of 3," in once
         store.query("UPDATE runs SET figures = json_set(figures, '$.diverges', 'program3 116')")
         after = divergence.report(plan, store)
     assert after.tables[0].rows[0][:2] == ("program3 116", "6")
-    assert after.conclusions[0].endswith("It did so for all sets of these families: none.")
+    assert after.conclusions[0].endswith("All decisions agreed for all sets of these families: none.")
     assert after.conclusions[1].endswith("because of faults of the programs: 0 of 0.")
 
 
