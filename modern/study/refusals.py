@@ -80,8 +80,9 @@ def table(sheets: tuple[Sheets, ...]) -> Table:
         of_seventy = with_interval(count(s.refused, s.sets, SEVENTY), 1)
         rows.append(row(f"{s.share / 10:g} %", FORMS[s.form], s.sets, s.rate, of_seventy, s.otherwise, needed(s)))
     notes = (
-        "A set is refused if a program types DATA NOT ACCEPTABLE. The last column has the number of such sheets among "
-        "seventy sets that makes two the most probable number of rejections, if the other sets are never rejected.",
+        "A set is refused if a program types DATA NOT ACCEPTABLE. The last column tells how many of seventy sets "
+        "must be such data sheets to make two the most probable number of rejections, if the other sets are never "
+        "rejected.",
         *INTERVALS,
     )
     return Table("decimals", "Data sheets with decimals, as listed", head, tuple(rows), notes)

@@ -320,7 +320,8 @@ def _conclusions(rows: _Rows) -> tuple[str, ...]:
         f"Of {group.wrong:,} runs in which eight-digit arithmetic took a wrong branch, CADNA's criterion noticed "
         f"{noticed['cadna3']} with three samples and {noticed['cadna10']} with ten"
         + (", fewer because more samples make the mean more certain, but not the number that decides" if fewer else "")
-        + f"; Stott Parker's criterion noticed {noticed['parker10']}. These methods noticed all: {complete}.",
+        + f"; Stott Parker's criterion noticed {noticed['parker10']}. These methods noticed all "
+        f"wrong decisions: {complete}.",
         f"Of {hard.sound:,} runs without a wrong decision in the same families, CADNA with three samples raised an "
         f"alarm in {alarmed['cadna3']}, intervals in {alarmed['interval']} and sixteen digits in {alarmed['double']}. "
         f"These methods raised no false alarm: {silent}.",

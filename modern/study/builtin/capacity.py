@@ -124,7 +124,7 @@ def _core(peaks: dict[int, _Peak]) -> Table:
     )
     head = ("table", "places", "positions, about", "smallest core")
     notes = (
-        "The table applies to program 3 as listed, but with longer arrays. Its places are the entries of the plane "
+        "The table applies to program 3 as listed, but with longer arrays. Places are the entries of the plane "
         "table. The length of program 3's object code is an estimate (docs/reference/machine.md).",
     )
     return Table("storage", "Positions of core needed by program 3", head, rows, notes)

@@ -245,7 +245,7 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
     same, of = _same_as_port(store)
     return (
         f"An absolute e removed all failures of these kinds of sets, which fail without e: {saved[0]}. A scaled e "
-        f"removed all failures of these kinds of sets: {saved[1]}. These kinds lose a vertex even at e = 0: "
+        f"removed all failures of these kinds of sets: {saved[1]}. These kinds of sets lose a vertex even at e = 0: "
         f"{listed(lost)}.",
         f"In {same:,} of {of:,} runs, the port has the same outcome as the programs with the same e.",
     )

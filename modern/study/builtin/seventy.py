@@ -156,7 +156,7 @@ def _main(*routes: _Route) -> Table:
         rows.append(row(route.name, route.sets, route.failed, share, with_interval(route.mean), *groups))
     notes = (
         "The numbers in parentheses are exact 95 % intervals (Clopper and Pearson). The interval of failures in "
-        "70 is seventy times that of all sets, because sets are drawn independently. A group of seventy sets is a 70.",
+        "70 is seventy times that of all sets, because sets are drawn independently. 70s are groups of seventy sets.",
     )
     return Table("table", "Failures in seventy examples", head, tuple(rows), notes)
 
