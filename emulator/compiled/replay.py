@@ -18,7 +18,7 @@ import numpy as np
 from emulator.jit.functions import Compiled, NotInstalled
 from emulator.machine.tape import ADD, DIVIDE, LEAF, MULTIPLY, NEGATE, SUBTRACT, Tape
 from emulator.numbers.accumulator import add, divide, multiply, negate, subtract
-from emulator.numbers.arithmetic import Rules, drawn
+from emulator.numbers.arithmetic import Rules, drawn, profile
 from emulator.numbers.base import Number, Undecided
 from emulator.numbers.interval import Interval, IntervalNumbers
 
@@ -74,6 +74,12 @@ def _compiled() -> Compiled | None:
         return None
 
 
+def compile_repetitions() -> None:
+    """Compile the repetition of tapes, or load it from numba's cache.  Otherwise :func:`repetitions` runs as Python."""
+    if compiled := _compiled():
+        compiled.ready(*[np.zeros(0, np.int64)] * 5, profile("truncating").rules)
+
+
 def repetitions(tape: Tape, digits: int, rules_of_runs: Iterable[Rules]) -> Iterator[tuple[list[int], list[int]]]:
     """Repeat a tape with each of the given rules; yield the mantissas and exponents of the numbers that the IFs
     tested.
@@ -84,12 +90,16 @@ def repetitions(tape: Tape, digits: int, rules_of_runs: Iterable[Rules]) -> Iter
     compiled = _compiled()
     code = tape.operations, tape.firsts, tape.seconds
     places = [test.place for test in tape.tests]
+    if compiled and compiled.must_compile:
+        compiled = None
     arrays = tuple(np.array(row, np.int64) for row in (*code, tape.mantissas, tape.exponents)) if compiled else ()
+    function = None  # finding the machine code for the types of the arguments takes as long as a repetition
     for rules in rules_of_runs:
         scale = 10 ** (rules.digits - digits)
         if compiled and rules.digits <= _COMPILED_DIGITS:
             arguments = (*arrays[:3], scale * arrays[3], arrays[4].copy(), rules)
-            compiled.ready(*arguments)(*arguments)
+            function = function or compiled.ready(*arguments)
+            function(*arguments)
             yield arguments[3][places].tolist(), arguments[4][places].tolist()
         else:
             mantissas, exponents = [scale * m for m in tape.mantissas], list(tape.exponents)

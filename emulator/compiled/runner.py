@@ -73,11 +73,18 @@ def run_decks() -> Compiled:
     return Compiled(decks.run_decks, error_model="numpy", _nrt=False)
 
 
-def compile_engine() -> None:
-    """Compile the engine, or load it from numba's cache.
+def must_compile() -> bool:
+    """Return True if the engine can be compiled but is not, so that the interpreter has results sooner."""
+    try:
+        return run_decks().must_compile
+    except NotInstalled:
+        return False
 
-    A study calls this before its worker processes start, so that they find the machine code in the cache.
-    Raises :class:`emulator.jit.functions.NotInstalled`.
+
+def compile_engine() -> None:
+    """Compile the engine, or load it from numba's cache.  Raise :class:`emulator.jit.functions.NotInstalled`.
+
+    A study calls this function in a separate process, while its workers begin with the interpreter.
     """
     Runner(compile_deck(deck_from_lines("empty", ["END"])), Options())
 

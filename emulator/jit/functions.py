@@ -69,6 +69,11 @@ class Compiled:
         """True if numba's cache already holds this function, compiled for any types of arguments."""
         return any(self._indexes())
 
+    @property
+    def must_compile(self) -> bool:
+        """True if :meth:`ready` would compile now and keep the result, so that work may begin without it."""
+        return self.keeps and not self.kept and not self.function.overloads
+
     def ready(self, *arguments: Any) -> Function:
         """Return the function compiled for the types of these arguments.
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections import Counter as Tally
 from dataclasses import dataclass
+from math import inf
 
 from emulator.errors import expect
 from emulator.language import objectcode as op
@@ -76,12 +77,51 @@ CONVERSION_MODEL = (0.65, 1.1)
 
 
 @dataclass(frozen=True, slots=True)
+class Time:
+    """Seconds on a 1620, with the bounds of the model's systematic error.  Every time is printed by this class."""
+
+    seconds: float = 0.0
+    low: float = 0.0
+    high: float = 0.0
+
+    def __add__(self, other: Time) -> Time:
+        return Time(self.seconds + other.seconds, self.low + other.low, self.high + other.high)
+
+    def times(self, factor: float) -> Time:
+        """Return the time multiplied by a factor, such as 1 / 60 for minutes."""
+        return Time(factor * self.seconds, factor * self.low, factor * self.high)
+
+    @property
+    def interval(self) -> str:
+        """The bounds as text.  The times of reader, punch and typewriter are those of the manual."""
+        return "nominal" if self.low == self.high else f"{self.low:.1f} to {self.high:.1f}"
+
+    def __str__(self) -> str:
+        """Return the time and its bounds in milliseconds, seconds or minutes: ``76.8 (67.0 to 80.1) s``."""
+        limits = ((0.1, 1000, "ms"), (120.0, 1, "s"), (inf, 1 / 60, "min"))
+        factor, unit = next((factor, unit) for limit, factor, unit in limits if self.seconds < limit)
+        time = self.times(factor)
+        return f"{time.seconds:.1f} ({time.interval}) {unit}" if self.seconds else "0 s"
+
+
+def modelled(seconds: float, cause: str = "") -> Time:
+    """Return a time of the processor, with the systematic error of its cause."""
+    low, high = CONVERSION_MODEL if cause == CONVERSION else MODEL
+    return Time(seconds, low * seconds, high * seconds)
+
+
+def nominal(seconds: float) -> Time:
+    """Return a time of reader, punch or typewriter."""
+    return Time(seconds, seconds, seconds)
+
+
+@dataclass(frozen=True, slots=True)
 class Row:
-    """A row of the time table: cause, count, seconds, and whether the seconds include an estimate."""
+    """A row of the time table: cause, count, time, and whether the time includes an estimate."""
 
     cause: str
     count: int
-    seconds: float
+    time: Time
     estimated: bool = False
 
 
@@ -95,30 +135,13 @@ class Timing:
     statements: tuple[tuple[int, int], ...]
 
     @property
-    def processor_seconds(self) -> float:
-        return sum(row.seconds for row in self.processor)
+    def processor_time(self) -> Time:
+        return sum((row.time for row in self.processor), Time())
 
     @property
-    def seconds(self) -> float:
-        """The total time, an upper bound: the buffered reader and punch can overlap with the processor."""
-        return self.processor_seconds + self.device_seconds
-
-    @property
-    def device_seconds(self) -> float:
-        return sum(row.seconds for row in self.devices)
-
-    @property
-    def processor_bounds(self) -> tuple[float, float]:
-        """The least and greatest value of ``processor_seconds``, allowing for the systematic error of the model."""
-        low = sum(row.seconds * (CONVERSION_MODEL if row.cause == CONVERSION else MODEL)[0] for row in self.processor)
-        high = sum(row.seconds * (CONVERSION_MODEL if row.cause == CONVERSION else MODEL)[1] for row in self.processor)
-        return low, high
-
-    @property
-    def bounds(self) -> tuple[float, float]:
-        """The least and greatest value of ``seconds``, allowing for the systematic error of the model."""
-        low, high = self.processor_bounds
-        return self.device_seconds + low, self.device_seconds + high
+    def time(self) -> Time:
+        """The total time: an upper bound, because the buffered reader and punch can overlap with the processor."""
+        return sum((row.time for row in self.devices), self.processor_time)
 
 
 def measure(program: Program, result: Result) -> Timing:
@@ -150,9 +173,9 @@ def measure(program: Program, result: Result) -> Timing:
     )
     punched, typed = result.cards_punched, result.characters_typed
     devices = (
-        Row("card reader", result.cards_read, result.cards_read * READER_SECONDS),
-        Row("card punch", punched, punched * PUNCH_SECONDS),
-        Row("typewriter", typed, typed * TYPEWRITER_SECONDS),
+        Row("card reader", result.cards_read, nominal(result.cards_read * READER_SECONDS)),
+        Row("card punch", punched, nominal(punched * PUNCH_SECONDS)),
+        Row("typewriter", typed, nominal(typed * TYPEWRITER_SECONDS)),
     )
     statements: Tally[int] = Tally()
     for counter, count in zip(program.counters, result.counts, strict=True):
@@ -166,14 +189,14 @@ def measure(program: Program, result: Result) -> Timing:
     )
 
 
-def shares(program: Program, result: Result) -> tuple[float, ...]:
-    """Return the processor seconds spent in each statement of ``program.statements``.
+def shares(program: Program, result: Result) -> tuple[Time, ...]:
+    """Return the processor time of each statement of ``program.statements``.
 
     Their sum is that of :func:`measure`. Records and conversions of numbers are not counted for each statement. The
     total time for each kind of field is divided among the statements in proportion to the numbers in their lists, and
     that of records to their executions.
     """
-    seconds = [0.0] * len(program.statements)
+    times_of = [Time()] * len(program.statements)
     lists: dict[str, Tally[int]] = {}
     times, direction = 0, ""
     for instruction, statement in zip(program.code, program.statement_numbers, strict=True):
@@ -191,7 +214,7 @@ def shares(program: Program, result: Result) -> tuple[float, ...]:
         if instruction.subscript >= 0:
             two = program.subscripts[instruction.subscript].columns
             milliseconds += (SUBSCRIPT_2 if two else SUBSCRIPT).milliseconds
-        seconds[statement] += times * milliseconds / 1000
+        times_of[statement] += modelled(times * milliseconds / 1000)
     # An instruction distinguishes only fixed from floating point, so F fields are counted as E fields, which cost the
     # same.
     conversion = {way: n * RECORD_COSTS[way].milliseconds / 1000 for way, n in _records(program, result).items()}
@@ -200,8 +223,8 @@ def shares(program: Program, result: Result) -> tuple[float, ...]:
         conversion[mode] = conversion.get(mode, 0.0) + count * FIELD_COSTS[kind].milliseconds / 1000
     for kind, listed in lists.items():
         for statement, count in listed.items():
-            seconds[statement] += conversion.get(kind, 0.0) * count / (listed.total() or 1)
-    return tuple(seconds)
+            times_of[statement] += modelled(conversion.get(kind, 0.0) * count / (listed.total() or 1), CONVERSION)
+    return tuple(times_of)
 
 
 def _records(program: Program, result: Result) -> dict[str, int]:
@@ -220,4 +243,4 @@ def _row(cause: str, costs: list[tuple[int, Cost]]) -> Row:
     used = [(count, cost) for count, cost in costs if count]
     count = sum(count for count, cost in used if cost.milliseconds or cause != CONVERSION)
     seconds = sum(count * cost.milliseconds for count, cost in used) / 1000
-    return Row(cause, count, seconds, any(cost.estimated for _, cost in used))
+    return Row(cause, count, modelled(seconds, cause), any(cost.estimated for _, cost in used))

@@ -166,8 +166,7 @@ def _with_statistics(
     notes_above: Mapping[int, Sequence[str]],
 ) -> Iterator[str]:
     timing = measure(program, result)
-    low, high = timing.processor_bounds
-    time = f"{timing.processor_seconds:.1f} s ({low:.1f} to {high:.1f}) of processor time on a 1620"
+    time = f"{timing.processor_time} of processor time on a 1620"
     yield f"{program.source}: {result.statements} statements in {time}"
     if divergence is not None:
         yield from _comparison(divergence)
@@ -202,7 +201,7 @@ def _rows(
 ) -> dict[int, _Row]:
     """Return the statistics of each statement by its first card."""
     counts = dict(measure(program, result).statements)
-    seconds = shares(program, result)
+    seconds = [time.seconds for time in shares(program, result)]
     total = sum(seconds) or 1.0
     losses = divergence.losses if divergence is not None and divergence.digits else ()
     lost = {loss.line.index: loss.worst for loss in losses}

@@ -176,8 +176,8 @@ class Desk:
         """Run for about the given time, or until the machine waits or the run ends.
 
         ``pace`` is the largest speed relative to the 1620, or 0 for full speed.  The answer has ``events`` (kind and
-        text), ``card`` (the card that is executed next), ``statement`` (its number in the run), ``seconds`` on a 1620
-        with their ``bounds``, ``stands`` (why the machine waits, or empty), ``waits`` (``typed`` for a line with its
+        text), ``card`` (the card that is executed next), ``statement`` (its number in the run), ``time`` on a 1620
+        with its bounds, ``stands`` (why the machine waits, or empty), ``waits`` (``typed`` for a line with its
         ``fields``, ``answer`` for an action, or empty), ``ended`` and ``messages``.  ``registers`` are the floating and
         the fixed-point accumulator.  ``picture``, ``stages`` and ``wrote`` are those of
         :mod:`modern.publication.panel`.  After the end, ``next`` names the program that reads the punched cards, and
@@ -366,12 +366,12 @@ class Desk:
         self._stacker += [event.text for event in events if event.what == "punch"]
 
     def _seconds(self, session: Session) -> float:
-        return measure(session.program, session.result()).seconds
+        return measure(session.program, session.result()).time.seconds
 
     def _answer(self) -> Answer:
         session, events, self._happened = self._session, self._happened, []
         if session is None:
-            nothing: Answer = {"events": [], "card": 0, "work": 0, "seconds": 0.0, "bounds": [0, 0]}
+            nothing: Answer = {"events": [], "card": 0, "work": 0, "time": "0 s"}
             return nothing | {"stands": "", "waits": "", "ended": False}
         halt = None if self._ending else session.halt
         accepts = halt is not None and halt.what == "accept"
@@ -382,8 +382,7 @@ class Desk:
             "statement": len(self._record.times),
             "work": session.state.work,
             "read": session.devices.position,
-            "seconds": round(timing.seconds, 1),
-            "bounds": [round(bound, 1) for bound in timing.bounds],
+            "time": str(timing.time),
             "switches": [bool(on) for on in session.switches],
             "breaks": [session.program.statements[index].place.card for index in session.breakpoints],
             "watched": list(session.watched),

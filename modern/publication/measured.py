@@ -1,6 +1,6 @@
 """Measurements of every card: its executions and machine time in the printed examples, and its weight of evidence.
 
-Times are processor seconds of a 1620 Model 1 (:mod:`emulator.machine.timing`).  The weight of
+Times are those of a 1620 Model 1 (:mod:`emulator.machine.timing`).  The weight of
 evidence counts altered readings of a card by the first check that detects them.  It is read from
 ``docs/weight/cards.csv``, which exists only in a checkout.
 """
@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from emulator.machine.result import Options
-from emulator.machine.timing import Row, measure, shares
+from emulator.machine.timing import Row, Time, measure, shares
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.thesis.job import run_hull
@@ -27,26 +27,19 @@ DETECTED_BY = ("compiler", "print", "machine", "equation", "sibling", "nothing")
 class Run:
     """A run of one example through one program.
 
-    ``executions`` and ``times`` (processor seconds) have an entry for each card that was executed.  ``statements`` is
-    the number of statements executed, ``seconds`` the processor time, and ``total`` the time including reader, punch
-    and typewriter without overlap; ``bounds`` give its systematic error.  ``rows`` break the time down by cause: first
-    the processor's, then the devices'.
+    ``executions`` and ``times`` (of the processor) have an entry for each card that was executed.  ``statements`` is
+    the number of statements executed, ``processor`` the processor time, and ``total`` the time including reader, punch
+    and typewriter without overlap.  ``rows`` break the time down by cause: first the processor's, then the devices'.
     """
 
     example: int
     program: str
     executions: dict[int, int]
-    times: dict[int, float]
+    times: dict[int, Time]
     statements: int
-    seconds: float
-    total: float
+    processor: Time
+    total: Time
     rows: tuple[Row, ...]
-    bounds: tuple[float, float]
-
-    @property
-    def between(self) -> str:
-        """The bounds of the time as text."""
-        return f"{self.bounds[0]:.1f} to {self.bounds[1]:.1f} s"
 
 
 @cache
@@ -65,14 +58,12 @@ def _job(example: int, first: str) -> tuple[Run, ...]:
     job_runs = []
     for step in steps:
         timing = measure(step.program, step.result)
-        counts, seconds = dict(timing.statements), shares(step.program, step.result)
+        counts, shared = dict(timing.statements), shares(step.program, step.result)
         cards = {line.place.card: line.index for line in step.program.statements if counts.get(line.index)}
         executions = {card: counts[index] for card, index in cards.items()}
-        times = {card: seconds[index] for card, index in cards.items()}
-        totals = (step.result.statements, timing.processor_seconds, timing.seconds)
-        job_runs.append(
-            Run(example, step.name, executions, times, *totals, (*timing.processor, *timing.devices), timing.bounds)
-        )
+        times = {card: shared[index] for card, index in cards.items()}
+        totals = (step.result.statements, timing.processor_time, timing.time)
+        job_runs.append(Run(example, step.name, executions, times, *totals, (*timing.processor, *timing.devices)))
     return tuple(job_runs)
 
 

@@ -21,7 +21,7 @@ _FILLED = 0.8
 # A series counts as hidden if other series cover more than this share of its markers.
 _HIDDEN = 1 / 3
 # The greatest number of bars side by side in one chart.
-_MANY_BARS = 48
+_MANY_BARS = 40
 
 
 def number(value: float, percent: bool = False, power: bool = False) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 
 from emulator.machine.divergence import diverge
 from emulator.machine.result import DEFAULT_LIMIT, Options
-from emulator.machine.timing import measure
+from emulator.machine.timing import Time, measure
 from emulator.numbers import numbers
 from modern.geometry.hull import Hull
 from modern.study.alarms import alarms
@@ -34,12 +34,11 @@ def machine_time(sample: Sample, run: HullRun) -> Figures:
     ``model_low`` and ``model_high`` bound the sum by the systematic error of the model (emulator/machine/timing.py).
     """
     tables = [measure(step.program, step.result) for step in run.steps]
-    seconds = {"processor": sum(table.processor_seconds for table in tables)}
+    figures = {"seconds_processor": sum(table.processor_time.seconds for table in tables)}
     for device, name in enumerate(("reader", "punch", "typewriter")):
-        seconds[name] = sum(table.devices[device].seconds for table in tables)
-    bounds = zip(*(table.bounds for table in tables), strict=True)
-    figures = {f"seconds_{name}": value for name, value in seconds.items()}
-    figures |= {f"model_{name}": sum(values) for name, values in zip(("low", "high"), bounds, strict=True)}
+        figures[f"seconds_{name}"] = sum(table.devices[device].time.seconds for table in tables)
+    time = sum((table.time for table in tables), Time())
+    figures |= {"model_low": time.low, "model_high": time.high}
     return {name: str(Decimal(value).quantize(_MILLISECOND)) for name, value in figures.items()}
 
 

@@ -203,10 +203,14 @@ class Plan:
         return sum(cell.samples for cell in self.cells)
 
     def chunks(self) -> Iterator[Chunk]:
-        """Yield all chunks in order."""
+        """Yield all chunks in order.  The first ones have 1, 2, 4, ... samples, so that the first rows appear soon."""
+        size = 1
         for number, cell in enumerate(self.cells):
-            for start in range(0, cell.samples, cell.chunk):
-                yield Chunk(number, start, min(start + cell.chunk, cell.samples))
+            start = 0
+            while start < cell.samples:
+                stop = min(start + min(size, cell.chunk), cell.samples)
+                yield Chunk(number, start, stop)
+                start, size = stop, 2 * size
 
     def document(self) -> dict[str, object]:
         """Return the plan as JSON data.  Two plans have equal data if and only if they are equal."""

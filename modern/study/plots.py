@@ -354,7 +354,7 @@ def _lying(axes: Any, chart: Chart, k: int) -> None:
     axes.errorbar(lengths, middle, xerr=_errors(series), **_WHISKERS)
     axes.set_yticks(range(len(groups)), [typeset(name) for name in groups], fontsize=8)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: number(value, chart.percent)))
-    axes.xaxis.set_major_locator(MaxNLocator(2))
+    axes.xaxis.set_major_locator(MaxNLocator(2, steps=[1, 5, 10]))
     axes.tick_params(axis="x", labelsize=8)
     axes.set_ylim(len(groups) - 0.4, -0.6)
     axes.set_xlim(left=0)

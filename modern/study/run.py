@@ -2,16 +2,16 @@
 
 import os
 import sqlite3
+import subprocess
 import sys
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import ExitStack, closing, suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import Any
 
-from emulator.compiled.runner import compile_engine, why_plain
+from emulator.compiled.runner import must_compile, why_plain
 from emulator.errors import expect, quoted
 from emulator.files import UNFINISHED
-from emulator.jit.functions import NotInstalled
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.numbers import numbers
@@ -96,10 +96,8 @@ def run_study(
         for line in () if quiet or client else plain_lines(plan):
             print(line, file=sys.stderr)
         store = stack.enter_context(closing(Store.open(folder, plan)))
-        # The worker processes load the machine code from numba's cache. The workers of a cluster compile it themselves.
-        if not client and _needs_engine(plan):
-            with suppress(NotInstalled):
-                compile_engine()
+        if not client:  # the workers of a cluster compile the code themselves
+            stack.enter_context(_compiling(plan))
         _complete(plan, store, client, workers or processes(), quiet)
         finished_report = report(plan, store)
         no_plots = can_plot()
@@ -141,8 +139,23 @@ def plain_lines(plan: Plan) -> tuple[str, ...]:
     return tuple(reason for reason in reasons if reason)
 
 
-def _needs_engine(plan: Plan) -> bool:
-    return any(not why_plain(options_of(route)) for route in _program_routes(plan))
+@contextmanager
+def _compiling(plan: Plan) -> Iterator[None]:
+    """Compile the code that a plan needs in another process.  Until it is ready, the workers use the interpreter."""
+    calls = []
+    if must_compile() and any(not why_plain(options_of(route)) for route in _program_routes(plan)):
+        calls += ["from emulator.compiled.runner import compile_engine", "compile_engine()"]
+    if any("alarms" in route.measures for route in _program_routes(plan)):
+        calls += ["from emulator.compiled.replay import compile_repetitions", "compile_repetitions()"]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    command, silent = [sys.executable, "-c", "; ".join(calls)], subprocess.DEVNULL
+    process = subprocess.Popen(command, env=environment, stdout=silent, stderr=silent) if calls else None
+    try:
+        yield
+    finally:
+        if process:
+            process.terminate()
+            process.wait()
 
 
 def _program_routes(plan: Plan) -> Iterable[Programs]:

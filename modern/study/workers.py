@@ -20,6 +20,7 @@ from importlib import import_module
 from itertools import islice
 from typing import Any
 
+from emulator.compiled.runner import must_compile
 from emulator.errors import EmulatorError
 from modern.study.families import draw_sample
 from modern.study.index import Row
@@ -52,7 +53,7 @@ def chunk_text(cell: Cell, seed: int, chunk: Chunk) -> str:
 def chunk_rows(cell: Cell, seed: int, chunk: Chunk) -> Iterator[Row]:
     """Yield the row of each sample: its seed, its deck, the judge's figures, and the answer of each route."""
     samples = [judge(draw_sample(cell, seed, index), f"sample {index}") for index in range(chunk.start, chunk.stop)]
-    runs = Runs()
+    runs = Runs(interpreted=must_compile())
     answers = {route.name: carry_out(route, samples, runs) for route in cell.routes}
     reference = answers[cell.reference or cell.routes[0].name]
     for position, sample in enumerate(samples):

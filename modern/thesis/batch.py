@@ -7,14 +7,19 @@ from emulator.compiled.batch import run_batch
 from emulator.errors import EmulatorError
 from emulator.language.cards import Deck
 from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
 from emulator.machine.result import Options, Result
 from modern.thesis.job import HullRun, Load, Step, punched_deck, second_program
 
 
 @dataclass
 class Runs:
-    """A cache of finished runs, because several batches often need the same run of program 1 or 2."""
+    """A cache of finished runs, because several batches often need the same run of program 1 or 2.
 
+    If ``interpreted`` is true, the interpreter runs the programs, because the compiled engine is not ready yet.
+    """
+
+    interpreted: bool = False
     done: dict[tuple[int, Options, Deck], Result | EmulatorError] = field(default_factory=dict)
     programs: dict[int, Program] = field(default_factory=dict)
 
@@ -22,21 +27,26 @@ class Runs:
         """Return for each deck the result of its run, or the error if the program cannot read the deck."""
         self.programs[id(program)] = program
         fresh = [deck for deck in dict.fromkeys(decks) if (id(program), options, deck) not in self.done]
-        for deck, result in zip(fresh, _results(program, fresh, options), strict=True):
+        for deck, result in zip(fresh, _results(program, fresh, options, self.interpreted), strict=True):
             self.done[id(program), options, deck] = result
         return [self.done[id(program), options, deck] for deck in decks]
 
 
-def _results(program: Program, decks: Sequence[Deck], options: Options) -> Sequence[Result | EmulatorError]:
+def _results(
+    program: Program, decks: Sequence[Deck], options: Options, interpreted: bool
+) -> Sequence[Result | EmulatorError]:
     try:
-        return run_batch(program, decks, options)
+        if interpreted and len(decks) == 1:
+            return [Machine(program, decks[0], options).run()]
+        if not interpreted:
+            return run_batch(program, decks, options)
     except EmulatorError as error:
         if len(decks) == 1:
             return [error]
     # One invalid deck stops a batch.  Bisection finds it and preserves the results of the other decks.
     half = len(decks) // 2
     halves = decks[:half], decks[half:]
-    return [result for part in halves for result in _results(program, part, options)]
+    return [result for part in halves for result in _results(program, part, options, interpreted)]
 
 
 def run_hulls(

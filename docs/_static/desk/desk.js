@@ -198,8 +198,7 @@
     lamps(busy);
   }
 
-  const clock = (/** @type {any} */ { seconds, bounds }) =>
-    `${seconds.toLocaleString("en")} s on a 1620 (${bounds.map((/** @type {number} */ b) => b.toLocaleString("en")).join(" to ")})`;
+  const clock = (/** @type {any} */ { time }) => `${time} on a 1620`;
 
   /** Show a slice of the live machine, and what the visitor can do next. @param {any} frame */
   function slice(frame) {

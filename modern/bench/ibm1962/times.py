@@ -53,14 +53,14 @@ def subjects(sets: Sequence[tuple[str, int]] = SETS) -> Iterator[tuple[str, str,
         decks.append((f"{family}, {n} points", "program1", data_deck(draw_sample(cell, SEED, 0).points, family)))
     for name, first, deck in decks:
         for step in run_hull(deck, programs.program, OPTIONS, first).steps:
-            seconds = measure(step.program, step.result).processor_seconds
+            seconds = measure(step.program, step.result).processor_time.seconds
             if step.result.ending.kind != "limit":
                 yield name, step.name, step.program, step.deck, seconds
     for title, program, deck, operator in objectdecks.subjects():
         # The library lacks the functions that some programs call.
         if title.endswith(".f") and not operator and not program.uses("ACCEPT") and title not in LACKING:
             result = Machine(program, deck, OPTIONS).run()
-            yield deck.source, title, program, deck, measure(program, result).processor_seconds
+            yield deck.source, title, program, deck, measure(program, result).processor_time.seconds
 
 
 def timed() -> Iterator[TimedRun]:

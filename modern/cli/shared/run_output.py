@@ -16,7 +16,7 @@ from emulator.files import reason, write_text, writing
 from emulator.language.objectcode import Program
 from emulator.machine.operator import Output
 from emulator.machine.result import Event, Result
-from emulator.machine.timing import Row, measure
+from emulator.machine.timing import Time, measure
 from emulator.machine.trace import Tracer
 from emulator.machine.words import notes
 from emulator.objectdeck.extent import extent
@@ -144,17 +144,15 @@ def profile_lines(program: Program, result: Result) -> Iterator[str]:
     """Yield the profile of a run in at most 80 columns: the time by cause, and the most frequent statements."""
     timing = measure(program, result)
     yield f"{program.source}: {result.statements} statements; time on a 1620 Model 1:"
-    yield f"  {'cause':<20}{'count':>9}{'seconds':>11}"
+    yield f"  {'cause':<20}{'count':>9}{'seconds':>11}  with bounds of the systematic error"
     for row in timing.processor:
-        yield _profile_row(row)
-    yield f"  {'processor':<20}{'':>9}{timing.processor_seconds:>11.1f}"
+        yield _profile_row(row.cause, str(row.count), row.time) + ("  ~" if row.estimated else "")
+    yield _profile_row("processor", "", timing.processor_time)
     for row in timing.devices:
-        yield _profile_row(row)
-    low, high = timing.bounds
-    yield f"  {'sum':<20}{'':>9}{timing.seconds:>11.1f}  ({low:.1f} to {high:.1f}; less with overlap)"
+        yield _profile_row(row.cause, str(row.count), row.time)
+    yield _profile_row("sum", "", timing.time) + ", less with overlap"
     if any(row.estimated for row in timing.processor):
         yield "  ~ includes estimated times, which no source states"
-    yield "  in parentheses: the systematic error of the processor's times"
     operations = "operations: " + ", ".join(f"{name} {count}" for name, count in timing.operations)
     yield from textwrap.wrap(operations, 80, initial_indent="  ", subsequent_indent="    ")
     most_frequent = sorted(timing.statements, key=lambda pair: -pair[1])[:_MOST_STATEMENTS]
@@ -164,5 +162,5 @@ def profile_lines(program: Program, result: Result) -> Iterator[str]:
         yield f"  {count:>9}  card {line.place.card:>3} {line.label or '':>5} {line.text[:50]}"
 
 
-def _profile_row(row: Row) -> str:
-    return f"  {row.cause:<20}{row.count:>9}{row.seconds:>11.1f}{'  ~' if row.estimated else ''}"
+def _profile_row(cause: str, count: str, time: Time) -> str:
+    return f"  {cause:<20}{count:>9}{time.seconds:>11.1f}  ({time.interval})"

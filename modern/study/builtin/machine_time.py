@@ -48,14 +48,23 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Time:
-    """The times of a cell in seconds, by part and in total, the number of sets timed, and the longest run."""
+    """The times of a cell in seconds: means by part and in total, and the longest run; and the number of sets timed.
+
+    ``model`` and ``longest`` bound the mean total and the longest run by the systematic error of the model.
+    """
 
     sets: int
     parts: dict[str, Interval]
     total: Interval
-    longest: float
+    model: Interval
+    longest: Interval
     operations: float
-    model: tuple[float, float]
+
+    @property
+    def processor(self) -> Interval:
+        """The bounds of the processor's mean time by the model."""
+        devices = self.total.value - self.parts["processor"].value
+        return Interval(self.parts["processor"].value, self.model.low - devices, self.model.high - devices)
 
 
 def _times(store: Store) -> dict[int, _Time]:
@@ -63,36 +72,37 @@ def _times(store: Store) -> dict[int, _Time]:
     sums = [*figures, " + ".join(figures)]
     moments = ", ".join(f"AVG({s}), SUM(({s}) * ({s}))" for s in sums)
     counted = " + ".join(f"json_extract(figures, '$.{name}')" for name in ("additions", "products", "quotients"))
-    model = ", ".join(f"AVG(CAST(json_extract(figures, '$.model_{end}') AS REAL))" for end in ("low", "high"))
+    ends = [f"CAST(json_extract(figures, '$.model_{end}') AS REAL)" for end in ("low", "high")]
+    # In SQLite, columns next to MAX belong to the row with the maximum.
+    model = ", ".join([*ends, *(f"AVG({end})" for end in ends)])
     timed = store.query(
-        f"SELECT cell, COUNT(*), MAX({sums[-1]}), AVG({counted}), {model}, {moments} FROM runs "
+        f"SELECT cell, COUNT(*), AVG({counted}), MAX({sums[-1]}), {model}, {moments} FROM runs "
         f"WHERE outcome IN ({', '.join('?' * len(DETERMINED))}) GROUP BY cell ORDER BY cell",
         DETERMINED,
     )
     times = {}
-    for cell, count, longest, operations, low, high, *numbers in timed:
+    for cell, count, operations, most, most_low, most_high, low, high, *numbers in timed:
         pairs = zip(numbers[::2], numbers[1::2], strict=True)
         means = [
             mean_of(count, average, max(0.0, squares - count * average**2), least=0.0) for average, squares in pairs
         ]
-        times[cell] = _Time(count, dict(zip(PARTS, means, strict=False)), means[-1], longest, operations, (low, high))
+        parts, total, longest = dict(zip(PARTS, means, strict=False)), means[-1], Interval(most, most_low, most_high)
+        times[cell] = _Time(count, parts, total, Interval(total.value, low, high), longest, operations)
     return times
 
 
 def report(plan: Plan, store: Store) -> Report:
     times = _times(store)
-    return Report(
-        (_main(plan, times), _sizes(plan, times)), (_chart(plan, times), _parts(plan, times)), _conclusions(plan, times)
-    )
+    tables = _main(plan, times), _sizes(plan, times), _part_table(plan, times)
+    return Report(tables, (_chart(plan, times), _parts(plan, times)), _conclusions(plan, times))
 
 
 def _in_minutes(seconds: Interval) -> Interval:
     return Interval(seconds.value / _MINUTE, seconds.low / _MINUTE, seconds.high / _MINUTE)
 
 
-def _by_model(time: _Time) -> str:
-    """Return the mean minutes with the interval of the timing model's systematic error."""
-    return f"{time.model[0] / _MINUTE:.2f} to {time.model[1] / _MINUTE:.2f}"
+def _by_model(bounds: Interval) -> str:
+    return f"{bounds.low / _MINUTE:.2f} to {bounds.high / _MINUTE:.2f}"
 
 
 def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float, _Time]]:
@@ -101,19 +111,20 @@ def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float
 
 
 def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
-    parts = [f"{time.parts[part].value / _MINUTE:.2f}" for part in PARTS]
-    milliseconds = 1000 * time.parts["processor"].value / time.operations if time.operations else 0.0
-    minutes = (with_interval(_in_minutes(time.total)), _by_model(time), f"{time.longest / _MINUTE:.2f}", *parts)
-    return row(name, int(n), time.sets, *minutes, f"{time.operations:.0f}", f"{milliseconds:.0f}")
+    minutes = with_interval(_in_minutes(time.total)), _by_model(time.model)
+    longest = f"{time.longest.value / _MINUTE:.2f} ({_by_model(time.longest)})"
+    return row(name, int(n), time.sets, *minutes, longest, f"{time.operations:.0f}")
 
 
-_HEAD = ("sets", "N", "timed", "minutes", "by the model", "longest", *PARTS, "operations", "ms an operation")
+_HEAD = ("sets", "N", "timed", "minutes", "by the model", "longest", "operations")
+_STUDENT = "In parentheses: Student's 95 % intervals of the mean, truncated at 0 minutes."
+_MODEL = (
+    f"By the model: bounds of the mean if the processor's times are {MODEL[0]} to {MODEL[1]} of those computed, and "
+    f"{CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for input and output, as in runs on IBM's library of 1962."
+)
 _NOTES = (
-    "In parentheses: Student's 95 % intervals of the mean, truncated at 0 minutes. By the model: mean minutes if "
-    f"the processor's times are {MODEL[0]} to {MODEL[1]} of those computed, and {CONVERSION_MODEL[0]} to "
-    f"{CONVERSION_MODEL[1]} for input and output, as in runs on IBM's library of 1962. Processor, reader, punch "
-    "and typewriter: mean minutes.",
-    "Operations: floating-point additions, products and quotients. The last column is the processor time of one.",
+    f"{_STUDENT} {_MODEL} Longest: minutes of the longest run, and in parentheses its bounds by the model.",
+    "Operations: the mean number of floating-point additions, products and quotients.",
 )
 
 
@@ -131,6 +142,17 @@ def _main(plan: Plan, times: dict[int, _Time]) -> Table:
 def _sizes(plan: Plan, times: dict[int, _Time]) -> Table:
     rows = tuple(_row(name, n, time) for name in values(plan, "sets") for n, time in _along(plan, times, name))
     return Table("sizes", "Minutes on the 1620 at each N", _HEAD, rows, _NOTES)
+
+
+def _part_table(plan: Plan, times: dict[int, _Time]) -> Table:
+    rows = []
+    for name in values(plan, "sets"):
+        for n, time in _along(plan, times, name)[-1:]:
+            processor, *devices = (with_interval(_in_minutes(time.parts[part])) for part in PARTS)
+            rows.append(row(name, int(n), processor, _by_model(time.processor), *devices))
+    head = ("sets", "N", "processor", "by the model", *PARTS[1:])
+    notes = (f"{_STUDENT} {_MODEL} Reader, punch and typewriter: by their nominal speeds.",)
+    return Table("parts", "Minutes of each part of the machine at the largest N", head, tuple(rows), notes)
 
 
 def _chart(plan: Plan, times: dict[int, _Time]) -> Lines:
@@ -172,12 +194,20 @@ def _conclusions(plan: Plan, times: dict[int, _Time]) -> tuple[str, ...]:
     if not timed:
         return ("No run gave a hull, so nothing was timed.",)
     shares = []
-    for number in (POINTS[1], max(n for n, _ in timed)):
+    largest = max(n for n, _ in timed)
+    for number in (POINTS[1], largest):
         there = [time for n, time in timed if n == number]
         if there:
             share = sum(t.parts["processor"].value for t in there) / sum(t.total.value for t in there)
             shares.append(f"{100 * share:.0f} % at N = {number:.0f}")
+    minutes = (
+        f"{name}: {with_interval(_in_minutes(time.total))} minutes, {_by_model(time.model)} by the model"
+        for name in values(plan, "sets")
+        for n, time in _along(plan, times, name)
+        if n == largest
+    )
     return (
+        f"Mean time for {largest:.0f} points: {listed(minutes)}.",
         f"The processor took this part of the time, over all kinds of sets: {listed(shares)}. Cards and typing took "
         "the rest.",
     )

@@ -2,7 +2,7 @@
 
 The thesis (p. 118-119) leaves open whether the translation is worthwhile.  With it, the sign of the constant term
 orients an equation, so that C need not be substituted, but the points must be moved and moved back.  Time is measured
-on runs of the programs in exact arithmetic, in which no set is rejected.  Digits are varied in the port.  ``samples``
+on runs of the programs without rounding, in which no set is rejected.  Digits are varied in the port.  ``samples``
 is the number of timed sets of each kind and N.  Each kind whose digits are varied has four times as many sets.
 """
 
@@ -15,7 +15,7 @@ from math import inf
 from emulator.machine.timing import CONVERSION_MODEL, MODEL
 from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Port, Programs, Route
-from modern.study.report import Lines, Mark, Report, Series, Table, listed, row
+from modern.study.report import Lines, Mark, Report, Series, Table, listed, row, with_interval
 from modern.study.statistics import Interval, exact, mean
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary
@@ -27,7 +27,8 @@ POINTS = 10
 PLANES = "planes like example 4"
 WORKING = tuple(range(4, 17))
 EIGHT = 8
-PARTS = ("additions", "products", "quotients", "seconds_processor")
+_SECONDS = ("seconds_processor", "seconds_reader", "seconds_punch", "seconds_typewriter")
+PARTS = ("additions", "products", "quotients", _SECONDS[0])
 # The limits of the classes into which sets are divided by their planes per point.
 RATIOS = (0.0, 0.5, 1.0, 1.5, inf)
 _TIMED: Mapping[str, tuple[str, Mapping[str, object], tuple[int, ...]]] = {
@@ -59,17 +60,20 @@ def working(name: str, digits: int) -> str:
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    timed = tuple(
-        Programs(
-            name,
-            layers=layers,
-            arithmetic="exact",
-            core=60_000,
-            limit=3_000_000,
-            measures=("operations", "machine_time"),
+    timed = {
+        arithmetic: tuple(
+            Programs(
+                name,
+                layers=layers,
+                arithmetic=arithmetic,
+                core=60_000,
+                limit=3_000_000,
+                measures=("operations", "machine_time"),
+            )
+            for name, layers in _LAYERS.items()
         )
-        for name, layers in _LAYERS.items()
-    )
+        for arithmetic in ("exact", "truncating:16")
+    }
     varied: tuple[Route, ...] = (
         *(Programs(name, layers=layers, core=60_000, limit=200_000) for name, layers in _LAYERS.items()),
         *(
@@ -85,7 +89,14 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
         "leaves open whether this reduces the time to find the hull. Does it, and how many digits does it cost?",
         (
             *(
-                Cell({"asked": "time", "sets": name, "n": n}, family, {**parameters, "n": n}, timed, samples, chunk=5)
+                Cell(
+                    {"asked": "time", "sets": name, "n": n},
+                    family,
+                    {**parameters, "n": n},
+                    timed["exact" if name == PLANES else "truncating:16"],
+                    samples,
+                    chunk=5,
+                )
                 for name, (family, parameters, counts) in _TIMED.items()
                 for n in counts
             ),
@@ -107,8 +118,9 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
             "number of points to be moved. So the kinds differ in their numbers of planes: whole numbers to 2 have few "
             "planes for many points, and a sphere has the most, 2N - 4. N = 50 on a sphere is omitted, because the "
             "plane table has 98 entries.",
-            "Time is measured in exact arithmetic, so that no set is rejected and both versions finish. The operations "
-            "are those of any arithmetic with enough digits; each counts with its time on the 1620 with eight digits.",
+            "Time is measured without rounding, so that no set is rejected and both versions finish: with sixteen "
+            "digits, which hold all numbers of these sets, and for planes, in which C has thirds, in exact arithmetic. "
+            "Each operation counts with its time on the 1620 with eight digits.",
             "C is the mean of four vertices, or of three in a plane. So moved coordinates contain quarters, with two "
             "more digits, or thirds, which have no finite decimal expansion. A translation should help most for sets "
             "around a centre far from the origin. A power of ten changes nothing in decimal arithmetic, so integers "
@@ -132,12 +144,15 @@ class _Pair:
 
     @property
     def saved_in_all(self) -> float:
-        """Return the share of the total time, with reader, punch and typewriter, that moving the origin saves."""
-        plain, moved = (
-            sum(value for name, value in figures.items() if name.startswith("seconds_"))
-            for figures in (self.plain, self.moved)
-        )
+        """Return the share of the total time that the translation saves, including reader, punch and typewriter."""
+        plain, moved = (sum(figures[name] for name in _SECONDS) for figures in (self.plain, self.moved))
         return (plain - moved) / plain
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """The bounds of the processor seconds without the translation, by the systematic error of the model."""
+        devices = sum(self.plain[name] for name in _SECONDS[1:])
+        return self.plain["model_low"] - devices, self.plain["model_high"] - devices
 
 
 def report(plan: Plan, store: Store) -> Report:
@@ -163,7 +178,7 @@ def _pairs(store: Store) -> list[_Pair]:
 
 
 def _numbers(figures: str) -> dict[str, float]:
-    used = (*PARTS, "seconds_reader", "seconds_punch", "seconds_typewriter")
+    used = {*PARTS, *_SECONDS, "model_low", "model_high"}
     return {name: float(value) for name, value in json.loads(figures).items() if name in used}
 
 
@@ -184,20 +199,26 @@ def _main(plan: Plan, pairs: list[_Pair]) -> Table:
         here = [pair for pair in pairs if pair.cell == number]
         if not here:
             continue
-        seconds = mean(pair.plain["seconds_processor"] for pair in here).value
+        seconds = with_interval(mean((pair.plain["seconds_processor"] for pair in here), least=0.0), 0)
+        low, high = (sum(pair.bounds[end] for pair in here) / len(here) for end in (0, 1))
         planes = sum(pair.ratio for pair in here) / len(here) * int(cell.key["n"])
         operations = _share(_saved(here, "additions")), _share(_saved(here, "products"))
-        time = f"{seconds:.0f}", _share(_saved(here)), _share(mean((pair.saved_in_all for pair in here), most=1.0))
+        time = (
+            seconds,
+            f"{low:.0f} to {high:.0f}",
+            _share(_saved(here)),
+            _share(mean((pair.saved_in_all for pair in here), most=1.0)),
+        )
         quicker = sum(pair.saved("seconds_processor") > 0 for pair in here)
         rows.append(row(cell.key["sets"], cell.key["n"], len(here), f"{planes:.1f}", *operations, *time, quicker))
-    times = ("seconds", "of them saved", "of all time saved", "sets quicker")
+    times = ("seconds", "by the model", "of them saved", "of all time saved", "sets quicker")
     head = ("sets", "N", "timed", "planes", "additions saved", "products saved", *times)
     notes = (
         "In parentheses: Student's 95 % intervals of the mean over sets, truncated at 100 %. A negative share is a "
         "loss. Seconds: processor time with the origin kept. All time: with reader, punch and typewriter.",
-        f"The processor's times have a systematic error: on IBM's library of 1962 they are {MODEL[0]} to {MODEL[1]} "
-        f"of those computed, and {CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for input and output. Shares are "
-        "ratios, in which most of it cancels.",
+        "By the model: bounds of the mean seconds by the systematic error. On IBM's library of 1962, times are "
+        f"{MODEL[0]} to {MODEL[1]} of those computed, and {CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for input and "
+        "output. Shares are ratios, in which most of this error cancels.",
     )
     return Table("table", "What moving the origin to C saves", head, tuple(rows), notes)
 

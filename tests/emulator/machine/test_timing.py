@@ -68,8 +68,8 @@ def test_statements_are_counted() -> None:
 def test_processor_seconds_are_counts_times_costs() -> None:
     table = timed("A=2.", "DO 5 I=1,7", "B=A*A", "5 C=B/A+A", "END")
     expected = sum(timing.COSTS[name].milliseconds * count for name, count in table.operations) / 1000
-    assert table.processor_seconds == pytest.approx(expected)
-    assert table.seconds == pytest.approx(expected)
+    assert table.processor_time.seconds == pytest.approx(expected)
+    assert table.time.seconds == pytest.approx(expected)
 
 
 def test_subscripts_records_and_conversion_are_counted() -> None:
@@ -77,10 +77,10 @@ def test_subscripts_records_and_conversion_are_counted() -> None:
     table = timed(*lines, data=("   2 .10000000E+01",))
     rows = {row.cause: row for row in table.processor}
     assert rows["subscripts"].count == 2
-    assert rows["subscripts"].seconds == pytest.approx(0.0059)
+    assert rows["subscripts"].time.seconds == pytest.approx(0.0059)
     # A card of two numbers read and written: the records, and the conversion of E14.8 and I4.
     assert rows["number conversion"].count == 6
-    assert rows["number conversion"].seconds == pytest.approx(0.022 + 0.319 + 0.150 + 0.041 + 0.080 + 0.032)
+    assert rows["number conversion"].time.seconds == pytest.approx(0.022 + 0.319 + 0.150 + 0.041 + 0.080 + 0.032)
     assert not any(row.estimated for row in rows.values())
 
 
@@ -91,22 +91,22 @@ def test_functions_are_marked_as_estimates() -> None:
 
 def test_bounds_apply_the_systematic_error_of_each_cause_and_none_to_devices() -> None:
     table = timed("A=2.", "PUNCH 1,A", "1 FORMAT(E14.8)", "END")
-    conversion = next(row.seconds for row in table.processor if row.cause == "number conversion")
-    rest = table.processor_seconds - conversion
+    conversion = next(row.time.seconds for row in table.processor if row.cause == "number conversion")
+    rest = table.processor_time.seconds - conversion
     low, high = (
         factors[0] * conversion + factors[1] * rest
         for factors in zip(timing.CONVERSION_MODEL, timing.MODEL, strict=True)
     )
-    assert table.processor_bounds == pytest.approx((low, high))
-    assert table.bounds == pytest.approx((low + 0.48, high + 0.48))
-    assert low < table.processor_seconds < high
+    processor, total = table.processor_time, table.time
+    assert (processor.low, processor.high, total.low, total.high) == pytest.approx((low, high, low + 0.48, high + 0.48))
+    assert low < processor.seconds < high
 
 
 def test_device_rows_count_cards_and_characters() -> None:
     lines = ["READ 1,I", "PUNCH 1,I", "PUNCH 1,I", "TYPE 2", "1 FORMAT(I4)", "2 FORMAT(9HSOME TEXT)", "END"]
     rows = {row.cause: row for row in timed(*lines, data=("   2",)).devices}
     assert [row.count for row in rows.values()] == [1, 2, 10]
-    assert [row.seconds for row in rows.values()] == pytest.approx([0.24, 0.96, 1.0])
+    assert [row.time.seconds for row in rows.values()] == pytest.approx([0.24, 0.96, 1.0])
 
 
 def test_the_length_grows_with_the_program() -> None:

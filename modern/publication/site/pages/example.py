@@ -158,13 +158,9 @@ def _time(number: int) -> str:
     for name in ("program1_examples", "program2", "program3"):
         for run in runs(name):
             if run.example == number:
-                times = (f"{run.statements:,}", _seconds(run.seconds), _seconds(run.total), run.between)
+                times = (f"{run.statements:,}", str(run.processor), str(run.total))
                 rows.append((link(name, "", program(name).source), *times))
     whole = "with reader, punch and typewriter, without overlap"
-    head = ("program", "statements", "processor", whole, "by the model")
-    accuracy = (("how sure", "by the model: the range of the ratios to runs on IBM's library of 1962"),)
+    head = ("program", "statements", "processor", whole)
+    accuracy = (("how sure", "in parentheses: bounds by the ratios to runs on IBM's library of 1962"),)
     return table(head, rows, name="Time on a 1620 Model 1") + definitions(accuracy, cls="facts")
-
-
-def _seconds(seconds: float) -> str:
-    return escape(f"{seconds:.1f} s" if seconds < 120 else f"{seconds / 60:.1f} min")

@@ -98,7 +98,7 @@ def _controls(listing: Facing) -> str:
         html += _choice("checkbox", "layer", layer, layer in shown, LAYERS[layer])
     examples = text("legend", "Executions and time: example")
     for run in runs(name):
-        times = f"{run.seconds:.0f} s of processor time, {run.total:.0f} s in total ({run.between})"
+        times = f"{run.processor} of processor time, {run.total} in total"
         is_default = run is runs(name)[-1]
         examples += _choice("radio", "example", str(run.example), is_default, f"{run.statements} statements, {times}")
     html = element("fieldset", html) + element("fieldset", examples)
@@ -184,16 +184,10 @@ def _margin(listing: Facing, card: Card) -> str:
     cells = []
     for run in runs(listing.program):
         times = run.executions.get(card.number, 0)
-        inner = text("span", f"{times}\u00d7") + " " + text("span", _seconds(run.times.get(card.number, 0)), cls="time")
+        inner = text("span", f"{times}\u00d7") + " " + text("span", str(run.times.get(card.number, "")), cls="time")
         inner = inner if times else text("span", "not executed", cls="quiet")
         cells.append(element("span", inner, cls=f"run example-{run.example}"))
     return "".join(cells)
-
-
-def _seconds(seconds: float) -> str:
-    if seconds >= 0.1:
-        return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s"
-    return f"{1000 * seconds:.0f} ms" if seconds >= 0.001 else "<1 ms"
 
 
 def _facts(listing: Facing, card: Card) -> str:

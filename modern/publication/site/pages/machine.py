@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from emulator.machine.timing import ARITHMETIC, CONTROL, CONVERSION, FIXED, SUBSCRIPTS
+from emulator.machine.timing import ARITHMETIC, CONTROL, CONVERSION, FIXED, SUBSCRIPTS, Time
 from modern.drawing import svg
 from modern.drawing.layout import Pixel
 from modern.edition.programs import NAMES as PROGRAMS
@@ -162,30 +162,30 @@ def example_runs() -> list[Run]:
     return sorted((run for name in names for run in runs(name)), key=lambda run: (run.example, run.program))
 
 
-def seconds_of(run: Run) -> tuple[float, ...]:
-    """Return the seconds that a run takes in each of :data:`PARTS` of the machine."""
-    return tuple(sum(row.seconds for row in run.rows if row.cause in causes) for causes in PARTS.values())
+def times_of(run: Run) -> tuple[Time, ...]:
+    """Return the time of each of :data:`PARTS`."""
+    return tuple(sum((row.time for row in run.rows if row.cause in causes), Time()) for causes in PARTS.values())
 
 
-_CAPTION = "Seconds on a 1620 Model 1; by the model: the total with the systematic error of the processor's times"
+_CAPTION = "Time on a 1620 Model 1; in parentheses: the systematic error of the processor's times"
 
 
 def _time() -> tuple[Part, ...]:
     all_runs = example_runs()
-    longest = max(all_runs, key=lambda run: run.total)
+    longest = max(all_runs, key=lambda run: run.total.seconds)
     caption = (
         "The time of each run by component, from left to right in the order of the key. All bars have the same scale."
     )
     description = (
         f"Bars of {len(all_runs)} runs; the longest is example {longest.example}, {_called(longest)}: "
-        f"{longest.total:.0f} ({longest.bounds[0]:.0f} to {longest.bounds[1]:.0f}) seconds. The table has the figures."
+        f"{longest.total}. The table has the figures."
     )
     rows = []
     for run in all_runs:
         name = link(f"example{run.example}", "time", f"example {run.example}, {_called(run)}", cls="whole")
-        rows.append((name, *(f"{part:.1f}" for part in seconds_of(run)), f"{run.total:.1f}", run.between))
+        rows.append((name, *map(str, times_of(run)), str(run.total)))
     drawn = figure(time_svg(all_runs), "time", caption, "drawing bars", description)
-    figures = table(("run", *PARTS, "total", "by the model"), rows, "Composition of running time", _CAPTION)
+    figures = table(("run", *PARTS, "total"), rows, "Composition of running time", _CAPTION)
     return (Part(html=drawn + figures),)
 
 
@@ -195,24 +195,24 @@ def _called(run: Run) -> str:
 
 def time_svg(all_runs: list[Run]) -> str:
     """Draw the times of runs as stacked bars of the same scale, in SVG.  ``data-seconds`` is the time of a part."""
-    longest = max(run.total for run in all_runs)
+    longest = max(run.total.seconds for run in all_runs)
     key = 4 * 17 + 14
 
     def bars() -> Iterator[str]:
         for place, run in enumerate(all_runs):
             x, y = 100 * (_WIDTH - _BAR_WIDTH) // 2, 100 * (key + place * _STEP + 16)
-            for name, fill, seconds in zip(PARTS, _FILLS, seconds_of(run), strict=True):
-                wide = round(100 * _BAR_WIDTH * seconds / longest)
+            for name, fill, time in zip(PARTS, _FILLS, times_of(run), strict=True):
+                wide = round(100 * _BAR_WIDTH * time.seconds / longest)
                 if wide:
                     size = f'x="{svg.number(x)}" y="{svg.number(y)}" width="{svg.number(wide)}" height="{_BAR}"'
-                    title = f"<title>{name}: {seconds:.1f} s</title>"
-                    yield f'<rect {size} fill="{fill}" data-seconds="{seconds:.3f}">{title}</rect>'
+                    title = f"<title>{name}: {time}</title>"
+                    yield f'<rect {size} fill="{fill}" data-seconds="{time.seconds:.3f}">{title}</rect>'
                 x += wide
 
     def names() -> Iterator[str]:
         for place, run in enumerate(all_runs):
             at = Pixel(100 * (_WIDTH - _BAR_WIDTH) // 2, 100 * (key + place * _STEP + 11))
-            yield svg.text(at, f"example {run.example}, {_called(run)}: {run.total:.0f} s")
+            yield svg.text(at, f"example {run.example}, {_called(run)}: {run.total}")
 
     def samples() -> Iterator[str]:
         for place, (name, fill) in enumerate(zip(PARTS, _FILLS, strict=True)):
