@@ -20,6 +20,7 @@ from importlib import import_module
 from itertools import islice
 from typing import Any
 
+from emulator.compiled.replay import compile_repetitions
 from emulator.compiled.runner import must_compile
 from emulator.errors import EmulatorError
 from modern.study.families import draw_sample
@@ -45,15 +46,19 @@ FinishedChunk = tuple[Chunk, str]
 RowsOrError = tuple[str, str]
 
 
-def chunk_text(cell: Cell, seed: int, chunk: Chunk) -> str:
-    """Return the rows of a chunk as JSONL text, one line per sample; ``seed`` is that of the study."""
-    return "".join(json.dumps(row, separators=(",", ":")) + "\n" for row in chunk_rows(cell, seed, chunk))
+def chunk_text(cell: Cell, seed: int, chunk: Chunk, soon: bool = False) -> str:
+    """Return the rows of a chunk as JSONL text, one line per sample; ``seed`` is that of the study.
+
+    With ``soon``, the interpreter is used until another process has compiled the engine.
+    """
+    rows = chunk_rows(cell, seed, chunk, soon and must_compile())
+    return "".join(json.dumps(row, separators=(",", ":")) + "\n" for row in rows)
 
 
-def chunk_rows(cell: Cell, seed: int, chunk: Chunk) -> Iterator[Row]:
+def chunk_rows(cell: Cell, seed: int, chunk: Chunk, interpreted: bool = False) -> Iterator[Row]:
     """Yield the row of each sample: its seed, its deck, the judge's figures, and the answer of each route."""
     samples = [judge(draw_sample(cell, seed, index), f"sample {index}") for index in range(chunk.start, chunk.stop)]
-    runs = Runs(interpreted=must_compile())
+    runs = Runs(interpreted)
     answers = {route.name: carry_out(route, samples, runs) for route in cell.routes}
     reference = answers[cell.reference or cell.routes[0].name]
     for position, sample in enumerate(samples):
@@ -80,10 +85,10 @@ def _row(cell: int, index: int, seed: str, sample: Sample, answers: dict[str, An
     return row
 
 
-def work_on(cell: Cell, seed: int, chunk: Chunk) -> RowsOrError:
+def work_on(cell: Cell, seed: int, chunk: Chunk, soon: bool = False) -> RowsOrError:
     """Compute the rows of a chunk, or return the message of the error that prevents this."""
     try:
-        return chunk_text(cell, seed, chunk), ""
+        return chunk_text(cell, seed, chunk, soon), ""
     except EmulatorError as error:
         return "", str(error)
 
@@ -100,13 +105,13 @@ def in_processes(plan: Plan, chunks: Sequence[Chunk], workers: int) -> Generator
     """
     if workers == 1 or len(chunks) <= 1:
         for chunk in chunks:
-            yield chunk, chunk_text(plan.cells[chunk.cell], plan.seed, chunk)
+            yield chunk, chunk_text(plan.cells[chunk.cell], plan.seed, chunk, soon=True)
         return
     earlier_children = set(multiprocessing.active_children())
     context = multiprocessing.get_context("spawn")
     pool = ProcessPoolExecutor(min(workers, len(chunks)), context, initializer=_begin_worker)
     try:
-        yield from _submit_and_wait(plan, chunks, pool, AHEAD * workers, work_on)
+        yield from _submit_and_wait(plan, chunks, pool, AHEAD * workers, partial(work_on, soon=True))
     except BaseException as reason:
         # Unfinished chunks are abandoned.  A stored file of rows is always complete.
         for child in set(multiprocessing.active_children()) - earlier_children:
@@ -209,6 +214,8 @@ def _work_on_cluster(expected: dict[str, str], cell: Cell, seed: int, chunk: Chu
                 f"--dask: a worker has {name} {installed.get(name) or '(not installed)'}, "
                 f"this process {version or '(not installed)'}"
             )
+    if any("alarms" in route.measures for route in cell.routes):
+        compile_repetitions()
     return work_on(cell, seed, chunk)
 
 

@@ -27,26 +27,32 @@ class Runs:
         """Return for each deck the result of its run, or the error if the program cannot read the deck."""
         self.programs[id(program)] = program
         fresh = [deck for deck in dict.fromkeys(decks) if (id(program), options, deck) not in self.done]
-        for deck, result in zip(fresh, _results(program, fresh, options, self.interpreted), strict=True):
+        results = (_interpreted if self.interpreted else _results)(program, fresh, options)
+        for deck, result in zip(fresh, results, strict=True):
             self.done[id(program), options, deck] = result
         return [self.done[id(program), options, deck] for deck in decks]
 
 
-def _results(
-    program: Program, decks: Sequence[Deck], options: Options, interpreted: bool
-) -> Sequence[Result | EmulatorError]:
+def _interpreted(program: Program, decks: Sequence[Deck], options: Options) -> Sequence[Result | EmulatorError]:
+    results: list[Result | EmulatorError] = []
+    for deck in decks:
+        try:
+            results.append(Machine(program, deck, options).run())
+        except EmulatorError as error:
+            results.append(error)
+    return results
+
+
+def _results(program: Program, decks: Sequence[Deck], options: Options) -> Sequence[Result | EmulatorError]:
     try:
-        if interpreted and len(decks) == 1:
-            return [Machine(program, decks[0], options).run()]
-        if not interpreted:
-            return run_batch(program, decks, options)
+        return run_batch(program, decks, options)
     except EmulatorError as error:
         if len(decks) == 1:
             return [error]
     # One invalid deck stops a batch.  Bisection finds it and preserves the results of the other decks.
     half = len(decks) // 2
     halves = decks[:half], decks[half:]
-    return [result for part in halves for result in _results(program, part, options, interpreted)]
+    return [result for part in halves for result in _results(program, part, options)]
 
 
 def run_hulls(

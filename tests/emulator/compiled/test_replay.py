@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from emulator.compiled.replay import enclosed, exactly, repetitions
+from emulator.compiled.replay import compile_repetitions, enclosed, exactly, repetitions
 from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import compile_deck
 from emulator.machine.machine import Machine
@@ -116,6 +116,7 @@ def test_samples_surround_the_exact_value_and_are_the_same_for_the_same_seed(tap
 
 def test_samples_are_those_of_the_interpreter_without_numba(tape: Tape, monkeypatch: pytest.MonkeyPatch) -> None:
     seeds = [rules_of_stochastic(seed) for seed in (1, 2)]
+    compile_repetitions()
     compiled = list(repetitions(tape, DIGITS, seeds))
     monkeypatch.setattr("emulator.compiled.replay._compiled", lambda: None)
     assert list(repetitions(tape, DIGITS, seeds)) == compiled

@@ -8,12 +8,18 @@ from inspect import signature
 
 import pytest
 
+from emulator.machine.result import Options
+from emulator.machine.timing import measure
+from emulator.numbers import numbers
+from modern.edition.chapter6 import input_deck
+from modern.edition.programs import with_layers
 from modern.study.builtin import names, study
 from modern.study.families import FAMILIES
 from modern.study.measures import MEASURES
 from modern.study.plan import Port, Programs
 from modern.study.report import unbroken
 from modern.study.tomlplan import _CELL, _HEAD
+from modern.thesis.job import run_hull
 from tests.support.paths import ROOT
 
 DOCS = ROOT / "docs" / "studies"
@@ -34,10 +40,28 @@ SECTIONS = ("seventy", "rounding", "epsilon", "translation", "capacity, machine-
 def test_intervals_quoted_in_the_explanation_are_those_of_the_tables(section: str) -> None:
     text = (ROOT / "docs" / "explanation" / "studies.md").read_text(encoding="utf-8")
     (paragraphs,) = [part for part in text.split("\n## ") if part.startswith(f"{section}\n")]
-    intervals = re.findall(r"-?[\d.]+ \(-?[\d.]+ to -?[\d.]+\)(?: %)?", " ".join(paragraphs.split()))
+    text = re.sub(r"^\|.*$", "", paragraphs, flags=re.MULTILINE)
+    intervals = re.findall(r"-?[\d.]+ \(-?[\d.]+ to -?[\d.]+\)(?: %)?", " ".join(text.split()))
     tables = [path.read_text(encoding="utf-8") for name in section.split(", ") for path in (DOCS / name).glob("*.csv")]
     assert intervals
     assert [interval for interval in intervals if not any(interval in table for table in tables)] == []
+
+
+@pytest.mark.parametrize("number", [4, 5, 6])
+def test_times_of_the_moved_origin_are_those_of_the_programs(number: int) -> None:
+    """The table by hand: operations and processor seconds of the last program, without and with the translation."""
+    times, counts = [], []
+    for layers in (("corrected",), ("corrected", "translation")):
+        options = Options(numbers("truncating:16"), core=60_000)
+        step = run_hull(input_deck(number), lambda name, layers=layers: with_layers(name, layers), options).steps[-1]
+        table = measure(step.program, step.result)
+        operations = dict(table.operations)
+        additions = sum(operations.get(name, 0) for name in ("FAD", "FSB", "FSBR"))
+        counts.append((f"{additions:,}", f"{operations['FMP']:,}"))
+        times.append(f"{table.processor_time.seconds:.1f} ({table.processor_time.interval})")
+    columns = [*map(" to ".join, zip(*counts, strict=True)), *times]
+    text = (ROOT / "docs" / "explanation" / "studies.md").read_text(encoding="utf-8")
+    assert re.search(rf"^\| example {number} .*\| {re.escape(' | '.join(columns))} \|", text, re.MULTILINE)
 
 
 @pytest.mark.parametrize("name", names())

@@ -127,8 +127,8 @@ def test_series_are_side_by_side_if_possible_and_otherwise_in_panels() -> None:
     assert not layout.panels(lines(3, 6))
     assert layout.panels(lines(6, 25))
     assert not layout.panels(lines(6, 25, apart=1.0))
-    assert not layout.panels(bars(6, 8))
-    assert layout.panels(bars(6, 9))
+    assert not layout.panels(bars(5, 8))
+    assert layout.panels(bars(5, 9))
 
 
 @NEEDS_MATPLOTLIB
