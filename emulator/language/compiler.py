@@ -116,9 +116,9 @@ class _Translation:
         if self.statements and not self.ended and not broken:
             card = self.statements[-1].place.card
             self.diagnostics.append(Diagnostic(card, 0, "the deck has no END card", warning=True))
-        if self.emitter.allocator.used > _LARGEST:
-            needed = self.emitter.allocator.used * FIELD
-            self._error(tree.Place(1, 0), f"OVERLAP: the data need {needed} positions of core, more than any 1620 has")
+        if (used := self.emitter.allocator.used) > _LARGEST:
+            message = f"OVERLAP: the data need {used * FIELD} positions of core, more than any 1620 has"
+            self._error(tree.Place(1, 0), message)
         # If the parser rejected statements, the numbers that branches refer to may belong to them, so they cannot be
         # checked.
         if not broken:
@@ -163,8 +163,7 @@ class _Translation:
             if not isinstance(statement.body, tree.Format):
                 continue
             if positions > CORES[-1]:
-                message = f"OVERLAP: the FORMATs before this one need {positions} positions, more than any 1620 has"
-                self._error(statement.place, message)
+                self._error(statement.place, f"OVERLAP: the FORMATs need {positions} positions, more than any 1620 has")
                 break
             if not statement.label:
                 self._error(statement.place, "a FORMAT needs a statement number", 10)
@@ -293,9 +292,8 @@ class _Translation:
                 raise Refused(place, f"{name} was used before its DIMENSION", 9)
             if 0 in shape:
                 raise Refused(place, f"{name}: a dimension must be at least 1, found 0", 9)
-            if math.prod(shape) > _LARGEST:
-                needed = math.prod(shape) * FIELD
-                raise Refused(place, f"OVERLAP: {name} needs {needed} positions of core, more than any 1620 has")
+            if (size := math.prod(shape)) > _LARGEST:
+                raise Refused(place, f"OVERLAP: {name} needs {size * FIELD} positions of core, more than any 1620 has")
             self.emitter.arrays[name] = shape
             self.emitter.allocator.place("array", name, shape)
 
