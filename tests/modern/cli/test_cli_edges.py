@@ -23,7 +23,6 @@ from modern.cli.main import build_parser
 from modern.cli.shared import arguments
 from modern.cli.shared.arguments import EXAMPLES, NAMES
 from modern.cli.shared.inputs import points_of
-from modern.digital.arrays import parse_npy
 from modern.edition import programs
 from modern.edition.chapter4 import THEOREMS
 from modern.formats import ply
@@ -325,9 +324,3 @@ def test_the_shell_completes_every_name_of_the_registers() -> None:
     assert scenes.names() == arguments.SCENES
     assert tuple(documents()) == arguments.TEXTS
     assert [numbers(name).name for name in arguments.ARITHMETICS] == list(arguments.ARITHMETICS)
-
-
-def test_long_doubles_are_voxels() -> None:
-    file = io.BytesIO()
-    np.save(file, np.ones((2, 2, 2), np.longdouble))
-    assert parse_npy(file.getvalue(), "a.npy").shape == (2, 2, 2)

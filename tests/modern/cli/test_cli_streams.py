@@ -47,12 +47,6 @@ def test_a_device_is_written_and_not_replaced(room: Path, capsys: pytest.Capture
     assert Path("pipe").is_fifo()
 
 
-def test_neighbouring_files_are_unchanged(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("log.part").write_text("mine", encoding="utf-8")
-    assert call(capsys, "hull", "good.deck", "--trace", "log")[0] == 0
-    assert Path("log.part").read_text(encoding="utf-8") == "mine"
-
-
 def test_an_existing_file_keeps_its_mode_and_a_link_is_followed(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("cards").write_text("old", encoding="utf-8")
     Path("cards").chmod(0o600)
@@ -114,12 +108,3 @@ def test_streams_that_the_shell_closed_are_reported(room: Path, words: str, mess
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, "Traceback" in done.stderr) == (2, "", False)
     assert done.stderr.splitlines()[-1].startswith(f"hull1620: {message}")
-
-
-def test_one_example_named_twice_runs_once(capsys: pytest.CaptureFixture[str]) -> None:
-    assert call(capsys, "reproduce", "3", "3")[1] == call(capsys, "reproduce", "3")[1]
-
-
-def test_cards_accepts_plain_digits_only(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("wide.csv").write_text("\uff11,2,3\n", encoding="utf-8")
-    assert call(capsys, "cards", "wide.csv")[0] == 2

@@ -101,13 +101,6 @@ def test_notes_of_the_reader_are_printed_only_on_success(stair: str, capsys: pyt
     assert call(capsys, "octree-hull", "twice.csv")[::2] == (0, note)
 
 
-def test_counts_of_one_are_singular(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("one.csv").write_text("4,5,6\n", encoding="utf-8")
-    out = call(capsys, "octree-hull", "one.csv")[1].splitlines()
-    assert out[0] == "one.csv: 1 voxel, an octree of 1 node over a cube of side 1"
-    assert out[-1] == "digital hull: 1 voxel, an octree of 1 node"
-
-
 def test_faces_run_counterclockwise_seen_from_outside(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
     out = call(capsys, "octree-hull", stair, "--tables")[1]
     faces = re.findall(r"^  (\S+): (\S+) (\S+) (\S+)", out, re.MULTILINE)

@@ -16,7 +16,7 @@ from modern.digital.intervals import lower_chain
 from modern.papers.yau_srihari import Printed, octree_hull
 from modern.papers.yau_srihari import quadtree as trees
 from modern.papers.yau_srihari.envelope import outline, reduced_tree
-from modern.papers.yau_srihari.octree import QUADRANTS, Octree, count, nodes, octree, side_for, voxels_of
+from modern.papers.yau_srihari.octree import QUADRANTS, Octree, count, octree, side_for, voxels_of
 from modern.papers.yau_srihari.search import Search, normal_of
 from tests.support.digital_judge import random_solid, solid_of
 
@@ -43,24 +43,12 @@ def test_an_octree_stores_its_array(array: np.ndarray) -> None:
     assert count(tree) == np.count_nonzero(array)
 
 
-@pytest.mark.parametrize(("length", "side"), [(0, 1), (1, 1), (2, 2), (3, 4), (8, 8), (9, 16)])
-def test_sides_are_powers_of_two(length: int, side: int) -> None:
-    assert side_for(length) == side
-
-
 def test_two_sons_lie_over_each_quadrant() -> None:
     for number in range(8):
         i, j = QUADRANTS[number // 2]
         cube = np.zeros((2, 2, 2), dtype=np.bool_)
         cube[i, j, number % 2] = True
         assert octree(cube) == Octree(2, np.array([number]), np.array([1]))
-
-
-def test_uniform_octants_are_leaves() -> None:
-    cube = np.zeros((4, 4, 4), dtype=np.bool_)
-    cube[:2, :2, :2] = True
-    assert octree(cube) == Octree(4, np.array([0]), np.array([1]))
-    assert nodes(octree(cube)) == 9
 
 
 @FEW
@@ -230,12 +218,6 @@ def test_the_next_face_has_no_vertex_in_a_square_on_the_known_side(seed: int) ->
                 assert {*points} & {*step.face.vertices} <= {start, end}
 
 
-def test_a_starting_face_is_upright() -> None:
-    """Its third vertex is above the edge, so rule 1 uses the side on which faces look up."""
-    first = octree_hull(solid_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)])).lower.steps[0]
-    assert first.normal[2] == 0
-
-
 @settings(max_examples=25)
 @given(st.integers(0, 10**9))
 def test_the_search_finds_the_best_of_all_points(seed: int) -> None:
@@ -273,12 +255,3 @@ def test_a_corner_below_the_known_face_must_count_as_in_its_plane(monkeypatch: p
     assert violations(array, Printed())[1:] == (0, 0)
     monkeypatch.setattr(Search, "_corner", lambda search, corner: search.score(corner))
     assert violations(array, Printed())[2] > 0
-
-
-def test_the_search_visits_less_than_half_of_the_nodes() -> None:
-    source = np.random.default_rng(5)
-    array = source.random((32, 32, 32)) < 0.02
-    hull = octree_hull(array)
-    whole = sum(1 for _ in squares(reduced_tree(trees.floor(octree(array))), 32))
-    visited = [step.visited for step in hull.lower.steps]
-    assert sum(visited) < len(visited) * whole / 2

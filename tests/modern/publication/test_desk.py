@@ -130,11 +130,6 @@ def test_invalid_programs_and_decks_are_rejected_with_a_message(request_: dict[s
     assert desk.run(1)["card"] == 0, "nothing old runs"
 
 
-def test_lower_case_is_accepted_on_request() -> None:
-    answer = Desk().load({"program": ["x.f", "      i=1\n      end\n"], "deck": "", "upcase": True})
-    assert answer["listing"][0] == [1, "      I=1"]
-
-
 def finished(desk: Desk) -> None:
     """Run to the end of all loads, pressing START at every halt."""
     while True:

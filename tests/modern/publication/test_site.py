@@ -112,12 +112,6 @@ def test_pages_load_nothing_from_other_servers(site: Path) -> None:
         assert not re.search(r"url\(\s*[\"']?(https?:)?//", sheet.read_text(encoding="utf-8")), sheet
 
 
-def test_listings_contain_no_script(site: Path) -> None:
-    for name in programs.NAMES:
-        assert not pages(site)[f"{name}.html"].root.xpath("//article//script")
-    assert "fetch(" not in (site / "_static" / "edition.js").read_text(encoding="utf-8")
-
-
 def test_heading_levels_are_not_skipped(site: Path) -> None:
     for page in pages(site).values():
         levels = [

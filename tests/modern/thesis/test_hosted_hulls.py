@@ -3,6 +3,7 @@
 import random
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -39,11 +40,16 @@ def deck_of_folder(folder: Path) -> Deck:
     return read_deck(str(folder / "deck.cards"))
 
 
+@cache
+def run_of_the_machine(folder: Path) -> HullRun:
+    return hull(deck_of_folder(folder))
+
+
 @pytest.mark.parametrize("folder", INTEGERS, ids=lambda folder: folder.name)
 @pytest.mark.parametrize("name", ["exact", "float64", "mp:120"])
 def test_decks_of_integers_have_the_same_run_in_other_numbers(folder: Path, name: str) -> None:
     """For two-digit integers, eight decimal digits lead to the same decisions as exact numbers."""
-    plain = hull(deck_of_folder(folder))
+    plain = run_of_the_machine(folder)
     endless = plain.final.result.ending.kind == "limit"
     other = hull(deck_of_folder(folder), name, limit=LIMIT if endless else 100 * LIMIT)
     results = [step.result for step in other.steps]
