@@ -40,7 +40,7 @@ def data_sets(cards: Sequence[str]) -> list[list[str]]:
 
 
 def compare(emulated: Sequence[Sequence[str]], native: Sequence[Sequence[str]]) -> Agreement:
-    """Compare the cards of both programs deck by deck.  A deck missing on one side counts as a different hull."""
+    """Compare the emulated and the native program's cards, deck by deck.  A missing deck counts as a different hull."""
     same = digits = different = 0
     first = ""
     for n in range(max(len(emulated), len(native))):

@@ -105,7 +105,10 @@ def _check(size: Sequence[int], numbers: int, most: int) -> None:
 
 
 def _nifti(reader: Any, notes: list[str]) -> str:
-    """Return the unit of a NIfTI file, which the library converts to mm. Add a note if it has no orientation."""
+    """Return ``mm``, to which SimpleITK converts the unit of a NIfTI file, or "" if the file states no unit.
+
+    Add a note if the file states no orientation.
+    """
     metadata = {key: reader.GetMetaData(key) for key in reader.GetMetaDataKeys()}
     if metadata.get("qform_code") == "0" and metadata.get("sform_code") == "0":
         notes.append("the file states no orientation (qform and sform are 0)")

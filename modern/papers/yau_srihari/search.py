@@ -27,7 +27,7 @@ ROUNDED = 2.0**-48
 
 
 def normal_of(u: Point, v: Point, w: Point) -> Normal:
-    """Return the normal of the plane of three points; from its tip, they run counterclockwise."""
+    """Return the normal of the plane of three points, which run counterclockwise as seen from the side it points to."""
     ax, ay, az = v[0] - u[0], v[1] - u[1], v[2] - u[2]
     bx, by, bz = w[0] - u[0], w[1] - u[1], w[2] - u[2]
     return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
