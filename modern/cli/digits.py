@@ -35,7 +35,7 @@ from emulator.numbers.stochastic import MAX_RUNS
 from modern.cli.shared.console import DIFFERS, OK, UsageError, check_one_standard_input, counted, print_report
 from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.programs import load_program, machine_options, number_system
-from modern.comparison.sampling import Independent, Printed, Sampling, in_step, independent, sampled
+from modern.comparison.sampling import DecisionShares, Independent, Printed, Sampling, in_step, independent, sampled
 from modern.comparison.sensitivity import NUMBER, Sensitivity, records_of, sensitivities, shape_of
 
 _NARROWEST, _WIDEST = 60, 120
@@ -70,7 +70,7 @@ def main(args: argparse.Namespace) -> int:
     machine, exact = _run(program, deck, options, truth)
     tables = [
         _numbers(result, truth, exact, runs or sampling),
-        _decisions(program, deck, options, divergence, sampling, runs),
+        _decisions(program, deck, options, divergence, (runs or sampling).decisions),
         _statements(divergence, sampling),
     ]
     if args.deck and exact is not None:
@@ -147,6 +147,8 @@ def _numbers(result: Result, truth: Numbers, reference: Result | None, runs: Sam
         sentences = [f"{truth.name} prints other records, so true digits are not known"]
     if studied and not estimates:
         sentences.append("the stochastic runs print other records, so no digits can be estimated")
+    if not result.ending.normal:
+        sentences.append(f"the run ended early: {result.ending.outcome}")
     if isinstance(runs, Independent):
         shares = " + ".join(map(str, runs.shares))
         sentences.append(f"independent runs that print the same records, apart from digits: {shares}")
@@ -158,7 +160,7 @@ def _common(first: str, second: str, digits: float) -> float:
     a, b = Fraction(first), Fraction(second)
     if abs(a - b) <= Fraction(10) ** int(Decimal(first).as_tuple().exponent):
         return digits
-    return min(max(-math.log10(abs(a - b) / abs(b)), 0.0), digits) if b else 0.0
+    return min(max(0.0, -math.log10(abs(a - b) / abs(b))), digits) if b else 0.0
 
 
 def _one(value: float | None) -> str:
@@ -183,6 +185,8 @@ def _verdict(estimated: Estimate | None, true: float | None) -> str:
         return "no digit is significant"
     if true is not None and true < estimated.sohier - 1:
         return "the runs agree, but on a wrong value"
+    if estimated.sohier < 1:
+        return "no digit is certain"
     return f"believe {counted(math.floor(estimated.sohier), 'digit')}"
 
 
@@ -191,8 +195,7 @@ def _decisions(
     deck: Deck,
     options: Options,
     divergence: Divergence,
-    sampling: Sampling,
-    runs: Independent | None,
+    decisions: Sequence[DecisionShares],
 ) -> Table:
     """Return the decisions on which stochastic runs disagree, and the first that the reference decides otherwise."""
     first = divergence.first_decision
@@ -204,8 +207,8 @@ def _decisions(
         ]
     if divergence.apart:
         sentences.append(f"the comparison with {divergence.arithmetics[1]} ended: {divergence.apart}")
-    tested = sum(row.times for row in sampling.decisions)
-    disputed = [row for row in sampling.decisions if row.disputed]
+    tested = sum(row.times for row in decisions)
+    disputed = [row for row in decisions if row.disputed]
     total = sum(row.disputed for row in disputed)
     sentences.append(f"stochastic runs: {counted(tested, 'decision')} on floating-point numbers, {total} disputed")
     digits = max(2, math.ceil(min(options.numbers.digits, 1_000)))

@@ -56,6 +56,8 @@ def main(args: argparse.Namespace) -> int:
     source = source_deck(args)
     notes_above, glosses = _commentary(args) if args.commentary else ({}, [])
     program, messages = translate(source)
+    if args.digits and args.deck is None and program is not None and program.uses("READ", "ACCEPT"):
+        raise UsageError("--digits: the program reads cards; name a data deck")
     if program is None or (args.deck is None and program.uses("READ", "ACCEPT")):
         _write(args.output, [*_plain(source, messages, notes_above), *glosses])
         return OK if program is not None else BAD_INPUT

@@ -2,7 +2,7 @@
 
 :func:`in_step` executes N stochastic runs on one common branch (:mod:`emulator.numbers.sampled`).  It records at every
 store the estimated digits, and at every IF how many runs would have gone each way.  :func:`independent` executes the
-runs one after the other (Monte Carlo), each on a separate branch, if possible with the compiled engine.
+runs one after the other (Monte Carlo), each on a separate branch.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import zip_longest
 from statistics import median
 
 from emulator.language import objectcode as op
@@ -20,12 +21,12 @@ from emulator.language.objectcode import Line, Program
 from emulator.machine.divergence import JournaledRun
 from emulator.machine.endings import Ending
 from emulator.machine.operator import Operator
-from emulator.machine.result import Options, Result
+from emulator.machine.result import Options
 from emulator.numbers import DecimalNumbers, Numbers
 from emulator.numbers.sampled import SampledNumbers, Values
 from emulator.numbers.significance import Estimate, estimate
 from emulator.numbers.stochastic import stochastic
-from modern.comparison.sensitivity import NUMBER, records_of, shape_of
+from modern.comparison.sensitivity import NUMBER, shape_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,24 +192,29 @@ class Independent:
 
     ``shares`` counts the runs that print each sequence of records, the most frequent first.  Sequences that differ only
     in the digits of printed numbers count as the same.  ``printed`` holds the numbers that the runs with the most
-    frequent sequence print.
+    frequent sequence print.  ``decisions`` compares execution n of an IF in all runs that reach it.
     """
 
-    results: tuple[Result, ...]
     shares: tuple[int, ...]
     records: tuple[str, ...]
     printed: tuple[Printed, ...]
+    decisions: tuple[DecisionShares, ...]
 
 
 def independent(
     program: Program, deck: Deck, members: Sequence[Numbers], options: Options | None = None
 ) -> Independent:
     """Run a program once in each of several arithmetics.  Raise CardError or DeckError for an invalid deck."""
-    from emulator.compiled.batch import run_batch  # not at the top, because it needs numpy
-
-    base = options or Options()
-    results = [run_batch(program, [deck], replace(base, numbers=member))[0] for member in members]
-    runs = [records_of(result) for result in results]
+    base, runs = options or Options(), []
+    signs: dict[int, list[list[int]]] = {}
+    for k, member in enumerate(members):
+        run = JournaledRun(program, deck, replace(base, numbers=member), False, Operator(), ())
+        for pc, _, value in run.entries():
+            if program.code[pc].operation == op.IF and not isinstance(value, int):
+                signs.setdefault(pc, [[] for _ in members])[k].append(member.sign(value))
+        if run.error is not None:
+            raise run.error
+        runs.append(run.records)
     shapes = [tuple(shape_of(records)) for records in runs]
     frequent = Counter(shapes).most_common()
     same = [records for records, shape in zip(runs, shapes, strict=True) if shape == frequent[0][0]]
@@ -217,4 +223,19 @@ def independent(
         for columns in zip(*(NUMBER.findall(text) for text in texts), strict=True):
             values = tuple(Fraction(column) for column in columns)
             printed.append(Printed(record, columns[0], values, estimate(values, members[0].digits)))
-    return Independent(tuple(results), tuple(count for _, count in frequent), tuple(same[0]), tuple(printed))
+    return Independent(
+        shares=tuple(count for _, count in frequent),
+        records=tuple(same[0]),
+        printed=tuple(printed),
+        decisions=tuple(_compared(program, pc, signs[pc]) for pc in sorted(signs)),
+    )
+
+
+def _compared(program: Program, pc: int, signs: Sequence[Sequence[int]]) -> DecisionShares:
+    """Compare the signs that each run finds at the successive executions of an IF.  The most frequent one is taken."""
+    votes = _Votes()
+    for execution in zip_longest(*signs):
+        reached = [sign for sign in execution if sign is not None]
+        taken = Counter(reached).most_common(1)[0][0]
+        _vote(votes, reached, program.branches[program.code[pc].address], taken)
+    return _decision(program.line_at(pc), votes)

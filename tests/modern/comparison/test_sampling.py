@@ -113,6 +113,30 @@ def test_disputed_decision_is_recorded_with_the_share_of_runs(choice: str) -> No
         assert signs[decision.taken + 1] == max(signs)
     separate = independent(program, deck, [numbers(f"stochastic:8:{seed}") for seed in range(1, 21)])
     assert separate.shares == tuple(sorted(filter(None, signs), reverse=True))
+    (decision,) = separate.decisions
+    assert (decision.times, decision.disputed, decision.shares) == (1, 1, tuple(signs))
+    assert signs[decision.taken + 1] == max(signs)
+
+
+def test_independent_runs_compare_the_executions_of_an_if_that_they_reach() -> None:
+    """Each run leaves the loop at a different execution, so fewer runs reach the later ones."""
+    lines = (
+        "A=0.",
+        "DO 5 I=1,40",
+        "A=A+1./3.",
+        "IF(A-9.)5,6,6",
+        "    5 CONTINUE",
+        "    6 TYPE 7,I",
+        "    7 FORMAT(I4)",
+    )
+    program, deck = made(*lines)
+    members = [numbers(f"stochastic:4:{seed}:proportional") for seed in range(1, 21)]
+    (decision,) = independent(program, deck, members).decisions
+    ends = [int(Machine(program, deck, Options(numbers=member)).run().typed[0]) for member in members]
+    assert decision.times == max(ends)
+    assert decision.time == min(ends) < max(ends)
+    assert sum(decision.shares[1:]) == ends.count(min(ends))
+    assert sum(decision.shares) == 20
 
 
 def test_if_takes_the_branch_for_zero_if_the_number_is_a_computational_zero() -> None:
