@@ -339,6 +339,10 @@ div { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .15rem .8rem .15rem 0; border-bottom: 1px solid #8886; white-space: nowrap; }
 td { font-family: ui-monospace, monospace; font-size: .9rem; }
+@media (max-width: 40rem) {
+  th, td { font-size: .75rem; padding-right: .5rem; }
+  th, td:last-child { white-space: normal; }
+}
 </style>
 <h1>$title</h1>
 $parts
