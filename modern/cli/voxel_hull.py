@@ -164,7 +164,7 @@ def _check_output(args: argparse.Namespace) -> None:
     if args.fill:
         check_array(args.output)
         if args.each_label and _ending(args.output) != "nrrd":
-            raise UsageError(f"{args.output}: a label's box is written with its position, which only .nrrd contains")
+            raise UsageError(f"{args.output}: only a .nrrd file can hold the position of a label; use label-%d.nrrd")
     elif _ending(args.output) not in MESHES:
         endings = ", ".join(f".{name}" for name in MESHES)
         raise UsageError(f"{args.output}: expected a name that ends with one of {endings}")

@@ -162,10 +162,7 @@ def _applied(data: Path, readings: Sequence[Reading]) -> Iterator[Reading]:
 
 
 def _line_of(text: Text, reading: Reading) -> Line:
-    """Return the line of a card after the layer ``ocr``. Raise ApparatusError if later rows replace it.
-
-    Raise ApparatusError if later rows replace this card.
-    """
+    """Return the line of a card after the layer ``ocr``. Raise ApparatusError if later rows replace it."""
     number = int(reading.item.split("-")[1])
     final = build(text, programs.built_in(text.id).layers)[number - 1]
     for line in build(text, ("ocr",)):

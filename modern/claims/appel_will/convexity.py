@@ -41,10 +41,7 @@ def _area(p: Flat, q: Flat, r: Flat) -> int:
 
 @claim("appel-will.1", "appel-will.64", "appel-will.55", full=300)
 def corrected_method(cases: int = CASES) -> Check:
-    """Check that the method finds the exact hull with the corrected star polygon test (Fig. 12), not as printed.
-
-    12, and not as printed.
-    """
+    """Check that the method finds the exact hull with the corrected star polygon test (Fig. 12), not as printed."""
     check = method_against_judge(cases)
     return check.unless(not star_as_captioned().holds, "the star test as in the caption of Fig. 12")
 

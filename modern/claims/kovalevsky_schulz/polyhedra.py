@@ -158,10 +158,7 @@ def _created(points: Sequence[Point]) -> int:
 
 @claim("kovalevsky-schulz.58", "kovalevsky-schulz.59")
 def extended_faces() -> Check:
-    """Check that extending faces to coplanar points gives the exact hull with fewer new faces than Fig. 7.
-
-    7.
-    """
+    """Check that extending faces to coplanar points gives the exact hull with fewer new faces than Fig. 7."""
     extended, quadrangles_hull = coplanar_hull(GRID, EXTENDED), coplanar_hull(GRID, QUADRANGLES)
     right = list(extended.faces) == sorted(f.polygon for f in exact_hull(GRID).facets)
     message = f"a cubic grid of points needs {extended.created} new faces, and {quadrangles_hull.created} by Fig. 7"

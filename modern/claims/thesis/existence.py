@@ -32,7 +32,8 @@ PLANES: tuple[tuple[Lattice, int], ...] = (
 def coincidences(extremes: Sequence[Extreme] = EXTREMES) -> Iterator[tuple[frozenset[Extreme], ...]]:
     """Yield each way in which some of the six extreme points of a set can be the same point.
 
-    No group contains both the largest and the smallest value of a coordinate: all points would then be equal in it.
+    Extreme points that coincide form a group.  No group contains both the largest and the smallest value of a
+    coordinate: all points would then be equal in it.
     """
     if not extremes:
         yield ()

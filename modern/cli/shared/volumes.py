@@ -19,7 +19,7 @@ _SPACES = dict(zip(("lps", "ras"), ANATOMICAL, strict=False))
 
 
 def scan_of(args: argparse.Namespace) -> Scan:
-    """Read the scan that the argument ``VOLUME`` names. Raise FileError, VolumeError or UsageError.
+    """Read the scan that the argument ``VOLUME`` names.
 
     Raise FileError, VolumeError, or UsageError for arguments that are not numbers.
     """

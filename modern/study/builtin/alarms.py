@@ -198,7 +198,8 @@ def _main(rows: _Rows) -> Table:
         *INTERVALS,
         "A method notices a wrong decision if it raises an alarm there, and announces it by an alarm at an earlier "
         "decision. All decisions of a sound run are right. A method would go wrong if its own decision would be wrong "
-        "somewhere in a sound run. The e of the last row is the least that notices most, chosen on these runs.",
+        "somewhere in a sound run. The e of the last row is the least with which most wrong decisions of these runs "
+        "are noticed.",
     )
     return Table("table", "Wrong decisions noticed, and false alarms", head, tuple(lines), notes)
 
@@ -211,7 +212,7 @@ def _families(plan: Plan, rows: _Rows) -> Table:
             key = plan.cells[number].key["sets"]
             lines.append(row(key, NAMES.get(name, name), group.wrong, noticed, group.sound, alarmed))
     head = ("sets", "method", "runs with a wrong decision", "noticed", "sound runs", "false alarm")
-    notes = (*INTERVALS, "The e of each family is the least that notices most there, chosen on these runs.")
+    notes = (*INTERVALS, "The e of each family is the least with which most of its wrong decisions are noticed.")
     return Table("families", "Wrong decisions noticed, and false alarms, by family", head, tuple(lines), notes)
 
 

@@ -196,7 +196,7 @@ def test_one_of_several_arrays_is_named(capsys: pytest.CaptureFixture[str]) -> N
         ("scan.nrrd --each-label -o a.off", "'a.off' has no place for a label; write a name such as 'label-%d.off'"),
         ("scan.nrrd --each-label -o a-%d.json", "a-%d.json: expected a name that ends with one of .off"),
         ("scan.nrrd --each-label --fill -o a-%d.off", "expected a name that ends with .npy or .nrrd"),
-        ("scan.nrrd --each-label --fill -o a-%d.npy", "which only .nrrd contains"),
+        ("scan.nrrd --each-label --fill -o a-%d.npy", "only a .nrrd file can hold the position of a label"),
         ("scan.nrrd --each-label --cells", "--cells prints one hull"),
         ("scan.nrrd --each-label --threshold 1", "--threshold cannot be combined"),
         ("scan.nrrd --each-label --label 9", "no voxel has the label 9"),
