@@ -2,6 +2,7 @@
 
 from decimal import ROUND_DOWN, Context, Decimal
 from fractions import Fraction
+from functools import cache
 
 import pytest
 from hypothesis import given
@@ -28,6 +29,18 @@ from emulator.numbers.arithmetic import (
 Number = tuple[int, int]
 
 
+@cache  # hypothesis takes longer to check a new strategy than to draw from it
+def mantissas(p: int) -> st.SearchStrategy[int]:
+    edges = st.sampled_from([10 ** (p - 1), 10**p - 1, 5 * 10 ** (p - 1), 10 ** (p - 1) + 1])
+    magnitudes = st.integers(10 ** (p - 1), 10**p - 1) | edges
+    return st.tuples(magnitudes, st.booleans()).map(lambda t: -t[0] if t[1] else t[0])
+
+
+@cache
+def distances(p: int, spread: int) -> st.SearchStrategy[int]:
+    return st.integers(-3, 3) | st.integers(-p - 3, p + 3) | st.integers(-spread, spread)
+
+
 @st.composite
 def profiles(draw: st.DrawFn, family: str) -> Profile:
     return profile(f"{family}:{draw(st.integers(MIN_DIGITS, MAX_DIGITS))}")
@@ -38,12 +51,9 @@ def operands(draw: st.DrawFn, family: str, spread: int = 40) -> tuple[Profile, N
     """Draw a profile and two numbers with its digits, often close, with exponents at most ``spread`` apart."""
     drawn = draw(profiles(family))
     p = drawn.digits
-    mantissas = st.integers(10 ** (p - 1), 10**p - 1)
-    edges = st.sampled_from([10 ** (p - 1), 10**p - 1, 5 * 10 ** (p - 1), 10 ** (p - 1) + 1])
-    signed = st.tuples(mantissas | edges, st.booleans()).map(lambda t: -t[0] if t[1] else t[0])
     near = draw(st.integers(-20, 20))
-    apart = draw(st.integers(-3, 3) | st.integers(-p - 3, p + 3) | st.integers(-spread, spread))
-    return drawn, (draw(signed), near), (draw(signed), near + apart)
+    apart = draw(distances(p, spread))
+    return drawn, (draw(mantissas(p)), near), (draw(mantissas(p)), near + apart)
 
 
 def value(number: Number, p: int) -> Fraction:
