@@ -164,3 +164,12 @@ def test_collinear_and_coplanar_points_with_many_digits_are_recognised() -> None
     assert counts(hull) == (2, 4, 4, 4, 10, 6)
     a, b, c, d = hull.plane_of(hull.plane)
     assert all(a * x + b * y + c * z + d == 0 for x, y, z in plane)
+
+
+def test_ten_thousand_points_are_proved() -> None:
+    rng = random.Random(10)
+    points = [tuple(rng.randrange(10**8) for _ in range(3)) for _ in range(10**4)]
+    hull = exact_hull(points)
+    assert hull.dimension == 3
+    assert 60 < len(hull.vertices) < 300
+    assert len(hull.vertices) + len(hull.boundary) + len(hull.inside) + len(hull.duplicates) == 10**4
