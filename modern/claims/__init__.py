@@ -17,8 +17,8 @@ To add a verdict on a statement:
    ``.unless(refutes, "the case")``.
 4. If the verdict is "does not hold", put the smallest counterexample into ``transcripts/counterexamples/`` and name it
    in ``file``, or in ``run`` the command that shows it.
-5. Add a line to the table of the document in ``tests/modern/claims/tables/`` that breaks what the check relies on; the
-   verdict must then change.
+5. Run ``tests/modern/claims``.  The tests alter what each check relies on, and the verdict must then change.  If no
+   automatic alteration changes it, add a spoiler to ``BY_HAND`` in ``test_spoiled_claims.py``.
 6. Run ``hull1620 reproduce DOCUMENT.NUMBER``.
 
 A row without a check has the verdict "used", with the name of the code that follows it in ``code``, or "not

@@ -46,7 +46,7 @@ def corrected_method(cases: int = CASES) -> Check:
     return check.unless(not star_as_captioned().holds, "the star test as in the caption of Fig. 12")
 
 
-@claim("appel-will.67", "appel-will.68", "appel-will.98", "appel-will.112", full=300)
+@claim("appel-will.67", "appel-will.68", "appel-will.98", full=300)
 @claim("appel-will.36", "appel-will.116", "appel-will.120", "appel-will.135", "yau-srihari.112", full=300)
 @claim("appel-will.146", "appel-will.147", "appel-will.149", full=300)
 def method_against_judge(cases: int = CASES) -> Check:

@@ -116,7 +116,7 @@ def deletion_in_prisms(rule: Rule, cases: int = 5) -> Check:
 def inside_corners_deleted(cases: int = 5) -> Check:
     """Check that deletion keeps the vertices of prisms, but not those of the crown, a pyramid over a star."""
     crown_ = inside_corner_at_vertex()
-    return deletion_in_prisms("any", cases).unless(crown_.holds, crown_.message)
+    return deletion_in_prisms("any", cases).unless(crown_.holds, f"a star: {crown_.message}")
 
 
 @claim("appel-will.84")

@@ -3,7 +3,6 @@
 A *local corner* is a voxel (or a corner of voxels) that lies between no two opposite neighbours in the same set.
 """
 
-from fractions import Fraction
 from itertools import product
 from random import Random
 
@@ -50,15 +49,6 @@ def vertices_among_local_corners(cases: int = 5) -> Check:
         cases,
         "the vertices of the hull of each solid are local corners",
     )
-
-
-@claim("kovalevsky-schulz.6")
-def fewer_candidates() -> Check:
-    """Check that few voxels of the ball of diameter 32 are local corners, whose visibility must be tested."""
-    solid = ball(32)
-    corners = len(local_corners(solid, CENTRES))
-    message = f"only {corners} local corners of {solid.count} voxels are tested against the faces"
-    return exhibited(20 * corners < solid.count, message)
 
 
 @claim("kovalevsky-schulz.19")
@@ -188,21 +178,6 @@ def _neighbours(voxel: tuple[int, ...]) -> list[tuple[int, ...]]:
     return [tuple(voxel[k] if k == axis else 2 for k in range(3)) for axis in range(3)]
 
 
-@claim("kovalevsky-schulz.27")
-def topological_raster() -> Check:
-    """Check that a cube of n^3 voxels has (2 n + 1)^3 cells, which approaches eight times as many for large n."""
-    ratios = {n: Fraction(cells_of(n), n**3) for n in (10, 1000)}
-    message = f"1000 voxels on a side: {float(ratios[1000]):.2f} times as many cells as voxels"
-    return exhibited(8 < ratios[1000] < Fraction(805, 100), message).unless(
-        ratios[10] > 9, f"10 voxels on a side, with {float(ratios[10]):.2f} times as many"
-    )
-
-
-def cells_of(n: int) -> int:
-    """Return the number of cells of a cube of n voxels on each side, including its border."""
-    return len(range(2 * n + 1)) ** 3
-
-
 @claim("kovalevsky-schulz.175")
 def edges_at_corner() -> Check:
     """Check that at most four edges meet at a corner of pixels in the plane, and six at a corner of voxels."""
@@ -221,23 +196,7 @@ def ends_at(edge: tuple[int, ...], corner: tuple[int, ...]) -> bool:
     return sum(x % 2 for x in edge) == 1 == sum(abs(a - b) for a, b in zip(edge, corner, strict=True))
 
 
-@claim("kovalevsky-schulz.32")
-@claim("kovalevsky-schulz.33", dimensions=2)
-def farthest_voxel_of_corner(dimensions: int = 3) -> Check:
-    """Check that each corner of a raster can be named by its voxel (in Fig. 3: pixel) farthest from the origin."""
-    size = 3
-    raster = tuple((x, y, z) for x, y, z in product(range(size), repeat=3) if dimensions == 3 or not z)
-    named = {}
-    for x, y, z in _placed(raster, VERTICES):
-        if dimensions == 3 or not z:
-            beside = {(x - i, y - j, z - k) for i, j, k in STEPS} & {*raster}
-            named[x, y, z] = max(beside, key=lambda c: c[0] ** 2 + c[1] ** 2 + c[2] ** 2)
-    within = [corner == voxel for corner, voxel in named.items() if size not in corner]
-    message = f"{len(within)} corners have different voxels; {len(named) - len(within)} at the border have none"
-    return exhausted(f"corners of a raster of {len(raster)} cells", [*within, len(within) == len(raster)], message)
-
-
-@claim("kovalevsky-schulz.174", full=4_000)
+@claim("kovalevsky-schulz.174", "kovalevsky-schulz.33", full=4_000)
 def additional_labels(cases: int = 5) -> Check:
     """Check which elements become labelled besides the vertices: those behind a voxel, seen from the origin."""
 
@@ -246,46 +205,3 @@ def additional_labels(cases: int = 5) -> Check:
         return _placed(solid, VERTICES) - {*solid} == behind
 
     return search(SOLIDS, agrees, cases, "the elements labelled in addition are those behind a voxel")
-
-
-@claim("kovalevsky-schulz.152", "kovalevsky-schulz.140", statement="incident")
-@claim("kovalevsky-schulz.178", statement="common")
-@claim("kovalevsky-schulz.137", "kovalevsky-schulz.138", statement="farthest")
-def cells_as_boxes(statement: str) -> Check:
-    """Compare the topological coordinates of cells with the closed boxes that the cells represent.
-
-    statement: ``incident``, one box contains the other if and only if the coordinates are incident, and the dimension
-    is the number of odd coordinates; ``common``, two boxes have common points; ``farthest``, halved coordinates are
-    those of the farthest voxel that the cell bounds.
-    """
-    cells = [*product(range(5 if statement == "farthest" else 4), repeat=3)]
-    boxes = {c: tuple((x - x % 2, x + x % 2) for x in c) for c in cells}
-    pairs = [(a, b) for a in cells for b in cells if a != b]
-    if statement == "common":
-        meets = [
-            all(max(p[0], q[0]) <= min(p[1], q[1]) for p, q in zip(boxes[a], boxes[b], strict=True)) for a, b in pairs
-        ]
-        return exhibited(any(meets), f"{sum(meets)} of {len(pairs)} ordered pairs of closed cells have common points")
-    if statement == "farthest":
-        voxels = [c for c in cells if all(x % 2 for x in c)]
-        outcomes = []
-        for cell in (c for c in cells if max(c) < 4):
-            bounded = [v for v in voxels if cell == v or incident(cell, v)]
-            outcomes.append(tuple(x // 2 for x in cell) == tuple(x // 2 for x in max(bounded)))
-        message = "eight cells of all dimensions have the coordinates of one voxel"
-        return exhausted("cells of eight voxels, without the border", outcomes, message)
-    outcomes = [sum(p[0] < p[1] for p in boxes[c]) == sum(x % 2 for x in c) for c in cells]
-    outcomes += [
-        all(q[0] <= p[0] and p[1] <= q[1] for p, q in zip(boxes[a], boxes[b], strict=True)) == incident(a, b)
-        for a, b in pairs
-    ]
-    return exhausted(
-        "pairs of 64 cells of eight voxels",
-        outcomes,
-        "coordinates tell which boxes contain others",
-    )
-
-
-def incident(a: tuple[int, ...], b: tuple[int, ...]) -> bool:
-    """Return True if the cell with the topological coordinates a bounds the cell b, or b bounds a."""
-    return a != b and all(x == y or (y % 2 == 1 and abs(x - y) == 1) for x, y in zip(a, b, strict=True))

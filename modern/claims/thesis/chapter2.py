@@ -3,12 +3,11 @@
 The earlier methods (testing all planes or lines, and gift wrapping) are carried out on small sets.
 """
 
-import math
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations, permutations
 
-from modern.claims.evidence import Check, claim, exhausted, exhibited, searched, slip
+from modern.claims.evidence import Check, claim, exhausted, searched, slip
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -181,11 +180,3 @@ def lines_from_pairs(cases: int = CASES) -> Check:
     return searched(
         SETS[2], cases, [agreeing == len(sets)], f"the supporting lines of {agreeing} of {len(sets)} sets are the edges"
     )
-
-
-@claim("thesis.26")
-def cost_of_triples() -> Check:
-    """Count the work of testing the planes through all triples of N points: C(N, 3) planes, N substitutions each."""
-    cost = {n: math.comb(n, 3) * n for n in (8, 16, 51)}
-    message = ", ".join(f"{n} points: {math.comb(n, 3):,} planes, {cost[n]:,} substitutions" for n in cost)
-    return exhibited(cost[16] > 2**3 * cost[8], message)

@@ -35,14 +35,14 @@ def procedure_against_judge(cases: int = CASES) -> Check:
 
 
 @claim("thesis.6", full=400)
-def reversed_order(cases: int = CASES) -> Check:
-    """Check that the exact hull has the same vertices if the points are listed in reverse order."""
+def other_orders(cases: int = CASES) -> Check:
+    """Check that the hull has the same vertices if the points are listed in reverse order, or sorted by y, z and x."""
     same = [
-        {sampled.points[k] for k in sampled.judge.vertices}
-        == {sampled.points[::-1][k] for k in exact_hull(sampled.points[::-1]).vertices}
+        {sampled.points[k] for k in sampled.judge.vertices} == {points[k] for k in exact_hull(points).vertices}
         for sampled in flat_and_spatial_sets(cases)
+        for points in (sampled.points[::-1], sorted(sampled.points, key=lambda p: (*p[1:], p[0])))
     ]
-    return searched(BOTH, 2 * cases, same, f"{sum(same)} of {len(same)} sets have the same vertices in reverse order")
+    return searched(BOTH, 2 * cases, same, f"{sum(same)} of {len(same)} other orders give the same vertices")
 
 
 def _draw_line(random: Random) -> tuple[Point, ...]:

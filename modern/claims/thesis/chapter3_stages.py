@@ -71,7 +71,7 @@ def number_of_the_hull() -> Check:
     return (check if added.holds else added).misprinted(not first_alone, "j or k, for stages after the first")
 
 
-@claim("thesis.13", "thesis.224", "thesis.89", full=300)
+@claim("thesis.224", "thesis.89", full=300)
 def replaced_plane(cases: int = CASES) -> Check:
     """Check that a step replaces one plane by three if the new point is outside that plane only.
 

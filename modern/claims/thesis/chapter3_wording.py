@@ -24,7 +24,6 @@ from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter3_steps import fourth_point_by_largest, order_of_replacement
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.edition import programs
-from modern.edition.chapter6 import input_deck
 from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.deck import data_deck
 from modern.geometry.vectors import cross, dot, minus
@@ -149,8 +148,9 @@ def consecutive_hulls() -> Check:
 def order_of_elimination() -> Check:
     """Check by a trace that programs 2 and 3 eliminate the inside points of each hull before any other step."""
     sequences = []
-    # A set in a plane for program 2, and a small set in space for program 3.
-    for deck in (input_deck(4), data_deck([[str(k), str(k * k), str(k**3)] for k in range(-3, 4)], "seven")):
+    # A set in a plane for program 2, and a set in space for program 3.
+    for flat in (True, False):
+        deck = data_deck([[str(k), str(k * k), "0" if flat else str(k**3)] for k in range(-3, 3)], "six")
         steps: list[str] = []
 
         def watch(program: Program, machine: Machine, steps: list[str] = steps) -> None:

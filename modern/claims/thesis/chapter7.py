@@ -67,16 +67,6 @@ def program_sizes() -> Check:
     return exhibited(SMALLER_CORE < max(sizes) <= CORE, message)
 
 
-@claim("thesis.193")
-def three_programs_needed() -> Check:
-    """Check that one program with all code and the largest data would not fit 40,000 positions."""
-    code = sum(code_positions(programs.program(name)) for name in THREE)
-    data = max(programs.program(name).storage.fields * FIELD for name in THREE)
-    total = OBJECT_PROGRAM + FUNCTION_NAMES + code + data
-    message = f"the code of all three programs and the largest data take about {total:} positions"
-    return exhibited(total > CORE, message)
-
-
 @claim("thesis.14", "thesis.33", "thesis.157")
 def fifty_one_points() -> Check:
     """Check that the arrays hold 51 points, and that a deck of fewer points overflows the plane table."""

@@ -127,17 +127,17 @@ def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
 def angle_counts() -> Check:
     """Count the angles that the search of the quadtree computes for two floors: a diagonal valley, and half a ball."""
     # One point is raised, so that the preprocessing removes it.
-    valley = {(x, y): (x - y) ** 2 + 9 * (x == y == 5) for x in range(16) for y in range(16)}
+    valley = {(x, y): (x - y) ** 2 + 9 * (x == y == 5) for x in range(8) for y in range(8)}
     counts = []
     for floor in (valley, octree_hull(ball(8, VERTEX).array).floor):
-        lower = envelope(written(no_columns(16), {at: Leaf(z) for at, z in floor.items()}), Printed())
+        lower = envelope(written(no_columns(8), {at: Leaf(z) for at, z in floor.items()}), Printed())
         beyond = [
             sum(_beyond(step.edge, places) for step in lower.steps)
             for places in (floor, [(x, y) for x, y, _ in lower.reduced])
         ]
         counts.append((*beyond, sum(step.angles for step in lower.steps)))
     (whole, reduced, by_search), (whole_ball, reduced_ball, by_search_ball) = counts
-    message = f"a valley of 256 columns has {whole:,} angles, {reduced:,} after preprocessing, {by_search:,} by search"
+    message = f"a valley of 64 columns has {whole:,} angles, {reduced:,} after preprocessing, {by_search:,} by search"
     check = exhibited(by_search < reduced < whole and reduced_ball < whole_ball, message)
     case = f"the search in a ball of diameter 8: {by_search_ball} angles, and {reduced_ball} without it"
     return check.unless(by_search_ball > reduced_ball, case)

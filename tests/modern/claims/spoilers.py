@@ -1,25 +1,29 @@
-"""Changes that break what a check relies on, and the test that its verdict then changes.
+"""Alterations of what a check relies on: the results of functions that it calls, and the constants that it reads."""
 
-A spoiler is a function that receives the original attribute of a module and returns its replacement. Each document has
-a table of spoilers with one line for each check: the id of a statement that the check decides, the attribute of the
-module of the check, and the spoiler.
-"""
-
-from collections.abc import Callable, Iterable
-from dataclasses import replace
+import inspect
+from collections.abc import Callable, Iterator, Mapping, Set
+from contextlib import contextmanager
+from dataclasses import fields, is_dataclass, replace
+from functools import wraps
 from importlib import import_module
+from itertools import islice
+from numbers import Number
+from types import CodeType, ModuleType
 from typing import Any
 
+import numpy as np
 import pytest
 
-from modern.claims.algebra import IMPOSSIBLE, Step
-from modern.claims.evidence import Check, Decision, exhibited
-from modern.claims.register import decisions
+from modern.claims import evidence
+from modern.claims.evidence import Check, Decision
 from tests.support.caches import cleared
 
-Original = Any
-Spoiler = Callable[[Original], object]
-Table = list[tuple[str, str, Spoiler]]
+# Alterations of one attribute that are tried, and calls beyond those of the unaltered check, which end endless loops.
+_MOST_ALTERATIONS, _MORE_CALLS = 150, 500
+
+
+class Endless(Exception):
+    """An altered function was called far more often than the original one."""
 
 
 def verdict(check: Check) -> tuple[bool, bool, bool]:
@@ -27,107 +31,99 @@ def verdict(check: Check) -> tuple[bool, bool, bool]:
     return check.holds, bool(check.evidence.violation), bool(check.evidence.correction)
 
 
-def assert_verdict_changes(name: str, attribute: str, spoiler: Spoiler) -> None:
-    """Assert that the verdict on a statement changes if an attribute of the module of a check of it is spoiled."""
-    changed = False
-    for decision in decisions()[name]:
-        module = import_module(decision.function.__module__)
-        if hasattr(module, attribute):
-            expected = verdict(decision.function(**dict(decision.subject)))
-            with cleared(module), pytest.MonkeyPatch.context() as patch:
-                patch.setattr(module, attribute, spoiler(getattr(module, attribute)))
-                changed |= verdict(decision.function(**dict(decision.subject))) != expected
-    assert changed
+def alterations(value: Any, depth: int = 4) -> Iterator[object]:
+    """Yield altered values of the same type; fields, first and last elements are altered up to the given depth."""
+    if isinstance(value, bool | np.bool_):
+        yield not value
+    elif isinstance(value, Number):
+        yield from (value + 1, -value)  # type: ignore[operator]
+    elif isinstance(value, np.ndarray):
+        yield from (value[:-1], ~value if value.dtype == np.bool_ else -value)
+    elif is_dataclass(value) and not isinstance(value, type):
+        names = [field.name for field in fields(value) if field.init] if depth else []
+        yield from (replace(value, **{n: a}) for n in names for a in alterations(getattr(value, n), depth - 1))
+    elif isinstance(value, Mapping):
+        yield dict([*value.items()][:-1])
+        first = next(iter(value), None) if depth else None
+        yield from ({**value, first: altered} for altered in alterations(value.get(first), depth - 1))
+    elif isinstance(value, Set):
+        yield from (type(value)([*value][:-1]), type(value)())  # type: ignore[call-arg]
+    elif isinstance(value, str):
+        yield f"{value}?"
+    elif isinstance(value, tuple | list):
+        yield from (value[:-1], value[::-1])
+        if value and depth:
+            yield from (type(value)((first, *value[1:])) for first in alterations(value[0], depth - 1))
+            yield from (type(value)((*value[:-1], last)) for last in alterations(value[-1], depth - 1))
 
 
-def unspoiled(package: str, tables: Iterable[Table]) -> list[str]:
-    """Return the names of the checks of a package that no line of the tables spoils."""
-    spoiled = {decision.function for table in tables for name, *_ in table for decision in decisions()[name]}
-    checks = [decision for of_statement in decisions().values() for decision in of_statement]
-    return sorted({_name(check) for check in checks if check.function not in spoiled and package in _name(check)})
+def _names(function: Callable[..., object], module: ModuleType, names: list[str]) -> list[str]:
+    """Append the names of the module's attributes that a function uses, directly or by functions of the module."""
+    codes = [inspect.unwrap(function).__code__]
+    while codes:
+        code = codes.pop()
+        codes += [constant for constant in code.co_consts if isinstance(constant, CodeType)]
+        for name in code.co_names:
+            attribute = vars(module).get(name)
+            owner = getattr(attribute, "__module__", "")
+            if name in names or name not in vars(module) or isinstance(attribute, type | ModuleType):
+                continue
+            is_foreign = callable(attribute) and not str(owner).startswith(("emulator", "modern"))
+            if is_foreign or owner == evidence.__name__:
+                continue
+            names.append(name)
+            if inspect.isfunction(inspect.unwrap(attribute)) and owner == module.__name__:
+                _names(attribute, module, names)
+    return names
 
 
-def _name(decision: Decision) -> str:
-    return f"{decision.function.__module__}.{decision.function.__name__}"
+@contextmanager
+def altered(module: ModuleType, name: str, number: int, limit: int) -> Iterator[list[int]]:
+    """Alter an attribute of a module in the way with this number; yield the numbers of calls and of altered values."""
+    original, counts = getattr(module, name), [0, 0]
+
+    def changed(value: Any) -> object:
+        value = [*value] if isinstance(value, Iterator) else value
+        for alteration in islice(alterations(value), number, number + 1):
+            counts[1] += 1
+            return alteration
+        return value
+
+    @wraps(original)
+    def spoiled(*arguments: Any, **named: Any) -> object:
+        counts[0] += 1
+        if counts[0] > limit:
+            raise Endless
+        value = original(*arguments, **named)
+        return value if number < 0 else changed(value)
+
+    with cleared(module), pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, name, spoiled if callable(original) else changed(original) if number >= 0 else original)
+        yield counts
 
 
-def always(value: object) -> Spoiler:
-    return lambda _: lambda *arguments, **named: value
+def is_noticed(decision: Decision) -> bool:
+    """Return True if some alteration of what a check relies on changes its verdict."""
+    module = import_module(decision.function.__module__)
 
+    def run() -> tuple[bool, bool, bool]:
+        return verdict(decision.function(**dict(decision.subject)))
 
-check_holds = always(exhibited(True, ""))
-check_fails = always(exhibited(False, ""))
-
-
-def value(replacement: object) -> Spoiler:
-    """Replace a constant."""
-    return lambda _: replacement
-
-
-def invalid_step(_: Original) -> Callable[[], Step]:
-    return lambda: Step("", {}, IMPOSSIBLE)
-
-
-def identity(_: Original) -> object:
-    return lambda argument, *_: argument
-
-
-def negated(original: Original) -> object:
-    return lambda *arguments: -original(*arguments)
-
-
-def absolute(original: Original) -> object:
-    return lambda *arguments: abs(original(*arguments))
-
-
-def sum_instead_of_product(_: Original) -> object:
-    return lambda u, v: tuple(a + b for a, b in zip(u, v, strict=True))
-
-
-def counterexample(*points: tuple[int, int, int]) -> Spoiler:
-    """Replace a counterexample by points that are not one."""
-    return always([*points])
-
-
-def all_points_vertices(original: Original) -> object:
-    """Return hulls on which every point is a vertex."""
-
-    def spoiled(points: Original) -> object:
-        everyone = tuple(range(len(points)))
-        return replace(original(points), vertices=everyone, polygon=everyone, boundary=(), inside=())
-
-    return spoiled
-
-
-def three_vertices(original: Original) -> object:
-    return lambda points: replace(original(points), vertices=(0, 1, 2))
-
-
-def flattened(original: Original) -> object:
-    """Return the hull of the points with z = 0."""
-    return lambda points, *arguments, **named: original([(x, y, 0) for x, y, _ in points], *arguments, **named)
-
-
-def without_last_point(original: Original) -> object:
-    return lambda points, *arguments, **named: original(points[:-1], *arguments, **named)
-
-
-def changed_result(change: Callable[[Original], Original]) -> Spoiler:
-    """Apply a change to whatever the original function returns."""
-    return lambda original: lambda *arguments, **named: change(original(*arguments, **named))
-
-
-@changed_result
-def plus_one(number: Original) -> object:
-    return number + 1
-
-
-@changed_result
-def constant_plus_one(plane: Original) -> object:
-    """Add 1 to the last coefficient of a line or plane."""
-    return (*plane[:-1], plane[-1] + 1)
-
-
-@changed_result
-def constant_negated(plane: Original) -> object:
-    return (*plane[:-1], -plane[-1])
+    expected, limits = run(), {}
+    for name in _names(decision.function, module, []):
+        with altered(module, name, -1, 10**9) as counts:
+            run()
+        limits[name] = 2 * counts[0] + _MORE_CALLS
+    # The first alterations of all attributes are tried before the further ones of each.
+    for number in range(_MOST_ALTERATIONS):
+        for name, limit in [*limits.items()]:
+            with altered(module, name, number, limit) as counts:
+                # An exception is noticed too, but it is no verdict.
+                try:
+                    if run() != expected:
+                        return True
+                except Exception:
+                    pass
+            if not counts[1]:
+                del limits[name]
+    return False
