@@ -253,13 +253,10 @@ def example_of_chapter_6(example: int) -> Check:
     return satisfied(f"example {example}", outcomes)
 
 
-@claim("thesis.115", theorem="4.2")
-@claim("thesis.150", theorem="4.8")
-def table_of_chapter_4(theorem: str) -> Check:
-    """Check that Table 1 is a sphere, and that the table of theorem 4.8 counts the planes of a convex polyhedron."""
-    data = next(data for data in load_theorems() if data.id == theorem)
-    if theorem == "4.2":
-        return satisfied("Table 1", [("sphere", is_sphere(plane.vertices for plane in data.planes))])
+@claim("thesis.150")
+def table_of_theorem_4_8() -> Check:
+    """Check that the table of theorem 4.8 counts the planes of a convex polyhedron."""
+    data = next(data for data in load_theorems() if data.id == "4.8")
     hull = [p for p in data.points if p.name != "Q9"]
     on = [sum(plane.at(p) == 0 for p in hull) for plane in data.planes]
     # A face has as many edges as vertices, and each edge is on two planes: the vertex counts of the planes add to 2 E.

@@ -166,7 +166,8 @@ def _row(document: str, number: str, tables: Mapping[str, Any]) -> Statement:
     run = raw.get("run", f"hull1620 reproduce {place}" if file else "")
     if verdict == FAILS and not file:
         raise StatementError(f"{place}: a row with the verdict {FAILS!r} needs a counterexample in 'file' or 'run'")
-    kind = raw.get("kind", SLIP if verdict in SLIPS else "definition" if verdict == USED else "claim")
+    of_verdict = {USED: "definition", **dict.fromkeys(SLIPS, SLIP)}.get(verdict, "claim")
+    kind = raw.get("kind", {"Fig": "figure", "Tab": "table"}.get(page[:3], of_verdict))
     same = f"{document}.{raw['same']}" if "same" in raw else ""
     results, code, part = _as_tuple(raw.get("result", ())), raw.get("code", ""), raw.get("part", "")
     return Statement(

@@ -178,24 +178,6 @@ def _neighbours(voxel: tuple[int, ...]) -> list[tuple[int, ...]]:
     return [tuple(voxel[k] if k == axis else 2 for k in range(3)) for axis in range(3)]
 
 
-@claim("kovalevsky-schulz.175")
-def edges_at_corner() -> Check:
-    """Check that at most four edges meet at a corner of pixels in the plane, and six at a corner of voxels."""
-    most = {}
-    for dimensions in (2, 3):
-        cells = [*product(range(5), repeat=dimensions)]
-        corners = [c for c in cells if not any(x % 2 for x in c)]
-        most[dimensions] = [sum(ends_at(edge, corner) for edge in cells) for corner in corners]
-    message = f"at most {max(most[2])} edges meet at a corner of pixels"
-    check = exhausted("corners of a block of four pixels", [n <= 4 for n in most[2]], message)
-    return check.unless(max(most[3]) > 4, f"a corner of voxels, where {max(most[3])} edges meet")
-
-
-def ends_at(edge: tuple[int, ...], corner: tuple[int, ...]) -> bool:
-    """Return True if a cell is an edge that ends at a corner; both have topological coordinates."""
-    return sum(x % 2 for x in edge) == 1 == sum(abs(a - b) for a, b in zip(edge, corner, strict=True))
-
-
 @claim("kovalevsky-schulz.174", "kovalevsky-schulz.33", full=4_000)
 def additional_labels(cases: int = 5) -> Check:
     """Check which elements become labelled besides the vertices: those behind a voxel, seen from the origin."""

@@ -46,7 +46,7 @@ from modern.port import convex_hull
 @claim("thesis.222", "thesis.232", kind="vertex_when_added", full=300)
 @claim("thesis.227", "thesis.92", kind="convexity", full=300)
 @claim("thesis.266", kind="added_tetrahedra", full=300)
-@claim("thesis.241", "thesis.240", kind="added_triangle", full=300)
+@claim("thesis.241", "thesis.240", "thesis.134", "thesis.144", kind="added_triangle", full=300)
 @claim("thesis.278", kind="two_new_lines", full=300)
 def stage_property(kind: str, cases: int = CASES) -> Check:
     """Check one property, a key of ``_PROPERTIES``, of all stages H_1, H_2, ... in the construction of sampled sets."""

@@ -76,19 +76,6 @@ EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
 )
 
 
-@claim("thesis.107", claim="six_extremes")
-def number_of_extremes(claim: str) -> Check:
-    """Check theorem 4.1 on its example, and on sets with three to six distinct extreme points, which are coplanar."""
-    checks = []
-    for points in EXTREMES_IN_A_PLANE:
-        extreme = {f(points, key=lambda p, k=k: p[k]) for f in (min, max) for k in range(3)}  # type: ignore[misc]
-        checks.append(extreme == {*points[:-1]})
-        checks.append((exact_hull(points[:-1]).dimension, exact_hull(points).dimension) == (2, 3))
-    example = worked_example("4.1", claim)
-    message = f"sets with three to six coplanar extreme points exist; the worked example: {example.message}"
-    return exhibited(all(checks) and example.holds, message)
-
-
 def _equations(theorem: Theorem) -> Check:
     """Check that each equation of the example is 0 at the points named in its row, and the extreme points are right."""
     faults = theorem_faults(theorem, load_text())
@@ -203,13 +190,11 @@ def _programs(theorem: Theorem, load: Load) -> Check:
     return exhibited(passed, f"{description}{missing}: {_seen(outcome, agrees, judge)}")
 
 
-@claim("thesis.146", subject="theorem")
 @claim("thesis.245")
-def procedure_of_4_8(subject: str = "hulls") -> Check:
+def procedure_of_4_8() -> Check:
     """Check that the procedure makes H_1, H_2 and H_5 as in the text, but adds other points for H_3 and H_4.
 
-    By the wording of page 29 it makes no H_1. subject: with ``theorem``, check only that the last point is outside six
-    planes of H_5.
+    By the wording of page 29 it makes no H_1.
     """
     theorem = theorem_of("4.8")
     points = [point.at for point in theorem.points]
@@ -218,8 +203,6 @@ def procedure_of_4_8(subject: str = "hulls") -> Check:
     same = [set(used[:n]) == set(ADDED[:n]) for n in range(4, 9)]
     as_worded = convex_hull(points, text=True, on_refusal="return")
     outside_six = same[-1] and used[8:] == ["Q9"] and hull.history[-1].outside == 6
-    if subject == "theorem":
-        return exhibited(outside_six, "the last point is outside six planes of the H_5 that the procedure makes")
     check = exhibited(outside_six and [same[0], same[1], same[4]] == [True] * 3, "the procedure makes H_1, H_2 and H_5")
     others = not same[2] and not same[3] and not as_worded.determined
     return check.unless(others, "H_3 and H_4, which use other points, and the wording of page 29, which makes no H_1")

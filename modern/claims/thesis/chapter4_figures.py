@@ -3,11 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations
 
 from modern.claims.algebra import Point, Polynomial, Step, Term, polynomial, positive, term, variables, zero
 from modern.claims.evidence import Check, claim, exhibited, proved, slip
-from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter4_examples import ADDED, theorem_of
 from modern.exact_hull import exact_hull
 
@@ -19,7 +17,7 @@ def _values(x: Polynomial, y: Polynomial) -> list[Polynomial]:
     return [a * x + b * y + c for a, b, c in _printed_lines(X1, Y1, Y2)]
 
 
-@claim("thesis.140")
+@claim("thesis.140", "thesis.139")
 def lines_of_figure_3() -> Check:
     """Prove that each printed line of Fig. 3 contains two corners of the triangle and is negative at the third."""
     origin = polynomial(0)
@@ -74,29 +72,3 @@ def single_point_outside() -> Check:
 
 def _at(plane: Sequence[Fraction | int], point: Sequence[Fraction]) -> Fraction:
     return sum((Fraction(a) * x for a, x in zip(plane, (*point, Fraction(1)), strict=True)), Fraction(0))
-
-
-@claim("thesis.114", number="1")
-@claim("thesis.134", number="2")
-@claim("thesis.139", number="3")
-@claim("thesis.144", number="4")
-def figure(number: str) -> Check:
-    return {"1": _figure_1, "2": _added_triangle, "3": lines_of_figure_3, "4": _added_triangle}[number]()
-
-
-def _figure_1() -> Check:
-    theorem = theorem_of("4.2")
-    sides: dict[frozenset[str], int] = {}
-    for plane in theorem.planes:
-        for pair in combinations(plane.vertices, 2):
-            sides[frozenset(pair)] = sides.get(frozenset(pair), 0) + 1
-    v, e, f = len(theorem.points), len(sides), len(theorem.planes)
-    closed = set(sides.values()) == {2} and v - e + f == 2
-    beyond = sum(any(plane.at(p) > 0 for p in theorem.points) for plane in theorem.planes)
-    message = f"{v} vertices, {e} edges and {f} faces form a closed surface; {beyond} faces have a vertex beyond them"
-    return exhibited(closed and beyond > 0, message)
-
-
-def _added_triangle() -> Check:
-    replaced_lines = stage_property("replaced_line")
-    return exhibited(replaced_lines.holds, f"each step removes one line and adds two: {replaced_lines.message}")
