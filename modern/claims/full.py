@@ -28,7 +28,7 @@ NAME = "full.csv"
 class FullSearch:
     """The result of one check at its full size.
 
-    ``statements`` are the ids that the check decides, separated by spaces, and ``sources`` is a digest of the modules
+    ``statements`` are the ids that the check decides, separated by spaces, and ``sources`` is a digest of the code
     that it was computed with.
     """
 
@@ -74,20 +74,41 @@ def _name(decision: Decision) -> str:
 
 
 def sources_of(decision: Decision) -> str:
-    """Return a digest of the code of a check's module, of the evidence and of the samples, without docstrings."""
-    names = (decision.function.__module__, "modern.claims.evidence", "modern.claims.sampled_sets")
-    text = "".join(_code(name) for name in names)
+    """Return a digest of the code of a check, of what it uses in its module, of the evidence and of the samples."""
+    function = decision.function
+    names = ("modern.claims.evidence", "modern.claims.sampled_sets")
+    text = "".join(code for name in names for code in map(ast.dump, _definitions(name).values()))
+    text += "".join(map(ast.dump, _used(_definitions(function.__module__), function.__name__)))
     return hashlib.sha256(f"{decision.full} {text}".encode()).hexdigest()[:12]
 
 
 @cache
-def _code(name: str) -> str:
-    """Return the syntax tree of a module as text; comments and docstrings leave it unchanged."""
+def _definitions(name: str) -> Mapping[str, ast.stmt]:
+    """Return the functions, classes and constants of a module, without docstrings and decorators of functions."""
     tree = ast.parse(getsource(import_module(name)))
     for node in ast.walk(tree):
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and ast.get_docstring(node) is not None:
             del node.body[0]
-    return ast.dump(tree)
+        if isinstance(node, ast.FunctionDef):
+            node.decorator_list = []
+    definitions: dict[str, ast.stmt] = {}
+    for statement in tree.body:
+        stored = (n.id for n in ast.walk(statement) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store))
+        own_name = getattr(statement, "name", "")
+        definitions |= dict.fromkeys([own_name] if own_name else stored, statement)
+    return definitions
+
+
+def _used(definitions: Mapping[str, ast.stmt], name: str) -> Iterator[ast.stmt]:
+    """Yield the definition of a name and the definitions that it uses, directly or indirectly."""
+    names, reached = [name], {name}
+    while names:
+        definition = definitions[names.pop()]
+        yield definition
+        used = {node.id for node in ast.walk(definition) if isinstance(node, ast.Name)}
+        new = sorted((used & definitions.keys()) - reached)
+        reached |= {*new}
+        names += new
 
 
 def run(name: str) -> FullSearch:
