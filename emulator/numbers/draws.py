@@ -20,7 +20,8 @@ Three rules of rounding are defined.  f is the part of a result beyond its last 
   stochastic rounding (SR) of M. Croci et al., Stochastic rounding: implementation, error analysis and applications,
   R. Soc. Open Sci. 9 (2022) 211631.
 
-The precision bounding (PB) of Monte Carlo arithmetic, which perturbs operands, is not provided.
+Monte Carlo arithmetic's precision bounding (PB) and its full variant (MCA), which also perturb operands, are not
+provided (docs/reference/machine.md gives the reason).
 
 The functions use only integers, so that numba can compile them.
 """

@@ -35,6 +35,8 @@ def test_results_contain_the_exact_results_for_both_ends(places: int) -> None:
             assert contains(system.negate(first), -a)
             assert contains(system.integer_power(first, 2)[0], a**2)
             assert contains(system.integer_power(first, 3)[0], a**3)
+            if not first[0] <= 0 <= first[1]:
+                assert contains(system.integer_power(first, -3)[0], a**-3)
             low, high = map(Fraction, system.function("SQRT", first)[0])
             assert low**2 <= abs(a) <= high**2
             for b in map(Fraction, second):
@@ -46,15 +48,16 @@ def test_results_contain_the_exact_results_for_both_ends(places: int) -> None:
 
 
 @pytest.mark.parametrize("places", [8, 28, 29, 50])
-@pytest.mark.parametrize("name", ["SIN", "COS", "ATAN", "EXP", "LOG"])
+@pytest.mark.parametrize("name", ["SIN", "COS", "ATAN", "EXP", "LOG", "power"])
 def test_functions_contain_the_exact_values(places: int, name: str) -> None:
     system, random = IntervalNumbers(places), Random(places)
     with mpmath.workdps(3 * places):
         for _ in range(50):
-            value = system.decimal(random.randint(1, 10 ** (places + 1)), -places)
-            low, high = (mpmath.mpf(str(end)) for end in system.function(name, value)[0])
-            exact = getattr(mpmath, name.lower())(mpmath.mpf(str(value[0])))
-            assert low <= exact <= high or value[0] != value[1]
+            value = system.decimal(random.randint(1, 10**places), -places + 1)
+            argument = mpmath.mpf(str(value[0]))
+            result, _ = system.power(value, value) if name == "power" else system.function(name, value)
+            low, high = (mpmath.mpf(str(end)) for end in result)
+            assert low <= (argument**argument if name == "power" else getattr(mpmath, name.lower())(argument)) <= high
 
 
 def test_roots_of_squares_are_exact_and_others_are_neighbours() -> None:

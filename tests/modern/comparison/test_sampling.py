@@ -5,7 +5,6 @@ from fractions import Fraction
 from statistics import fmean, stdev
 
 import pytest
-from mpmath import mp
 
 from emulator.errors import ArgumentError
 from emulator.language.cards import Deck, deck_from_lines
@@ -13,7 +12,7 @@ from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
-from emulator.numbers import Numbers, Undecided, numbers
+from emulator.numbers import Undecided, numbers
 from emulator.numbers.sampled import SampledNumbers
 from emulator.numbers.significance import estimate
 from modern.comparison.sampling import in_step, independent, sampled
@@ -176,24 +175,6 @@ def test_runs_have_the_digits_of_the_arithmetic_studied(studied: str, name: str)
 def test_runs_in_step_need_a_range_of_seeds(name: str) -> None:
     with pytest.raises(ArgumentError, match="runs in step"):
         numbers(name)
-
-
-def _inside(interval: Numbers, value: object, exact: object) -> bool:
-    low, high = value  # type: ignore[misc]
-    return bool(mp.mpf(str(low)) <= exact <= mp.mpf(str(high)))
-
-
-def test_intervals_contain_the_exact_results() -> None:
-    system = numbers("interval:8")
-    with mp.workdps(60):
-        x, y = system.decimal(12345679, -7), system.decimal(-33333334, -9)
-        a, b = mp.mpf("1.2345679"), mp.mpf("-0.033333334")
-        for operation, exact in (("add", a + b), ("subtract", a - b), ("multiply", a * b), ("divide", a / b)):
-            assert _inside(system, getattr(system, operation)(x, y), exact)
-        for name in ("SQRT", "SIN", "COS", "ATAN", "EXP", "LOG"):
-            assert _inside(system, system.function(name, x)[0], getattr(mp, name.lower())(a))
-        assert _inside(system, system.power(x, y)[0], a**b)
-        assert _inside(system, system.integer_power(y, -3)[0], b**-3)
 
 
 def test_interval_around_zero_has_no_sign() -> None:
