@@ -87,11 +87,6 @@ def played(desk: Desk, pair: Pair) -> Played:
             desk.act(actions.pop(0) if actions else "START")
 
 
-def operator_lines(log: str) -> list[str]:
-    """Return the operator's actions in a log."""
-    return [line for line in log.splitlines() if line and not line.startswith("*")]
-
-
 def _period(name: str, operator: bool = False, deck: bool = True, upcase: bool = False, shows: str = "") -> Pair:
     did = (PERIOD / f"{name}.operator").read_text().splitlines() if operator else []
     cards = (PERIOD / f"{name}.deck").read_text() if deck else ""
