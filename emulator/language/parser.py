@@ -266,7 +266,7 @@ class _Builder:
         self._places = places
 
     def build(self, node: Tree[Token]) -> Any:
-        """Convert a node of lark's tree, faster than lark's Transformer.  Raise Refused for an invalid name."""
+        """Convert lark's tree to the syntax tree, faster than its Transformer.  Raise Refused for an invalid name."""
         children = [self.build(child) if isinstance(child, Tree) else child for child in node.children]
         return getattr(self, node.data)(children)
 

@@ -33,7 +33,7 @@ _FORMS = {
 
 
 def read_action(line: str) -> tuple[int | None, Action]:
-    """Read a line of an operator's file.  Return the action, and the amount of work after ``AT``, or None.
+    """Read a line of an operator's file.  Return the action, and the units of work to do before it (``AT``), or None.
 
     Raise ValueError with a message for an invalid line.
     """

@@ -301,7 +301,7 @@ def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int =
 
 
 def by_card(answers: Mapping[str, str]) -> Iterator[tuple[Variant, Counter[str]]]:
-    """Yield, for each card, one of its variants and the number of its variants by the check that detects them."""
+    """Yield, for each card, one of its altered forms, and how many of them each check detects."""
     cards: dict[tuple[str, int], tuple[Variant, Counter[str]]] = {}
     for variant in sorted(ordered(), key=lambda v: (v.program, v.card)):
         if variant.key in answers:

@@ -44,17 +44,17 @@ _MARKS = ", ".join("?" * len(DETERMINED))
 
 
 def taken(power: int) -> str:
-    """Return the name of the route through the programs with e = 10**power."""
+    """Return the name of the route of a study that runs the programs with e = 10**power."""
     return f"e = 10^{power}"
 
 
 def ported(power: int) -> str:
-    """Return the name of the route through the port with an absolute e of 10**power."""
+    """Return the name of the route of a study that runs the port with an absolute e of 10**power."""
     return f"port, e = 10^{power}"
 
 
 def scaled(power: int) -> str:
-    """Return the name of the route through the port with e = 10**power times the largest coefficient A, B or C."""
+    """Return the name of the route with an e of 10**power times the largest coefficient A, B or C, in the port."""
     return f"scaled e = 10^{power}"
 
 
