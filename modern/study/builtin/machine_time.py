@@ -117,14 +117,15 @@ def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
 
 
 _HEAD = ("sets", "N", "timed", "minutes", "by the model", "longest", "operations")
-_STUDENT = "In parentheses: Student's 95 % intervals of the mean, truncated at 0 minutes."
+_STUDENT = "The numbers in parentheses are Student's 95 % intervals of the mean, truncated at 0 minutes."
 _MODEL = (
-    f"By the model: bounds of the mean if the processor's times are {MODEL[0]} to {MODEL[1]} of those computed, and "
-    f"{CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for input and output, as in runs on IBM's library of 1962."
+    f"The bounds by the model are those of the mean if the processor's times are {MODEL[0]} to {MODEL[1]} of "
+    f"those computed, and {CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for input and output, as in runs on "
+    "IBM's library of 1962."
 )
 _NOTES = (
-    f"{_STUDENT} {_MODEL} Longest: minutes of the longest run, and in parentheses its bounds by the model.",
-    "Operations: the mean number of floating-point additions, products and quotients.",
+    f"{_STUDENT} {_MODEL} The column longest has the longest run with its bounds by the model.",
+    "The column operations has the mean number of floating-point additions, products and quotients.",
 )
 
 
@@ -151,7 +152,7 @@ def _part_table(plan: Plan, times: dict[int, _Time]) -> Table:
             processor, *devices = (with_interval(_in_minutes(time.parts[part])) for part in PARTS)
             rows.append(row(name, int(n), processor, _by_model(time.processor), *devices))
     head = ("sets", "N", "processor", "by the model", *PARTS[1:])
-    notes = (f"{_STUDENT} {_MODEL} Reader, punch and typewriter: by their nominal speeds.",)
+    notes = (f"{_STUDENT} {_MODEL} The times of reader, punch and typewriter follow from their nominal speeds.",)
     return Table("parts", "Minutes of each part of the machine at the largest N", head, tuple(rows), notes)
 
 

@@ -48,8 +48,8 @@ _VARIED: Mapping[str, tuple[str, Mapping[str, object]]] = {
 }
 _CHARTED = ("numbers to 9", "numbers to 99")
 _BY_RATIO = (
-    "In parentheses: 95 % intervals, Student's for the time saved, truncated at 100 %, exact (Clopper and Pearson) for "
-    "sets. The planes of a flat set are the lines of its boundary."
+    "The numbers in parentheses are 95 % intervals: Student's for the time saved, truncated at 100 %, and exact "
+    "ones (Clopper and Pearson) for sets. In a flat set, the planes are the lines of its boundary."
 )
 _LAYERS: Mapping[str, tuple[str, ...]] = {PLAIN: ("corrected",), MOVED: ("corrected", "translation")}
 
@@ -214,11 +214,12 @@ def _main(plan: Plan, pairs: list[_Pair]) -> Table:
     times = ("seconds", "by the model", "of them saved", "of all time saved", "sets quicker")
     head = ("sets", "N", "timed", "planes", "additions saved", "products saved", *times)
     notes = (
-        "In parentheses: Student's 95 % intervals of the mean over sets, truncated at 100 %. A negative share is a "
-        "loss. Seconds: processor time with the origin kept. All time: with reader, punch and typewriter.",
-        "By the model: bounds of the mean seconds by the systematic error. On IBM's library of 1962, times are "
-        f"{MODEL[0]} to {MODEL[1]} of those computed, and {CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for input and "
-        "output. Shares are ratios, in which most of this error cancels.",
+        "The numbers in parentheses are Student's 95 % intervals of the mean over sets, truncated at 100 %. A "
+        "negative share is a loss. The seconds are processor time with the origin kept. All time includes reader, "
+        "punch and typewriter.",
+        "The bounds by the model are those of the mean seconds, by its systematic error. On IBM's library of 1962, "
+        f"times are {MODEL[0]} to {MODEL[1]} of those computed, and {CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for "
+        "input and output. Shares are ratios, in which most of this error cancels.",
     )
     return Table("table", "What moving the origin to C saves", head, tuple(rows), notes)
 
@@ -256,8 +257,9 @@ def _digits(plan: Plan, counts: Summary) -> Table:
         rows.append(row(cell.key["sets"], cell.samples, *least, *eight))
     head = ("sets", "of each", *(f"{what}, {name}" for what in ("least P", "eight digits") for name in (PLAIN, MOVED)))
     notes = (
-        "In parentheses: exact 95 % intervals (Clopper and Pearson). Least P: the number of working digits from which "
-        "on no set failed. Eight digits: sets whose hull the programs find.",
+        "The numbers in parentheses are exact 95 % intervals (Clopper and Pearson). The least P is the number "
+        "of working digits from which on no set failed. The columns of eight digits have the sets whose hull the "
+        "programs find.",
     )
     return Table("digits", "What moving the origin to C costs in digits", head, tuple(rows), notes)
 
