@@ -12,10 +12,12 @@ let planned = false;
 let isDue = false; // the first slice follows the answer at once, so that no action can come before it
 let before = 0; // seconds on the 1620 at the end of the previous slice
 
-/** Read the file of all files: from the page if it has no server, or from the address with the version. */
-async function unpack({ bytes, address }) {
+/** Where the file of all files is: its bytes if the page has no server, or its address with the version. @typedef {{bytes?: ArrayBuffer, address?: string}} Place */
+
+/** Read the file of all files. @param {Place} place */
+async function unpack({ bytes, address = "" }) {
   let loaded = 0;
-  const source = bytes ? new Blob([bytes]).stream() : (await answered(address)).body;
+  const source = bytes ? new Blob([bytes]).stream() : await answered(address);
   const counted = new TransformStream({
     transform(chunk, out) {
       loaded += chunk.byteLength;
@@ -26,29 +28,33 @@ async function unpack({ bytes, address }) {
   const data = await new Response(source.pipeThrough(counted).pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
   const length = new DataView(data).getUint32(0, true);
   const index = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
+  /** @type {Record<string, Uint8Array<ArrayBuffer>>} */
   const files = {};
   let at = 4 + length;
-  for (const [name, size] of Object.entries(index)) {
+  for (const [name, size] of Object.entries(/** @type {Record<string, number>} */ (index))) {
     files[name] = new Uint8Array(data, at, size);
     at += size;
   }
   return files;
 }
 
+/** @param {string} address */
 async function answered(address) {
   const response = await fetch(address);
-  if (!response.ok) throw new Error(`${address}: ${response.status} ${response.statusText}`);
-  return response;
+  if (!response.ok || !response.body) throw new Error(`${address}: ${response.status} ${response.statusText}`);
+  return response.body;
 }
 
+/** Start Python with the project. @param {Place} where */
 async function begin(where) {
   const files = await unpack(where);
-  const script = (name) => import(URL.createObjectURL(new Blob([files[name]], { type: "text/javascript" })));
+  const script = (/** @type {string} */ name) => import(URL.createObjectURL(new Blob([files[name]], { type: "text/javascript" })));
   // Pyodide fetches its other files by name.
+  /** @type {Record<string, string>} */
   const types = { wasm: "application/wasm", zip: "application/zip" };
   self.fetch = async (request) => {
-    const name = String(request.url ?? request).split("/").at(-1);
-    return new Response(files[name], { headers: { "content-type": types[name.split(".").at(-1)] } });
+    const name = String(request instanceof Request ? request.url : request).replace(/.*\//, "");
+    return new Response(files[name], { headers: { "content-type": types[name.replace(/.*\./, "")] } });
   };
   const { loadPyodide } = await script("pyodide.mjs");
   const python = await loadPyodide({
@@ -102,7 +108,7 @@ function slice() {
   plan(Math.min(Math.max(delay, 0), 500));
 }
 
-/** Call a method that puts the machine into another state, and run it from there. */
+/** Call a method that puts the machine into another state, and run it from there. @param {string} name @param {any[]} parameters */
 function restart(name, ...parameters) {
   turn += 1;
   planned = false;
@@ -112,6 +118,7 @@ function restart(name, ...parameters) {
   return answer;
 }
 
+/** What the page asks for besides the methods of the desk. @type {Record<string, (parameter?: any) => any>} */
 const handlers = {
   begin,
   load: (request) => restart("load", request),
@@ -134,11 +141,12 @@ const handlers = {
 
 self.onmessage = async ({ data: { id, name, parameters } }) => {
   try {
-    const handler = handlers[name] ?? ((...all) => desk(name, ...all));
-    postMessage({ id, answer: (await handler(...parameters)) ?? null });
+    const answer = await (name in handlers ? handlers[name](...parameters) : desk(name, ...parameters));
+    postMessage({ id, answer: answer ?? null });
     if (isDue) slice();
     isDue = false;
   } catch (error) {
-    postMessage({ id, failed: String(error.message ?? error).trim().split("\n").at(-1) });
+    const text = error instanceof Error ? error.message : String(error);
+    postMessage({ id, failed: text.trim().split("\n").at(-1) });
   }
 };

@@ -45,8 +45,13 @@ class Frame:
         return f"H{stage.number}: point{'' if added else 's'} {numbers}{added}", f"inside: {gone}" if gone else ""
 
 
-def frames(hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int = _CELL) -> tuple[Frame, ...]:
-    """Return a picture of each stage of a hull with its history.  Raise ExportError if there are no stages."""
+def frames(
+    hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int = _CELL, height: int = 10 * _CELL
+) -> tuple[Frame, ...]:
+    """Return a picture of each stage of a hull with its history, at most as large as the given size in pixels.
+
+    Raise ExportError if there are no stages.
+    """
     if not hull.determined:
         raise ExportError(f"there is no hull: {hull.status}")
     if not hull.history:
@@ -54,7 +59,7 @@ def frames(hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int =
     whole = scene(hull, None if eye is None else [Fraction(number) for number in eye])
     sight = whole.view
     flat = {index: sight.project(coordinates(point)) for index, point in enumerate(hull.points)}
-    pixel, height = fit(list(flat.values()), width, 10 * width)
+    pixel, height = fit(list(flat.values()), width, height)
     places = {index: pixel(image) for index, image in flat.items()}
     stage_frames, vertices, eliminated = [], set[int](), set[int]()
     # The hull of a stage is computed again, exactly, from the vertices added so far.
@@ -81,10 +86,10 @@ def frames(hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int =
     return tuple(stage_frames)
 
 
-def strip(all_frames: Sequence[Frame], title: str = "") -> str:
-    """Return all stages side by side, three in a row, as the text of an SVG file."""
+def strip(all_frames: Sequence[Frame], title: str = "", columns: int = _COLUMNS) -> str:
+    """Return all stages in rows of the given number of ``columns`` as the text of an SVG file."""
     cell = (all_frames[0].layout.width, all_frames[0].layout.height + _BAND)
-    columns = min(_COLUMNS, len(all_frames))
+    columns = min(columns, len(all_frames))
     rows = -(-len(all_frames) // columns)
     items = []
     for k, frame in enumerate(all_frames):

@@ -49,9 +49,10 @@ class _Unanswered(Exception):
 class _Visitor(FromFile):
     """The operator of the page: its actions come from a log first, and then from the visitor."""
 
-    def __init__(self, log: str = "") -> None:
+    def __init__(self, record: panel.Record, log: str = "") -> None:
         super().__init__("log", log)
         self.actions: deque[Action] = deque()
+        self._record = record
 
     def forget(self) -> None:
         """Drop the remaining lines of the log."""
@@ -63,11 +64,10 @@ class _Visitor(FromFile):
             yield self.actions.popleft()
 
     def answer(self, session: Session, halt: Halt) -> Action:
-        if self._lines:
-            return super().answer(session, halt)
-        if not self.actions:
+        if not self._lines and not self.actions:
             raise _Unanswered
-        return self.actions.popleft()
+        self._record.forget()
+        return super().answer(session, halt) if self._lines else self.actions.popleft()
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +91,7 @@ class Desk:
     small: int = 2_000
     _loaded: _Loaded | None = None
     _session: Session | None = None
-    _visitor: _Visitor = field(default_factory=_Visitor)
+    _visitor: _Visitor = field(default_factory=lambda: _Visitor(panel.Record()))
     _logged: Operator = field(default_factory=Operator)
     # The log of the loads before this one, with the decks of the visitor, and the log of this load.
     _earlier: str = ""
@@ -105,16 +105,14 @@ class Desk:
     _texts: dict[str, str] = field(default_factory=dict)
     _record: panel.Record = field(default_factory=panel.Record)
 
-    def offers(self) -> Answer:
-        """Return the built-in ``programs`` and ``decks`` as lists of name, title and kind."""
-        return offered()
+    offers = staticmethod(offered)
 
     def load(self, request: Answer) -> Answer:
         """Compile a program and load a deck; the machine then waits for START.
 
         In the request, ``program`` and ``deck`` are each a built-in name or a pair of name and text.  The deck ``""``
-        is empty, and ``"PUNCHED"`` has the cards that were punched last.  ``switches`` lists the sense switches that
-        are on.  ``arithmetic``, ``core``, ``limit`` and ``upcase`` are those of the command line.
+        is empty, and ``"PUNCHED"`` has the cards punched last.  ``switches`` lists the sense switches that are on.
+        ``arithmetic``, ``core``, ``limit`` and ``upcase`` are those of the command line.
 
         The answer has ``program``, ``listing`` (number and text of each card), ``deck``, ``switches``, and from
         :mod:`modern.publication.panel` ``core``, ``touched`` and ``formats``.  If the request is invalid, it has
@@ -180,11 +178,11 @@ class Desk:
         with its bounds, ``stands`` (why the machine waits, or empty), ``waits`` (``typed`` for a line with its
         ``fields``, ``answer`` for an action, or empty), ``ended`` and ``messages``.  ``registers`` are the floating and
         the fixed-point accumulator.  ``picture``, ``stages`` and ``wrote`` are those of
-        :mod:`modern.publication.panel`.  After the end, ``next`` names the program that reads the punched cards, and
-        ``queued`` is true if a log has further loads.
+        :mod:`modern.publication.panel`.  A run that never ends is stopped, and ``repeats`` is the number of statements
+        that it repeats.  After the end, ``next`` names the program that reads the punched cards, and ``queued`` is true
+        if a log has further loads.
         """
-        session = self._session
-        if session is None or self._ending:
+        if (session := self._session) is None or self._ending:
             return self._answer()
         end_of_slice = self.clock() + milliseconds / 1000
         furthest = self._seconds(session) + pace * milliseconds / 1000
@@ -199,6 +197,8 @@ class Desk:
             except EmulatorError as error:
                 failure = str(error)
                 break
+            if self._record.repeats and session.halt is None:
+                self._visitor.actions.append(Action("ATTN"))
             if ending is not None or self.clock() >= end_of_slice or (pace and self._seconds(session) >= furthest):
                 break
         answer: Answer = {}
@@ -255,8 +255,7 @@ class Desk:
         if session.halt is None:
             self._visitor.actions.append(Action("ATTN"))
         answer = self.run(0)
-        remaining = {"typed": len(session.result().typed), "punched": len(self._stacker)}
-        return answer | {"events": [], "undone": remaining}
+        return answer | {"events": [], "undone": {"typed": len(session.result().typed), "punched": len(self._stacker)}}
 
     def decide(self) -> Answer:
         """Find the first decision of the loaded run that exact arithmetic takes otherwise, from the beginning.
@@ -294,8 +293,7 @@ class Desk:
 
     def show(self, line: str) -> Answer:
         """Carry out a command that only shows something, such as ``VARIABLES``."""
-        session = self._session
-        lines = command(session, line, self._cards, _WIDTH) if session else []
+        lines = command(self._session, line, self._cards, _WIDTH) if self._session else []
         return {"lines": lines if isinstance(lines, list) else []}
 
     check = staticmethod(panel.compile_messages)
@@ -308,7 +306,7 @@ class Desk:
         """Put the loaded program and deck into a new machine, whose operator first repeats a log."""
         self._record = panel.Record(loaded.program)
         self._session = session = Session(loaded.program, loaded.deck, loaded.options, tracer=self._record)
-        self._visitor, self._cards, self._ending = _Visitor(log), Cards(), False
+        self._visitor, self._cards, self._ending = _Visitor(self._record, log), Cards(), False
         self._logged = Logged(self._visitor, self._log, loaded.deck_name)
         self._happened, self._stacker = [], []
         return session
@@ -393,6 +391,7 @@ class Desk:
             "picture": self._record.picture(session),
             "stages": len(self._record.stages),
             "wrote": self._record.take(),
+            "repeats": self._record.repeats,
             "registers": [session.options.numbers.traced(session.state.fac), str(session.state.fixed)],
             "ended": self._ending,
             "messages": [],

@@ -31,10 +31,10 @@ def card() -> str:
     return cards_svg(type(deck)(deck.source, deck.cards[1:2]), title="a punched data card")
 
 
-def growth(eye: Eye | None = None, width: int = 250) -> tuple[Frame, ...]:
+def growth(eye: Eye | None = None, width: int = 250, height: int = 2500) -> tuple[Frame, ...]:
     """Return the successive hulls of the example, in the order in which the program makes them."""
     points = parse_input(input_deck(EXAMPLE).text(), f"example{EXAMPLE}").points
-    return frames(convex_hull(points, "exact", history=True), eye, width=width)
+    return frames(convex_hull(points, "exact", history=True), eye, width, height)
 
 
 def plane_values(arithmetic: str, points: Sequence[Sequence[int]]) -> tuple[str, list[str]]:

@@ -28,6 +28,8 @@ _SPACE = ("X", "Y", "Z")
 _FLAT = {1: ("T", "R", "S"), 2: ("R", "T", "S"), 3: ("R", "S", "T")}
 # The arrays with the numbers of the points that define each equation.
 _DEFINING = ("MM", "NN", "KK")
+# The first statement at which the state is kept, to recognise a run that never ends; the number doubles each time.
+_KEPT = 1024
 # For program 2 and program 3: the statements that begin a data set, a stage of the hull, and the output.
 _STAGES = {"R": (100, 106, 170), "KK": (100, 103, 174)}
 
@@ -177,6 +179,7 @@ class Record:
 
     ``times`` has the work at the beginning of each statement.  ``writers`` maps a field to the card that wrote it last
     and the number of that statement in the run.  ``stages`` has the successive hulls as :func:`picture` returns them.
+    ``repeats`` is 0, or the number of statements after which the run has returned to an earlier state: it never ends.
     """
 
     program: Program | None = None
@@ -186,6 +189,9 @@ class Record:
     _fields: set[int] = field(default_factory=set)
     _is_final: bool = False
     _is_new: bool = True
+    repeats: int = 0
+    # By statement: the numbers of its executions at which the state was kept, and the states.
+    _states: dict[int, list[tuple[int, tuple[Any, ...]]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._labels = stage_labels(self.program) if self.program else (0, 0, 0)
@@ -196,6 +202,7 @@ class Record:
                 self.writers[address] = session.last.place.card, len(self.times)
                 self._fields.add(address)
         self.times.append(session.state.work)
+        self._recognise(line, session)
         if line.label and line.label in self._labels:
             begins, _, ends = self._labels
             if line.label == begins:
@@ -207,6 +214,20 @@ class Record:
             self._is_new, self._is_final = False, line.label == ends
             self.stages.append(picture(session) | {"final": self._is_final})
 
+    def _recognise(self, line: Line, session: Session) -> None:
+        """Compare the state with those kept before the same statement; the same state leads to the same run again."""
+        count, state, numbers = len(self.times), session.state, session.options.numbers
+        for earlier, before in self._states.get(line.index, ()):
+            if not self.repeats and before[0] == state.values and before == _determining(session):
+                self.repeats = count - earlier
+        # The rest of a run with random rounding does not depend on the state alone.
+        if count >= _KEPT and not count & (count - 1) and numbers.fresh() is numbers:
+            self._states.setdefault(line.index, []).append((count, _determining(session)))
+
+    def forget(self) -> None:
+        """Forget the states before an action of the operator, on which the rest of the run also depends."""
+        self.repeats, self._states = 0, {}
+
     def take(self) -> list[int]:
         """Return the fields written since the last call."""
         fields, self._fields = sorted(self._fields), set()
@@ -215,6 +236,13 @@ class Record:
     def picture(self, session: Session) -> dict[str, Any]:
         """Return the picture of the present variables, or of the last stage if the hull is complete."""
         return self.stages[-1] if self._is_final else picture(session)
+
+
+def _determining(session: Session) -> tuple[Any, ...]:
+    """Return what determines the rest of a run: storage, accumulators, cards read and switches."""
+    state = session.state
+    registers = (state.fac, state.fixed, state.last_card, session.devices.position, *session.switches)
+    return list(state.values), list(state.kinds), *registers
 
 
 def true_picture(stages: Sequence[dict[str, Any]]) -> dict[str, Any]:

@@ -26,6 +26,8 @@ CHROMIUM = which("chromium") or which("chromium-browser") or ""
 MODULES = ROOT / "docs" / "console" / "node_modules"
 """The folder into which ``npm ci --prefix docs/console`` installs axe and html-validate."""
 
+LONG = 30_000
+"""The longest time to wait for the page of the emulator, in milliseconds."""
 
 PACKAGES = ("hull1620", "emulator", "modern", "fortran_src", "transcripts")
 

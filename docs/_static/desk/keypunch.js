@@ -2,7 +2,6 @@
 "use strict";
 
 /**
- * @typedef {[string, number, number]} Field The FORMAT code, the first column and the width of a field.
  * @typedef {object} Punching
  * @property {(text: string) => Promise<[number, number, string][]>} check Return the messages of the compiler.
  * @property {(what: "programs" | "decks", name: string, text: string) => void} use Put the cards into the machine.
@@ -11,7 +10,7 @@
 const keypunch = (() => {
   const at = (/** @type {string} */ id) => /** @type {any} */ (document.getElementById(`punch-${id}`));
   const COLUMNS = 80;
-  const SAMPLE = { programs: "C     MY PROGRAM\n      END\n", decks: "" };
+  const SAMPLE = { programs: "      TYPE 5\n    5 FORMAT(5HHELLO)\n      END\n", decks: "" };
   /** The fields of a program card (C26-5619 p. 6). @type {Field[]} */
   const PROGRAM = [["label", 1, 5], ["+", 6, 1], ["statement", 7, 66], ["unused", 73, 8]];
 

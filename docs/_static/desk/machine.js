@@ -42,6 +42,16 @@ const hull1620 = (() => {
     }
   }
 
+  /** Return the worker and the file of all files in a page without a server, which may load scripts only. */
+  async function fromScript() {
+    if (!window.hull1620Local) await script(`${here}machine.js`);
+    if (!window.hull1620Local) throw new Error("machine.js holds no emulator");
+    const { worker, machine } = window.hull1620Local;
+    // The browser decodes an address faster than a script does.
+    const file = await fetch(`data:application/gzip;base64,${machine}`);
+    return { worker, bytes: await file.arrayBuffer() };
+  }
+
   /**
    * Start the emulator.
    * @param {(bytes: number) => void} progress
@@ -49,18 +59,9 @@ const hull1620 = (() => {
    * @returns {Promise<Machine & {offers: any}>}
    */
   async function connect(progress, slice) {
-    const where = {};
-    let address = `${here}worker.js`;
-    if (isLocal) {
-      // Without a server a page may load scripts only, and the worker must come from the page.
-      if (!window.hull1620Local) await script(`${here}machine.js`);
-      const { worker: text, machine } = window.hull1620Local;
-      address = `data:text/javascript,${encodeURIComponent(text)}`;
-      where.bytes = Uint8Array.from(atob(machine), (letter) => letter.charCodeAt(0)).buffer;
-    } else {
-      await keep();
-      where.address = `${here}machine.gzip?v=${window.hull1620Version}`;
-    }
+    const local = isLocal ? await fromScript() : null;
+    if (!local) await keep();
+    const address = local ? `data:text/javascript,${encodeURIComponent(local.worker)}` : `${here}worker.js`;
     const worker = new Worker(address, { type: "module" });
     /** @type {Map<number, {done: (answer: any) => void, failed: (error: Error) => void}>} */
     const waiting = new Map();
@@ -82,7 +83,7 @@ const hull1620 = (() => {
         waiting.set((count += 1), { done, failed });
         worker.postMessage({ id: count, name, parameters });
       });
-    const offers = await ask("begin", where);
+    const offers = await ask("begin", local ? { bytes: local.bytes } : { address: `${here}machine.gzip?v=${window.hull1620Version}` });
     return { ask, stop: () => worker.terminate(), offers };
   }
 

@@ -1,13 +1,6 @@
 // The picture of the points and of the hull in the machine's variables. It computes nothing about the hull.
 "use strict";
 
-/**
- * @typedef {object} Picture
- * @property {number[][]} points The points that the program still holds, x, y, z.
- * @property {number} vertices The first points, which are vertices (NV).
- * @property {number[][]} faces The equations as indices of the points that define them (MM, NN, KK).
- */
-
 const hullPicture = (() => {
   const SVG = "http://www.w3.org/2000/svg";
 

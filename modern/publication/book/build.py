@@ -1,8 +1,8 @@
 """Typeset the book: ``python -m modern.publication.book.build dist/hull1620.pdf``.
 
 The text is written as Typst markup into a temporary folder, and the package ``typst``, whose wheel contains the
-compiler, makes PDF/A from it.  System fonts are ignored and the date is that of the release, so that the same sources
-always give the same bytes.
+compiler, makes PDF/A-2a from it.  The compiler reports violations of that standard that it can recognise.  System fonts
+are ignored and the date is that of the release, so that the same sources always give the same bytes.
 """
 
 import re
@@ -99,7 +99,7 @@ def _subjects(texts: Mapping[str, str]) -> dict[str, str]:
     """
     terms = re.findall(r"^## (.+)$", texts[_GLOSSARY], re.MULTILINE)
     labels = [place for place in places(_GLOSSARY, texts[_GLOSSARY]) if place != label(_GLOSSARY)]
-    entries = [term if term[1:2].isupper() else term[0].lower() + term[1:] for term in terms]
+    entries = [term if term[1:2].isupper() or term in SUBJECTS else term[0].lower() + term[1:] for term in terms]
     whole = "\n".join(texts.values()).lower()
     rare = {entry.lower(): entry for entry in entries if 0 < whole.count(entry.lower()) <= _MOST_PLACES}
     named = {name.lower(): entry for name, entry in PERSONS.items()} | {name.lower(): name for name in SUBJECTS}
@@ -118,9 +118,10 @@ def typst(folder: Path) -> str:
         (folder / f"{name}.svg").write_text(parts.fitted(svg), encoding="utf-8")
         return f"{name}.svg"
 
-    def markdown(name: str, labels: Collection[str]) -> str:
+    def markdown(name: str, labels: Collection[str], title: str = "") -> str:
         made = partial(front.made, save=keep)
-        return Markdown(name, labels, 2, lambda file: _picture(file, folder), made, subjects, names).typst(texts[name])
+        document = Markdown(name, labels, 2, lambda file: _picture(file, folder), made, subjects, names, title)
+        return document.typst(texts[name])
 
     generated = {kind: "".join(part) for kind, part in _generated(keep)}
     # A reference is a link only if the book has its label.
@@ -134,7 +135,8 @@ def typst(folder: Path) -> str:
         book.append(f"= {say(title)} <{label('chapter', title)}>\n\n")
         for name in chapter:
             book += [
-                generated[part[1:]] if part.startswith("@") else markdown(part, labels) for part in _parts(name, texts)
+                generated[part[1:]] if part.startswith("@") else markdown(part, labels, title)
+                for part in _parts(name, texts)
             ]
     return "".join([*book, f"= {say('Index')} <{label('chapter', 'Index')}>\n\n#subject-index()\n"])
 

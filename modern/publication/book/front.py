@@ -13,6 +13,8 @@ from modern.publication.facing import facing
 
 # Saves a picture, given its name and SVG, and returns the name by which Typst finds it.
 SavePicture = Callable[[str, str], str]
+# The largest size of a stage in a row of four, in pixels.
+FRAME = 212, 230
 
 
 def title_and_imprint() -> Iterator[str]:
@@ -102,7 +104,7 @@ def _card(save: SavePicture) -> str:
 
 def _growth(save: SavePicture) -> str:
     caption = f"The hull of example {essay.EXAMPLE} grows in the order of program 3"
-    return _picture(save("essay-growth", strip(essay.growth())), caption, "64%")
+    return _picture(save("essay-growth", strip(essay.growth(None, *FRAME), columns=4)), caption, "100%")
 
 
 def _truncation(save: SavePicture) -> str:
@@ -113,8 +115,8 @@ def _truncation(save: SavePicture) -> str:
 
 def _cube(save: SavePicture) -> str:
     _, typed, hull = essay.cube()
-    drawn = _picture(save("essay-cube", draw_svg(hull, width=360)), "The unit cube, which program 3 cannot do", "38%")
-    return drawn + block(typed, "8pt")
+    drawn = _picture(save("essay-cube", draw_svg(hull, width=340)), "The unit cube, which program 3 cannot do", "40%")
+    return drawn + block(typed)
 
 
 def _mended(save: SavePicture) -> str:
@@ -142,7 +144,7 @@ def bibliography(literature: str, persons: Mapping[str, str]) -> Iterator[str]:
     yield heading("The five documents", 2, label("bibliography", "documents"))
     for document in sources().documents:
         marks = "".join(f"#idx({string(entry)});" for name, entry in persons.items() if name in document.author)
-        yield f"#entry[{marks}{say(_cited(document))} {say(document.held + '.')}]\n\n"
+        yield f"#source[{marks}{say(_cited(document))} {say(document.held + '.')}]\n\n"
     yield heading("Other literature", 2, label("bibliography", "literature"))
     yield literature
 

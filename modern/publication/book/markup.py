@@ -28,6 +28,10 @@ _NUMBER = re.compile(r"[-−+±]?[\d.,]+(?:[\s%×·^/]|\([−\d.,\sto–-]*\)|[\
 _LINE, _LONG, _CELL, _WORD, _GAP, _NAME = 104, 90, 40, 12, 2, 16
 # Font sizes of tables in points: the normal size, the smallest for cells on one line, and the smallest of all.
 _USUAL, _SMALL, _SMALLEST = 8.5, 6.5, 5.0
+# The size of lines of a program in points, the smallest, and the size of a letter times the letters that fit on a line.
+_CODE, _LEAST, _LETTERS = 7.8, 6.2, 725
+# What lets Typst move a picture of a report to the top or the bottom of a page.
+_FLOAT = ", placement: auto"
 
 
 def string(text: str) -> str:
@@ -47,9 +51,10 @@ def code(text: str) -> str:
     return f"#raw({string(text)});"
 
 
-def block(text: str, size: str = "7.8pt") -> str:
-    """Return lines of a program as a block of Typst markup."""
-    return f"#listing({size}, {string(text.rstrip(chr(10)))})\n\n"
+def block(text: str) -> str:
+    """Return lines of a program as a block, in a size in which they need not be broken if possible."""
+    size = max(_LEAST, min(_CODE, _LETTERS / max(map(len, text.splitlines()), default=1)))
+    return f"#listing({size:.1f}pt, {string(text.rstrip(chr(10)))})\n\n"
 
 
 def call(name: str, *content: str, **named: str) -> str:
@@ -119,7 +124,8 @@ class Markdown:
     ``name`` is the path of the document below ``docs``, ``known`` are all labels of the book, and ``level`` is that of
     the first heading.  ``picture`` returns Typst's name for the file of a picture, or "" if the book lacks it.
     ``made`` returns the printed form of a part of a page of the site.  ``subjects`` are the entries of the index: by
-    label, for links and headings, and by the words that occur in a text, which ``names`` matches.
+    label, for links and headings, and by the words that occur in a text, which ``names`` matches.  The title of the
+    document is left out if it is that of the ``chapter``, after which it stands.
     """
 
     name: str
@@ -129,6 +135,7 @@ class Markdown:
     made: Callable[[str], str] = lambda argument: ""
     subjects: Mapping[str, str] = field(default_factory=dict)
     names: re.Pattern[str] = re.compile(r"(?!)")
+    chapter: str = ""
     _slugs: dict[str, int] = field(default_factory=dict)
 
     def typst(self, source: str) -> str:
@@ -152,6 +159,8 @@ class Markdown:
                 title = _plain(inner[0])
                 first, place = not self._slugs, label(self.name, self._slug(title))
                 itself = f"#[] <{label(self.name)}>\n" if first else ""
+                if first and self.chapter.removeprefix("The ").lower() == title.lower():
+                    return f"{itself}#[] <{place}>\n\n"
                 return itself + heading(title, self.level + int(token.tag[1]) - 1, place) + self._entry(place)
             case "paragraph_open":
                 markup = self._inline(inner[0])
@@ -248,7 +257,8 @@ class Markdown:
                 case "image":
                     file = self.picture(posixpath.normpath(posixpath.join(self._folder, str(child.attrs["src"]))))
                     alt = string(child.content)
-                    out.append(f"#picture({string(file)}, {alt})" if file else say(child.content))
+                    place = _FLOAT if self._is_report else ""
+                    out.append(f"#picture({string(file)}, {alt}{place})" if file else say(child.content))
         return "".join(out)
 
     def _role(self, out: list[str], content: str) -> str:
@@ -266,6 +276,10 @@ class Markdown:
         place = names.get(before[1], "") or self._target(f"{target}.md" if before[1] == "doc" else "")
         markup = say(shown) if rest or before[1] in ("doc", "ref") else code(shown)
         return to(place, markup) if place in self.known else markup
+
+    @property
+    def _is_report(self) -> bool:
+        return self.name.endswith("/report.md")
 
     @property
     def _folder(self) -> str:

@@ -16,7 +16,7 @@ from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.formats.points import parse_input
 from modern.geometry.mesh import ExportError
 from modern.port import convex_hull
-from modern.publication.book.front import SavePicture
+from modern.publication.book.front import FRAME, SavePicture
 from modern.publication.book.markup import block, call, code, heading, label, say, string, table
 from modern.publication.chart import chart
 from modern.publication.chart_svg import chart_svg
@@ -28,6 +28,8 @@ from modern.publication.flow import flow
 _SENTENCE = re.compile(r"(?<=\.) (?=[A-Z])")
 # The longest reading in a note, in characters.
 _LONGEST = 120
+# Points for each pixel of a picture.
+_PIXEL = 0.6
 _FONTS = re.compile(r"font-family(=|:)\s*(\"[^\"]*\"|[^;\"}]*)")
 _SHORT = {"holds": "holds", "holds with a condition": "with a condition", "does not hold": "does not hold"}
 
@@ -35,6 +37,8 @@ _SHORT = {"holds": "holds", "holds with a condition": "with a condition", "does 
 def fitted(svg: str) -> str:
     """Return an SVG picture with the fonts of the book and without links."""
     svg = re.sub(r"</?a\b[^>]*>", "", svg)
+    # A picture in pixels is printed in a size in which its letters are about as large as those of a caption.
+    svg = re.sub(r'\b(width|height)="(\d+)"', lambda m: f'{m[1]}="{int(m[2]) * _PIXEL:.4g}pt"', svg, count=2)
 
     def font(match: re.Match[str]) -> str:
         monospaced = "mono" in match[2].lower() or "courier" in match[2].lower()
@@ -161,7 +165,7 @@ def charts(save: SavePicture) -> Iterator[str]:
             if number == 1:
                 yield heading(f"Flow chart of {name}", 2, label("chart", name))
             file = save(f"chart-{name}-{number}", chart_svg(drawn, number))
-            picture = f"#picture({string(file)}, {string(title)}, height: 200mm)"
+            picture = f"#picture({string(file)}, {string(title)}, height: 210mm)"
             sheets.append(f"[#[{picture}] <{label('chart', name, str(number))}>]")
         for number in range(0, len(sheets), 2):
             yield f"#grid(columns: (1fr, 1fr), column-gutter: 4mm, {', '.join(sheets[number : number + 2])})\n"
@@ -185,7 +189,7 @@ def examples(save: SavePicture) -> Iterator[str]:
             cards = "\n".join(card.print for card in part.cards)
             if cards.strip():
                 yield heading(part.title, 3, label(f"example{number}", part.id))
-                yield block(cards, "7.6pt")
+                yield block(cards)
         rows_shown = [row for part in parts for row in part.rows if homes()[row.id] == (number, part.id)]
         if rows_shown:
             yield heading(f"Textual notes to example {number}", 3, label("notes", f"example{number}"))
@@ -206,14 +210,15 @@ def _reading(text: str) -> str:
 def _pictures(number: int, save: SavePicture) -> Iterator[str]:
     points = parse_input(input_deck(number).text(), f"example{number}").points
     hull = convex_hull(points, "exact", history=True, on_refusal="return")
-    file = save(f"hull-{number}", draw_svg(hull, width=520))
-    yield f"#picture({string(file)}, {string(f'The hull of example {number}')}, width: 42%)\n\n"
+    file = save(f"hull-{number}", draw_svg(hull, width=340))
+    yield f"#picture({string(file)}, {string(f'The hull of example {number}')}, width: 40%)\n\n"
     try:
-        stages = frames(hull)
+        stages = frames(hull, None, *FRAME)
     except ExportError:
         return
-    file = save(f"stages-{number}", strip(stages))
-    yield f"#picture({string(file)}, {string(f'The construction of example {number}, H1 to Hf')}, width: 66%)\n\n"
+    file = save(f"stages-{number}", strip(stages, columns=4))
+    title, width = f"The construction of example {number}, H1 to Hf", 25 * min(4, len(stages))
+    yield f"#picture({string(file)}, {string(title)}, width: {width}%)\n\n"
 
 
 def statements() -> Iterator[str]:

@@ -1,17 +1,21 @@
-"""Fixtures of this folder: the site, built once for all workers, and one browser for each worker."""
+"""Fixtures of this folder: the site, built once for all workers, one browser for each worker, and the desk."""
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from modern.publication.console import install_machine
 from tests.support import editions
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, Page
 
 
 @pytest.fixture(scope="session")
@@ -42,3 +46,49 @@ def chromium() -> Iterator[Browser]:
         )
         yield browser
         browser.close()
+
+
+class Quiet(SimpleHTTPRequestHandler):
+    """A server of a folder that does not log requests."""
+
+    def log_message(self, format: str, *args: Any) -> None:
+        """Log nothing."""
+
+
+@pytest.fixture(scope="session")
+def folder(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a copy of the site with the emulator."""
+    room = tmp_path_factory.mktemp("console")
+    folder = room / "site"
+    folder.mkdir()
+    for entry in site.iterdir():
+        if entry.name != "console":
+            (folder / entry.name).symlink_to(entry)
+    assert 0 < install_machine(folder / "console", editions.packed(room)) < 7_000_000
+    return folder
+
+
+@pytest.fixture(scope="session")
+def served(folder: Path) -> Iterator[str]:
+    """Serve the site with the emulator on the loopback interface and yield its address."""
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=str(folder)))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}"
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture(scope="module")
+def tab(chromium: Browser, served: str) -> Iterator[Page]:
+    """Return the emulator page with the machine on, at full speed."""
+    page = chromium.new_page(viewport={"width": 1280, "height": 800})
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(f"{served}/console.html")
+    assert page.inner_text("#desk-listing li:nth-child(1)") == "C     CONVEX HULL-PROGRAM 3-NOT COPLANAR"
+    page.wait_for_function("parseInt(document.getElementById('desk-read').textContent) > 2", timeout=editions.LONG)
+    page.wait_for_selector("#desk[data-state=on]", timeout=4 * editions.LONG)
+    page.check("[name=desk-speed][value='0']")
+    yield page
+    assert errors == []
+    page.close()

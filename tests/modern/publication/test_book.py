@@ -196,6 +196,10 @@ def test_every_reference_of_the_book_resolves(whole: tuple[str, Path]) -> None:
 
 
 def test_the_book_is_pdf_a(tmp_path: Path, whole: tuple[str, Path]) -> None:
+    """Typst checks the rules of PDF/A-2a when it writes the file; this test checks the parts that a reader relies on.
+
+    No independent validator, such as veraPDF, has been run.
+    """
     text, folder = whole
     (folder / "book.typ").write_text(text, encoding="utf-8")
     made = compiler.compile(
@@ -211,6 +215,13 @@ def test_the_book_is_pdf_a(tmp_path: Path, whole: tuple[str, Path]) -> None:
         name[:-7] for name in re.findall(rb"IBMPlex\w+-Regular", made)
     } | set(re.findall(rb"\+(IBMPlex(?:Serif|Sans|Mono))", made))
     assert b"<pdfaid:conformance>A</pdfaid:conformance>" in made
+    for needed in (b"/Marked true", b"/StructTreeRoot", b"/Lang(en)", b"/S/GTS_PDFA1", b"/S/H1", b"/S/TH"):
+        assert needed in made
+    for forbidden in (b"/Encrypt", b"/JavaScript", b"/Launch", b"/EmbeddedFile"):
+        assert forbidden not in made
+    embedded = len(re.findall(rb"/FontFile\d? ", made))
+    assert made.count(b"/Type/FontDescriptor") == embedded == made.count(b"/ToUnicode ") > 5, "every font is embedded"
+    assert len(re.findall(rb"/S/Figure\b", made)) == len(re.findall(rb"/Alt\b", made)) > 50
 
 
 def test_without_typst_the_message_names_the_package(

@@ -7,21 +7,17 @@ skipped with a message.
 from __future__ import annotations
 
 import itertools
-import threading
-from collections.abc import Iterator
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 
 from modern.edition.chapter6 import prints
-from modern.publication.console import SOURCE, install_machine
+from modern.publication.console import SOURCE
 from modern.publication.desk import Desk
 from tests.modern.publication.test_site_layout import problems
 from tests.support.desks import PAIRS, Pair, played
-from tests.support.editions import packed
+from tests.support.editions import LONG
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -30,54 +26,6 @@ pytestmark = pytest.mark.skipif(
     not (SOURCE / "node_modules" / "pyodide").is_dir(),
     reason="pyodide is missing (npm ci --ignore-scripts --prefix docs/console)",
 )
-LONG = 30_000
-"""The longest time to wait for the page, in milliseconds."""
-
-
-class Quiet(SimpleHTTPRequestHandler):
-    """A server of a folder that does not log requests."""
-
-    def log_message(self, format: str, *args: Any) -> None:
-        """Log nothing."""
-
-
-@pytest.fixture(scope="module")
-def folder(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a copy of the site with the emulator."""
-    room = tmp_path_factory.mktemp("console")
-    folder = room / "site"
-    folder.mkdir()
-    for entry in site.iterdir():
-        if entry.name != "console":
-            (folder / entry.name).symlink_to(entry)
-    assert 0 < install_machine(folder / "console", packed(room)) < 7_000_000
-    return folder
-
-
-@pytest.fixture(scope="module")
-def served(folder: Path) -> Iterator[str]:
-    """Serve the site with the emulator on the loopback interface and yield its address."""
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=str(folder)))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}"
-    server.shutdown()
-    server.server_close()
-
-
-@pytest.fixture(scope="module")
-def tab(chromium: Browser, served: str) -> Iterator[Page]:
-    """Return the emulator page with the machine on, at full speed."""
-    page = chromium.new_page(viewport={"width": 1280, "height": 800})
-    errors: list[str] = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.goto(f"{served}/console.html")
-    assert page.inner_text("#desk-listing li:nth-child(1)") == "C     CONVEX HULL-PROGRAM 3-NOT COPLANAR"
-    page.wait_for_function("parseInt(document.getElementById('desk-read').textContent) > 2", timeout=LONG)
-    page.wait_for_selector("#desk[data-state=on]", timeout=4 * LONG)
-    page.check("[name=desk-speed][value='0']")
-    yield page
-    assert errors == []
-    page.close()
 
 
 def state(page: Page, *states: str) -> str:
@@ -288,16 +236,27 @@ def test_switches_and_console_commands_of_period_programs(tab: Page) -> None:
         tab.wait_for_function("w => document.getElementById('desk-paper').textContent.includes(w)", arg=answer)
 
 
-def test_an_endless_loop_can_be_stopped(tab: Page) -> None:
-    give(tab, "loop.f", "    1 GO TO 1\n      END\n")
+def test_a_long_run_can_be_stopped(tab: Page) -> None:
+    give(tab, "loop.f", "      X=0.\n    1 X=X+1.\n      GO TO 1\n      END\n")
     tab.wait_for_function("document.getElementById('desk-program').value === 'loop.f'")
     load(tab, "loop.f", "")
     tab.click("[data-words=START]")
     state(tab, "runs")
     fit(tab)
     tab.click("[data-words=ATTN]")
-    assert "stopped (attention) before statement 1" in state(tab, "waits")
+    assert "stopped (attention) before" in state(tab, "waits")
     assert press(tab, "STOP").startswith("The run has stopped")
+
+
+def test_an_endless_run_is_recognised_and_a_chosen_program_starts_without_a_load(tab: Page) -> None:
+    give(tab, "loop.f", "    1 GO TO 1\n      END\n")
+    tab.wait_for_function("document.getElementById('desk-state').textContent.startsWith('loop.f with')")
+    assert press(tab).startswith("This run never ends: it repeats the same statement with the same values.")
+    press(tab, "STOP")
+    tab.select_option("#desk-program", "stats.f")
+    assert tab.inner_text("#desk-state") == "stats.f with stats.deck. Press START."
+    assert press(tab).startswith("The run has ended.")
+    assert cards(tab)[-1].strip() == "R = -1.00000"
 
 
 def test_the_desk_runs_example_6_from_a_folder_without_a_server(chromium: Browser, folder: Path) -> None:
@@ -339,7 +298,7 @@ def test_the_comparison_in_the_page_equals_that_in_python(chromium: Browser, ser
 
 
 def test_the_page_is_kept_for_a_visit_without_a_network(tab: Page) -> None:
-    parts = ["console.html", "console/worker.js", "console/size.js", "_static/desk/desk.js", "console/machine.gzip"]
+    parts = ["console.html", "console/worker.js", "console/size.js", "_static/desk/run.js", "console/machine.gzip"]
     missing = tab.evaluate(
         """async (parts) => {
           const cache = await caches.open("hull1620-machine");

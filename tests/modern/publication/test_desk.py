@@ -14,7 +14,7 @@ import pytest
 from modern.formats.deck import data_deck
 from modern.port import convex_hull
 from modern.publication.console import packages
-from modern.publication.desk import Desk
+from modern.publication.desk import Answer, Desk
 from tests.support.commands import call
 from tests.support.desks import PAIRS, Pair, played
 from tests.support.editions import packed
@@ -260,7 +260,7 @@ def test_the_page_needs_only_the_modules_that_it_loads(tmp_path: Path) -> None:
 import sys, zipfile
 zipfile.ZipFile("packages.zip").extractall("packages")
 sys.path[:] = ["packages", *(path for path in sys.path if path.startswith({sys.base_prefix!r}))]
-from modern.publication.desk import Desk
+from modern.publication.desk import Answer, Desk
 from modern.publication.parting import parted
 desk = Desk()
 desk.load({{"program": "program1", "deck": "example4"}})
@@ -271,3 +271,32 @@ assert desk.decide()["lines"]
 assert parted("1 2 3")["says"]
 """
     subprocess.run([sys.executable, "-S", "-c", code], cwd=tmp_path, check=True)
+
+
+def ended(desk: Desk, program: list[str], deck: list[str] | str = "") -> Answer:
+    """Load a program, press START, and return the answer when it waits or ends."""
+    desk.load({"program": program, "deck": deck})
+    desk.run(1)
+    desk.act("START")
+    return next(answer for answer in iter(lambda: desk.run(1000), None) if answer["ended"] or answer["waits"])
+
+
+def test_a_run_that_returns_to_an_earlier_state_is_stopped() -> None:
+    desk = Desk()
+    answer = ended(desk, ["loop.f", "      I=1\n    1 I=I+1\n      GO TO 1\n      END\n"])
+    assert (answer["repeats"], answer["stands"][:19]) == (20_000, "stopped (attention)")
+    desk.act("START")
+    assert desk.run(1)["repeats"] == 0, "an action of the operator may change the rest of the run"
+
+
+def test_a_run_that_reads_or_asks_does_not_count_as_endless() -> None:
+    reading = "    1 READ 5,I\n      GO TO 1\n    5 FORMAT(I3)\n      END\n"
+    answer = ended(Desk(), ["read.f", reading], ["many", "  1\n" * 3000])
+    assert (answer["ended"], answer["repeats"]) == (True, 0)
+    desk = Desk()
+    desk.load({"program": ["ask.f", "    1 ACCEPT 5,I\n      GO TO 1\n    5 FORMAT(I3)\n      END\n"], "deck": ""})
+    desk.run(1)
+    desk.act("START")
+    for _ in range(1500):
+        desk.act("ENTER   1")
+    assert desk.run(10_000)["repeats"] == 0

@@ -192,6 +192,16 @@ def test_html_is_valid(site: Path, tmp_path: Path) -> None:
     assert messages == []
 
 
+@pytest.mark.parametrize("project", ["tsconfig.json", "tsconfig.worker.json"])
+def test_the_types_of_the_emulator_s_scripts_are_right(project: str) -> None:
+    compiler, node = editions.MODULES / "typescript" / "bin" / "tsc", which("node")
+    if node is None or not compiler.exists():
+        pytest.skip("typescript is missing, the types of the scripts are not checked: npm ci --prefix docs/console")
+    command = [node, str(compiler), "--project", str(ROOT / "docs" / "console" / project)]
+    process = subprocess.run(command, check=False, capture_output=True, text=True)
+    assert process.returncode == 0, process.stdout
+
+
 def test_unknown_names_and_arguments_are_rejected() -> None:
     assert {"facing", "charts", "addresses", "home"} <= set(names())
     with pytest.raises(ValueError, match="unknown page 'maps'"):

@@ -27,6 +27,22 @@ from modern.publication.site.pages.statements import SIGNS
 
 # Cards of program 3 that the OCR misread visibly.
 _SHOWN = ("105+3", "130", "131+2", "143", "167")
+# The meaning of each column of the table of verdicts.
+_MEANINGS = dict(
+    zip(
+        COLUMNS,
+        (
+            "a computation confirms it",
+            "it is true under a condition that the document does not state",
+            "a counterexample refutes it",
+            "an error of the author, the typist or the OCR",
+            "a definition that our programs follow",
+            "it concerns other works, judgements or lost figures",
+            "it repeats another statement",
+        ),
+        strict=True,
+    )
+)
 
 
 def make(argument: str) -> Made:
@@ -54,17 +70,25 @@ def _restored(card: Card) -> str:
 
 def _verdicts() -> str:
     rows = []
-    signs = {name: text("span", SIGNS[name], cls="quiet", aria_hidden="true") for name in COLUMNS}
     for name in DOCUMENTS:
         prefix = "butler" if name == THESIS else name
         document = next(document for document in sources().documents if document.id.startswith(prefix))
         count = counts(name)
-        cells = (f"{count[verdict]}&nbsp;{sign}" for verdict, sign in signs.items())
+        cells = (str(count[verdict]) for verdict in COLUMNS)
         shares = bar((f"v-{at}", count[verdict]) for at, verdict in enumerate(COLUMNS))
         document_link = f"{escape(document.author)} {link(f'statements/{name}', '', document.title)}"
         rows.append((document_link, *cells, shares))
     statements = table(("document", *COLUMNS, "share"), rows, "Verdicts", "Statements of the five documents")
-    return statements + _examples()
+    return statements + _key() + _examples()
+
+
+def _key() -> str:
+    """Return the legend of the table: the colour, the sign and the meaning of each verdict."""
+    items = []
+    for at, name in enumerate(COLUMNS):
+        sample = element("span", bar([(f"v-{at}", 1)]) + escape(SIGNS[name]), cls="sample", aria_hidden="true")
+        items.append(element("li", f"{sample} {element('strong', escape(name))}: {escape(_MEANINGS[name])}"))
+    return element("ul", "".join(items), cls="meanings")
 
 
 def _examples() -> str:

@@ -1,0 +1,244 @@
+// The machine of the desk: it is loaded, started, stopped and turned back, and its answers are shown.
+"use strict";
+
+const deskRun = (() => {
+  const { at, say, paper, desk } = deskPage;
+  const COMPILING = 10000; // the longest time to compile, in milliseconds
+  const LOOK = 400; // milliseconds between two looks at the variables of a running machine
+  const line = at("line", HTMLInputElement);
+  const next = at("next", HTMLButtonElement);
+  const progress = at("progress", HTMLProgressElement);
+  /** @type {Machine | null} */
+  let machine = null;
+  let waits = "";
+  let running = false;
+  let follows = false; // the next program is loaded when program 1 ends
+  let isChanged = false; // another program or deck has been chosen since the last load
+  let wish = ""; // START or LOAD, pressed before the machine is ready
+  let looked = 0;
+
+  const clock = (/** @type {Frame} */ { seconds, bounds }) =>
+    `${seconds.toLocaleString("en")} s on a 1620 (${bounds.map((bound) => bound.toLocaleString("en")).join(" to ")})`;
+
+  const statements = (/** @type {number} */ count) => (count > 1 ? `the same ${count.toLocaleString("en")} statements` : "the same statement");
+
+  /** @param {string} name @param {any[]} parameters @returns {Promise<any>} */
+  function ask(name, ...parameters) {
+    if (!machine) throw new Error("the machine is not ready");
+    return machine.ask(name, ...parameters).catch((error) => {
+      say(`The emulator reports: ${error.message}`);
+      throw error;
+    });
+  }
+
+  /** Load the emulator; the desk shows how much of it has arrived. */
+  async function connect() {
+    progress.max = hull1620.bytes;
+    progress.hidden = false;
+    const began = performance.now();
+    const connection = await hull1620.connect((bytes) => {
+      progress.value = bytes;
+      const size = `${(bytes / 1e6).toFixed(1)} of ${(hull1620.bytes / 1e6).toFixed(1)} MB`;
+      const remaining = ((performance.now() - began) / 1000) * (hull1620.bytes / bytes - 1);
+      const time = bytes < hull1620.bytes ? `about ${Math.ceil(remaining) + 3} seconds more` : "starting Python, a few seconds";
+      progress.title = size;
+      if (!wish) say(`A recorded run of example 5, while the emulator loads: ${size}, ${time}. Nothing leaves your computer.`);
+    }, slice);
+    machine = connection;
+    progress.hidden = true;
+    deskChoice.offer(connection.offers);
+    await ask("pace", deskPage.pace());
+    deskPage.enter("on");
+  }
+
+  /** Load what is chosen; with ``start`` also press START. @param {boolean} [start] @param {string} [stop] */
+  async function load(start = false, stop = "") {
+    deskTape.end();
+    if (!machine) {
+      wish = start ? "START" : "LOAD";
+      return say("The emulator is still loading. It will begin by itself.");
+    }
+    isChanged = false;
+    deskPage.enter("loading");
+    say("Compiling …");
+    const late = setTimeout(restart, COMPILING);
+    const answer = await ask("load", deskChoice.request());
+    clearTimeout(late);
+    if (!received(answer)) return;
+    if (stop) await act(`BREAK ${stop}`);
+    if (start) await act("START");
+  }
+
+  /** Show the answer of a load, and return whether the machine is loaded. @param {Load} answer */
+  function received(answer) {
+    running = false;
+    waits = answer.refused ? "" : "answer";
+    if (answer.refused) deskShow.refuse(answer.refused);
+    else deskShow.lay(answer);
+    return !answer.refused;
+  }
+
+  function restart() {
+    machine?.stop();
+    machine = null;
+    const stopped = "The compiler was stopped after 10 seconds.";
+    say(`${stopped} The command hull1620 check has no time limit. Loading again …`);
+    connect().then(() => say(`${stopped} The machine is on again. Load a program.`));
+  }
+
+  /** Send a command of the operator. @param {string} words */
+  async function act(words) {
+    const { lines } = await ask("act", words);
+    paper(lines, "note");
+  }
+
+  /** Press a key of the console. START on a machine that has not begun loads what is chosen. @param {string} words */
+  function press(words) {
+    const isIdle = !running && !waits;
+    const isOther = isChanged && !running && deskShow.statement <= 1;
+    if (words === "START" && (!machine || isIdle || isOther)) load(true);
+    else if (machine) act(words);
+  }
+
+  /** Say what to do after another program or deck has been chosen. */
+  function change() {
+    isChanged = true;
+    const isHeld = (running || waits) && deskShow.statement > 1;
+    say(`${deskChoice.names()}. Press ${isHeld ? "Load: it replaces the program in the machine" : "START"}.`);
+  }
+
+  /** Turn a sense switch. @param {string} number @param {boolean} isOn */
+  function turn(number, isOn) {
+    if (machine && (running || waits)) act(`SWITCH ${number} ${isOn ? "ON" : "OFF"}`);
+  }
+
+  /** Go to a statement of the run. @param {number} number */
+  async function jump(number) {
+    if (!machine || !deskShow.loaded) return;
+    /** @type {Frame} */
+    const answer = await ask("jump", number);
+    if (!answer.undone) return;
+    deskShow.undo(answer.undone);
+    slice(answer);
+  }
+
+  /** Go back by one statement. */
+  function back() {
+    if (deskShow.statement > 1) jump(waits ? deskShow.statement - 1 : deskShow.statement);
+  }
+
+  /** Show a slice of the live machine, and what the visitor can do next. @param {Frame} frame */
+  function slice(frame) {
+    deskShow.render(frame);
+    paper(frame.did ?? [], "note");
+    running = !frame.ended && !frame.waits;
+    const became = frame.waits !== waits;
+    waits = frame.waits;
+    deskShow.expect(frame.fields ?? []);
+    deskPage.enter(frame.ended ? "ended" : waits ? "waits" : "runs");
+    const program = deskShow.loaded?.program;
+    if (frame.ended) end(frame);
+    else if (frame.repeats) say(`This run never ends: it repeats ${statements(frame.repeats)} with the same values. ${clock(frame)}. Press “end run”.`);
+    else if (waits === "typed") say("The program asks for a line: type it below the typewriter and press Enter.");
+    else if (waits && frame.statement === 1) say(`${program} is loaded. Press START.`);
+    else if (waits) say(`${frame.stands}. Press START to continue, or step. ${clock(frame)}.`);
+    else say(`Running, ${clock(frame)}.`);
+    at("asks", HTMLElement).textContent = waits === "typed" ? "Line" : "Console";
+    if (waits === "typed" && became) {
+      view("paper");
+      line.focus({ preventScroll: true });
+    }
+    if (frame.ended || waits || performance.now() - looked > LOOK) look();
+  }
+
+  /** @param {Frame} frame */
+  function end(frame) {
+    paper(frame.messages ?? [], "note");
+    const trouble = frame.messages?.findLast((text) => text.startsWith("hull1620:"));
+    const isHull = (frame.stages ?? 0) > 0 && !frame.next;
+    say(`${trouble ? `The run has stopped: ${trouble.slice(10)}` : "The run has ended."} ${clock(frame)}.${isHull ? " Is the hull right? Press “Compare with exact arithmetic”." : ""}`);
+    if (frame.queued) return void ask("next_load").then(received);
+    if (!frame.next) return;
+    deskChoice.choosePunched(frame.next);
+    next.textContent = `Run ${frame.next.replace(/(\d)/, " $1")} with the punched cards`;
+    next.hidden = false;
+    if (follows) load(true);
+  }
+
+  /** Ask for what only a visible part of the desk shows. */
+  async function look() {
+    looked = performance.now();
+    if (!machine) return;
+    const part = deskPage.all("[data-look][aria-pressed=true]")[0]?.dataset.look;
+    if (part === "variables") at("variables", HTMLElement).textContent = (await ask("show", "VARIABLES")).lines.join("\n");
+    if (part === "points" && (waits || desk.dataset.state === "ended")) deskShow.offerStages(await ask("stages"));
+  }
+
+  /** Show one part of the desk on a small screen. @param {string} name */
+  function view(name) {
+    desk.dataset.view = name;
+    for (const button of deskPage.all(".m-tabs button")) button.ariaPressed = String(button.dataset.view === name);
+    deskShow.core.draw();
+  }
+
+  /** Show the first decision that exact arithmetic takes otherwise. */
+  async function decide() {
+    if (!machine || !deskShow.loaded) return say("Load a program first.");
+    say("Exact arithmetic runs the same program …");
+    const { lines, statement, hull } = await ask("decide");
+    paper(lines, "note");
+    if (hull) deskShow.compare(hull);
+    if (!statement) return say(`${lines[0]}.`);
+    await jump(statement);
+    if (hull) at("caption", HTMLElement).textContent = "Left: the hull in the machine. Right: the true hull.";
+    say(`The first decision that exact arithmetic takes otherwise: ${lines.join("; ")}. Press START to watch it.`);
+  }
+
+  /** Show the field at an address, with the digits as the 1620 held them. @param {number} digit */
+  async function field(digit) {
+    const region = deskShow.core.region(digit);
+    const found = machine && deskShow.loaded ? await ask("field", digit) : {};
+    if (!region) return;
+    const five = (/** @type {number} */ address) => String(address).padStart(5, "0");
+    const parts = [`${region[0]}, ${five(region[2])} to ${five(region[3])}.`];
+    if (found.name) {
+      parts[0] = `${found.name} = ${found.value}, positions ${found.addresses.map(five).join(" to ")}.`;
+      const { digits } = found;
+      if (digits) parts.push(`Digits ${digits}${found.floating ? `: mantissa ${digits.slice(0, 8)}, characteristic ${digits.slice(8)}` : ""}. A letter or ] is a digit with a flag.`);
+      if (found.writer.length) parts.push(`Written last by card ${found.writer[0]}, statement ${found.writer[1]} of the run.`);
+    }
+    at("field", HTMLElement).textContent = parts.join(" ");
+  }
+
+  /** Type a line: the answer to ACCEPT, or a command of the operator. */
+  function type() {
+    const isAnswer = waits === "typed";
+    const text = isAnswer ? deskShow.aligned() : line.value;
+    line.value = "";
+    if (!machine) return say("The emulator is still loading.");
+    paper([isAnswer ? text.toUpperCase() : `1620> ${text}`], isAnswer ? "typed" : "note");
+    act(isAnswer ? `ENTER ${text}` : text);
+  }
+
+  /** Repeat the log of a session. @param {string} text */
+  async function replay(text) {
+    deskTape.end();
+    received(await ask("replay", text));
+  }
+
+  /** Open the desk at a moment that a link names. @param {Moment} moment */
+  function open(moment) {
+    deskChoice.set(moment);
+    follows = moment.next;
+    return load(true, moment.stop);
+  }
+
+  return {
+    act, ask, back, change, connect, decide, field, jump, load, look, open, press, replay, turn, type, view,
+    /** Say whether a program and its deck follow program 1 without a key. @param {boolean} on */
+    follow: (on) => void (follows = on),
+    get isOn() { return machine !== null; },
+    get isBusy() { return running || waits !== ""; },
+    get wish() { return wish; },
+  };
+})();
