@@ -39,7 +39,7 @@ interface Frame {
   statement?: number;
   read?: number;
   seconds: number;
-  bounds: [number, number];
+  time: string;
   stands: string;
   waits: string;
   fields?: Field[];

@@ -100,6 +100,7 @@ function plan(delay = 0) {
 
 function slice() {
   const began = performance.now();
+  /** @type {{seconds: number, ended: boolean, waits: string}} */
   const answer = desk("run", SLICE, pace);
   postMessage({ slice: answer });
   if (answer.ended || answer.waits) return;

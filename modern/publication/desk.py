@@ -174,10 +174,10 @@ class Desk:
         """Run for about the given time, or until the machine waits or the run ends.
 
         ``pace`` is the largest speed relative to the 1620, or 0 for full speed.  The answer has ``events`` (kind and
-        text), ``card`` (the card that is executed next), ``statement`` (its number in the run), ``time`` on a 1620
-        with its bounds, ``stands`` (why the machine waits, or empty), ``waits`` (``typed`` for a line with its
-        ``fields``, ``answer`` for an action, or empty), ``ended`` and ``messages``.  ``registers`` are the floating and
-        the fixed-point accumulator.  ``picture``, ``stages`` and ``wrote`` are those of
+        text), ``card`` (the card that is executed next), ``statement`` (its number in the run), ``time`` on a 1620 with
+        its bounds, also in ``seconds``, ``stands`` (why the machine waits, or empty), ``waits`` (``typed`` for a line
+        with its ``fields``, ``answer`` for an action, or empty), ``ended`` and ``messages``.  ``registers`` are the
+        floating and the fixed-point accumulator.  ``picture``, ``stages`` and ``wrote`` are those of
         :mod:`modern.publication.panel`.  A run that never ends is stopped, and ``repeats`` is the number of statements
         that it repeats.  After the end, ``next`` names the program that reads the punched cards, and ``queued`` is true
         if a log has further loads.
@@ -381,6 +381,7 @@ class Desk:
             "work": session.state.work,
             "read": session.devices.position,
             "time": str(timing.time),
+            "seconds": timing.time.seconds,
             "switches": [bool(on) for on in session.switches],
             "breaks": [session.program.statements[index].place.card for index in session.breakpoints],
             "watched": list(session.watched),

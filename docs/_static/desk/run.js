@@ -17,8 +17,7 @@ const deskRun = (() => {
   let wish = ""; // START or LOAD, pressed before the machine is ready
   let looked = 0;
 
-  const clock = (/** @type {Frame} */ { seconds, bounds }) =>
-    `${seconds.toLocaleString("en")} s on a 1620 (${bounds.map((bound) => bound.toLocaleString("en")).join(" to ")})`;
+  const clock = (/** @type {Frame} */ { time }) => `${time} on a 1620`;
 
   const statements = (/** @type {number} */ count) => (count > 1 ? `the same ${count.toLocaleString("en")} statements` : "the same statement");
 
