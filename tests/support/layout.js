@@ -60,9 +60,14 @@
     active.push(box);
   }
   for (const element of document.querySelectorAll("article :is(p, li, h1, h2, h3, h4, figure, figcaption, dt, summary, pre, caption)"))
-    if (!element.closest("td, th") && element.checkVisibility() && element.getClientRects().length && !element.textContent.trim() && !element.querySelector("svg, img, input, button, progress, canvas"))
+    // A card may be blank.
+    if (!element.closest("td, th, .desk-cards") && element.checkVisibility() && element.getClientRects().length && !element.textContent.trim() && !element.querySelector("svg, img, input, button, progress, canvas"))
       problems.push(`empty: ${element.outerHTML.slice(0, 80)}`);
   for (const table of document.querySelectorAll(".wide, .table-wrapper"))
     if (table.scrollWidth > table.clientWidth + 1) problems.push(`scrolls sideways: “${shown(table.textContent)}”`);
+  if (document.documentElement.scrollWidth > document.documentElement.clientWidth + 1) problems.push("beyond the window: the page scrolls sideways");
+  for (const control of document.querySelectorAll("article :is(select, textarea, input)"))
+    if (control.checkVisibility() && control.getBoundingClientRect().right > control.closest("form, p, div").getBoundingClientRect().right + 1)
+      problems.push(`beyond its column: “${control.id}”`);
   return [...new Set(problems)];
 }

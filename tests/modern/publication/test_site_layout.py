@@ -59,6 +59,7 @@ def test_no_text_overlaps_or_is_clipped(chromium: Browser, site: Path) -> None:
         (".print-cards .line { margin-right: -5rem; white-space: nowrap }", "overlap"),
         (".print-cards code { display: block; overflow: hidden; width: 3rem; white-space: pre }", "clipped"),
         ("article > section > p { width: 120vw; text-align: right }", "beyond the window"),
+        ("article { min-width: 110vw }", "beyond the window: the page scrolls"),
         ("h1 { font-size: 0 } h1 + p { height: 0; overflow: hidden }", "hidden"),
     ],
 )
@@ -66,6 +67,12 @@ def test_a_broken_style_is_reported(chromium: Browser, site: Path, style: str, m
     with opened(chromium, site, "example2.html") as (tab, _):
         tab.add_style_tag(content=style)
         assert [problem for problem in problems(tab) if problem.startswith(message)]
+
+
+def test_a_control_that_leaves_its_column_is_reported(chromium: Browser, site: Path) -> None:
+    with opened(chromium, site, "parting.html") as (tab, _):
+        tab.add_style_tag(content=".parting-room select { width: 30rem; max-width: none }")
+        assert "beyond its column: “parting-sets”" in problems(tab)
 
 
 def test_an_empty_box_and_a_table_that_scrolls_are_reported(chromium: Browser, site: Path) -> None:
