@@ -3,7 +3,7 @@
 A *local corner* is a voxel (or a corner of voxels) that lies between no two opposite neighbours in the same set.
 """
 
-from itertools import product
+from itertools import combinations, product
 from random import Random
 
 import numpy as np
@@ -155,27 +155,17 @@ def corner_of_single_voxel() -> Check:
     return refuted(wrong and corners <= single, message)
 
 
-@claim("kovalevsky-schulz.155", statement="more")
-@claim("kovalevsky-schulz.154", statement="edge")
-def corners_of_eight_voxels(statement: str) -> Check:
-    """Check a statement about a corner for each subset of the eight voxels that meet at it.
-
-    statement: ``more``, two or more voxels give the corner a pair of opposite neighbours; ``edge``, such a pair needs
-    two voxels.
-    """
-    outcomes = []
-    for present in product((False, True), repeat=8):
-        voxels = [v for v, here in zip(STEPS, present, strict=True) if here]
-        near = {cell for voxel in voxels for cell in _neighbours(voxel)}
-        sides = [[tuple(side if k == axis else 2 for k in range(3)) for side in (0, 1)] for axis in range(3)]
-        opposite = any({*pair} <= near for pair in sides)
-        outcomes.append(opposite or len(voxels) < 2 if statement == "more" else not opposite or len(voxels) > 1)
-    return exhausted("subsets of the eight voxels at a corner", outcomes, f"true for {sum(outcomes)} subsets")
-
-
-def _neighbours(voxel: tuple[int, ...]) -> list[tuple[int, ...]]:
-    """Return the neighbours of a corner among the corners of one voxel: 0 or 1 on one axis and 2 on the others."""
-    return [tuple(voxel[k] if k == axis else 2 for k in range(3)) for axis in range(3)]
+@claim("kovalevsky-schulz.155", "kovalevsky-schulz.154")
+def corners_of_eight_voxels() -> Check:
+    """Check for subsets of eight voxels that their common corner is a local corner of a single voxel only."""
+    # By symmetry the first voxel can be in every subset.
+    subsets = [(STEPS[0], *rest) for n in range(8) for rest in combinations(STEPS[1:], n)]
+    outcomes = [((1, 1, 1) in _local(voxels, VERTICES, 6)) == (len(voxels) == 1) for voxels in subsets]
+    return exhausted(
+        "subsets of the eight voxels at a corner that contain one of them",
+        outcomes,
+        f"true for {sum(outcomes)} subsets",
+    )
 
 
 @claim("kovalevsky-schulz.174", "kovalevsky-schulz.33", full=4_000)

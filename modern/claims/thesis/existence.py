@@ -147,7 +147,7 @@ def theorem_4_2() -> Check:
     return proved(argument, table_1(), "the polyhedron of Table 1 is not convex")
 
 
-@claim("thesis.146")
+@claim("thesis.146", "thesis.148")
 def theorem_4_8() -> Check:
     argument = "The procedure makes H_5 of the nine points, and the last point is outside six of its planes"
     return proved(argument, outside_several_planes(), "a point is outside six planes of H_5")
