@@ -45,11 +45,11 @@ def main(args: argparse.Namespace) -> int:
         print(write_weight(Path(args.weigh), answers), end="")
         return OK
     if args.restore:
-        from modern.study.restoration import listings, measure, others, write_restoration
+        from modern.study.restoration import listings, measure, others, summary, table_text
 
         groups = (listings(), *((others(Path(args.runs)),) if args.runs else ()))
-        measured = list(measure(groups, max(args.most, 1)))
-        print(write_restoration(Path(args.restore), measured), end="")
+        copies = measure(Path(args.restore), groups, max(args.most, 1), max(args.workers, 1))
+        print(table_text(summary(copies)), end="")
         return OK
     if args.collate is not None:
         return _collate(args)

@@ -157,7 +157,7 @@ def _apparatus(parser: ArgumentParser) -> None:
     add(parser, {"--weigh FOLDER": weigh}, type=Folder)
     restore = (
         "damage the listings as the OCR did, restore them by the rules of the apparatus in a process that cannot read "
-        "the originals, and write the errors by class of certainty to FOLDER"
+        "the originals, and count the errors by class of certainty; copies already in FOLDER are kept"
     )
     add(parser, {"--restore FOLDER": restore}, type=Folder)
     runs = "with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards; with --restore: damage its programs too"
@@ -170,8 +170,8 @@ def _apparatus(parser: ArgumentParser) -> None:
     add(parser, {"--sheet FILE": text}, type=InputFile, nargs="+")
     text = "with --sheet: write the state to FOLDER, or add to it; otherwise use the edition in FOLDER"
     add(parser, {"--state FOLDER": text}, type=Folder)
-    add(parser, {"--workers N": "with --weigh: use N processes (default: 1)"}, type=int, default=1)
-    most = "with --weigh: try only the first N alterations (default: all); with --restore: damage N copies (default: 1)"
+    add(parser, {"--workers N": "with --weigh and --restore: use N processes (default: 1)"}, type=int, default=1)
+    most = "with --weigh: try only the first N alterations (default: all); with --restore: make N rounds (default: 1)"
     add(parser, {"--most N": most}, type=int, default=0)
 
 

@@ -27,6 +27,12 @@ def rates() -> Rates:
     }
 
 
+@cache
+def with_lost_signs(share: float) -> Rates:
+    """Return the rates of the listings, but lose each sign and point of a text with the chance ``share``."""
+    return {**rates(), **{pair: share for pair in table() if pair.cls == "sign" and not pair.witness}}
+
+
 def uniform(share: float, text: str) -> Rates:
     """Return the same rate for all pairs of characters, so that about ``share`` of a text's characters change."""
     pairs = [pair for pair in table() if pair.cls not in ("comment", "zero") and pair.lemma + pair.witness]

@@ -5,7 +5,7 @@ table of confusables, and each exchange needs a ground:
 
 ``parse``   of the readings with the fewest exchanges, only this one compiles: it has the form of a statement, the
             numbers to which it refers exist, its own number is free, and its names occur elsewhere
-``print``   only with this reading are the printed results reproduced
+``print``   only with this reading are the printed results reproduced; if several cards must be emended for it, all are
 ``forced``  only this reading equals another card (a sibling) with names exchanged; a card that compiles is emended so
             only if it has 20 characters and two siblings.  The equations of chapter 3 are
             symmetric in x, y and z, so that their cards are siblings of each other.
@@ -24,9 +24,10 @@ import os
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import asdict, dataclass, field
 from functools import lru_cache
+from itertools import islice
 from typing import Any, Literal
 
 from emulator.errors import EmulatorError, Refused
@@ -44,6 +45,11 @@ Certainty = Literal["certain", "probable", "conjecture", "abstained"]
 EXCHANGES, BEAM, RUNS = 3, 30, 30
 # From this number of characters on, a form without siblings is suspicious if another reading has siblings.
 ALONE = 20
+# Characters that no card of a statement has; words of prose; the first words of statements; a continuation card.
+_BAD = re.compile(r"[a-z#_'\":;<>\[\]{}\\~!?&%^|`]|[^\x00-\x7f]")
+_WORD = re.compile(r"\b[A-Z][A-Z']{2,}\b")
+_KEYWORD = re.compile(r"[ \d]*(?:GO ?TO|PUNCH|READ|PRINT|TYPE|ACCEPT|FORMAT|DIMENSION|COMMON|CALL|PAUSE|STOP|DO )")
+_CONTINUATION = re.compile(r" {5}[^ 0]")
 _NAME = re.compile(r"[A-Z][A-Z0-9]*")
 _SETS = re.compile(r"^(?:DO\d+)?([A-Z][A-Z0-9]*)(?:\([^=]*\))?=")
 
@@ -74,9 +80,16 @@ def restore(jobs: Sequence[Job], weights: Mapping[str, int]) -> list[list[Restor
     ``weights`` counts how often the apparatus attests each pair, by witness, tab and lemma.
     """
     every = [_Program([_solid(card) for card in job.cards], job.trials) for job in jobs]
-    for program in every:
+    for program, job in zip(every, jobs, strict=True):
         for n, card in enumerate(program.cards):
-            if _fault(card) is not None:
+            if _fault(card) is None:
+                continue
+            if any(_CONTINUATION.match(line) for line in job.cards[n : n + 2]):
+                program.done[n] = Restored(n, _key(card), "abstained", "a statement of several cards")
+            elif _is_prose(job.cards[n]):
+                program.cards[n] = "C  " + card
+                program.done[n] = Restored(n, "C" + _key(card), "certain", "parse")
+            else:
                 _by_form(program, n)
     for program in every:
         _by_compiler(program)
@@ -97,11 +110,24 @@ def _solid(card: str) -> str:
     return card if card.startswith("C  ") or "RMAT" in card.replace(" ", "") else "".join(card.split())
 
 
-@lru_cache(1 << 20)
+def _is_prose(card: str) -> bool:
+    """Return True for a comment that lost its C: three words, or one long one, without the signs of a statement."""
+    if "=" in card or "(" in card or _KEYWORD.match(card):
+        return False
+    return len(_WORD.findall(card)) >= 3 or re.fullmatch(r" *[A-Z-]{15,}", card) is not None
+
+
+@lru_cache(1 << 18)
 def _statement(card: str) -> tuple[tree.Statement | None, int]:
     """Return the statement of a card and 0, or None and the column of the first error.  A comment has no statement."""
+    is_comment = card.startswith("C  ")
+    bad = None if is_comment else _BAD.search(card)
+    if bad:
+        return None, bad.start() + 1
+    # A statement that begins with C in column 1 would be a comment if it does not parse.
+    line = card if is_comment or not card.startswith("C") else " " + card
     try:
-        deck = deck_from_lines("card", [card])
+        deck = deck_from_lines("card", [line])
         for source in sources(deck):
             statement = parse_statement(source)
             if isinstance(statement.body, tree.Format):
@@ -110,11 +136,8 @@ def _statement(card: str) -> tuple[tree.Statement | None, int]:
     except Refused as refused:
         return None, refused.diagnostic.column or len(card)
     except EmulatorError:
-        return None, next((n for n, char in enumerate(card, 1) if not char.isascii() or char in _BAD), len(card))
+        return None, len(card)
     return None, 0
-
-
-_BAD = frozenset("abcdefghijklmnopqrstuvwxyz#_'\":;<>[]{}\\~!?&%^|`")
 
 
 def _fault(card: str) -> int | None:
@@ -123,12 +146,16 @@ def _fault(card: str) -> int | None:
 
 
 def _progress(card: str) -> int:
-    """Return a score of a damaged card, which grows with the column of the first error."""
-    return (_fault(card) or 0) - 100 * sum(char in _BAD or not char.isascii() for char in card)
+    """Return a number that grows with the column of the first error and falls with characters that no card has."""
+    return (_fault(card) or 0) - 100 * len(_BAD.findall(card))
 
 
 def _exchanges(card: str) -> Iterator[tuple[str, Pair]]:
-    """Yield every text that one exchange makes from a card."""
+    """Yield every text that one exchange makes from a card.
+
+    If the card has a character that no statement has, only exchanges of the first one are of use.
+    """
+    bad = None if card.startswith("C  ") else _BAD.search(card)
     for pair in table():
         if pair.cls == "comment":
             continue
@@ -136,18 +163,14 @@ def _exchanges(card: str) -> Iterator[tuple[str, Pair]]:
         while 0 <= at < len(card):
             text = card[:at] + pair.lemma + card[at + len(pair.witness) :]
             near_zero = "0" in (card[at - 1 : at], card[at : at + 1])
-            if pair.cls != "zero" or near_zero:
+            if (pair.cls != "zero" or near_zero) and (not bad or at <= bad.start() < at + len(pair.witness)):
                 yield text, pair
             at = card.find(pair.witness, at + 1)
 
 
 def _by_form(program: _Program, n: int) -> None:
-    """Find the readings of a card that are statements and need the fewest exchanges of characters."""
+    """Find the readings of a card with the fewest exchanges that are statements."""
     card = program.cards[n]
-    if (re.fullmatch(r"[A-Z -]{9,}", card) and " " in card.strip()) or re.fullmatch(r"[A-Z-]{15,}", card):
-        program.done[n] = Restored(n, "C" + "".join(card.split()), "certain", "parse")
-        program.cards[n] = "C  " + card
-        return
     frontier: list[tuple[int, str, tuple[Pair, ...]]] = [(_progress(card), card, ())]
     readings: dict[str, tuple[Pair, ...]] = {}
     for _ in range(EXCHANGES):
@@ -157,8 +180,8 @@ def _by_form(program: _Program, n: int) -> None:
                 fault = _fault(new)
                 if fault is None and _statement(new)[0] is not None:
                     readings.setdefault(new, (*pairs, pair))
-                elif fault is not None and _progress(new) >= column:
-                    following.setdefault(new, (_progress(new), (*pairs, pair)))
+                elif fault is not None and (reached := _progress(new)) >= column:
+                    following.setdefault(new, (reached, (*pairs, pair)))
         if readings:
             break
         # Only texts whose first error is farther to the right are extended.
@@ -194,17 +217,18 @@ def _by_compiler(program: _Program) -> None:
     """Keep the readings of a card with which the whole program compiles."""
     for n, readings in list(program.open.items()):
         others = [card for k, card in enumerate(program.cards) if k != n and k not in program.open]
-        numbers = Counter(_labels(card)[0] for card in others)
-        known = Counter(name for card in others for name in _names(card))
+        numbers = {_labels(card)[0] for card in others}
         possible = {_labels(text)[0] for k, rest in program.open.items() for text, _ in rest if k != n}
-        referenced = {number for card in others for number in _labels(card)[1]} - set(numbers)
-        allowed = []
-        for text, pairs in readings:
-            label, references = _labels(text)
-            exists = all(number in numbers or number in possible or number == label for number in references)
-            free = not label or not numbers[label]
-            if exists and free and all(known[name] for name in _names(text)):
-                allowed.append((text, pairs))
+        known = {name for card in others for name in _names(card)}
+        referenced = {number for card in others for number in _labels(card)[1]} - numbers
+        allowed = [(text, pairs) for text, pairs in readings if _permits(text, numbers, known, possible)]
+        # If the program allows no reading, another exchange is tried, such as the minus sign of IF(N9).
+        allowed = allowed or [
+            (new, (*pairs, pair))
+            for text, pairs in readings
+            for new, pair in _exchanges(text)
+            if len(pairs) < EXCHANGES and _permits(new, numbers, known, possible) and _statement(new)[0] is not None
+        ]
         # A number to which another card refers and that no card has belongs to this one.
         needed = [(text, pairs) for text, pairs in allowed if _labels(text)[0] in referenced]
         readings = needed or allowed or readings
@@ -212,6 +236,13 @@ def _by_compiler(program: _Program) -> None:
             _accept(program, n, readings[0][0], "certain", "parse")
         else:
             program.open[n] = readings
+
+
+def _permits(text: str, numbers: Set[str], known: Set[str], possible: Set[str] = frozenset()) -> bool:
+    """Return True if the numbers to which a card refers exist, its own is free, and its names are known."""
+    label, references = _labels(text)
+    exists = all(number in numbers or number in possible or number == label for number in references)
+    return exists and not (label and label in numbers) and _names(text) <= known
 
 
 def _key(text: str) -> str:
@@ -248,15 +279,15 @@ def _decide(program: _Program, n: int, forms: Counter[str], weights: Mapping[str
         matches = {text: _matching(program, n, text) for text, _ in readings}
         best = max(matches.values())
         winners = [text for text, count in matches.items() if count == best]
-        if len(winners) == 1 and best > 0:
-            _accept(program, n, winners[0], "certain", "print")
+        if len(winners) == 1:
+            # A result of 0 lines only shows that the other readings do not compile.
+            _accept(program, n, winners[0], "certain", "print" if best else "parse")
             return
         readings = [(text, pairs) for text, pairs in readings if text in winners]
     own = Counter({_form(present): 1})
     alike = [(text, pairs) for text, pairs in readings if forms[_form(text)] > own[_form(text)]]
     if len(alike) == 1:
-        inserted = any(not pair.witness for pair in alike[0][1])
-        _accept(program, n, alike[0][0], "probable" if inserted else "certain", "sibling" if inserted else "forced")
+        _accept(program, n, alike[0][0], *_by_sibling(alike[0][1]))
         return
     ranked = sorted(alike or readings, key=lambda reading: -_weight(reading[1], weights))
     first, second = (_weight(pairs, weights) for _, pairs in ranked[:2])
@@ -267,38 +298,50 @@ def _decide(program: _Program, n: int, forms: Counter[str], weights: Mapping[str
         program.done[n] = Restored(n, _key(present), "abstained", "several readings")
 
 
-def _compiling(program: _Program, n: int) -> list[tuple[str, tuple[Pair, ...]]]:
-    """Return the readings of a card that differ by one exchange and with which the program compiles."""
-    card = program.cards[n]
-    others = [text for k, text in enumerate(program.cards) if k != n]
-    numbers = {_labels(text)[0] for text in others}
-    known = {name for text in others for name in _names(text)}
-    readings: dict[str, tuple[Pair, ...]] = {}
-    for text, pair in _exchanges(card):
-        label, references = _labels(text)
-        compiles = _statement(text)[0] is not None and (not label or label not in numbers)
-        if compiles and all(r in numbers or r == label for r in references) and _names(text) <= known:
-            readings.setdefault(text, (pair,))
-    return list(readings.items())
+def _allows(program: _Program, n: int, text: str) -> bool:
+    """Return True if a reading of a card compiles with the other cards."""
+    others = [card for k, card in enumerate(program.cards) if k != n]
+    known = {name for card in others for name in _names(card)}
+    return _permits(text, {_labels(card)[0] for card in others}, known) and _statement(text)[0] is not None
+
+
+def _is_statement(program: _Program, n: int) -> bool:
+    """Return True for a card that compiles and on which the rules did not abstain."""
+    abstained = n in program.done and program.done[n].certainty == "abstained"
+    return not abstained and _statement(program.cards[n])[0] is not None
 
 
 def _unlike_siblings(program: _Program, forms: Counter[str]) -> None:
     """Emend a card with a name that occurs nowhere else, or for which only another reading has similar cards."""
     uses = Counter(name for card in program.cards for name in _names(card))
     for n, card in enumerate(program.cards):
-        abstained = n in program.done and program.done[n].certainty == "abstained"
-        if abstained or _statement(card)[0] is None or "FORMAT" in card:
+        if "FORMAT" in card or not _is_statement(program, n):
             continue
         unknown = {name for name in _names(card) if uses[name] == 1 and len(name) > 1}
         if not unknown and (forms[_form(card)] > 1 or len(card) < ALONE):
             continue
-        readings = [text for text, _ in _compiling(program, n) if not _names(text) & unknown]
-        alike = [text for text in readings if _form(text) != _form(card) and forms[_form(text)] > 1]
-        alike = readings if unknown and len(readings) == 1 else alike
-        if len(alike) == 1:
-            before, after = _matching(program, n, card), _matching(program, n, alike[0])
-            if after >= before:
-                _accept(program, n, alike[0], "certain", "print" if after > before else "forced")
+        alike: dict[str, Pair] = {}
+        readings: dict[str, Pair] = {}
+        for text, pair in _exchanges(card):
+            has_siblings = forms[_form(text)] > 1 and _form(text) != _form(card)
+            if (unknown or has_siblings) and not _names(text) & unknown and _allows(program, n, text):
+                readings.setdefault(text, pair)
+                if has_siblings:
+                    alike.setdefault(text, pair)
+        by_name = bool(unknown) and len(readings) == 1
+        chosen = readings if by_name else alike
+        if len(chosen) == 1:
+            [(text, pair)] = chosen.items()
+            before, after = _matching(program, n, card), _matching(program, n, text)
+            if after > before:
+                _accept(program, n, text, "certain", "print")
+            elif after == before:
+                _accept(program, n, text, *(("certain", "parse") if by_name else _by_sibling((pair,))))
+
+
+def _by_sibling(pairs: Sequence[Pair]) -> tuple[Certainty, str]:
+    """Return the class and the ground of a reading that only siblings support."""
+    return ("certain", "forced") if all(pair.witness for pair in pairs) else ("probable", "sibling")
 
 
 def _matching(program: _Program, n: int, text: str) -> int:
@@ -307,11 +350,11 @@ def _matching(program: _Program, n: int, text: str) -> int:
 
 
 def _find_by_print(program: _Program, forms: Counter[str], weights: Mapping[str, int]) -> None:
-    """Find exchanges with which a program reproduces more of a printed result.
+    """Find exchanges with which a program reproduces its printed results.
 
-    They are certain if the program then reproduces all printed results, and conjectures if not.
+    An exchange that improves a result is kept only if the program then reproduces all its results.
     """
-    by_print = []
+    cards, done = list(program.cards), dict(program.done)
     while True:
         lines = tuple(program.cards)
         # The shortest result that is not reproduced is tried, because its runs take the least time.
@@ -319,27 +362,28 @@ def _find_by_print(program: _Program, forms: Counter[str], weights: Mapping[str,
         if not failing:
             break
         trial = min(failing, key=lambda trial: len(trial.printed))
+        exchanges: dict[tuple[int, str], Pair] = {}
+        for n, card in enumerate(lines):
+            for text, pair in _exchanges(card) if _is_statement(program, n) else ():
+                exchanges.setdefault((n, text), pair)
         readings = [
-            (bool(forms[_form(text)]), _weight(pairs, weights), n, text)
-            for n, card in enumerate(program.cards)
-            if not (n in program.done and program.done[n].certainty == "abstained") and _statement(card)[0] is not None
-            for text, pairs in _compiling(program, n)
-            if _weight(pairs, weights) > 1
+            (bool(forms[_form(text)]), weight, n, text)
+            for (n, text), pair in exchanges.items()
+            if (weight := _weight((pair,), weights)) > 1
         ]
         readings.sort(key=lambda reading: reading[:2], reverse=True)
-        counts = {(n, text): score_of(_with(program, n, text), trial) for *_, n, text in readings[:RUNS]}
+        compiling = islice(((n, text) for *_, n, text in readings if _allows(program, n, text)), RUNS)
+        counts = {(n, text): score_of(_with(program, n, text), trial) for n, text in compiling}
         best = max(counts.values(), default=0)
         winners = [key for key, count in counts.items() if count == best]
         # Errors on different cards can improve the result equally; two readings of one card leave it undecided.
         if best <= score_of(lines, trial) or len({n for n, _ in winners}) < len(winners):
             break
-        if _matching(program, *winners[0]) <= _matching(program, 0, program.cards[0]):
+        if _matching(program, *winners[0]) <= score(lines, program.trials):
             break
-        _accept(program, *winners[0], "conjecture", "a part of the print")
-        by_print.append(winners[0])
-    if all(score_of(tuple(program.cards), trial) >= 1000 for trial in program.trials):
-        for n, text in by_print:
-            _accept(program, n, text, "certain", "print")
+        _accept(program, *winners[0], "certain", "print")
+    if any(score_of(tuple(program.cards), trial) < 1000 for trial in program.trials):
+        program.cards, program.done = cards, done
 
 
 def _with(program: _Program, n: int, text: str) -> tuple[str, ...]:

@@ -112,20 +112,19 @@ def _weight(docs: Path) -> Iterator[tuple[str, str]]:
 
 
 def _restoration(docs: Path) -> Iterator[tuple[str, str]]:
-    measured = read_restoration(docs / "restoration")
-    head, *lines = summary(measured)
-    yield "restoration.copies", str(len({row["copy"] for row in measured}))
-    totals = {line[0]: line[2:] for line in lines if line[1] == "all"}
-    for name in CLASSES:
-        cards, _, wrong, rate, interval = totals.get(name, ("0", "0", "0", "", ""))
-        yield f"restoration.{name}-cards", cards
-        yield f"restoration.{name}-wrong", wrong
-        yield f"restoration.{name}-rate", f"{rate} ({interval})"
-    yield "restoration.damaged", totals["all"][1]
-    yield "restoration.abstained", totals["abstained"][1]
-    yield "restoration.unnoticed", totals["unnoticed"][1]
-    yield "restoration.emended", str(sum(int(totals[name][1]) for name in CLASSES if name in totals))
-    rows = [head, ("---", "---", *["---:"] * (len(head) - 2)), *lines]
+    copies = read_restoration(docs / "restoration")
+    head, *lines = summary(copies)
+    totals = {line[:2]: line[3:] for line in lines if line[2] == "all"}
+    for damage, short in (("as the OCR", "ocr"), ("signs lost", "signs")):
+        yield f"restoration.{short}-copies", str(sum(copy.damage == damage for copy in copies))
+        for name in CLASSES:
+            cards, wrong, rate, interval = totals[damage, name]
+            yield f"restoration.{short}-{name}-cards", _formatted(cards)
+            yield f"restoration.{short}-{name}-wrong", _formatted(wrong)
+            yield f"restoration.{short}-{name}-rate", f"{rate} ({interval})"
+        for name in ("abstained", "unnoticed", "damaged"):
+            yield f"restoration.{short}-{name}", _formatted(totals[damage, name][0])
+    rows = [head, ("---", "---", "---", *["---:"] * (len(head) - 3)), *lines]
     yield "restoration.table", "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 

@@ -167,6 +167,10 @@ def typst(sheet: Sheet) -> str:
 #let mono(body) = text(font: ("IBM Plex Mono", "DejaVu Sans Mono"), body)
 #let tick(body) = box[#box(width: 0.8em, height: 0.8em, baseline: 0.08em, stroke: 0.5pt)~#mono(body)#h(1em)]
 #let mark(body) = highlight(fill: rgb("#f3e3b3"), strong(body))
+#let plain(body) = block(inset: (left: 8pt), above: 0.55em, below: 0.55em, text(fill: luma(90), mono(body)))
+#let asked(body) = block(inset: (left: 8pt), stroke: (left: 1.5pt + rgb("#8a2c17")), above: 1em, below: 1em, body)
+// A card and its boxes stay on one sheet of paper.
+#let item(body) = block(breakable: false, above: 0.8em, below: 0.8em, body)
 = Proof sheet for page {sheet.page}
 {_say(_INTRODUCTION.format(page=sheet.page))}
 
@@ -178,11 +182,8 @@ def typst(sheet: Sheet) -> str:
 def _typst_cards(sheet: Sheet) -> Iterator[str]:
     for card in sheet.cards:
         items = [item for item in sheet.items if item.card == card.number]
-        if not items:
-            yield f"#block(above: 0.55em, below: 0.55em, text(fill: luma(90))[#mono({_string(card.text)})])\n"
-            continue
-        asked = "".join(f"#mono[{_typst_marked(item)}]\\\n{_typst_choices(item)}" for item in items)
-        yield f'#block(inset: (left: 8pt), stroke: (left: 1.5pt + rgb("#8a2c17")), above: 1em, below: 1em)[{asked}]\n'
+        asked = "".join(f"#item[#mono[{_typst_marked(item)}]\\\n{_typst_choices(item)}]" for item in items)
+        yield f"#asked[{asked}]\n" if items else f"#plain({_string(card.text)})\n"
 
 
 def _typst_marked(item: Item) -> str:
@@ -193,10 +194,7 @@ def _typst_marked(item: Item) -> str:
 
 
 def _typst_question(question: Question) -> str:
-    return (
-        '#block(inset: (left: 8pt), stroke: (left: 1.5pt + rgb("#8a2c17")), above: 1em, below: 1em, breakable: false)'
-        f"[{_say(question.ask)}\\\n{_typst_choices(question)}]\n"
-    )
+    return f"#asked[#item[{_say(question.ask)}\\\n{_typst_choices(question)}]]\n"
 
 
 def _typst_choices(entry: Item | Question) -> str:

@@ -1,36 +1,56 @@
 """Measure the rules of restoration: damage programs blindly, restore them by the rules, and count the errors.
 
-The three listings and programs of a folder are damaged by :mod:`modern.edition.damage` at the rates at which the OCR
-damaged the listings.  :mod:`modern.edition.restorer` restores them in a separate process, which receives the damaged
-cards and the printed results and cannot open the originals.  Each emended card is right or wrong.  The intervals are
-Clopper and Pearson's (:mod:`modern.study.statistics`).
+The three listings and programs of a folder are damaged by :mod:`modern.edition.damage`, at the rates at which the OCR
+damaged the listings (``as the OCR``).  Because these rates lose few signs, and readings are probable only if a sign or
+point is inserted, further copies also lose a tenth of their signs and points (``signs lost``).
+:mod:`modern.edition.restorer` restores the copies in separate processes, which receive the damaged cards and the
+printed results and cannot open the originals.  Each emended card is right or wrong.  The intervals are Clopper and
+Pearson's (:mod:`modern.study.statistics`).
 """
 
+import hashlib
 import json
+import re
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
+from dataclasses import asdict, astuple, dataclass
 from pathlib import Path
+from queue import SimpleQueue
 from random import Random
 from typing import Any
 
 from emulator.errors import FileError
-from emulator.files import read_text, write_text
+from emulator.files import read_text
 from emulator.language.statements import capitals
 from emulator.progress import Progress
 from modern.edition import chapter6, programs
-from modern.edition.damage import damaged, rates
+from modern.edition.damage import damaged, rates, with_lost_signs
 from modern.edition.readings import attested
 from modern.edition.trials import Job, Trial
 from modern.study.statistics import exact
 
 Restorer = Callable[[Sequence[Job]], list[list[dict[str, Any]]]]
-FIELDS = ("group", "copy", "program", "card", "damaged", "class", "ground", "verdict")
-CARDS = "cards.jsonl"
+COPIES = "copies.jsonl"
 CLASSES = ("certain", "probable", "conjecture")
+# What can happen to a card: its class, the ground, and whether the restored text is right.
+KINDS = (
+    *(("certain", ground, verdict) for ground in ("parse", "print", "forced") for verdict in ("right", "wrong")),
+    ("probable", "sibling", "right"),
+    ("probable", "sibling", "wrong"),
+    ("conjecture", "attested", "right"),
+    ("conjecture", "attested", "wrong"),
+    ("abstained", "several readings", ""),
+    ("abstained", "no exchange makes a statement", ""),
+    ("abstained", "a statement of several cards", ""),
+    ("unnoticed", "", ""),
+)
+# The copies that a round makes of the listings and of the other programs, which are shorter, by the kind of damage.
+ROUND = {"as the OCR": (1, 30), "signs lost": (1, 12)}
+LOST_SIGNS = 0.1
 SEED = 1963
 
 
@@ -80,8 +100,8 @@ def others(folder: Path) -> Group:
             tuple(
                 Trial(
                     tuple(deck.splitlines()),
-                    tuple(line[1:] for line in read_text(str(output)).splitlines() if line[0] == "P"),
-                    tuple(map(int, output.stem.split("-")[1:])),
+                    tuple(line[1:] for line in read_text(str(output)).splitlines() if line.startswith("P")),
+                    tuple(map(int, re.findall(r"-([1-4])", output.stem))),
                     operator,
                 )
                 for output in outputs
@@ -91,14 +111,15 @@ def others(folder: Path) -> Group:
     return Group("the other programs", tuple(cards), tuple(trials))
 
 
-def damaged_copy(group: Group, seed: int) -> list[Job]:
+def damaged_copy(group: Group, damage: str, seed: int) -> list[Job]:
     """Return a damaged copy of each program.  A comment can lose its C; its words, which no rule restores, stay."""
-    random = Random(f"{SEED} {group.name} {seed}")
+    random = Random(f"{SEED} {group.name} {damage} {seed}")
     texts = [programs.text(name) for name in programs.TEXTS]
     comments = sum(
         line.text.strip().startswith("C  ") for name in programs.TEXTS for line in programs.committed(name).cards
     )
     lost = attested(row for text in texts for row in text.rows)["", "C"] / comments
+    chances = with_lost_signs(LOST_SIGNS) if damage == "signs lost" else rates()
     jobs = []
     for cards, trials in zip(group.originals, group.trials, strict=True):
         copy = []
@@ -106,46 +127,108 @@ def damaged_copy(group: Group, seed: int) -> list[Job]:
             if card.startswith("C"):
                 copy.append(" " + card[1:] if random.random() < lost else card)
             else:
-                copy.append("".join(damaged(card, rates(), random)))
+                copy.append("".join(damaged(card, chances, random)))
         jobs.append(Job(tuple(copy), trials))
     return jobs
 
 
-def measure(groups: Sequence[Group], copies: int) -> Iterator[dict[str, str]]:
-    """Restore copies of each group and yield a row for each card that was damaged or emended."""
-    tasks = [(group, seed) for seed in range(copies) for group in groups]
-    progress = Progress(len(tasks), 0)
-    with blind_restorer() as restore:
-        for group, seed in tasks:
-            yield from rows_of(group, seed, restore)
-            progress.add(1)
-    progress.close()
+@dataclass(frozen=True, slots=True)
+class Copy:
+    """A restored copy of a group: the kind of damage, its number, the damaged cards, and the cards of each kind."""
+
+    damage: str
+    group: str
+    number: int
+    damaged: int
+    counts: tuple[int, ...]
+
+    @property
+    def key(self) -> tuple[str, str, int]:
+        return self.damage, self.group, self.number
 
 
-def rows_of(group: Group, seed: int, restore: Restorer) -> Iterator[dict[str, str]]:
-    """Damage and restore one copy of a group, and yield a row for each card that was damaged or emended."""
-    jobs = damaged_copy(group, seed)
-    results = restore(jobs)
-    for number, (job, original, emended) in enumerate(zip(jobs, group.originals, results, strict=True), 1):
+def _copy(line: str) -> Copy:
+    damage, group, number, damaged_cards, counts = json.loads(line)
+    return Copy(damage, group, number, damaged_cards, tuple(counts))
+
+
+def measure(folder: Path, groups: Sequence[Group], rounds: int, workers: int = 1) -> list[Copy]:
+    """Damage and restore the copies of the rounds, and return them.
+
+    They are kept in ``folder/copies.jsonl``, and copies already in this file are not restored again.  Raise FileError
+    if the file holds copies of other programs or cannot be written.
+    """
+    originals = repr(([group.originals for group in groups], sorted(map(repr, rates().items()))))
+    head = json.dumps({"originals": hashlib.sha256(originals.encode()).hexdigest(), "kinds": KINDS})
+    path = folder / COPIES
+    tasks = [
+        (damage, group, round_number * times + k)
+        for round_number in range(rounds)
+        for damage, copies in ROUND.items()
+        for group, times in zip(groups, copies, strict=False)
+        for k in range(times)
+    ]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lines = path.read_text(encoding="utf-8").split("\n") if path.exists() else [""]
+        if lines[0] not in ("", head):
+            raise FileError(f"{path}: holds copies of other programs; choose another folder")
+        # If a run was killed, its last line may be incomplete.  The line is then removed and its copy restored again.
+        done = {copy.key: copy for copy in map(_copy, lines[1:-1])}
+        remaining = [task for task in tasks if (task[0], task[1].name, task[2]) not in done]
+        with path.open("w", encoding="utf-8") as file:
+            file.writelines(line + "\n" for line in (head, *(json.dumps(astuple(copy)) for copy in done.values())))
+            file.flush()
+            progress = Progress(len(tasks), len(tasks) - len(remaining))
+            for copy in _restored_copies(remaining, workers):
+                done[copy.key] = copy
+                file.write(json.dumps(astuple(copy)) + "\n")
+                file.flush()
+                progress.add(1)
+            progress.close()
+    except (OSError, json.JSONDecodeError) as error:
+        raise FileError(f"{path}: {error}") from None
+    return [done[damage, group.name, number] for damage, group, number in tasks]
+
+
+def _restored_copies(tasks: Sequence[tuple[str, Group, int]], workers: int) -> Iterator[Copy]:
+    """Restore copies in several processes, and yield them in order."""
+    with ExitStack() as stack:
+        free: SimpleQueue[Restorer] = SimpleQueue()
+        for _ in range(min(workers, len(tasks))):
+            free.put(stack.enter_context(blind_restorer()))
+
+        def restored(task: tuple[str, Group, int]) -> Copy:
+            restore = free.get()
+            try:
+                return restored_copy(*task, restore)
+            finally:
+                free.put(restore)
+
+        pool = stack.enter_context(ThreadPoolExecutor(workers))
+        yield from pool.map(restored, tasks)
+
+
+def restored_copy(damage: str, group: Group, number: int, restore: Restorer) -> Copy:
+    """Damage and restore one copy of a group, and count the cards of each kind.
+
+    An emended card counts as wrong also if it was sound before.
+    """
+    jobs = damaged_copy(group, damage, number)
+    kinds: Counter[tuple[str, str, str]] = Counter()
+    damaged_cards = 0
+    for job, original, emended in zip(jobs, group.originals, restore(jobs), strict=True):
         by_card = {entry["card"]: entry for entry in emended}
         for n, (card, truth) in enumerate(zip(job.cards, original, strict=True)):
             is_damaged = _solid(card) != _solid(truth)
-            if not is_damaged and n not in by_card:
-                continue
-            entry = by_card.get(n, {"certainty": "unnoticed", "ground": "", "text": card})
-            decided = entry["certainty"] in CLASSES
-            right = _solid(entry["text"]) == _solid(truth) if decided else False
-            verdict = ("right" if right else "wrong") if decided else ""
-            yield {
-                "group": group.name,
-                "copy": str(seed),
-                "program": str(number),
-                "card": str(n + 1),
-                "damaged": "yes" if is_damaged else "no",
-                "class": str(entry["certainty"]),
-                "ground": str(entry["ground"]),
-                "verdict": verdict,
-            }
+            damaged_cards += is_damaged
+            entry = by_card.get(n, {"certainty": "unnoticed", "ground": ""})
+            if entry["certainty"] in CLASSES:
+                verdict = "right" if _solid(entry["text"]) == _solid(truth) else "wrong"
+                kinds[entry["certainty"], entry["ground"], verdict] += 1
+            elif is_damaged:
+                kinds[entry["certainty"], entry["ground"], ""] += 1
+    return Copy(damage, group.name, number, damaged_cards, tuple(kinds[kind] for kind in KINDS))
 
 
 def _solid(text: str) -> str:
@@ -182,42 +265,42 @@ def blind_restorer() -> Iterator[Restorer]:
             sent.close()
 
 
-def summary(rows: Sequence[Mapping[str, str]]) -> list[tuple[str, ...]]:
-    """Return a table: for each class and ground the emended cards, the damaged ones, the errors, and their interval."""
-    counted = Counter((row["class"], row["ground"], row["verdict"]) for row in rows)
-    lines: list[tuple[str, ...]] = [
-        ("class", "ground", "emended cards", "damaged cards", "wrong", "error rate", "95 % interval")
-    ]
-    for name in CLASSES:
-        grounds = sorted({ground for cls, ground, _ in counted if cls == name})
-        for ground in (*grounds, "all"):
-            chosen = [row for row in rows if row["class"] == name and ground in (row["ground"], "all")]
-            wrong = sum(row["verdict"] == "wrong" for row in chosen)
-            if chosen:
-                rate = exact(wrong, len(chosen))
-                share = (f"{100 * rate.value:.2f} %", f"{100 * rate.low:.2f} to {100 * rate.high:.2f} %")
-                damaged_cards = sum(row["damaged"] == "yes" for row in chosen)
-                lines.append((name, ground, str(len(chosen)), str(damaged_cards), str(wrong), *share))
-    for name in ("abstained", "unnoticed"):
-        number = sum(row["class"] == name and row["damaged"] == "yes" for row in rows)
-        lines.append((name, "all", "", str(number), "", "", ""))
-    lines.append(("all", "all", "", str(sum(row["damaged"] == "yes" for row in rows)), "", "", ""))
+def summary(copies: Sequence[Copy]) -> list[tuple[str, ...]]:
+    """Return a table: for each damage, class and ground the emended cards, the errors, and their interval.
+
+    For cards without a restored text, the table gives the number of damaged cards.
+    """
+    lines: list[tuple[str, ...]] = [("damage", "class", "ground", "cards", "wrong", "error rate", "95 % interval")]
+    for damage in ROUND:
+        chosen = [copy for copy in copies if copy.damage == damage]
+        total = Counter[tuple[str, str, str]]()
+        for copy in chosen:
+            total.update(dict(zip(KINDS, copy.counts, strict=True)))
+        for cls in (*CLASSES, "abstained", "unnoticed"):
+            grounds = dict.fromkeys(ground for name, ground, _ in KINDS if name == cls)
+            for ground in (*grounds, "all") if len(grounds) > 1 else ("all",):
+                kinds = [kind for kind in KINDS if kind[0] == cls and ground in (kind[1], "all")]
+                cards = sum(total[kind] for kind in kinds)
+                share: tuple[str, ...] = ("", "", "")
+                if cls in CLASSES and cards:
+                    wrong = sum(total[kind] for kind in kinds if kind[2] == "wrong")
+                    rate = exact(wrong, cards)
+                    low, high = 100 * rate.low, 100 * rate.high
+                    share = (str(wrong), f"{100 * rate.value:.2f} %", f"{low:.2f} to {high:.2f} %")
+                lines.append((damage, cls, ground, str(cards), *share))
+        lines.append((damage, "damaged", "all", str(sum(copy.damaged for copy in chosen)), "", "", ""))
     return lines
 
 
-def write_restoration(folder: Path, rows: Sequence[Mapping[str, str]]) -> str:
-    """Write ``cards.jsonl``, a line for each row, to a folder, and return the table as text."""
-    folder.mkdir(parents=True, exist_ok=True)
-    lines = [list(FIELDS), *([row[name] for name in FIELDS] for row in rows)]
-    write_text(str(folder / CARDS), "".join(json.dumps(line) + "\n" for line in lines))
-    table = summary(rows)
+def table_text(table: Sequence[Sequence[str]]) -> str:
+    """Return a table in columns."""
     widths = [max(map(len, column)) for column in zip(*table, strict=True)]
     return "".join(
         "  ".join(cell.ljust(w) for cell, w in zip(line, widths, strict=True)).rstrip() + "\n" for line in table
     )
 
 
-def read_restoration(folder: Path) -> list[dict[str, str]]:
-    """Return the rows that :func:`write_restoration` wrote to a folder."""
-    head, *lines = map(json.loads, read_text(str(folder / CARDS)).splitlines())
-    return [dict(zip(head, line, strict=True)) for line in lines]
+def read_restoration(folder: Path) -> list[Copy]:
+    """Return the copies that :func:`measure` wrote to a folder."""
+    _, *lines = read_text(str(folder / COPIES)).splitlines()
+    return [_copy(line) for line in lines]

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,16 +13,20 @@ from emulator.errors import FileError
 from modern.edition import programs
 from modern.edition.readings import attested
 from modern.edition.restorer import restore
-from modern.edition.trials import Job, score
+from modern.edition.trials import Job, Trial, score
 from modern.study.restoration import (
+    KINDS,
+    ROUND,
+    Copy,
+    Group,
     blind_restorer,
     damaged_copy,
     listings,
+    measure,
     others,
     read_restoration,
-    rows_of,
+    restored_copy,
     summary,
-    write_restoration,
 )
 from tests.support.paths import DATA, ROOT
 
@@ -46,6 +51,9 @@ CARDS = (
         (0, "      DO 10 I#1,N", ("DO10I=1,N", "certain", "parse")),
         (4, "   20 FORMAT(E14.8}", None),
         (2, "   10 \\text{CONTINUE}", ("10CONTINUE", "certain", "parse")),
+        # A name that begins with C is not a comment, and prose is a comment that lost its C.
+        (1, "      CX#CX+1.", ("CX=CX+1.", "certain", "parse")),
+        (1, "      THE SUM OF X, BY J. DOE", ("CTHESUMOFX,BYJ.DOE", "certain", "parse")),
     ],
 )
 def test_a_card_is_restored_by_its_form(card: int, damaged: str, expected: tuple[str, str, str] | None) -> None:
@@ -91,46 +99,80 @@ def test_a_sealed_process_cannot_read_the_originals(code: str, message: str) -> 
 
 def test_the_restorer_works_where_the_originals_cannot_be_read() -> None:
     """The sealed process gives the same result as the function, so the result depends on the damaged cards alone."""
-    jobs = damaged_copy(others(DATA / "period"), 3)[:2]
+    jobs = damaged_copy(others(DATA / "period"), "as the OCR", 3)[:2]
     with blind_restorer() as restorer:
         sealed = restorer(jobs)
     assert any(sealed)
     assert sealed == json.loads(json.dumps([[vars_of(r) for r in cards] for cards in restore(jobs, WEIGHTS)]))
 
 
+def test_an_insertion_that_only_siblings_support_is_probable() -> None:
+    cards = (
+        "      A1=(X(I2)-X(I1))*Y(I1)+Z(I1)",
+        "      B1=(U(I2)-U(I1))*V(I1)+W(I1)",
+        "      C1=(R(I2)R(I1))*S(I1)+T(I1)",
+        "      R(I1)=S(I2)+T(I2)",
+        "      END",
+    )
+    (result,) = restore([Job(cards)], WEIGHTS)
+    assert [(r.card, r.text, r.certainty, r.ground) for r in result] == [
+        (2, "C1=(R(I2)-R(I1))*S(I1)+T(I1)", "probable", "sibling")
+    ]
+
+
+def test_an_exchange_that_only_improves_the_print_is_not_made() -> None:
+    """Two numbers are wrong, and the table corrects one of them, so that the result is still not the printed one."""
+    cards = ("      X=1.", "      Y=3.", "      PUNCH 20,X", "      PUNCH 20,Y", "   20 FORMAT(F4.1)", "      END")
+    trial = Trial((), ("  I.0", "  2.0"))
+    assert restore([Job(cards, (trial,))], WEIGHTS) == [[]]
+
+
 def vars_of(restored: object) -> dict[str, object]:
     return {name: getattr(restored, name) for name in ("card", "text", "certainty", "ground")}
 
 
-def test_the_table_counts_errors_with_exact_intervals(tmp_path: Path) -> None:
-    row = {
-        "group": "g",
-        "copy": "0",
-        "program": "1",
-        "card": "1",
-        "damaged": "yes",
-        "class": "certain",
-        "ground": "parse",
-    }
-    rows = [{**row, "verdict": "right"}] * 99 + [
-        {**row, "verdict": "wrong"},
-        {**row, "class": "abstained", "verdict": ""},
+def counts(**numbers: int) -> tuple[int, ...]:
+    """Return the counts of a copy; each name is the class, the ground and the verdict without blanks."""
+    names = ["_".join(kind).strip("_").replace(" ", "") for kind in KINDS]
+    assert set(numbers) <= set(names)
+    return tuple(numbers.get(name, 0) for name in names)
+
+
+def test_the_table_counts_errors_with_exact_intervals() -> None:
+    copies = [
+        Copy("as the OCR", "g", 0, 70, counts(certain_parse_right=60, abstained_severalreadings=3)),
+        Copy("as the OCR", "g", 1, 40, counts(certain_parse_right=39, certain_print_wrong=1)),
+        Copy("signs lost", "g", 0, 9, counts(probable_sibling_right=9)),
     ]
-    lines = {line[:2]: line[2:] for line in summary(rows)}
+    lines = {line[:3]: line[3:] for line in summary(copies)}
     # Clopper and Pearson's interval for 1 of 100, from their tables: .0003 to .0545.
-    assert lines["certain", "all"] == ("100", "100", "1", "1.00 %", "0.03 to 5.45 %")
-    assert lines["abstained", "all"][1] == "1"
-    assert "0.03 to 5.45 %" in write_restoration(tmp_path, rows)
-    assert read_restoration(tmp_path) == rows
+    assert lines["as the OCR", "certain", "all"] == ("100", "1", "1.00 %", "0.03 to 5.45 %")
+    assert lines["as the OCR", "abstained", "all"][0] == "3"
+    assert lines["as the OCR", "damaged", "all"][0] == "110"
+    assert lines["signs lost", "probable", "all"][:2] == ("9", "0")
 
 
-def test_the_committed_cards_are_those_of_the_first_copies() -> None:
-    """The cards that were damaged follow from the seed; the restoration of one copy is repeated."""
-    rows = read_restoration(ROOT / "docs" / "restoration")
+def test_the_committed_copies_follow_from_the_seed() -> None:
+    """One copy of each kind is damaged and restored again."""
+    copies = {copy.key: copy for copy in read_restoration(ROOT / "docs" / "restoration")}
     group = others(DATA / "period")
     with blind_restorer() as restorer:
-        again = list(rows_of(group, 0, restorer))
-    assert [row for row in rows if (row["group"], row["copy"]) == (group.name, "0")] == again
+        for damage in ROUND:
+            assert copies[damage, group.name, 0] == restored_copy(damage, group, 0, restorer)
+
+
+def test_a_measurement_continues_where_it_was_interrupted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("modern.study.restoration.ROUND", {"as the OCR": (2,)})
+    period = others(DATA / "period")
+    group = Group("one program", period.originals[:1], period.trials[:1])
+    copies = measure(tmp_path, [group], 1, 2)
+    path = tmp_path / "copies.jsonl"
+    complete = path.read_text(encoding="utf-8")
+    path.write_text(complete[:-9], encoding="utf-8")
+    assert measure(tmp_path, [group], 1) == copies == read_restoration(tmp_path)
+    assert path.read_text(encoding="utf-8") == complete
+    with pytest.raises(FileError, match="holds copies of other programs"):
+        measure(tmp_path, [replace(group, originals=(CARDS,))], 1)
 
 
 def test_a_folder_without_programs_is_rejected(tmp_path: Path) -> None:
