@@ -45,7 +45,7 @@ Certainty = Literal["certain", "probable", "conjecture", "abstained"]
 EXCHANGES, BEAM, RUNS = 3, 30, 30
 # From this number of characters on, a form without siblings is suspicious if another reading has siblings.
 ALONE = 20
-# Characters that no card of a statement has; words of prose; the first words of statements; a continuation card.
+# The characters that no statement has, a word of prose, the first words of statements, and a continuation card.
 _BAD = re.compile(r"[a-z#_'\":;<>\[\]{}\\~!?&%^|`]|[^\x00-\x7f]")
 _WORD = re.compile(r"\b[A-Z][A-Z']{2,}\b")
 _KEYWORD = re.compile(r"[ \d]*(?:GO ?TO|PUNCH|READ|PRINT|TYPE|ACCEPT|FORMAT|DIMENSION|COMMON|CALL|PAUSE|STOP|DO )")
