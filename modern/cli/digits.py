@@ -316,7 +316,7 @@ def _aligned(cell: str, head: str, size: int) -> str:
 
 
 def _csv(tables: Sequence[Table]) -> str:
-    """Return all rows in one table: the part, the number of the row, the column and the cell."""
+    """Return the report as one CSV table whose rows name the part, the row, the column and the cell."""
     output = io.StringIO()
     writer = csv.writer(output, lineterminator="\n")
     writer.writerow(("part", "row", "column", "value"))

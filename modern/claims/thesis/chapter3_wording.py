@@ -46,7 +46,7 @@ def text_against_listing() -> Check:
 
 @claim("thesis.275")
 def line_duplicates_as_printed() -> Check:
-    """Check that page 28 removes both equations of a side with three used points, so that the line is lost."""
+    """Check that the rule of page 28 can remove all equations of a line that contains three vertices."""
     points = counterexample_points("line_lost.csv")
     judge, hull = exact_hull(points), convex_hull(points, history=True)
     used = [k for stage in hull.history for k in stage.added]
