@@ -55,7 +55,7 @@ def reading(pieces: Iterable[Piece], layers: Collection[str]) -> str:
 
 
 def segments(text: Text) -> tuple[Segments, ...]:
-    """Return every line of a text with the rows of all layers as places.  Raises RowMisfit as ``build`` does."""
+    """Return every line of a text in pieces, with both readings of every emendation (a place)."""
     segmented = _SegmentedText(text)
     for layer in text.layers:
         for row in text.rows:
@@ -123,7 +123,7 @@ class _SegmentedText:
         return text.index(change.witness)
 
     def _rewrite(self, row: Row, change: Change, edits: Iterable[Edit]) -> None:
-        """Change the words of a fragment, and then the blanks between them."""
+        """Change the words of a fragment of a line first, and then the blanks between them."""
         at = self._find(row, change.line)
         first, text = self._first(row, change, at), self._text(at)
         self._edit(row, at, first, edits)

@@ -115,7 +115,7 @@ class Facing:
 
 @cache
 def facing(name: str) -> Facing:
-    """Return the facing text of a built-in program.  Raise KeyError for an unknown name."""
+    """Return a built-in program with the OCR text of each card. Raise KeyError for an unknown name."""
     entry = programs.built_in(name)
     text = programs.text(entry.text)
     lines = build(text, entry.layers)

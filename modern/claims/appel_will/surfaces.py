@@ -92,7 +92,7 @@ def inside_corner_at_vertex() -> Check:
 
 
 def prism(ring: tuple[Flat, ...]) -> Solid:
-    """Return a prism over a simple polygon, in which three planes meet at each point."""
+    """Return a prism on a simple polygon; three of its planes meet at each point."""
     n = len(ring)
     sides = [(k, (k + 1) % n, (k + 1) % n + n, k + n) for k in range(n)]
     points = tuple((x, y, z) for z in (0, 1) for x, y in ring)

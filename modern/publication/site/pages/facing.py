@@ -159,7 +159,7 @@ def _variant(listing: Facing, variant: Variant) -> str:
 
 
 def _details(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
-    """Return the details of a card below the margin: rows, jumps, names and the weight of evidence."""
+    """Return the details of a card for the page of a listing: its emendations, jumps, names and weight of evidence."""
     inner, there = "", []
     for name in card.concerned:
         if first_cards[name] is card:
