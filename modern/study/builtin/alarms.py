@@ -55,8 +55,6 @@ FAMILIES: tuple[tuple[str, str, dict[str, int]], ...] = (
     ("ball, 3 digits", "ball", {"digits": 3, "n": POINTS}),
     ("sphere, 3 digits", "sphere", {"digits": 3, "n": POINTS}),
     ("cube, 3 digits", "cube", {"digits": 3, "n": POINTS}),
-    ("pyramid, 3 digits", "pyramid", {"digits": 3, "n": POINTS}),
-    ("nearly flat, 3 digits", "near-coplanar", {"digits": 3, "n": POINTS, "gap": 1}),
 )
 
 

@@ -79,7 +79,7 @@ def test_digit_changed_in_100_places_of_the_rows_is_always_noticed_with_file_and
 def test_verify_reports_every_damaged_file_and_resume_stops(
     finished: Path, copied: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    paths = [copied / "rows" / name for name in ("0000-000000005.jsonl", "0001-000000004.jsonl")]
+    paths = [copied / "rows" / name for name in ("0000-000000007.jsonl", "0001-000000004.jsonl")]
     for path in paths:
         path.write_text(path.read_text().replace('"seed":"', '"seed":"0', 1))
     assert main(["study", "--verify", str(copied)]) == 2
@@ -87,9 +87,9 @@ def test_verify_reports_every_damaged_file_and_resume_stops(
     assert out == f"{copied}: 35 of 44 rows are present and match their checksums\n"
     assert err.splitlines() == [
         f"hull1620: {path}: line 1 (sample {sample}) is damaged; delete the file, and --resume computes it again"
-        for path, sample in zip(paths, (5, 4), strict=True)
+        for path, sample in zip(paths, (7, 4), strict=True)
     ]
-    with pytest.raises(StudyFileError, match=r"0000-000000005.jsonl: line 1 \(sample 5\) is damaged"):
+    with pytest.raises(StudyFileError, match=r"0000-000000007.jsonl: line 1 \(sample 7\) is damaged"):
         run_study(PLAN, copied, workers=1, quiet=True, resume=True)
     paths[0].unlink()
     paths[1].write_bytes((finished / "rows" / paths[1].name).read_bytes())
@@ -119,7 +119,7 @@ def test_verify_reports_a_damaged_manifest(
 @pytest.mark.parametrize("damage", ["empty", "short", "truncated", "noise", "different", "long", "list"])
 @pytest.mark.usefixtures("_without_plots")
 def test_damaged_file_of_rows_is_named_and_not_counted(finished: Path, copied: Path, damage: str) -> None:
-    path = copied / "rows/0000-000000005.jsonl"
+    path = copied / "rows/0000-000000007.jsonl"
     intact = path.read_bytes()
     lines = intact.splitlines(keepends=True)
     path.write_bytes(
@@ -128,14 +128,14 @@ def test_damaged_file_of_rows_is_named_and_not_counted(finished: Path, copied: P
             "short": b"".join(lines[:-1]),
             "truncated": intact[:-9],
             "noise": b"\xff\x00" * 400,
-            "different": (copied / "rows/0000-000000010.jsonl").read_bytes(),
+            "different": (copied / "rows/0000-000000012.jsonl").read_bytes(),
             "long": intact + lines[0],
             "list": b"[1]\n" * 5,
         }[damage]
     )
     for index in copied.glob(f"{INDEX}*"):
         index.unlink()
-    with pytest.raises(StudyFileError, match=r"0000-000000005.jsonl: line \d.* is damaged") as rejection:
+    with pytest.raises(StudyFileError, match=r"0000-000000007.jsonl: line \d.* is damaged") as rejection:
         run_study(PLAN, copied, workers=1, quiet=True, resume=True)
     assert "\n" not in str(rejection.value)
     path.unlink()
