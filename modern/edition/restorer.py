@@ -24,34 +24,22 @@ import os
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import asdict, dataclass, field
-from functools import lru_cache
 from itertools import islice
 from typing import Any, Literal
 
-from emulator.errors import EmulatorError, Refused
-from emulator.language import tree
-from emulator.language.cards import deck_from_lines
-from emulator.language.formats import parse_format
-from emulator.language.parser import parse_statement
-from emulator.language.statements import sources
-from modern.edition.readings import Pair, table
+from modern.edition.card_readings import exchanges, fault, form, is_prose, labels, names, progress, statement
+from modern.edition.readings import Pair, solid
 from modern.edition.trials import Job, Trial, score, score_of
-from modern.edition.variants import LABELS
 
 Certainty = Literal["certain", "probable", "conjecture", "abstained"]
 # The most exchanges on a card, the readings that are extended by another exchange, and the runs to find an error.
 EXCHANGES, BEAM, RUNS = 3, 30, 30
+# A continuation card.
+_CONTINUATION = re.compile(r" {5}[^ 0]")
 # From this number of characters on, a form without siblings is suspicious if another reading has siblings.
 ALONE = 20
-# The characters that no statement has, a word of prose, the first words of statements, and a continuation card.
-_BAD = re.compile(r"[a-z#_'\":;<>\[\]{}\\~!?&%^|`]|[^\x00-\x7f]")
-_WORD = re.compile(r"\b[A-Z][A-Z']{2,}\b")
-_KEYWORD = re.compile(r"[ \d]*(?:GO ?TO|PUNCH|READ|PRINT|TYPE|ACCEPT|FORMAT|DIMENSION|COMMON|CALL|PAUSE|STOP|DO )")
-_CONTINUATION = re.compile(r" {5}[^ 0]")
-_NAME = re.compile(r"[A-Z][A-Z0-9]*")
-_SETS = re.compile(r"^(?:DO\d+)?([A-Z][A-Z0-9]*)(?:\([^=]*\))?=")
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,13 +70,13 @@ def restore(jobs: Sequence[Job], weights: Mapping[str, int]) -> list[list[Restor
     every = [_Program([_solid(card) for card in job.cards], job.trials) for job in jobs]
     for program, job in zip(every, jobs, strict=True):
         for n, card in enumerate(program.cards):
-            if _fault(card) is None:
+            if fault(card) is None:
                 continue
             if any(_CONTINUATION.match(line) for line in job.cards[n : n + 2]):
-                program.done[n] = Restored(n, _key(card), "abstained", "a statement of several cards")
-            elif _is_prose(job.cards[n]):
+                program.done[n] = Restored(n, solid(card), "abstained", "a statement of several cards")
+            elif is_prose(job.cards[n]):
                 program.cards[n] = "C  " + card
-                program.done[n] = Restored(n, "C" + _key(card), "certain", "parse")
+                program.done[n] = Restored(n, "C" + solid(card), "certain", "parse")
             else:
                 _by_form(program, n)
     for program in every:
@@ -96,7 +84,7 @@ def restore(jobs: Sequence[Job], weights: Mapping[str, int]) -> list[list[Restor
     for program in every:
         for n in list(program.open):
             program.cards[n] = _likeliest(program.open[n], weights)
-    forms = Counter(_form(card) for program in every for card in program.cards)
+    forms = Counter(form(card) for program in every for card in program.cards)
     for program in every:
         for n in list(program.open):
             _decide(program, n, forms, weights)
@@ -110,77 +98,19 @@ def _solid(card: str) -> str:
     return card if card.startswith("C  ") or "RMAT" in card.replace(" ", "") else "".join(card.split())
 
 
-def _is_prose(card: str) -> bool:
-    """Return True for a comment that lost its C: three words, or one long one, without the signs of a statement."""
-    if "=" in card or "(" in card or _KEYWORD.match(card):
-        return False
-    return len(_WORD.findall(card)) >= 3 or re.fullmatch(r" *[A-Z-]{15,}", card) is not None
-
-
-@lru_cache(1 << 18)
-def _statement(card: str) -> tuple[tree.Statement | None, int]:
-    """Return the statement of a card and 0, or None and the column of the first error.  A comment has no statement."""
-    is_comment = card.startswith("C  ")
-    bad = None if is_comment else _BAD.search(card)
-    if bad:
-        return None, bad.start() + 1
-    # A statement that begins with C in column 1 would be a comment if it does not parse.
-    line = card if is_comment or not card.startswith("C") else " " + card
-    try:
-        deck = deck_from_lines("card", [line])
-        for source in sources(deck):
-            statement = parse_statement(source)
-            if isinstance(statement.body, tree.Format):
-                parse_format(statement.body)
-            return statement, 0
-    except Refused as refused:
-        return None, refused.diagnostic.column or len(card)
-    except EmulatorError:
-        return None, len(card)
-    return None, 0
-
-
-def _fault(card: str) -> int | None:
-    """Return the column of the first error of a card, or None if it is a statement or a comment."""
-    return _statement(card)[1] or None
-
-
-def _progress(card: str) -> int:
-    """Return a number that grows with the column of the first error and falls with characters that no card has."""
-    return (_fault(card) or 0) - 100 * len(_BAD.findall(card))
-
-
-def _exchanges(card: str) -> Iterator[tuple[str, Pair]]:
-    """Yield every text that one exchange makes from a card.
-
-    If the card has a character that no statement has, only exchanges of the first one are of use.
-    """
-    bad = None if card.startswith("C  ") else _BAD.search(card)
-    for pair in table():
-        if pair.cls == "comment":
-            continue
-        at = card.find(pair.witness)
-        while 0 <= at < len(card):
-            text = card[:at] + pair.lemma + card[at + len(pair.witness) :]
-            near_zero = "0" in (card[at - 1 : at], card[at : at + 1])
-            if (pair.cls != "zero" or near_zero) and (not bad or at <= bad.start() < at + len(pair.witness)):
-                yield text, pair
-            at = card.find(pair.witness, at + 1)
-
-
 def _by_form(program: _Program, n: int) -> None:
     """Find the readings of a card with the fewest exchanges that are statements."""
     card = program.cards[n]
-    frontier: list[tuple[int, str, tuple[Pair, ...]]] = [(_progress(card), card, ())]
+    frontier: list[tuple[int, str, tuple[Pair, ...]]] = [(progress(card), card, ())]
     readings: dict[str, tuple[Pair, ...]] = {}
     for _ in range(EXCHANGES):
         following: dict[str, tuple[int, tuple[Pair, ...]]] = {}
         for column, text, pairs in frontier:
-            for new, pair in _exchanges(text):
-                fault = _fault(new)
-                if fault is None and _statement(new)[0] is not None:
+            for new, pair in exchanges(text):
+                column_of_fault = fault(new)
+                if column_of_fault is None and statement(new)[0] is not None:
                     readings.setdefault(new, (*pairs, pair))
-                elif fault is not None and (reached := _progress(new)) >= column:
+                elif column_of_fault is not None and (reached := progress(new)) >= column:
                     following.setdefault(new, (reached, (*pairs, pair)))
         if readings:
             break
@@ -193,46 +123,26 @@ def _by_form(program: _Program, n: int) -> None:
         program.done[n] = Restored(n, card, "abstained", "no exchange makes a statement")
 
 
-@lru_cache(1 << 16)
-def _labels(card: str) -> tuple[str, tuple[str, ...]]:
-    """Return the number of a statement and the numbers to which it refers.  An F precedes the number of a FORMAT."""
-    match = re.match(r"\s*(\d*)(.*)", card)
-    assert match is not None
-    number = ("F" if match[2].strip().startswith("FORMAT") else "") + match[1] if match[1] else ""
-    for kind, pattern in LABELS.items():
-        spans = pattern.search(match[2])
-        if spans:
-            mark = "F" if kind == "input_output" else ""
-            return number, tuple(mark + reference for reference in re.findall(r"\d+", spans[1]))
-    return number, ()
-
-
-@lru_cache(1 << 16)
-def _names(card: str) -> frozenset[str]:
-    text = re.sub(r"^\d*(?:GOTO|DO\d+|(?:READ|PUNCH|PRINT|TYPE|ACCEPT)\d*|IF\(SENSESWITCH\d|IF)?", "", card)
-    return frozenset() if "FORMAT" in card or card.startswith("C  ") else frozenset(_NAME.findall(text))
-
-
 def _by_compiler(program: _Program) -> None:
     """Keep the readings of a card with which the whole program compiles."""
     for n, readings in list(program.open.items()):
         others = [card for k, card in enumerate(program.cards) if k != n and k not in program.open]
-        numbers = {_labels(card)[0] for card in others}
-        possible = {_labels(text)[0] for k, rest in program.open.items() for text, _ in rest if k != n}
-        known = {name for card in others for name in _names(card)}
-        referenced = {number for card in others for number in _labels(card)[1]} - numbers
+        numbers = {labels(card)[0] for card in others}
+        possible = {labels(text)[0] for k, rest in program.open.items() for text, _ in rest if k != n}
+        known = {name for card in others for name in names(card)}
+        referenced = {number for card in others for number in labels(card)[1]} - numbers
         allowed = [(text, pairs) for text, pairs in readings if _permits(text, numbers, known, possible)]
         # If the program allows no reading, another exchange is tried, such as the minus sign of IF(N9).
         allowed = allowed or [
             (new, (*pairs, pair))
             for text, pairs in readings
-            for new, pair in _exchanges(text)
-            if len(pairs) < EXCHANGES and _permits(new, numbers, known, possible) and _statement(new)[0] is not None
+            for new, pair in exchanges(text)
+            if len(pairs) < EXCHANGES and _permits(new, numbers, known, possible) and statement(new)[0] is not None
         ]
         # A number to which another card refers and that no card has belongs to this one.
-        needed = [(text, pairs) for text, pairs in allowed if _labels(text)[0] in referenced]
+        needed = [(text, pairs) for text, pairs in allowed if labels(text)[0] in referenced]
         readings = needed or allowed or readings
-        if len({_key(text) for text, _ in readings}) == 1:
+        if len({solid(text) for text, _ in readings}) == 1:
             _accept(program, n, readings[0][0], "certain", "parse")
         else:
             program.open[n] = readings
@@ -240,19 +150,15 @@ def _by_compiler(program: _Program) -> None:
 
 def _permits(text: str, numbers: Set[str], known: Set[str], possible: Set[str] = frozenset()) -> bool:
     """Return True if the numbers to which a card refers exist, its own is free, and its names are known."""
-    label, references = _labels(text)
+    label, references = labels(text)
     exists = all(number in numbers or number in possible or number == label for number in references)
-    return exists and not (label and label in numbers) and _names(text) <= known
-
-
-def _key(text: str) -> str:
-    return "".join(text.split())
+    return exists and not (label and label in numbers) and names(text) <= known
 
 
 def _accept(program: _Program, n: int, text: str, certainty: Certainty, ground: str) -> None:
     program.open.pop(n, None)
     program.cards[n] = text
-    program.done[n] = Restored(n, _key(text), certainty, ground)
+    program.done[n] = Restored(n, solid(text), certainty, ground)
 
 
 def _likeliest(readings: Sequence[tuple[str, tuple[Pair, ...]]], weights: Mapping[str, int]) -> str:
@@ -261,14 +167,6 @@ def _likeliest(readings: Sequence[tuple[str, tuple[Pair, ...]]], weights: Mappin
 
 def _weight(pairs: Sequence[Pair], weights: Mapping[str, int]) -> int:
     return min((weights.get(f"{pair.witness}\t{pair.lemma}", 0) for pair in pairs), default=0)
-
-
-@lru_cache(1 << 18)
-def _form(card: str) -> str:
-    """Return a statement with each name replaced by the order of its first occurrence, without its own number."""
-    order: dict[str, str] = {}
-    text = re.sub(r"^\d+", "", _key(card))
-    return _NAME.sub(lambda m: order.setdefault(m[0], f"<{len(order)}>"), text)
 
 
 def _decide(program: _Program, n: int, forms: Counter[str], weights: Mapping[str, int]) -> None:
@@ -284,8 +182,8 @@ def _decide(program: _Program, n: int, forms: Counter[str], weights: Mapping[str
             _accept(program, n, winners[0], "certain", "print" if best else "parse")
             return
         readings = [(text, pairs) for text, pairs in readings if text in winners]
-    own = Counter({_form(present): 1})
-    alike = [(text, pairs) for text, pairs in readings if forms[_form(text)] > own[_form(text)]]
+    own = Counter({form(present): 1})
+    alike = [(text, pairs) for text, pairs in readings if forms[form(text)] > own[form(text)]]
     if len(alike) == 1:
         _accept(program, n, alike[0][0], *_by_sibling(alike[0][1]))
         return
@@ -295,36 +193,36 @@ def _decide(program: _Program, n: int, forms: Counter[str], weights: Mapping[str
         _accept(program, n, ranked[0][0], "conjecture", "attested")
     else:
         program.open.pop(n)
-        program.done[n] = Restored(n, _key(present), "abstained", "several readings")
+        program.done[n] = Restored(n, solid(present), "abstained", "several readings")
 
 
 def _allows(program: _Program, n: int, text: str) -> bool:
     """Return True if a reading of a card compiles with the other cards."""
     others = [card for k, card in enumerate(program.cards) if k != n]
-    known = {name for card in others for name in _names(card)}
-    return _permits(text, {_labels(card)[0] for card in others}, known) and _statement(text)[0] is not None
+    known = {name for card in others for name in names(card)}
+    return _permits(text, {labels(card)[0] for card in others}, known) and statement(text)[0] is not None
 
 
 def _is_statement(program: _Program, n: int) -> bool:
     """Return True for a card that compiles and on which the rules did not abstain."""
     abstained = n in program.done and program.done[n].certainty == "abstained"
-    return not abstained and _statement(program.cards[n])[0] is not None
+    return not abstained and statement(program.cards[n])[0] is not None
 
 
 def _unlike_siblings(program: _Program, forms: Counter[str]) -> None:
     """Emend a card with a name that occurs nowhere else, or for which only another reading has similar cards."""
-    uses = Counter(name for card in program.cards for name in _names(card))
+    uses = Counter(name for card in program.cards for name in names(card))
     for n, card in enumerate(program.cards):
         if "FORMAT" in card or not _is_statement(program, n):
             continue
-        unknown = {name for name in _names(card) if uses[name] == 1 and len(name) > 1}
-        if not unknown and (forms[_form(card)] > 1 or len(card) < ALONE):
+        unknown = {name for name in names(card) if uses[name] == 1 and len(name) > 1}
+        if not unknown and (forms[form(card)] > 1 or len(card) < ALONE):
             continue
         alike: dict[str, Pair] = {}
         readings: dict[str, Pair] = {}
-        for text, pair in _exchanges(card):
-            has_siblings = forms[_form(text)] > 1 and _form(text) != _form(card)
-            if (unknown or has_siblings) and not _names(text) & unknown and _allows(program, n, text):
+        for text, pair in exchanges(card):
+            has_siblings = forms[form(text)] > 1 and form(text) != form(card)
+            if (unknown or has_siblings) and not names(text) & unknown and _allows(program, n, text):
                 readings.setdefault(text, pair)
                 if has_siblings:
                     alike.setdefault(text, pair)
@@ -362,13 +260,13 @@ def _find_by_print(program: _Program, forms: Counter[str], weights: Mapping[str,
         if not failing:
             break
         trial = min(failing, key=lambda trial: len(trial.printed))
-        exchanges: dict[tuple[int, str], Pair] = {}
+        candidates: dict[tuple[int, str], Pair] = {}
         for n, card in enumerate(lines):
-            for text, pair in _exchanges(card) if _is_statement(program, n) else ():
-                exchanges.setdefault((n, text), pair)
+            for text, pair in exchanges(card) if _is_statement(program, n) else ():
+                candidates.setdefault((n, text), pair)
         readings = [
-            (bool(forms[_form(text)]), weight, n, text)
-            for (n, text), pair in exchanges.items()
+            (bool(forms[form(text)]), weight, n, text)
+            for (n, text), pair in candidates.items()
             if (weight := _weight((pair,), weights)) > 1
         ]
         readings.sort(key=lambda reading: reading[:2], reverse=True)
