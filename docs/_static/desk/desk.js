@@ -187,6 +187,12 @@ const deskTape = (() => {
     else say("The machine is on. Press START to run example 5, or choose a program.");
   }
 
+  // These links need no second start of the emulator.
+  for (const link of all(".m-try a"))
+    link.addEventListener("click", (event) => {
+      event.preventDefault();
+      location.hash = link.getAttribute("href")?.split("?")[1] ?? "";
+    });
   addEventListener("hashchange", async () => {
     const moment = await deskLink.read();
     if (moment && deskRun.isOn) deskRun.open(moment);
