@@ -103,9 +103,13 @@ def in_processes(plan: Plan, chunks: Sequence[Chunk], workers: int) -> Generator
 
     Raise PlanError if a chunk cannot be carried out or a worker dies.
     """
-    if workers == 1 or len(chunks) <= 1:
-        for chunk in chunks:
-            yield chunk, chunk_text(plan.cells[chunk.cell], plan.seed, chunk, soon=True)
+    alone = workers == 1 or len(chunks) <= 1
+    # Workers take seconds to start.  If no compiled code exists, this process has the first sample before they begin.
+    number = len(chunks) if alone else int(chunks[0].stop == 1 and must_compile())
+    for chunk in chunks[:number]:
+        yield chunk, chunk_text(plan.cells[chunk.cell], plan.seed, chunk, soon=True)
+    chunks = chunks[number:]
+    if not chunks:
         return
     earlier_children = set(multiprocessing.active_children())
     context = multiprocessing.get_context("spawn")

@@ -19,8 +19,9 @@ import pytest
 
 from emulator.errors import EmulatorError
 from emulator.files import UNFINISHED
-from modern.study import Plan, PlanError, Port, Programs, run_study
+from modern.study import Plan, PlanError, Port, Programs, run_study, workers
 from modern.study.index import NAME as INDEX
+from modern.study.plan import Chunk
 from modern.study.store import Store, StudyFileError
 from modern.study.tomlplan import read_plan
 from modern.study.workers import in_processes
@@ -157,6 +158,15 @@ def test_ctrl_c_during_the_start_of_a_worker_pool_raises_keyboard_interrupt(monk
     )
     with pytest.raises(KeyboardInterrupt):
         list(in_processes(PLAN, list(PLAN.chunks()), 2))
+
+
+def test_first_sample_is_finished_before_workers_start_if_no_compiled_code_exists(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(workers, "must_compile", lambda: True)
+    monkeypatch.setattr(workers, "ProcessPoolExecutor", lambda *_, **__: pytest.fail("a worker starts"))
+    chunk, rows = next(in_processes(PLAN, list(PLAN.chunks()), 2))
+    assert (chunk, len(rows.splitlines())) == (Chunk(0, 0, 1), 1)
 
 
 @pytest.mark.parametrize("writes", [1, 9])
