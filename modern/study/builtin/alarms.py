@@ -331,11 +331,11 @@ def _conclusions(rows: _Rows) -> tuple[str, ...]:
         f"was right, the criterion with three samples raised an alarm in {alarmed['cadna3']}, and intervals, which "
         f"miss no wrong branch, in {alarmed['interval']}. "
         + (
-            f"Only sixteen digits, at {_double_cost(rows):.1f} times the cost of a plain run, took every branch as "
-            "exact arithmetic does: 3d + 1 digits are proved to be enough for coordinates of d digits, and such a "
-            "bound decides what an estimate of the error cannot."
+            f"Sixteen digits, at {_double_cost(rows):.1f} times the cost of a plain run, took every branch as exact "
+            "arithmetic does: 3d + 4 digits are proved to be enough for coordinates of d digits, except for the choice "
+            "of the first line, and such a bound decides what an estimate of the error cannot."
             if quiet
-            else f"Sixteen digits raised a false alarm in {alarmed['double']}."
+            else f"Sixteen digits noticed {noticed['double']} and raised a false alarm in {alarmed['double']}."
         ),
         f"Stott Parker's criterion, which judges a single sample, noticed {noticed['parker10']}. These methods noticed "
         f"all wrong decisions: {complete}.",

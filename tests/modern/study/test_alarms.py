@@ -62,8 +62,11 @@ def figures(first: str = "", **changed: Any) -> dict[str, Any]:
 class Rows:
     """A store with one run of each kind."""
 
+    def __init__(self, **changed: int) -> None:
+        self.changed = changed
+
     def query(self, sql: str) -> Iterator[tuple[int, str]]:
-        wrong = figures("program1 196+2", cadna10_caught=0)
+        wrong = figures("program1 196+2", cadna10_caught=0, **self.changed)
         for made in (wrong, {**wrong, "e_first": 999}, figures(), figures(interval_false=3)):
             yield 0, json.dumps(made)
 
@@ -78,5 +81,12 @@ def test_report_counts_noticed_decisions_and_false_alarms() -> None:
     assert rows["e = 10^2"][6].startswith("0.0 ")
     assert "Of 2 runs" in report.conclusions[0]
     assert "more samples make the mean certain" in report.conclusions[0]
+    assert "3d + 4 digits are proved to be enough" in report.conclusions[0]
     cost = dict(report.tables[-1].rows)
     assert float(cost["sixteen digits"]) == pytest.approx(3.6, abs=0.3)
+
+
+def test_report_says_that_sixteen_digits_missed_a_wrong_decision() -> None:
+    (conclusion, *_) = study.report(study.plan(), Rows(double_caught=0)).conclusions  # type: ignore[arg-type]
+    assert "Sixteen digits noticed 0.0 (" in conclusion
+    assert "proved" not in conclusion
