@@ -362,7 +362,7 @@ class _Translation:
         if spec is None:
             raise Refused(statement.place, f"there is no FORMAT number {body.format}", 13)
         if body.items and not spec.has_fields and spec.specs:
-            raise Refused(statement.place, f"FORMAT {body.format} has no field for the list", 13)
+            raise Refused(statement.place, f"FORMAT {body.format} has no field for the numbers of the statement", 13)
         self.emitter.allocator.place("statement number", str(body.format))
         self.emitter.emit(op.BEGIN, address=VERBS.index(body.verb), second=self.format_places[body.format])
         for item in body.items:

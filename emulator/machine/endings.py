@@ -118,7 +118,7 @@ def _trouble_in(ending: Ending, line: Line) -> str:
         case "mode" if ending.field is not None:
             return f"{ending.name} is {ending.mode} point, but its field in FORMAT {ending.format} is {ending.field}"
         case "mode" if ending.format:
-            return f"FORMAT {ending.format} has no field for the list"
+            return f"FORMAT {ending.format} has no field for the numbers of the statement"
         case "mode" if ending.put_out:
             return f"{ending.name} holds a number in {ending.mode} point, which cannot be written, {there}"
         case "record":

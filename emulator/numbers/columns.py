@@ -26,11 +26,10 @@ E_COLUMNS, E_DECIMALS = 14, 8
 def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
     """Move the characters of a number to the left end of its field and remove blanks.  Return length and status.
 
-    Leading blanks are ignored.  If the field has a point or an exponent, trailing blanks are ignored too. If they
-    counted as zeros, they would change nothing after the point but would multiply an exponent by ten. Blanks inside
-    such a number count as zeros, except that blanks which may belong to an exponent are dropped.  A sign after the
-    first character begins an exponent as an E does.  In a number without point and exponent, blanks after the first
-    digit count as zeros (OPEN-QUESTIONS 6).
+    Leading blanks are ignored.  A number without point and exponent counts all its other blanks as zeros.  In a number
+    with a point or an exponent, trailing blanks are ignored.  Its inner blanks are dropped if one of them may belong to
+    an exponent, that is, follows the first E or later sign, or stands between the point and the last one.  Otherwise
+    they count as zeros (OPEN-QUESTIONS 6).
     """
     first = 0
     while first < width and columns[first] == BLANK:

@@ -123,7 +123,7 @@ class SampledNumbers(Numbers):
         if estimated is None:
             if not others:
                 return first
-            raise Undecided(f"{self.name} cannot determine a sign, because the number is not finite in every run")
+            raise Undecided(f"{self.name} cannot determine a sign, because the number is not finite in some run")
         mean = estimated.mean
         return 0 if estimated.is_zero and self.choice != MAJORITY else (mean > 0) - (mean < 0)
 
@@ -138,7 +138,7 @@ class SampledNumbers(Numbers):
     def cut(self, value: Values, digits: int) -> tuple[int, int]:
         mean = self.exact(value, 0)
         if mean is None:
-            raise Undecided("a number that is not finite in every run cannot be written on a card")
+            raise Undecided("a number that is not finite in some run cannot be written on a card")
         if len(set(self.signs(value))) == 1 and not mean:
             return self.members[0].cut(value[0], digits)
         return _cut(mean, digits)
@@ -147,7 +147,7 @@ class SampledNumbers(Numbers):
         """Return the mean with its significant digits, as ``1.234 (3.6 digits)``, or ``@.0`` if it has none."""
         estimated = self.estimate(value)
         if estimated is None:
-            return "not finite in every run"
+            return "not finite in some run"
         if estimated.is_exact:
             return self.members[0].text(value[0])
         if estimated.is_zero:

@@ -255,7 +255,7 @@ static inline void end_list(void) {
 
 static inline char next_field(int is_fixed, int *width, int *decimals) {
     if (!reaches_field()) {
-        if (repeated_from < 0) refuse(place, "the FORMAT has no field for the list");
+        if (repeated_from < 0) refuse(place, "the FORMAT has no field for the numbers of the statement");
         end_record();
         position = repeated_from;
         reaches_field();

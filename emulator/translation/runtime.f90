@@ -362,7 +362,7 @@ contains
     integer :: length, point
     logical :: is_reached
     if (.not. reaches_field_()) then
-      if (repeated_from < 0) call refuse_(place, 'the FORMAT has no field for the list')
+      if (repeated_from < 0) call refuse_(place, 'the FORMAT has no field for the numbers of the statement')
       call end_record_()
       position = repeated_from + 1
       is_reached = reaches_field_()

@@ -112,7 +112,7 @@ def card_names(name: str) -> tuple[str, ...]:
 
 
 def cards_of(row: Row) -> str:
-    """Return the names of the cards that a row changes: ``147+1``, ``FORMAT 9``, ``before 106``, ``131 to 133``."""
+    """Return the cards that an emendation changes: ``147+1``, ``FORMAT 9``, ``before 106``, ``131 to 133``."""
     entry = next(b for b in BUILT_INS if b.text == row.text and (row.layer in b.layers or b.name == row.text))
     if row.layer == "examples":
         entry = built_in("program1_examples")

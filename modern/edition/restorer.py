@@ -243,7 +243,7 @@ def _by_sibling(pairs: Sequence[Pair]) -> tuple[Certainty, str]:
 
 
 def _matching(program: _Program, n: int, text: str) -> int:
-    """Return how many printed results the program reproduces with a reading, as a score."""
+    """Return the score of the program with ``text`` as card ``n``: how many printed results it reproduces."""
     return score(_with(program, n, text), program.trials)
 
 

@@ -17,7 +17,10 @@ CONFIRMING = ("print", "machine", "equation", "sibling")
 
 
 def write_weight(folder: Path, answers: Mapping[str, str]) -> str:
-    """Write ``report.md``, ``cards.csv`` and ``silent.csv`` to a folder, and return the text of the report."""
+    """Write ``report.md``, ``cards.csv`` and ``silent.csv`` to a folder, and return the text of the report.
+
+    ``answers`` gives, for each judged variant's key, the first check that detects it, ``nothing`` or ``no change``.
+    """
     text = report(answers)
     write_text(str(folder / "report.md"), text)
     write_text(str(folder / "cards.csv"), _table(cards_table(answers)))
@@ -33,7 +36,7 @@ def _table(rows: Iterator[tuple[str, ...]] | list[tuple[str, ...]]) -> str:
 
 
 def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
-    """Yield a row for each card: its statement, its variants by check, its formula and the number of similar cards."""
+    """Yield a row for each card: its statement, variants by detecting check, formula and number of similar cards."""
     yield ("program", "card", "place", "statement", *NOTICED, "no change", "formula", "alike")
     for variant, count in by_card(answers):
         numbers = (str(count[name]) for name in (*NOTICED, "no change"))
@@ -53,7 +56,7 @@ def unvouched(answers: Mapping[str, str]) -> list[Variant]:
 
 
 def report(answers: Mapping[str, str]) -> str:
-    """Return the report: the template ``weight.md`` with the counts of the answers."""
+    """Return the report: the template ``weight.md``, filled with the number of variants that each check detects."""
     everything = ordered()
     judged = [variant for variant in everything if variant.key in answers]
     counted = [variant for variant in judged if answers[variant.key] != "no change"]

@@ -43,7 +43,7 @@ class Arithmetic(ABC):
         """Convert a coordinate; ``minus`` marks a zero with a minus sign.  Raise RangeError if it is too large."""
 
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
-        """Convert a tolerance for values of the given degree (see the module).  Raise RangeError if it is too large."""
+        """Convert a tolerance for values of this degree (see the module).  Raise RangeError if it is too large."""
         return self.number(size)
 
     @cached_property
@@ -68,7 +68,7 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def exact(self, value: Scalar, degree: int) -> Exact:
-        """Return the exact value of a number; ``degree`` is the number of coordinates multiplied in it."""
+        """Return the exact value of a number.  If numbers are scaled, ``degree`` (see the module) gives the scale."""
 
     @abstractmethod
     def text(self, value: Scalar, degree: int) -> str:

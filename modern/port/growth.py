@@ -72,7 +72,7 @@ TABLE_OF_LINES, BETWEEN, NUMBERING = "P2-023", "P2-024", "P2-025"
 class Stopped(Exception):
     """Raised if Butler's procedure ends without a hull.  ``status`` is the message that her program types.
 
-    ``label`` is the program and the number of the statement that decides it.
+    ``label`` names the program and the number of the statement at which the procedure ends.
     """
 
     def __init__(self, status: str, label: str) -> None:

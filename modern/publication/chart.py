@@ -267,7 +267,7 @@ def _rails(flow: Flow, inside: range) -> list[_Rail]:
 
 
 def _lanes(rails: Sequence[_Rail]) -> dict[tuple[int, Where], int]:
-    """Assign vertical lanes to the shared lines of jumps (rails), the shortest first."""
+    """Assign each rail (the vertical line that jumps to one target share) to a lane, the shortest rail first."""
     taken: dict[tuple[Where, int], list[_Rail]] = {}
     lanes: dict[tuple[int, Where], int] = {}
     for rail in sorted(rails, key=lambda r: (r.last - r.first, r.first, r.target)):

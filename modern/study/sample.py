@@ -17,7 +17,7 @@ CARD_DIGITS = 8
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """A sample: its deck and the exact points on it, the exact hull in two forms, and the vertices on each equation."""
+    """A sample: its deck and exact points, the judge's hull, the same as an outcome, and the vertices on each plane."""
 
     drawn: Drawn
     deck: Deck

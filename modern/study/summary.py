@@ -16,7 +16,7 @@ def values(plan: Plan, key: str) -> tuple[Value, ...]:
 
 
 def cells(plan: Plan, **key: Value) -> tuple[tuple[int, Cell], ...]:
-    """Return the cells whose keys have all the given values, each with its number."""
+    """Return the cells of the plan whose keys have all the given values, each with its index in the plan."""
     return tuple(
         (number, cell)
         for number, cell in enumerate(plan.cells)

@@ -47,13 +47,13 @@ def parser() -> argparse.ArgumentParser:
     show.add_argument("--values", default="", help='the numbers of the list, such as --values="12 -.25000000E+01"')
     show.add_argument("--card", action="append", default=[], help="a data card, or a line typed for ACCEPT")
     chapter6 = commands.add_parser(
-        "chapter6", help="run chapter 6 and its apparatus; compare with the committed results"
+        "chapter6", help="run chapter 6, also without each emendation; compare with the committed results"
     )
     chapter6.add_argument("--write", action="store_true", help="replace the committed results")
-    timing = commands.add_parser("times", help="time runs on the library; compare with the committed results")
+    timing = commands.add_parser("times", help="measure the simulated time of runs; compare with committed results")
     timing.add_argument("--write", action="store_true", help="replace the committed results")
-    commands.add_parser("programs", help="run the object decks of all programs, and compare them with the emulator")
-    repeat = commands.add_parser("measure", help="repeat the measured statements; compare with the emulator")
+    commands.add_parser("programs", help="run all programs on the library; compare the output with the emulator's")
+    repeat = commands.add_parser("measure", help="repeat the stored statements; compare them with the emulator")
     repeat.add_argument(
         "--random", type=int, default=0, metavar="N", help="compare N random statements, fields and operations each"
     )

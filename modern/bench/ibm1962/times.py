@@ -64,7 +64,7 @@ def subjects(sets: Sequence[tuple[str, int]] = SETS) -> Iterator[tuple[str, str,
 
 
 def timed() -> Iterator[TimedRun]:
-    """Measure each run on the library.  Raise Unavailable if the simulator does not count time."""
+    """Measure the simulated time of each run that uses IBM's library.  Raise Unavailable if SIMH counts no time."""
     for name, title, program, deck, seconds in subjects():
         object_deck = with_library(object_cards(program, CORE), library(), "OBJECT_DECK")
         cards = [card.text for card in deck.cards]

@@ -249,7 +249,7 @@ def programs_rejecting_data() -> Check:
 
 @claim("thesis.250", "thesis.187")
 def vertex_within_interval() -> Check:
-    """Check that a tolerance e = 20 makes the program miss a vertex that is about a tenth above a plane."""
+    """Check that the tolerance e = 20 swallows a vertex a tenth above a plane, where 16x + 16y + 16z - 64 is 3.2."""
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
     exact, with_epsilon = convex_hull(points), convex_hull(points, epsilon="20")
     message = "(1.4, 1.4, 1.4) is a vertex in exact arithmetic, but not with the tolerance e = 20"

@@ -21,7 +21,7 @@ from modern.papers.kovalevsky_schulz.polyhedron import Flat, flat_hull
 
 
 def hull_cells(points: Points) -> CellList | Flat:
-    """Compute the cell list of distinct points (n, 3) in raster order, or ``Flat`` if they lie in one plane."""
+    """Return the hull of distinct points (n, 3) in raster order as a cell list, or ``Flat`` if they are coplanar."""
     low = points.min(axis=0)
     candidates = column_ends_of(points - low)
     simplex = independent(candidates)

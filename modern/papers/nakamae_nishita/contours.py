@@ -25,8 +25,9 @@ _CELLS = 1 << 12
 def boxes(contours: Sequence[Sequence[Homogeneous]]) -> list[Box | None]:
     """Return the bounding box (left, right, low, high) of each contour in the picture, scaled into -1 to 1.
 
-    An empty contour has None. All images are divided by one power of two that brings them into -1 to 1. Python rounds
-    quotients of integers correctly, so an end has an error of at most 2**-54. It is moved outward by 2**-50.
+    An empty contour has None. One power of two divides all coordinates, so that they lie from -1 to 1. Python rounds
+    quotients of integers correctly, so each side of a box has an error of at most 2**-54 and is moved
+    outward by 2**-50.
     """
     shift = max(
         (max(abs(x), abs(y)).bit_length() - w.bit_length() + 1 for contour in contours for x, y, _, w in contour),

@@ -3,8 +3,8 @@ works.
 
 The thesis (p. 117-118) proposes to count a value from -e to +e as zero.  It warns that a point near a plane may then
 count as a point on the plane, so that a vertex is not recognized.  The programs with the layers ``epsilon`` and
-``corrected`` use an absolute e.  The port uses an absolute e and an e scaled to each equation.  ``samples`` is the
-number of sets of a cell.
+``corrected`` use an absolute e.  The port uses an absolute e and an e scaled by each equation's coefficients.
+``samples`` is the number of sets of a cell.
 """
 
 from collections.abc import Callable, Mapping
@@ -133,7 +133,7 @@ def report(plan: Plan, store: Store) -> Report:
         (
             _main(plan, rows),
             _each(plan, rows, "absolute", "The programs with an absolute e", (WITHOUT, *map(taken, ABSOLUTE))),
-            _each(plan, rows, "scaled", "The port with e scaled to the equation", tuple(map(scaled, SCALED))),
+            _each(plan, rows, "scaled", "The port with scaled e (a distance)", tuple(map(scaled, SCALED))),
             _best(plan, rows),
             _price(plan, rows, store),
         ),

@@ -119,13 +119,13 @@ def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
 _HEAD = ("sets", "N", "timed", "minutes", "by the model", "longest", "operations")
 _STUDENT = "The numbers in parentheses are Student's 95 % intervals of the mean, truncated at 0 minutes."
 _MODEL = (
-    f"The bounds by the model are those of the mean if the processor's times are {MODEL[0]} to {MODEL[1]} of "
-    f"those computed, and {CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for input and output, as in runs on "
-    "IBM's library of 1962."
+    "*By the model* means the lower and upper bound of the mean time, if the processor's true time is "
+    f"{MODEL[0]} to {MODEL[1]} times the computed one, and its true time for input and output "
+    f"{CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} times. Runs of IBM's library of 1962 gave both ranges."
 )
 _NOTES = (
-    f"{_STUDENT} {_MODEL} The column longest has the longest run with its bounds by the model.",
-    "The column operations has the mean number of floating-point additions, products and quotients.",
+    f"{_STUDENT} {_MODEL} The column *longest* gives the longest run, with the bounds of its time.",
+    "The column *operations* gives the mean number of floating-point additions, products and quotients.",
 )
 
 

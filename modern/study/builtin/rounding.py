@@ -2,8 +2,8 @@
 
 Two tests are compared.  The exact test of the thesis requires that the three points of a plane give zero in its
 equation.  With it, decimal arithmetics run in the programs with the layer ``corrected`` and binary ones in the port.
-With the interval of chapter 7 (thesis p. 117), scaled to the equation, all run in the port.  ``samples`` counts the
-sets of a cell.
+With the interval of chapter 7 (thesis p. 117), scaled to the largest coefficient of each equation, all of them run in
+the port.  ``samples`` counts the sets of a cell.
 """
 
 from collections.abc import Mapping

@@ -217,9 +217,10 @@ def _main(plan: Plan, pairs: list[_Pair]) -> Table:
         "The numbers in parentheses are Student's 95 % intervals of the mean over sets, truncated at 100 %. A "
         "negative share is a loss. The seconds are processor time with the origin kept. All time includes reader, "
         "punch and typewriter.",
-        "The bounds by the model are those of the mean seconds, by its systematic error. On IBM's library of 1962, "
-        f"times are {MODEL[0]} to {MODEL[1]} of those computed, and {CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} for "
-        "input and output. Shares are ratios, in which most of this error cancels.",
+        "*By the model* means the lower and upper bound of the mean seconds, if the processor's true time is "
+        f"{MODEL[0]} to {MODEL[1]} times the computed one, and its true time for input and output "
+        f"{CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} times. Runs of IBM's library of 1962 gave both ranges. Shares "
+        "are ratios, in which most of this error cancels.",
     )
     return Table("table", "What moving the origin to C saves", head, tuple(rows), notes)
 

@@ -1,4 +1,7 @@
-"""A printed example: verdicts, hull, construction and time, and the printed cards next to OCR text and our run."""
+"""The page of a printed example: verdicts on the printed results, hull, construction, time, and the printed cards.
+
+The printed cards stand next to the OCR text and the cards of our run.
+"""
 
 import re
 from collections.abc import Iterator
