@@ -44,7 +44,7 @@ def convex_hull(
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        Real numbers of any type, decimal strings or fractions ``"p/q"``.  A float has the binary value it stores.
+        Real numbers of any type, decimal strings or fractions ``"p/q"``.  A float stands for its binary value.
     arithmetic : str, optional
         ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the eight digits of the thesis), ``ibm1962``,
         ``truncating1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, ``stochastic:P:SEED`` or

@@ -51,7 +51,7 @@ def voxel_hull(
 
     Notes
     -----
-    ``spacing``, ``origin`` and ``directions`` apply to arrays only.  A float has the binary value it stores; decimal
+    ``spacing``, ``origin`` and ``directions`` apply to arrays only.  A float stands for its binary value; decimal
     text is exact.
 
     Examples

@@ -146,7 +146,7 @@ class ShadowedNumbers(Numbers):
     def _is_exact(
         self, value: Number, first: Shadowed, second: Shadowed, exactly: Callable[..., Fraction | None]
     ) -> bool:
-        """Return True if a result is known to be exact.  Long numbers are not tested."""
+        """Return True if ``value`` is proved to be the exact result.  Return False without a test for long numbers."""
         a, b, x = self._fraction(first.value), self._fraction(second.value), self._fraction(value)
         if a is None or b is None or x is None or max(map(_length, (a, b, x))) > _LONGEST:
             return False

@@ -166,7 +166,7 @@ def _column(name: str) -> str:
     if name.startswith("tags."):
         key = name.removeprefix("tags.")
         if not key.replace("_", "").isalnum():
-            raise ValueError(f"{name!r} is not a tag")
+            raise ValueError(f"{name!r} is not a tag of a row: expected letters, digits and underscores after 'tags.'")
         return f"json_extract(tags, '$.{key}')"
     if name in ("cell", "route", "outcome", "detail"):
         return f"runs.{name}"

@@ -173,7 +173,7 @@ def plane_of_horizon() -> Check:
 
 @claim("kovalevsky-schulz.72")
 def formula_4() -> Check:
-    """Check that a in formula (4) is positive, but 0 if the new point is coplanar with the other face."""
+    """Check that the factor a of formula (4) is positive, but 0 if the new point is coplanar with the other face."""
     hidden, new = (0, 0, 1), (4, -1, 0)
     return lemma_be().check().unless(plane_value((*hidden, 0), new) == 0, f"{new}, in the plane of a square: a is 0")
 

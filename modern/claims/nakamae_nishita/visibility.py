@@ -104,9 +104,9 @@ def first_three_corners() -> Check:
 @claim("nakamae-nishita.45")
 @claim("nakamae-nishita.59", index=-1)
 def indices(index: int = 0) -> Check:
-    """Check that the program marks intersections with the indices of (6), for segments that pass no corner.
+    """Check that the program gives intersections the indices of formula (6), for segments that pass no corner.
 
-    index: with -1, check only that this index occurs only if there is one intersection.
+    index: with -1, check only that intersections with the index -1 are alone on their segment.
     """
     checks, alone = [], set()
     ways = set()

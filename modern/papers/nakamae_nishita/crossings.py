@@ -28,7 +28,7 @@ class Passage:
 
     @property
     def order(self) -> int:
-        """The number of contours, 0 or 1, that this passage adds to those hiding the segment's first end."""
+        """The number of contours, 0 or 1, that this crossing adds to those that hide the first end of the segment."""
         return sum(index == -1 for _, index in self.marks)
 
 

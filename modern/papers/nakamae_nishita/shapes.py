@@ -106,7 +106,7 @@ def placed(polyhedron: Polyhedron, move: Move, name: str) -> Polyhedron:
 
 
 def _normal(name: str, corners: Sequence[Vector]) -> Vector:
-    """Return a normal of a convex polygon; from its tip, the corners run counterclockwise."""
+    """Return a normal of a convex polygon.  Seen from its tip, the corners run counterclockwise."""
     if len(corners) < 3:
         raise SceneError(f"{name}: expected at least 3 corners, found {len(corners)}")
     # The first corner that is not in line with its neighbours gives the normal, in the right sense if it is convex.

@@ -32,6 +32,7 @@ SIZES = (9, 99, 150, 200, 250, 300, 350, 400, 500, 999, 9999)
 # Exponents of ten: half the width of the interval, divided by the largest coefficient A, B or C of the equation.
 WIDTHS = tuple(range(-6, 0))
 BOXES = "whole numbers"
+_WRONG_HULLS = "The last column counts the wrong hulls of each arithmetic, in the order of the columns before it."
 TENTHS = "near a plane with a gap of .1"
 _EXACT: Mapping[str, tuple[str, Mapping[str, int]]] = {
     "decimals of 3 digits": ("decimals", {"digits": 3}),
@@ -179,7 +180,7 @@ def _sizes(plan: Plan, counts: Summary) -> Table:
         wrong = [str(counts.hits(number, way, (WRONG,))) for way in WAYS]
         rows.append((sets, str(cell.samples), *(percent(counts.share(number, way)) for way in WAYS), " ".join(wrong)))
     head = ("sets", "of each", *WAYS, "wrong hulls")
-    notes = (*INTERVALS, "The last column has the numbers of wrong hulls, in the order of the other columns.")
+    notes = (*INTERVALS, _WRONG_HULLS)
     return Table("exact", "Hull found with the exact test", head, tuple(rows), notes)
 
 
@@ -192,7 +193,7 @@ def _widths(plan: Plan, counts: Summary) -> Table:
             shares = [percent(counts.share(number, route)) for route in routes]
             rows.append((str(cell.key["sets"]), f"10^{k}", str(cell.samples), *shares, " ".join(wrong)))
     head = ("sets", "e", "of each", *WAYS, "wrong hulls")
-    notes = (*INTERVALS, "The last column has the numbers of wrong hulls, in the order of the other columns.")
+    notes = (*INTERVALS, _WRONG_HULLS)
     return Table("interval", "Hull found with the scaled interval", head, tuple(rows), notes)
 
 

@@ -337,8 +337,8 @@ def _digit_conclusion(plan: Plan, counts: Summary) -> str:
         plain, moved = counts.share(number, PLAIN), counts.share(number, MOVED)
         verdicts["loses" if plain.low > moved.high else "gains" if moved.low > plain.high else "same"].append(name)
     return (
-        "Kinds for which some set fails at every P tried with the origin moved, but none from some P on with the "
-        f"origin kept: {listed(never)}. In the programs with eight digits, moving the origin loses hulls for these "
-        f"kinds: {listed(verdicts['loses'])}. It gains hulls for: {listed(verdicts['gains'])}. It makes no significant "
-        f"difference for: {listed(verdicts['same'])}."
+        "Kinds of sets for which no failure occurs from some number of digits P on if the origin is kept, but failures "
+        f"occur at every P tried if it is moved: {listed(never)}. With the origin moved, the programs with eight digits "
+        f"find fewer hulls for these kinds: {listed(verdicts['loses'])}. They find more for: "
+        f"{listed(verdicts['gains'])}. The difference is not significant for: {listed(verdicts['same'])}."
     )
