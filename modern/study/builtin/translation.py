@@ -338,7 +338,7 @@ def _digit_conclusion(plan: Plan, counts: Summary) -> str:
         verdicts["loses" if plain.low > moved.high else "gains" if moved.low > plain.high else "same"].append(name)
     return (
         "Kinds of sets for which no failure occurs from some number of digits P on if the origin is kept, but failures "
-        f"occur at every P tried if it is moved: {listed(never)}. With the origin moved, the programs with eight digits "
-        f"find fewer hulls for these kinds: {listed(verdicts['loses'])}. They find more for: "
+        f"occur at every P tried if it is moved: {listed(never)}. With the origin moved, the programs with eight "
+        f"digits find fewer hulls for these kinds: {listed(verdicts['loses'])}. They find more for: "
         f"{listed(verdicts['gains'])}. The difference is not significant for: {listed(verdicts['same'])}."
     )
