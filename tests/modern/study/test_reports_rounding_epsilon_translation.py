@@ -222,7 +222,7 @@ def test_translation_reports_whether_it_saves_time(tmp_path: Path) -> None:
     assert "saves time (1 to 1.5)" in report.conclusions[0]
     assert "Effect of moving the origin" in report.conclusions[0]
     assert (
-        "find fewer hulls for these kinds: none. They find more for: none. The difference is not significant for: numbers"
+        "hulls for these kinds: none. They find more for: none. The difference is not significant for: numbers"
         in (report.conclusions[1])
     )
     # The total time goes from 135 to 125 seconds, of which devices take 35; additions from 100 to 110.
