@@ -23,7 +23,6 @@ from emulator.errors import EmulatorError
 PAGE_MARK = "## page "
 LAST_COLUMN = 72
 _OURS = ("lacuna", "examples", "epsilon", "translation", "corrected")
-_LIKENESS = ("sibling",)
 # A snapshot of the page is stored before every sixteenth row.
 _SNAPSHOT_EVERY = 16
 # The kinds of rows that insert text that the witness lacks.
@@ -98,14 +97,16 @@ class Row:
 
         A reading that the page confirms is certain.
         Cards added by the project and text supplied for a gap are conjectures.  A reading is probable if the error may
-        be the author's or the typist's, if its cause is undecidable, or if only a similar passage supports it.  All
-        other readings are certain.
+        be the author's or the typist's, if its cause is undecidable, or if only a similar passage or card supports
+        it.  All other readings are certain.
         """
         if self.confirmed:
             return "certain"
         if self.layer in _OURS or not self.ground:
             return "conjecture"
-        rests_on_likeness = self.ground["kind"] in _LIKENESS and self.kind in _ADDS
+        rests_on_likeness = (self.ground["kind"] == "sibling" and self.kind in _ADDS) or (
+            self.ground["kind"] == "forced" and "equation" not in self.ground
+        )
         rests_on_whole = self.ground.get("whole", False) or self.ground.get("check") == "minus-with-point"
         cause_in_doubt = self.cause not in ("ocr", "editor") and self.layer != "print"
         if cause_in_doubt or rests_on_likeness or rests_on_whole:

@@ -5,7 +5,8 @@ The ground of a row names its evidence.  :func:`check_row` removes the row and t
 ``parse``     without the row, the deck does not compile
 ``print``     without the row, a printed result is no longer reproduced
 ``deck``      without the row, the program punches different cards for a data deck
-``forced``    with the row, the card equals a similar card with the names exchanged; without the row, it does not
+``forced``    with the row, the card equals a similar card with the names exchanged; without the row, it does not.
+              If the ground names the first and last card of an ``equation``, they compute V (p. 15) with the row only
 ``cosmetic``  the row changes only the look of a card: the object code is the same with and without the row
 ``page``      a reader of the page has reported the card as the row has it
 
@@ -17,19 +18,20 @@ The result with all rows of the layer is compared with the result without this r
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
 from importlib.util import find_spec
 
 from emulator.errors import CompileError, EmulatorError
-from emulator.language.cards import Deck, deck_from_text
+from emulator.language.cards import Deck, deck_from_lines, deck_from_text
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.language.parser import parse
-from emulator.language.statements import sources
+from emulator.language.statements import Source, sources
 from emulator.machine.endings import Ending
+from emulator.machine.machine import Machine
 from emulator.machine.result import LOOP_WINDOW, Options
 from modern.edition import chapter6, programs
 from modern.edition import sources as provenance
@@ -343,16 +345,47 @@ def _forced(row: Row, step: Step | None) -> tuple[bool, str]:
         return False, f"card {card} differs from card {sibling} with names exchanged"
     if without_row == expected:
         return False, f"card {card} equals card {sibling} with names exchanged also without the row"
-    exchanged = ", ".join(f"{a} for {b}" for a, b in exchange.items())
-    return True, f"card {card} equals card {sibling} with {exchanged}, but not without the row"
+    exchanged, equation = ", ".join(f"{a} for {b}" for a, b in exchange.items()), ""
+    if ends := row.ground.get("equation"):
+        equation = f" and cards {ends[0]} to {ends[1]} compute V of page 15,"
+        if not _computes_v(_built(row), *ends) or _computes_v(_without(row, step), *ends):
+            return False, f"cards {ends[0]} to {ends[1]} do not compute V of page 15 with the row, or also without it"
+    return True, f"card {card} equals card {sibling} with {exchanged},{equation} but not without the row"
+
+
+# The points P1, P2 and P of V, as X, Y and Z.
+_TRIPLES = (((3, -7, 4), (-5, 2, 9), (6, 8, -1)), ((1, 4, -6), (7, -3, 5), (-2, 9, 8)))
+
+
+def _computes_v(deck: Deck, first: str, last: str) -> bool:
+    """Return True if statements compute V of page 15: the square of twice the area of the triangle P1 P2 P.
+
+    The statements are run for some points, and their results are compared with Lagrange's identity.
+    """
+    statements = list(sources(deck))
+    begin, end = _index(statements, first), _index(statements, last)
+    reading = ("DIMENSION X(3),Y(3),Z(3),E(3)", "I=3", "DO 9 K=1,3", "9 READ 8,X(K),Y(K),Z(K)")
+    writing = ("PUNCH 8,E(I)", "8 FORMAT(3F9.0)", "END")
+    cards = (*reading, *(statement.text for statement in statements[begin : end + 1]), *writing)
+    program = compile_deck(deck_from_lines("V", [f"{'':6}{c}" if c[0] not in "89" else f"    {c}" for c in cards]))
+    for points in _TRIPLES:
+        data = deck_from_lines("points", ["".join(f"{n:8}." for n in point) for point in points])
+        u, v = ([a - b for a, b in zip(points[1], points[k], strict=True)] for k in (2, 0))
+        uu, vv, uv = (sum(a * b for a, b in zip(*pair, strict=True)) for pair in ((u, u), (v, v), (u, v)))
+        if [float(line) for line in Machine(program, data).run().punched] != [uu * vv - uv * uv]:
+            return False
+    return True
 
 
 def _card(deck: Deck, place: str) -> str:
     """Return the text of the statement with a label such as ``147+1``, without blanks and number."""
-    label, _, steps = place.partition("+")
     statements = list(sources(deck))
-    at = next(i for i, s in enumerate(statements) if s.label == label)
-    return statements[at + int(steps or 0)].text
+    return statements[_index(statements, place)].text
+
+
+def _index(statements: Sequence[Source], place: str) -> int:
+    label, _, steps = place.partition("+")
+    return next(i for i, s in enumerate(statements) if s.label == label) + int(steps or 0)
 
 
 def _renamed(text: str, exchange: dict[str, str]) -> str:

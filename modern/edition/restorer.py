@@ -9,10 +9,11 @@ table of confusables, and each exchange needs a ground:
 ``forced``  only this reading equals another card (a sibling) with names exchanged; a card that compiles is emended so
             only if it has 20 characters and two siblings.  The equations of chapter 3 are
             symmetric in x, y and z, so that their cards are siblings of each other.
+``sibling`` the same for a reading that inserts a character
 
-Readings with these grounds are *certain*; an insertion that only siblings support is *probable*; the reading whose
-exchange is attested most often in the apparatus, without a ground, is a *conjecture*.  If several readings remain that
-nothing distinguishes, the restorer abstains.
+A reading with the ground ``parse`` or ``print`` is *certain*.  A reading that only siblings support is *probable*.
+The reading whose exchange is attested most often in the apparatus, without a ground, is a *conjecture*.  If several
+readings remain that nothing distinguishes, the restorer abstains.
 
 The restorer is a function of the damaged cards, the table, and the printed results.  Run as a program
 (``python -m modern.edition.restorer``), it reads them from standard input, and an audit hook rejects every attempt to
@@ -239,7 +240,7 @@ def _unlike_siblings(program: _Program, forms: Counter[str]) -> None:
 
 def _by_sibling(pairs: Sequence[Pair]) -> tuple[Certainty, str]:
     """Return the class and the ground of a reading that only siblings support."""
-    return ("certain", "forced") if all(pair.witness for pair in pairs) else ("probable", "sibling")
+    return "probable", "forced" if all(pair.witness for pair in pairs) else "sibling"
 
 
 def _matching(program: _Program, n: int, text: str) -> int:

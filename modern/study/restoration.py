@@ -1,8 +1,8 @@
 """Measure the rules of restoration: damage programs blindly, restore them by the rules, and count the errors.
 
 The three listings and programs of a folder are damaged by :mod:`modern.edition.damage`, at the rates at which the OCR
-damaged the listings (``as the OCR``).  Because these rates lose few signs, and readings are probable only if a sign or
-point is inserted, further copies also lose a tenth of their signs and points (``signs lost``).
+damaged the listings (``as the OCR``).  Because these rates lose few signs, few readings insert one.  Further copies
+therefore also lose a tenth of their signs and points (``signs lost``).
 :mod:`modern.edition.restorer` restores the copies in separate processes, which receive the damaged cards and the
 printed results and cannot open the originals.  Each emended card is right or wrong.  The intervals are Clopper and
 Pearson's (:mod:`modern.study.statistics`).
@@ -38,9 +38,8 @@ COPIES = "copies.jsonl"
 CLASSES = ("certain", "probable", "conjecture")
 # What can happen to a card: its class, the ground, and whether the restored text is right.
 KINDS = (
-    *(("certain", ground, verdict) for ground in ("parse", "print", "forced") for verdict in ("right", "wrong")),
-    ("probable", "sibling", "right"),
-    ("probable", "sibling", "wrong"),
+    *(("certain", ground, verdict) for ground in ("parse", "print") for verdict in ("right", "wrong")),
+    *(("probable", ground, verdict) for ground in ("forced", "sibling") for verdict in ("right", "wrong")),
     ("conjecture", "attested", "right"),
     ("conjecture", "attested", "wrong"),
     ("abstained", "several readings", ""),

@@ -14,7 +14,7 @@ GROUNDS = {
     "parse": "without the row, the deck does not compile",
     "print": "without the row, a printed result is no longer reproduced",
     "deck": "without the row, a named deck punches different cards",
-    "forced": "with the row, the card equals a sibling card with names exchanged",
+    "forced": "with the row, the card equals a similar card with names exchanged",
     "cosmetic": "the object code is the same with and without the row",
     "width": "without the row, a field does not have 14 characters or is not a number",
     "arithmetic": "with the row, the printed plane equation vanishes at its printed vertices",

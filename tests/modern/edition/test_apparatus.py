@@ -90,6 +90,11 @@ FALSE_GROUNDS: list[tuple[str, dict[str, object], str]] = [
         FORCED | {"rename": ["O3", "O1", "X", "Y", "Y", "Z"]},
         "forced: card 125+1 equals card 125+3 with names exchanged also without the row",
     ),
+    (
+        "P1-018",
+        FORCED | {"rename": ["O3", "O1", "X", "Y", "Y", "Z"], "equation": ["125+2", "226"]},
+        "forced: cards 125+2 to 226 do not compute V of page 15 with the row, or also without it",
+    ),
     ("P1-038", {"kind": "because"}, "unknown kind of ground: 'because'"),
     ("P1-038", {}, "unknown kind of ground: ''"),
 ]
@@ -112,7 +117,11 @@ def test_names_are_exchanged_in_pairs() -> None:
 TRUE_GROUNDS = [
     ("P1-001", "parse: without the row: not a statement of this FORTRAN: C"),
     ("P1-002", "parse: without the row: program1.f: card 22, column 9: '#' is "),
-    ("P1-018", "forced: card 125+1 equals card 125+3 with O3 for O1, X for Y, Y for Z, but not without the row"),
+    (
+        "P1-018",
+        "forced: card 125+1 equals card 125+3 with O3 for O1, X for Y, Y for Z, and cards 125+1 to 226 compute V of "
+        "page 15, but not without the row",
+    ),
     ("P1-037", "print: example 2 is exact with the row, not without"),
     ("P1-042", "print: example 5 is exact with the row, not without"),
     ("P1-043", "cosmetic: the object code is the same with and without the row"),

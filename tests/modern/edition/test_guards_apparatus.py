@@ -47,6 +47,8 @@ def test_derived_fields_cannot_be_stored(tmp_path: Path, name: str) -> None:
         ({}, "conjecture"),
         ({"ground": '{ kind = "parse" }'}, "certain"),
         ({"ground": '{ kind = "parse" }', "cause": '"undecidable"'}, "probable"),
+        ({"ground": '{ kind = "forced" }'}, "probable"),
+        ({"ground": '{ kind = "forced", equation = ["125+1", "226"] }'}, "certain"),
         ({"ground": '{ kind = "sibling" }'}, "certain"),
         ({"ground": '{ kind = "sibling" }', "kind": '"lost"'}, "probable"),
         ({"ground": '{ kind = "order", whole = true }', "kind": '"lost"'}, "probable"),
