@@ -150,7 +150,7 @@ def voxel_volume(world: World | None) -> Fraction:
 
 
 def length_text(text: str) -> Fraction:
-    """Read a number of a file header.  Raise ValueError if it has more than 100 digits or a huge exponent."""
+    """Return the exact length in a file header.  Raise ValueError for more than 100 digits or a huge exponent."""
     _, whole, fraction, exponent = split_decimal(text)
     if len(whole) + len(fraction) > _MOST_DIGITS or abs(exponent) > _MOST_EXPONENT:
         raise ValueError(f"{quoted(text)} has more than {_MOST_DIGITS} digits or an exponent beyond {_MOST_EXPONENT}")

@@ -66,7 +66,7 @@ class _Program:
 def restore(jobs: Sequence[Job], weights: Mapping[str, int]) -> list[list[Restored]]:
     """Restore programs together, because the cards of each are siblings of those of the others.
 
-    ``weights`` counts how often the apparatus attests each pair, by witness, tab and lemma.
+    ``weights`` gives the number of places in which the apparatus uses each pair; a key is witness, tab and lemma.
     """
     every = [_Program([_solid(card) for card in job.cards], job.trials) for job in jobs]
     for program, job in zip(every, jobs, strict=True):

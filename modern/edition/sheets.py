@@ -128,7 +128,7 @@ def questions() -> tuple[Question, ...]:
 
 
 def silent_readings() -> list[dict[str, str]]:
-    """Return the rows of the list of silent readings."""
+    """Return the silent readings, the rows of ``fortran_src/silent.csv``."""
     text = programs.sources().joinpath("silent.csv").read_text(encoding="utf-8")
     return list(csv.DictReader(text.splitlines()))
 

@@ -333,7 +333,7 @@ def _conclusions(rows: _Rows) -> tuple[str, ...]:
         + (
             f"Sixteen digits, at {_double_cost(rows):.1f} times the cost of a plain run, took every branch as exact "
             "arithmetic does: 3d + 4 digits are proved to be enough for coordinates of d digits, except for the choice "
-            "of the first line, and such a bound decides what an estimate of the error cannot."
+            "of the first line, and such a bound is a guarantee, which an estimate of the error cannot give."
             if quiet
             else f"Sixteen digits noticed {noticed['double']} and raised a false alarm in {alarmed['double']}."
         ),
