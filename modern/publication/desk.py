@@ -2,9 +2,9 @@
 
 Requests and answers are plain data that JSON can represent; the page is ``docs/console``.  The machine runs in slices
 of some milliseconds.  The operator has the same questions, commands and log as on the command line
-(:mod:`emulator.machine.operator`, :mod:`emulator.machine.console`).  Python in the browser cannot wait for an answer.
-If the machine halts and the page has sent no answer, the slice ends, and the next slice continues there.  To go back, a
-new session repeats the log up to an earlier statement.  The module imports only the standard library, lark and mpmath.
+(:mod:`emulator.machine.operator`).  Python in the browser cannot wait: if the machine halts and has no answer, the
+slice ends, and the next one continues there.  To go back, a new session repeats the log up to an earlier statement.
+The module imports only the standard library, lark and mpmath.
 """
 
 import io
@@ -58,13 +58,17 @@ class _Visitor(FromFile):
         """Drop the remaining lines of the log."""
         self._lines.clear()
 
+    @property
+    def is_idle(self) -> bool:
+        return not self._lines and not self.actions
+
     def attend(self, session: Session) -> Iterator[Action]:
         yield from super().attend(session)
         while not self._lines and self.actions and self.actions[0].word in _WHILE_RUNNING:
             yield self.actions.popleft()
 
     def answer(self, session: Session, halt: Halt) -> Action:
-        if not self._lines and not self.actions:
+        if self.is_idle:
             raise _Unanswered
         self._record.forget()
         return super().answer(session, halt) if self._lines else self.actions.popleft()
@@ -124,7 +128,7 @@ class Desk:
             source = self._source(request["program"], bool(request.get("upcase")))
             built_in = request["program"] in programs.NAMES if isinstance(request["program"], str) else False
             program = programs.program(request["program"]) if built_in else compile_deck(source)
-            deck = self._deck(request.get("deck", ""))
+            deck = self._deck(name := request.get("deck", ""))
             options = Options(
                 numbers(str(request.get("arithmetic", "truncating"))),
                 frozenset(int(n) for n in request.get("switches", ())),
@@ -132,7 +136,6 @@ class Desk:
                 limit=int(request.get("limit", DEFAULT_LIMIT)),
                 hopper="any",
             )
-            name = request.get("deck", "")
             self._loaded = _Loaded(program, deck, name if isinstance(name, str) else str(name[0]), options)
             self._begin(self._loaded, str(request.get("log", "")))
         except LowerCaseError as error:
@@ -197,19 +200,19 @@ class Desk:
             except EmulatorError as error:
                 failure = str(error)
                 break
-            if self._record.repeats and session.halt is None:
+            if self._record.repeats and session.halt is None and self._visitor.is_idle:
                 self._visitor.actions.append(Action("ATTN"))
             if ending is not None or self.clock() >= end_of_slice or (pace and self._seconds(session) >= furthest):
                 break
-        answer: Answer = {}
-        if ending is not None or failure:
-            self._ending = True
-            result = session.result() if ending is None else session.result(ending)
-            messages = [] if failure else list(notes(session.program, result))
-            if failure or (ending is not None and not ending.normal):
-                messages.append(f"hull1620: {failure or result.ending.message}")
-            second = None if failure else second_program(result)
-            answer = {"messages": messages, "next": f"program{second}" if second else "", "queued": bool(self._queue)}
+        if ending is None and not failure:
+            return self._answer()
+        self._ending = True
+        result = session.result() if ending is None else session.result(ending)
+        messages = [] if failure else list(notes(session.program, result))
+        if failure or (ending is not None and not ending.normal):
+            messages.append(f"hull1620: {failure or result.ending.message}")
+        second = None if failure else second_program(result)
+        answer = {"messages": messages, "next": f"program{second}" if second else "", "queued": bool(self._queue)}
         return self._answer() | answer
 
     def act(self, line: str) -> Answer:
@@ -223,11 +226,10 @@ class Desk:
             action = Action("ENTER", text=line[6:].upper().rstrip())
         elif line == "ATTN":
             action = Action("ATTN")
+        # A command either changes the machine, or shows something.
+        elif isinstance(action_or_lines := command(session, line, self._cards, _WIDTH), list):
+            return {"lines": action_or_lines}
         else:
-            # A command either changes the machine, or shows something.
-            action_or_lines = command(session, line, self._cards, _WIDTH)
-            if isinstance(action_or_lines, list):
-                return {"lines": action_or_lines}
             action = action_or_lines
         if action.word == ("START" if session.halt is None else "ATTN"):
             return {"lines": []}
@@ -369,8 +371,7 @@ class Desk:
     def _answer(self) -> Answer:
         session, events, self._happened = self._session, self._happened, []
         if session is None:
-            nothing: Answer = {"events": [], "card": 0, "work": 0, "time": "0 s"}
-            return nothing | {"stands": "", "waits": "", "ended": False}
+            return {"events": [], "card": 0, "work": 0, "time": "0 s", "stands": "", "waits": "", "ended": False}
         halt = None if self._ending else session.halt
         accepts = halt is not None and halt.what == "accept"
         timing = measure(session.program, session.result())

@@ -294,7 +294,7 @@ def _pairs(line: str, card: str) -> list[tuple[int, int]]:
 
 
 def _spans(text: str, indices: Collection[int]) -> Iterator[Span]:
-    """Join neighbouring character positions to spans, which neither begin nor end with a blank."""
+    """Join character positions that only blanks separate to spans, which neither begin nor end with a blank."""
     remaining = [index for index in sorted(indices) if not text[index].isspace()]
     while remaining:
         first = last = remaining.pop(0)

@@ -159,7 +159,7 @@ def _statements() -> Iterator[tuple[str, str]]:
 def _counted(
     prefix: str, table: str, columns: Sequence[str], numbers: Mapping[str, Counter[Any]]
 ) -> Iterator[tuple[str, str]]:
-    """Yield the number of statements by document and verdict, and a table of all of them."""
+    """Yield the number of statements by document and column (verdict or grade), and a table of all of them."""
     total = "count" if table == "table" else "graded"
     lines = [("document", "statements", *columns), ("---", *("--:",) * (1 + len(columns)))]
     for document, counted in numbers.items():

@@ -179,7 +179,8 @@ class Record:
 
     ``times`` has the work at the beginning of each statement.  ``writers`` maps a field to the card that wrote it last
     and the number of that statement in the run.  ``stages`` has the successive hulls as :func:`picture` returns them.
-    ``repeats`` is 0, or the number of statements after which the run has returned to an earlier state: it never ends.
+    ``repeats`` is 0, or the number of statements after which the run has returned to an earlier state: without an
+    action of the operator, it never ends.
     """
 
     program: Program | None = None
@@ -190,6 +191,7 @@ class Record:
     _is_final: bool = False
     _is_new: bool = True
     repeats: int = 0
+    _switches: list[int] = field(default_factory=list)
     # By statement: the numbers of its executions at which the state was kept, and the states.
     _states: dict[int, list[tuple[int, tuple[Any, ...]]]] = field(default_factory=dict)
 
@@ -217,6 +219,9 @@ class Record:
     def _recognise(self, line: Line, session: Session) -> None:
         """Compare the state with those kept before the same statement; the same state leads to the same run again."""
         count, state, numbers = len(self.times), session.state, session.options.numbers
+        if session.switches != self._switches:
+            self._switches = list(session.switches)
+            self.forget()
         for earlier, before in self._states.get(line.index, ()):
             if not self.repeats and before[0] == state.values and before == _determining(session):
                 self.repeats = count - earlier
@@ -239,9 +244,9 @@ class Record:
 
 
 def _determining(session: Session) -> tuple[Any, ...]:
-    """Return what determines the rest of a run: storage, accumulators, cards read and switches."""
+    """Return what determines the rest of a run with the same switches: storage, accumulators and cards read."""
     state = session.state
-    registers = (state.fac, state.fixed, state.last_card, session.devices.position, *session.switches)
+    registers = (state.fac, state.fixed, state.last_card, session.devices.position)
     return list(state.values), list(state.kinds), *registers
 
 

@@ -51,7 +51,7 @@ def csv_text(table: Sequence[Column]) -> str:
 
 
 def _parts(path: str, name: str, cells: Sequence[str]) -> list[Column]:
-    """Return a column unchanged, or as several columns if its cells contain an estimate with an interval."""
+    """Return the columns for one column of a report: bounds of intervals and ranges become columns of numbers."""
     about = description(path, name)
     values = [cell for cell in cells if cell not in MISSING]
     if values and all(map(_INTERVAL.fullmatch, values)):
@@ -61,7 +61,8 @@ def _parts(path: str, name: str, cells: Sequence[str]) -> list[Column]:
         has_bounds = any(low for _, low, *_ in parts)
         if not has_bounds and not percent:
             return [Column(name, _kind(values), about, tuple(cells))]
-        ends = [("", ""), (", low", "lower bound of the 95 % interval: "), (", high", "upper bound of the interval: ")]
+        interval = "interval" if "systematic error" in about else "95 % interval"
+        ends = [("", ""), (", low", f"lower bound of the {interval}: "), (", high", f"upper bound of the {interval}: ")]
         return [
             Column(name + end, "number", bound + about, tuple(part[k] for part in parts))
             for k, (end, bound) in enumerate(ends if has_bounds else ends[:1])

@@ -105,6 +105,12 @@ def test_numbers_are_numbers_with_bounds_in_columns_of_their_own() -> None:
         "no failure at e, from": ("number", ("1e-3", "1e0")),
         "no failure at e, to": ("number", ("1e1", "1e0")),
     }
+    assert table["of all sets, low"].description.startswith("lower bound of the 95 % interval: ")
+    _, low, high = columns("b.csv", "longest\n2.5 (2.1 to 3.0)\n")
+    assert [bound.description for bound in (low, high)] == [
+        f"{bound} bound of the interval: longest time in minutes, by the systematic error of the timing model"
+        for bound in ("lower", "upper")
+    ]
     assert table["of all sets"].description == "share of all sets, in percent"
     assert next(csv.reader([csv_text(tuple(table.values())).splitlines()[1]])) == [
         *("ball", "3", "0.5", "0.1", "0.9", "1e-3", "1e1")

@@ -11,8 +11,12 @@ from urllib.parse import parse_qs
 
 import pytest
 
+from emulator.language.cards import Deck, deck_from_text
+from emulator.language.compiler import compile_deck
+from emulator.machine.session import Session
 from modern.formats.deck import data_deck
 from modern.port import convex_hull
+from modern.publication import panel
 from modern.publication.console import packages
 from modern.publication.desk import Answer, Desk
 from tests.support.commands import call
@@ -260,7 +264,7 @@ def test_the_page_needs_only_the_modules_that_it_loads(tmp_path: Path) -> None:
 import sys, zipfile
 zipfile.ZipFile("packages.zip").extractall("packages")
 sys.path[:] = ["packages", *(path for path in sys.path if path.startswith({sys.base_prefix!r}))]
-from modern.publication.desk import Answer, Desk
+from modern.publication.desk import Desk
 from modern.publication.parting import parted
 desk = Desk()
 desk.load({{"program": "program1", "deck": "example4"}})
@@ -278,6 +282,11 @@ def ended(desk: Desk, program: list[str], deck: list[str] | str = "") -> Answer:
     desk.load({"program": program, "deck": deck})
     desk.run(1)
     desk.act("START")
+    return halted(desk)
+
+
+def halted(desk: Desk) -> Answer:
+    """Run, and return the answer when the machine waits or the run ends."""
     return next(answer for answer in iter(lambda: desk.run(1000), None) if answer["ended"] or answer["waits"])
 
 
@@ -288,6 +297,37 @@ def test_a_run_that_returns_to_an_earlier_state_is_stopped() -> None:
     assert 1 < answer["seconds"] < 1000, "the worker needs the time on a 1620 for the speed"
     desk.act("START")
     assert desk.run(1)["repeats"] == 0, "an action of the operator may change the rest of the run"
+
+
+def test_the_log_of_an_endless_run_is_repeated_with_the_same_log() -> None:
+    desk, again = Desk(), Desk()
+    answer = ended(desk, ["loop.f", "   10 GO TO 10\n      END\n"])
+    again.replay(desk.log())
+    repeated = halted(again)
+    assert (repeated["repeats"], repeated["statement"]) == (answer["repeats"], answer["statement"])
+    assert again.log() == desk.log()
+
+
+def test_a_switch_in_a_log_ends_a_loop_that_tests_it() -> None:
+    source = "   10 IF (SENSE SWITCH 1) 20,10\n   20 DO 30 I=1,5000\n   30 CONTINUE\n      STOP\n      END\n"
+    desk = Desk()
+    desk.replay(
+        "".join(f"CARD {card}\n" for card in source.splitlines()).join(("CARDS poll.f\n", "LOAD poll.f\n"))
+        + "AT 30000 SWITCH 1 ON\n"
+    )
+    assert halted(desk)["ended"]
+    assert "ATTN" not in desk.log()
+
+
+@pytest.mark.parametrize("register", ["values", "kinds", "fac", "fixed", "last_card", "position"])
+def test_states_that_differ_in_one_register_are_different(register: str) -> None:
+    program = compile_deck(deck_from_text("one.f", "      I=1\n      STOP\n      END\n"))
+    session = Session(program, Deck("no deck", ()))
+    before = panel._determining(session)
+    holder = session.devices if register == "position" else session.state
+    value = getattr(holder, register)
+    setattr(holder, register, [object(), *value[1:]] if isinstance(value, list) else object())
+    assert panel._determining(session) != before
 
 
 def test_a_run_that_reads_or_asks_does_not_count_as_endless() -> None:
