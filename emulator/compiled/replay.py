@@ -74,6 +74,12 @@ def _compiled() -> Compiled | None:
         return None
 
 
+def must_compile_repetitions() -> bool:
+    """Return True if the repetition of tapes can be compiled but is not."""
+    compiled = _compiled()
+    return bool(compiled and compiled.must_compile)
+
+
 def compile_repetitions() -> None:
     """Compile the repetition of tapes, or load it from numba's cache.  Otherwise :func:`repetitions` runs as Python."""
     if compiled := _compiled():
@@ -87,11 +93,9 @@ def repetitions(tape: Tape, digits: int, rules_of_runs: Iterable[Rules]) -> Iter
     The tape was recorded with ``digits`` digits; the rules have at least as many.  The numbers are in the order of
     ``tape.tests``.
     """
-    compiled = _compiled()
+    compiled = None if must_compile_repetitions() else _compiled()
     code = tape.operations, tape.firsts, tape.seconds
     places = [test.place for test in tape.tests]
-    if compiled and compiled.must_compile:
-        compiled = None
     arrays = tuple(np.array(row, np.int64) for row in (*code, tape.mantissas, tape.exponents)) if compiled else ()
     function = None  # finding the machine code for the types of the arguments takes as long as a repetition
     for rules in rules_of_runs:

@@ -134,7 +134,7 @@ class _Proof:
 
     @cached_property
     def middle(self) -> tuple[IntPoint, int]:
-        """The inner point o exactly: three integers and their common divisor."""
+        """The inner point o exactly: three numerators and their common denominator."""
         return self.images.exactly(self.o)
 
     def check_middle(self) -> float:

@@ -55,7 +55,7 @@ class Images:
         return sum(self.shifts) <= _SMALL_BITS
 
     def exactly(self, place: Floats) -> tuple[IntPoint, int]:
-        """Return the exact point that belongs to a scaled one, as three integers and their common divisor."""
+        """Return the exact point that belongs to a scaled one, as three numerators and their common denominator."""
         pairs = [number.as_integer_ratio() for number in place.tolist()]
         weight = max(under for _, under in pairs)  # powers of two
         x, y, z = (

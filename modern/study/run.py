@@ -9,6 +9,7 @@ from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import Any
 
+from emulator.compiled.replay import must_compile_repetitions
 from emulator.compiled.runner import must_compile, why_plain
 from emulator.errors import expect, quoted
 from emulator.files import UNFINISHED
@@ -97,7 +98,7 @@ def run_study(
             print(line, file=sys.stderr)
         store = stack.enter_context(closing(Store.open(folder, plan)))
         if not client:  # the workers of a cluster compile the code themselves
-            stack.enter_context(_compiling(plan))
+            stack.enter_context(_compiling(plan, quiet))
         _complete(plan, store, client, workers or processes(), quiet)
         finished_report = report(plan, store)
         no_plots = can_plot()
@@ -140,18 +141,23 @@ def plain_lines(plan: Plan) -> tuple[str, ...]:
 
 
 @contextmanager
-def _compiling(plan: Plan) -> Iterator[None]:
-    """Compile the code that a plan needs in another process.  Until it is ready, the workers use the interpreter."""
+def _compiling(plan: Plan, quiet: bool) -> Iterator[subprocess.Popen[bytes] | None]:
+    """Compile the code that a plan needs in another process.  Until it is ready, the workers use the interpreter.
+
+    Report at the end of the block that the code could not be compiled, unless ``quiet`` is true.
+    """
     calls = []
     if must_compile() and any(not why_plain(options_of(route)) for route in _program_routes(plan)):
         calls += ["from emulator.compiled.runner import compile_engine", "compile_engine()"]
-    if any("alarms" in route.measures for route in _program_routes(plan)):
+    if any("alarms" in route.measures for route in _program_routes(plan)) and must_compile_repetitions():
         calls += ["from emulator.compiled.replay import compile_repetitions", "compile_repetitions()"]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     command, silent = [sys.executable, "-c", "; ".join(calls)], subprocess.DEVNULL
     process = subprocess.Popen(command, env=environment, stdout=silent, stderr=silent) if calls else None
     try:
-        yield
+        yield process
+        if process and process.poll() and not quiet:
+            print("the engine could not be compiled; the study used the interpreter", file=sys.stderr)
     finally:
         if process:
             process.terminate()

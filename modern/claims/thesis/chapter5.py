@@ -191,7 +191,7 @@ _STEPS = {
 @claim("thesis.261", name="program2")
 @claim("thesis.262", name="program3")
 def comments_of_steps(name: str) -> Check:
-    """Check that comment cards of a program mark its steps in the order of chapter 3."""
+    """Check that a comment card of a program marks each of its steps."""
     comments = [card.text for card in programs.deck(name).cards if card.text.startswith("C") and "ING " in card.text]
     comments += [card.text for card in programs.deck(name).cards if "BUT ARE" in card.text]
     marked = [any(words in comment for comment in comments) for words in _STEPS[name]]

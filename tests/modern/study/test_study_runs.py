@@ -19,7 +19,7 @@ import pytest
 
 from emulator.errors import EmulatorError
 from emulator.files import UNFINISHED
-from modern.study import Plan, PlanError, Port, Programs, run_study, workers
+from modern.study import Plan, PlanError, Port, Programs, run, run_study, workers
 from modern.study.index import NAME as INDEX
 from modern.study.plan import Chunk
 from modern.study.store import Store, StudyFileError
@@ -167,6 +167,29 @@ def test_first_sample_is_finished_before_workers_start_if_no_compiled_code_exist
     monkeypatch.setattr(workers, "ProcessPoolExecutor", lambda *_, **__: pytest.fail("a worker starts"))
     chunk, rows = next(in_processes(PLAN, list(PLAN.chunks()), 2))
     assert (chunk, len(rows.splitlines())) == (Chunk(0, 0, 1), 1)
+
+
+@pytest.mark.parametrize("quiet", [False, True])
+def test_failed_compilation_is_reported(
+    quiet: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(run, "must_compile", lambda: True)
+    monkeypatch.setattr(run, "why_plain", lambda _: "")
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")  # compile_engine then raises NotInstalled
+    with run._compiling(PLAN, quiet) as process:
+        assert process
+        assert process.wait(60)
+    message = "the engine could not be compiled; the study used the interpreter\n"
+    assert capsys.readouterr().err == ("" if quiet else message)
+
+
+@pytest.mark.parametrize("has_code", [False, True])
+def test_repetitions_are_compiled_only_if_they_must_be(has_code: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run, "must_compile", lambda: False)
+    monkeypatch.setattr(run, "must_compile_repetitions", lambda: not has_code)
+    route = Programs("corrected", measures=("alarms",))
+    with run._compiling(replace(PLAN, cells=(replace(PLAN.cells[0], routes=(route,)),)), True) as process:
+        assert (process is None) == has_code
 
 
 @pytest.mark.parametrize("writes", [1, 9])
