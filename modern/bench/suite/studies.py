@@ -15,6 +15,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from emulator.compiled.replay import compile_repetitions
 from modern.study.builtin import names, study
 from modern.study.plan import Chunk
 from modern.study.workers import chunk_text
@@ -28,6 +29,7 @@ def rows_per_second(name: str, samples: int = SAMPLES) -> float:
     """Return how many rows of a study two cores compute in a second, on average over its samples."""
     module = study(name)
     plan = module.plan(module.SAMPLES, 1963)
+    compile_repetitions()
     for number in (0, len(plan.cells) - 1):
         chunk_text(plan.cells[number], plan.seed, Chunk(number, 0, 1))  # load the compiled code
     total = 0.0

@@ -55,6 +55,8 @@ FAMILIES: tuple[tuple[str, str, dict[str, int]], ...] = (
     ("ball, 3 digits", "ball", {"digits": 3, "n": POINTS}),
     ("sphere, 3 digits", "sphere", {"digits": 3, "n": POINTS}),
     ("cube, 3 digits", "cube", {"digits": 3, "n": POINTS}),
+    ("pyramid, 3 digits", "pyramid", {"digits": 3, "n": POINTS}),
+    ("nearly flat, 3 digits", "near-coplanar", {"digits": 3, "n": POINTS, "gap": 1}),
 )
 
 
@@ -202,6 +204,8 @@ def _main(rows: _Rows) -> Table:
         "decision. All decisions of a sound run are right. A method would go wrong if its own decision would be wrong "
         "somewhere in a sound run. The e of the last row is the least with which most wrong decisions of these runs "
         "are noticed.",
+        "CADNA's criterion takes a number for zero if the estimate C of its significant digits is at most 0, as Vignes "
+        "defines it. CADNA's library prints @.0 already if C is less than 0.5.",
     )
     return Table("table", "Wrong decisions noticed, and false alarms", head, tuple(lines), notes)
 
