@@ -60,7 +60,7 @@ book: $(VENV)/.dev
 	$(BIN)/python -m modern.publication.book.build dist/hull1620.pdf
 
 # Everything for an archive, as a BagIt bag: dist/hull1620-VERSION-deposit; ROWS=FOLDER adds rows of studies.
-archive: wheel pyz edition book
+archive: wheel pyz book edition
 	$(BIN)/python -m modern.publication.vendored dist/wheels
 	$(BIN)/python -m modern.publication.deposit dist $(if $(ROWS),--rows $(ROWS))
 

@@ -1,9 +1,10 @@
 """Pack a deposit for archives: ``python -m modern.publication.deposit dist``.
 
-The deposit is a BagIt bag (RFC 8493) with the program as one file, the source, the wheel, the packages that it needs
-(:mod:`modern.publication.vendored`), the site, the book, the TEI documents and, optionally, the rows of studies.  It is
-described as an RO-Crate, by CodeMeta and by Frictionless schemas of its tables (:mod:`modern.publication.metadata`).
-The deposit is written as a folder and as one compressed archive.  The same parts always give the same bytes.
+The deposit is a BagIt bag (RFC 8493) with the program as one file, the source, the wheel, the packages that run and
+build it (:mod:`modern.publication.vendored`), the site, the book, the TEI documents, the benchmark and, optionally, the
+rows of studies.  It is described as an RO-Crate, by CodeMeta and by Frictionless schemas of its tables
+(:mod:`modern.publication.metadata`).  The deposit is written as a folder and as one compressed archive.  The same parts
+always give the same bytes.
 """
 
 import gzip
@@ -19,6 +20,7 @@ import tomllib
 from argparse import ArgumentParser
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from datetime import datetime
 from io import BytesIO
 from pathlib import Path
 
@@ -31,7 +33,7 @@ from modern.publication.tables import columns, csv_text
 from modern.publication.tei import archive
 
 _CACHES = {"node_modules", "__pycache__", ".mypy_cache", ".ruff_cache", ".pytest_cache"}
-_NOT_SOURCE = {".git", ".venv", "dist", "build"} | _CACHES
+_NOT_SOURCE = {".git", ".venv", "dist", "build", "hull1620.egg-info"} | _CACHES
 _MIT, _CC0 = "https://spdx.org/licenses/MIT", "https://creativecommons.org/publicdomain/zero/1.0/"
 _OTHERS = "The licences of the packages, in wheels/licences; Pyodide: MPL-2.0 (pyodide/package.json)"
 _THESIS = "Text of the thesis and the papers: rights of their authors and publishers, not ours to license"
@@ -48,11 +50,13 @@ CONTENTS = {
     "source/fortran_src/witness/": Part("the text of the listings as found", _THESIS),
     "source/transcripts/": Part("printed results as found, with their emendations (data CC0)", _THESIS),
     "wheel/": Part("the package that pip installs", _MIT),
-    "wheels/": Part("the packages of others that it needs", _OTHERS),
+    "wheels/": Part("the packages of others that run it and build the site and the book", _OTHERS),
     "pyodide/": Part("Python for browsers, which the site's machine loads", _OTHERS),
     "site/": Part("the edition as a website: open site/index.html", _MIXED),
     "book/": Part("the edition as a book, PDF/A", _MIXED),
     "tei/": Part("listings and printed results with their emendations, TEI P5", _MIXED),
+    "benchmark/": Part("the programs in C and Fortran, and exact verdicts of their decisions", _CC0),
+    "benchmark/original/": Part("the programs as cards", _THESIS),
     "tables/": Part("the tables of the studies, each number in a cell of its own", _CC0),
     "rows/": Part("the results of studies, one row for each hull", _CC0),
 }
@@ -85,6 +89,8 @@ def gather(dist: Path, rows: Path | None = None, root: Path = ROOT) -> Parts:
 
     Raise BuildError for a missing part and name the command that builds it.
     """
+    from modern.bench.benchmark import benchmark  # its imports take a second
+
     wheel, site, book, pyz = (
         newest_wheel(dist) or dist / "hull1620.whl",
         dist / "edition",
@@ -109,6 +115,7 @@ def gather(dist: Path, rows: Path | None = None, root: Path = ROOT) -> Parts:
     files |= {f"site/{name}": data for name, data in _tree(site)}
     about = described(root)
     files |= {f"tei/{name}": text.encode() for name, text in archive(about.version).items()}
+    files |= {f"benchmark/{name}": text.encode() for name, text in benchmark().items()}
     if rows is not None:
         if not rows.is_dir():
             raise BuildError(f"{rows}: expected a folder with the rows of studies")
@@ -186,6 +193,10 @@ def readme(about: Work, parts: Parts, root: Path = ROOT) -> str:
     )
     left_out = vendored.left_out(files)
     numpy = next((name.split("-", 2)[2] for name in files if name.startswith("wheels/numpy-")), "none")
+    binary = sorted(re.findall(r"^wheels/([^-/]+)-[^/]+(?<!none-any)\.whl$", "\n".join(files), re.MULTILINE))
+    without_wheel = [pin for pin in vendored.pins(root, "dev") if pin.split("==")[0] in vendored.SOURCE_ONLY]
+    total, wheels = (sum(len(files[name]) for name in files if name.startswith(start)) for start in ("", "wheels/"))
+    epoch = int(datetime.fromisoformat(f"{about.date}T00:00+00:00").timestamp())
     hashes = "\n".join(
         f"  {hashlib.sha256(data).hexdigest()}  {name}"
         for name, data in sorted(files.items())
@@ -214,7 +225,8 @@ that were added because the printed examples need them, and the state of program
 examples were run (source/fortran_src/OPEN-QUESTIONS.md). The flow charts of the thesis and its
 figures are not in the OCR text.
 
-CONTENTS (this folder is the "data" folder of a BagIt bag, RFC 8493)
+CONTENTS (this folder is the "data" folder of a BagIt bag, RFC 8493. Its files
+have {total / 1e6:.0f} MB, of which the wheels have {wheels / 1e6:.0f} MB.)
 
 {contents}
 
@@ -246,15 +258,28 @@ For another Python or another computer, get numpy {_pinned("numpy", root)} for i
 
 TO BUILD THE SITE AGAIN
 
-This needs Python 3.11, make, and the packages of the extra "edition" (Sphinx and others), which
-are not in this deposit: source/locks/dev.lock pins each of them with its hashes. With a package
-registry, in the folder "source":
+This needs no network and no make. It needs Python for {numpy.removesuffix(".whl")},
+the platform of the binary wheels ({", ".join(binary) or "none"}), and
+Node.js, which prepares the machine of the pages. For another platform, get the packages that
+source/locks/dev.lock pins: it has the hashes of every platform, and of {", ".join(without_wheel)}, which is
+published as source only and only packs the deposit.
 
-  mkdir -p docs/console/node_modules && cp -r ../pyodide docs/console/node_modules/
-  make wheel pyz edition
+Work in a copy of this folder, because new files in it would contradict the manifest:
 
-The first command provides Pyodide; without it the pages have no running machine. The site is
-written to dist/edition. "make archive" builds this deposit again, and "make test" runs all tests.
+  python3 -m venv env
+  env/bin/python -m pip install --no-index wheels/*.whl
+  cd source
+  mkdir -p dist docs/console/node_modules
+  cp -r ../pyodide docs/console/node_modules/
+  SOURCE_DATE_EPOCH={epoch} ../env/bin/python -m build --wheel --no-isolation --outdir dist .
+  ../env/bin/python -m modern.publication.pyz dist
+  ../env/bin/python -m modern.publication.book.build dist/hull1620.pdf
+  ../env/bin/python -m modern.publication.site.build dist/edition
+  diff -r dist/edition ../site
+
+The last command prints nothing if the new site is the same, byte for byte. Without Pyodide the
+pages have no running machine. With a package registry, "make archive" builds the whole deposit
+again, and "make test" runs all tests.
 
 TO VERIFY THE FILES
 

@@ -1,56 +1,109 @@
 """Collect the packages of others that the deposit contains: ``python -m modern.publication.vendored dist/wheels``.
 
-These are the wheels of the run-time dependencies, as pinned with hashes in ``locks/run.lock``, and the part of Pyodide
-that the emulator's page uses.  Pip takes the wheels from its cache or a package registry.  If neither has them, they
-are left out, and the deposit's README says so.
+These are the wheels of the run-time dependencies and of the packages that build the wheel, the site and the book, as
+pinned with hashes in ``locks``, and the part of Pyodide that the emulator's page uses.  Binary wheels are those of the
+platform that collects them.  Pip takes the wheels from its cache or a package registry.  If neither has them, they are
+left out, and the deposit's README says so.
 """
 
 import re
 import subprocess
 import sys
 import tempfile
+import tomllib
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, requires
 from io import BytesIO
 from pathlib import Path
 
-from modern.publication.building import DIST, ROOT, run
+from modern.publication.building import DIST, ROOT, BuildError, run
 
 WHEELS = DIST / "wheels"
 PYODIDE = ROOT / "docs" / "console" / "node_modules" / "pyodide"
 # The packages of the lock that only the build of the wheel needs.
 _BUILD = ("setuptools",)
+# The packages of the extra that are published as source only.  Nothing but the packing of the deposit needs them.
+SOURCE_ONLY = ("bagit",)
 
 
 def locked(root: Path = ROOT) -> dict[str, str]:
     """Return the pinned run-time dependencies: the requirement with its hashes, by ``NAME==VERSION``."""
-    blocks = re.split(r"\n(?=\S)", (root / "locks" / "run.lock").read_text(encoding="utf-8").strip())
-    pins = {block.split(" ")[0]: block for block in blocks}
-    return {pin: block for pin, block in pins.items() if pin.split("==")[0] not in _BUILD}
+    return {pin: block for pin, block in pins(root, "run").items() if pin.split("==")[0] not in _BUILD}
+
+
+def collected(root: Path = ROOT) -> dict[str, str]:
+    """Return the pins of all packages with wheels that the deposit should contain.
+
+    To the run-time dependencies it adds the build tools of the wheel, the extra ``edition``, and their dependencies.
+    """
+    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
+    extra = project["project"]["optional-dependencies"]["edition"]
+    names = _with_dependencies((*extra, *project["build-system"]["requires"], "build")) - set(SOURCE_ONLY)
+    return locked(root) | {pin: block for pin, block in pins(root, "dev").items() if pin.split("==")[0] in names}
+
+
+def pins(root: Path, lock: str) -> dict[str, str]:
+    """Return the requirements of a lock file, with their hashes, by ``NAME==VERSION``."""
+    blocks = re.split(r"\n(?=\S)", (root / "locks" / f"{lock}.lock").read_text(encoding="utf-8").strip())
+    return {block.split(" ")[0]: block for block in blocks}
+
+
+def _with_dependencies(roots: Sequence[str]) -> set[str]:
+    """Return the names of the packages that the installed packages ``roots`` need on this platform, and their own."""
+    from packaging.requirements import Requirement  # a dependency of Sphinx
+
+    queue, visited = [Requirement(line) for line in roots], set[tuple[str, frozenset[str]]]()
+    while queue:
+        requirement = queue.pop()
+        name, extras = _normalized(requirement.name, "-"), frozenset(requirement.extras)
+        if (name, extras) in visited:
+            continue
+        visited.add((name, extras))
+        try:
+            dependencies = [Requirement(line) for line in requires(name) or ()]
+        except PackageNotFoundError:
+            raise BuildError(f"{name} is missing: pip install 'hull1620[edition]' build") from None
+        queue += (
+            d for d in dependencies if not d.marker or any(d.marker.evaluate({"extra": e}) for e in extras or ("",))
+        )
+    return {name for name, _ in visited}
 
 
 def download(folder: Path) -> str:
     """Put the wheels into a folder, and return a summary.  Wheels of other versions are removed."""
     folder.mkdir(parents=True, exist_ok=True)
-    pins = locked()
-    wanted = {_stem(pin) for pin in pins}
+    packages = collected()
+    stems = {_stem(pin) for pin in packages}
     for path in folder.glob("*.whl"):
-        if "-".join(path.name.lower().split("-")[:2]) not in wanted:
+        if _wheel_stem(path.name) not in stems:
             path.unlink()
-    if len(list(folder.glob("*.whl"))) < len(pins):
+    present = {_wheel_stem(path.name) for path in folder.glob("*.whl")}
+    if missing := [block for pin, block in packages.items() if _stem(pin) not in present]:
         with tempfile.TemporaryDirectory() as room:
             requirements = Path(room) / "run.txt"
-            requirements.write_text("\n".join(pins.values()) + "\n", encoding="utf-8")
+            requirements.write_text("\n".join(missing) + "\n", encoding="utf-8")
             command = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check", "--no-deps"]
             command += ["--require-hashes", "--only-binary", ":all:", "--dest", str(folder), "-r", str(requirements)]
             process = subprocess.run(command, capture_output=True, text=True, check=False)
         if process.returncode:
             return f"{folder}: the deposit will be without wheels: {process.stderr.strip().splitlines()[-1:]}"
-    return f"{folder}: {', '.join(sorted(path.name for path in folder.glob('*.whl')))}"
+    sizes = [path.stat().st_size for path in folder.glob("*.whl")]
+    return f"{folder}: {len(sizes)} wheels, {sum(sizes) / 1e6:.1f} MB"
+
+
+def _normalized(name: str, separator: str) -> str:
+    return re.sub(r"[-_.]+", separator, name).lower()
 
 
 def _stem(pin: str) -> str:
-    return pin.replace("==", "-").lower()
+    """Return the part of a wheel's file name before the tags, of a pin ``NAME==VERSION``."""
+    name, _, version = pin.partition("==")
+    return f"{_normalized(name, '_')}-{version}"
+
+
+def _wheel_stem(file: str) -> str:
+    return _stem("==".join(file.split("-")[:2]))
 
 
 def files(wheels: Path = WHEELS, pyodide: Path = PYODIDE) -> dict[str, bytes]:
@@ -76,8 +129,9 @@ def _licences(wheel: bytes) -> Iterator[tuple[str, bytes]]:
 
 def left_out(names: Mapping[str, bytes]) -> str:
     """Return a sentence that names the parts that a deposit with these files lacks, or an empty string."""
-    pins = [pin for pin in locked() if not any(n.lower().startswith(f"wheels/{_stem(pin)}-") for n in names)]
-    missing = [f"the wheels of {', '.join(pins)}"] if pins else []
+    present = {_wheel_stem(name.removeprefix("wheels/")) for name in names if re.fullmatch(r"wheels/[^/]+\.whl", name)}
+    packages = [pin for pin in collected() if _stem(pin) not in present]
+    missing = [f"the wheels of {', '.join(packages)}"] if packages else []
     missing += [] if any(name.startswith("pyodide/") for name in names) else ["Pyodide"]
     reason = "the machine that packed it had neither a package registry nor a cache with them"
     return f"LEFT OUT of this deposit, because {reason}: {' and '.join(missing)}." if missing else ""
