@@ -8,13 +8,15 @@ import tarfile
 import tomllib
 import zipfile
 from dataclasses import replace
+from datetime import UTC, datetime
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
 from modern.publication import deposit, vendored
 from modern.publication.building import BuildError, citation
-from modern.publication.deposit import Parts, described, gather, source_files, swhid, write
+from modern.publication.deposit import Parts, described, gather, readme, source_files, swhid, write
 from modern.publication.metadata import codemeta, work
 from modern.publication.tables import UNDESCRIBED, columns, csv_text
 from tests.support.paths import ROOT
@@ -169,18 +171,52 @@ def test_missing_packages_of_others_are_named_and_present_ones_keep_their_licenc
     nothing = vendored.files(tmp_path / "wheels", tmp_path / "pyodide")
     assert nothing == {}
     assert "LEFT OUT" in vendored.left_out(nothing)
-    assert all(pin in vendored.left_out(nothing) for pin in ("lark==", "mpmath==", "numpy==", "Pyodide"))
+    assert all(
+        pin in vendored.left_out(nothing) for pin in ("lark==", "numpy==", "sphinx==", "setuptools==", "Pyodide")
+    )
     (tmp_path / "wheels").mkdir()
     (tmp_path / "pyodide").mkdir()
     (tmp_path / "pyodide" / "package.json").write_text("{}")
-    for pin in vendored.locked():
-        name = pin.replace("==", "-")
+    for pin in vendored.collected():
+        name = "-".join((pin.split("==")[0].replace("-", "_"), pin.split("==")[1]))
         with zipfile.ZipFile(tmp_path / "wheels" / f"{name}-py3-none-any.whl", "w") as wheel:
             wheel.writestr(f"{name}.dist-info/licenses/LICENSE.txt", "a licence")
     found = vendored.files(tmp_path / "wheels", tmp_path / "pyodide")
     assert vendored.left_out(found) == ""
     assert [name for name in found if "licences" in name and "lark" in name and found[name] == b"a licence"]
     assert not any(name.startswith("setuptools") for name in vendored.locked())
+    (tmp_path / "wheels" / f"{name}-py3-none-any.whl").unlink()
+    assert f"the wheels of {pin}." in vendored.left_out(vendored.files(tmp_path / "wheels", tmp_path / "pyodide"))
+
+
+def test_the_collected_packages_suffice_to_build_and_have_wheels() -> None:
+    packages = vendored.collected()
+    names = {pin.split("==")[0] for pin in packages}
+    assert names >= {"setuptools", "build", "sphinx", "furo", "myst-parser", "typst", "docutils", "numpy", "lark"}
+    assert not names & {"pytest", "mypy", "numba", "colorama", "bagit"}
+    # A package that is published as source only has the hash of one file.
+    blocks = vendored.pins(ROOT, "dev")
+    assert {pin.split("==")[0] for pin in blocks if "bagit" in pin} == set(vendored.SOURCE_ONLY)
+    assert all(block.count("sha256:") > 1 for block in packages.values())
+
+
+def test_wheels_of_other_versions_are_removed_and_missing_ones_downloaded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lark = next(pin for pin in vendored.locked() if pin.startswith("lark=="))
+    (tmp_path / "lark-0.1-py3-none-any.whl").touch()
+    for pin in vendored.collected().keys() - {lark}:
+        (tmp_path / f"{pin.split('==')[0].replace('-', '_')}-{pin.split('==')[1]}-py3-none-any.whl").touch()
+    downloaded: list[str] = []
+
+    def pip(command: list[str], **_: object) -> subprocess.CompletedProcess[str]:
+        downloaded.append(Path(command[-1]).read_text(encoding="utf-8"))
+        return subprocess.CompletedProcess(command, 1, "", "no network\n")
+
+    monkeypatch.setattr(vendored.subprocess, "run", pip)
+    assert "the deposit will be without wheels: ['no network']" in vendored.download(tmp_path)
+    assert downloaded == [vendored.locked()[lark] + "\n"]
+    assert not list(tmp_path.glob("lark-*"))
 
 
 def test_all_descriptions_agree(made: tuple[Path, Path]) -> None:
@@ -256,8 +292,39 @@ def test_the_readme_names_the_required_packages(made: tuple[Path, Path]) -> None
         "swh:1:dir:",
     ):
         assert phrase in text
-    assert "setuptools" not in text, "the wheel does not need it"
     assert not re.search(r"\brows/", text), "what is not in the bag is not spoken of"
+
+
+def test_the_readme_builds_the_site_with_modules_and_files_of_the_deposit() -> None:
+    files = dict.fromkeys((*parts().files, "wheels/numpy-2-cp311-cp311-linux.whl", "pyodide/package.json"), b"")
+    text = readme(described(), Parts(files | {f"source/{name}": b"" for name in source_files()}))
+    section = text.partition("TO BUILD THE SITE AGAIN")[2].partition("TO VERIFY")[0]
+    commands = [line.strip() for line in section.splitlines() if line.startswith("  ")]
+    assert "env/bin/python -m pip install --no-index wheels/*.whl" in commands
+    modules = re.findall(r"-m (modern[\w.]+)", section)
+    assert len(modules) == 3
+    assert all(
+        f"source/{module.replace('.', '/')}.py" in files | parts().files or find_spec(module) for module in modules
+    )
+    copied = re.findall(r"\.\./(pyodide|site)", section)
+    assert copied == ["pyodide", "site"]
+    assert "Python for cp311-cp311-linux,\nthe platform of the binary wheels (numpy)" in section
+    assert "bagit==" in section
+    day = datetime.fromtimestamp(int(re.findall(r"SOURCE_DATE_EPOCH=(\d+)", section)[0]), UTC)
+    assert f"{day:%Y-%m-%d %H%M}" == f"{described().date} 0000"
+
+
+def test_a_deposit_contains_the_benchmark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        "modern.bench.benchmark.benchmark", lambda: {"original/program1.f": "C\n", "verdicts.json": "[]"}
+    )
+    for name in ("hull1620-1-py3-none-any.whl", "hull1620.pyz", "hull1620.pdf", "edition/index.html"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_bytes(b"x")
+    files = gather(tmp_path).files
+    assert (files["benchmark/original/program1.f"], files["benchmark/verdicts.json"]) == (b"C\n", b"[]")
+    assert deposit.CONTENTS["benchmark/"].licence.endswith("publicdomain/zero/1.0/")
+    assert "not ours to license" in deposit.CONTENTS["benchmark/original/"].licence
 
 
 def test_missing_parts_and_foreign_folders_are_reported_in_one_line(
