@@ -26,7 +26,7 @@ from emulator.numbers.interval import Interval, IntervalNumbers
 _LONG = 20_000
 # Numbers of the compiled code have at most this number of digits, because products must fit into 64 bits.
 _COMPILED_DIGITS = 9
-_ENDLESS = decimal.Decimal("9E+99999")
+_ENDLESS = decimal.Decimal("9E+9999")
 _Operation = Callable[[Any, Any], Any]
 
 
@@ -167,7 +167,7 @@ def enclosed(tape: Tape, digits: int) -> list[Interval]:
     """Return an interval that contains the exact value of each number on a tape, which has ``digits`` digits.
 
     The bounds have ``digits`` digits and are rounded outwards.  A quotient is unbounded if the divisor's interval
-    contains 0.
+    contains 0, and every result that is out of range is unbounded.
     """
     system = IntervalNumbers(digits)
 
@@ -178,6 +178,7 @@ def enclosed(tape: Tape, digits: int) -> list[Interval]:
             return -_ENDLESS, _ENDLESS
 
     values: list[Any] = [(leaf, leaf) for leaf in _leaves(tape, digits)]
-    times, over = partial(bounded, system.multiply), partial(bounded, system.divide)
-    _follow(tape, values, system.add, system.subtract, times, over, system.negate)
+    operations = (system.add, system.subtract, system.multiply, system.divide)
+    plus, minus, times, over = (partial(bounded, operation) for operation in operations)
+    _follow(tape, values, plus, minus, times, over, system.negate)
     return values

@@ -78,7 +78,7 @@ CONVERSION_MODEL = (0.65, 1.1)
 
 @dataclass(frozen=True, slots=True)
 class Time:
-    """Seconds on a 1620, with the bounds of the model's systematic error.  Every time is printed by this class."""
+    """Seconds on a 1620, with the bounds of the model's systematic error."""
 
     seconds: float = 0.0
     low: float = 0.0

@@ -43,7 +43,7 @@ class Undecided(Exception):
 
 @lru_cache(maxsize=128)
 def lossless_rules(digits: int) -> Rules:
-    """Return rules for so many digits that reading and writing a card loses none."""
+    """Return rules for the given number of digits, with which reading and writing a card loses no digit."""
     return rules_of(digits)
 
 

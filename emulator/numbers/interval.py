@@ -23,8 +23,8 @@ from emulator.numbers.work import decimal_function
 
 Interval = tuple[Decimal, Decimal]
 MIN_DIGITS, MAX_DIGITS = 2, 1_000
-# The largest decimal exponent of a number.
-_RANGE = 10**6
+# The largest decimal exponent of a number.  With far larger ones mpmath's functions would run for minutes.
+_RANGE = 10**4
 
 
 def _within_range(operation: Callable[..., Any]) -> Callable[..., Any]:
@@ -141,7 +141,7 @@ class IntervalNumbers(Numbers):
         return self._exponential(iv.log(self._iv(base)) * self._iv(exponent)), ""
 
     def _exponential(self, argument: Any) -> Interval:
-        if abs(argument).b > _RANGE:
+        if abs(argument).b > 2.3025851 * _RANGE:  # ln(10) = 2.3025851
             raise Overflow
         return self._outward(self._mpmath.exp(argument))
 

@@ -7,8 +7,8 @@ This script needs nothing but Python 3.  ``hull1620 export-job`` writes it as ch
     python3 check.py compare expected.cards punched.cards
 
 ``disk`` converts a disk in text form (sector number, comma, 105 digits) to the form that SIMH attaches.  ``join`` puts
-decks behind one another.  ``compare`` lists the differences by class.  Its exit code is 1 if cards differ otherwise or
-are in another order, or if no card was punched.  The exit code after an error is 2.
+decks behind one another.  ``compare`` lists the differences by class.  ``compare`` exits with 1 if a difference belongs
+to no known class, if the order differs, or if no card was punched; every error exits with 2.
 """
 
 from __future__ import annotations
@@ -37,10 +37,12 @@ def disk(source: str, target: str) -> None:
     digits = bytearray()
     with open(source, encoding="latin-1") as file:
         for number, line in enumerate(file, 1):
-            sector, _, text = line.rstrip("\r\n").partition(",")
+            sector, comma, text = line.rstrip("\r\n").partition(",")
+            if not comma and sector.strip():
+                raise ValueError(f"{source}, line {number}: expected a sector number, a comma and digits")
             for column, character in enumerate(text, len(sector) + 2):
                 if character not in DIGITS:
-                    raise ValueError(f"{source}, line {number}, column {column}: {character!r} is no digit of a disk")
+                    raise ValueError(f"{source}, line {number}, column {column}: invalid digit {character!r}")
                 digits.append(DIGITS[character])
     if not digits:
         raise ValueError(f"{source}: no sector; expected a disk in text form")

@@ -115,7 +115,7 @@ def _run(program: Program, deck: Deck, options: Options, reference: Numbers) -> 
 
 
 def _truth(reference: Numbers, divergence: Divergence) -> Numbers:
-    """Return the run in the reference arithmetic, or in 200 bits if the reference could not finish."""
+    """Return the reference arithmetic, or that of 200 bits if the reference run could not finish."""
     ending = divergence.endings[1]
     return numbers("mp:200") if ending is not None and ending.kind == "undecided" else reference
 

@@ -56,9 +56,10 @@ def main(args: argparse.Namespace) -> int:
     source = source_deck(args)
     notes_above, glosses = _commentary(args) if args.commentary else ({}, [])
     program, messages = translate(source)
-    if args.digits and args.deck is None and program is not None and program.uses("READ", "ACCEPT"):
-        raise UsageError("--digits: the program reads cards; name a data deck")
-    if program is None or (args.deck is None and program.uses("READ", "ACCEPT")):
+    needs_deck = program is not None and args.deck is None and program.uses("READ", "ACCEPT")
+    if args.digits and needs_deck:
+        raise UsageError("--digits: the program has READ or ACCEPT statements; name a data deck")
+    if program is None or needs_deck:
         _write(args.output, [*_plain(source, messages, notes_above), *glosses])
         return OK if program is not None else BAD_INPUT
     deck = deck_for(args.program, args.deck) if args.deck else no_deck(program)

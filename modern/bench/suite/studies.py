@@ -58,11 +58,14 @@ def first_rows(name: str) -> tuple[float, float]:
             str(out),
         ]
         before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-        process = subprocess.Popen(command, env=environment, start_new_session=True, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(command, env=environment, start_new_session=True)
         while process.poll() is None and not any(out.glob("rows/0*.jsonl")):
             time.sleep(_POLL)
         elapsed = time.perf_counter() - start
-        os.killpg(process.pid, signal.SIGINT)
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGINT)
+        elif process.returncode:
+            raise SystemExit(f"{name}: the study failed with exit code {process.returncode}")
         process.wait()
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return elapsed, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

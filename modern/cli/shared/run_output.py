@@ -163,4 +163,4 @@ def profile_lines(program: Program, result: Result) -> Iterator[str]:
 
 
 def _profile_row(cause: str, count: str, time: Time) -> str:
-    return f"  {cause:<20}{count:>9}{time.seconds:>11.1f}  ({time.interval})"
+    return f"  {cause:<20}{count:>9}{time.seconds:>11.1f}" + f"  ({time.interval})" * (time.seconds > 0)

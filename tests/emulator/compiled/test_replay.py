@@ -9,7 +9,7 @@ from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import compile_deck
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
-from emulator.machine.tape import ADD, LEAF, MULTIPLY, NEGATE, Tape, record
+from emulator.machine.tape import ADD, DIVIDE, LEAF, MULTIPLY, NEGATE, Tape, record
 from emulator.numbers import numbers
 from emulator.numbers.arithmetic import Rules, profile
 
@@ -95,6 +95,17 @@ def test_change_of_sign_is_exact_for_numbers_of_any_length() -> None:
     assert exact[5] == 0
     low, high = enclosed(tape, DIGITS)[5]
     assert low < 0 < high
+
+
+def test_sums_beyond_the_range_of_intervals_are_unbounded() -> None:
+    tape = Tape()
+    tape.enter(LEAF, 0, 0, 10_000_000, 1)
+    tape.enter(LEAF, 0, 0, 0, 0)
+    tape.enter(DIVIDE, 0, 1, 0, 0)
+    for k in range(2, 22):
+        tape.enter(ADD, k, k, 0, 0)
+    low, high = enclosed(tape, DIGITS)[-1]
+    assert low == -high < -(10**9999)
 
 
 @pytest.mark.parametrize("b", ["    0.0000", "    4.0000"])

@@ -1,5 +1,6 @@
 """Intervals contain the exact results, for numbers of more digits than Python's default context too."""
 
+from decimal import Decimal
 from fractions import Fraction
 from random import Random
 
@@ -94,7 +95,33 @@ def test_number_out_of_range_ends_the_run(statement: str) -> None:
     cards = ["      A=1.E30", "      DO 1 I=1,60", f"      {statement}", "    1 A=B*A", "      END"]
     program = compile_deck(deck_from_lines("program", cards))
     ending = Machine(program, no_deck(program), Options(numbers("interval:8"))).run().ending
-    assert "interval arithmetic holds only numbers from 1E-1000000 to 1E+1000000" in ending.message
+    assert "interval arithmetic holds only numbers from 1E-10000 to 1E+10000" in ending.message
+
+
+@pytest.mark.parametrize("name", ["SIN", "COS", "ATAN", "LOG"])
+@pytest.mark.parametrize("power", [-9999, 9999])
+def test_functions_of_numbers_near_the_limits_are_computed(name: str, power: int) -> None:
+    system = IntervalNumbers(8)
+    low, high = system.function(name, system.decimal(1, power))[0]
+    if name == "LOG":
+        assert low <= power * Decimal("2.302585092994046") <= high
+    elif power < 0:
+        assert low <= (Decimal(1) if name == "COS" else Decimal(f"1E{power}")) <= high
+    else:
+        assert low <= (Decimal("1.57079632679") if name == "ATAN" else 0) <= high <= 2
+
+
+@pytest.mark.parametrize("sign", ["", "-"])
+def test_exponential_is_limited_by_the_decimal_exponent_of_its_value(sign: str) -> None:
+    system = IntervalNumbers(8)
+    value, _ = system.function("EXP", system.decimal(int(f"{sign}23000"), 0))
+    assert [end.adjusted() for end in value] == [-9989 if sign else 9988] * 2
+
+
+def test_run_with_squares_below_the_range_does_not_hang() -> None:
+    cards = ["      A=1.E-90", "      DO 1 I=1,12", "    1 A=A*A", "      B=ATAN(A)", "      END"]
+    program = compile_deck(deck_from_lines("program", cards))
+    assert Machine(program, no_deck(program), Options(numbers("interval:8"))).run().ending.kind != "undecided"
 
 
 def test_ends_of_an_interval_are_printed_with_all_their_digits() -> None:

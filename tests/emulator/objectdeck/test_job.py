@@ -182,8 +182,11 @@ def test_check_joins_decks_and_converts_a_disk(tmp_path: Path) -> None:
     (tmp_path / "pack").write_text("    0,019|@}]JR!\n", encoding="ascii")
     assert check("disk", "pack", "dsk", folder=tmp_path)[0] == 0
     assert (tmp_path / "dsk").read_bytes() == bytes([0, 1, 9, 10, 12, 15, 16, 17, 25, 26])
-    (tmp_path / "pack").write_text("    0,019\n    1,0x9\n", encoding="ascii")
-    message = "check.py disk: pack, line 2, column 8: 'x' is no digit of a disk\n"
-    assert check("disk", "pack", "bad", folder=tmp_path) == (2, message)
-    assert not (tmp_path / "bad").exists()
+    for line, message in (
+        ("    1,0x9", ", column 8: invalid digit 'x'"),
+        ("    1 019", ": expected a sector number, a comma and digits"),
+    ):
+        (tmp_path / "pack").write_text(f"    0,019\n\n{line}\n", encoding="ascii")
+        assert check("disk", "pack", "bad", folder=tmp_path) == (2, f"check.py disk: pack, line 3{message}\n")
+        assert not (tmp_path / "bad").exists()
     assert check(folder=tmp_path)[0] == 2

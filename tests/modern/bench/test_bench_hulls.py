@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from modern.bench.suite import __main__ as bench
-from modern.bench.suite import hulls, peers
+from modern.bench.suite import hulls, peers, studies
 from modern.bench.suite.peers import Missing, Peers, cgal, qhull
 from modern.bench.timing import Curve, Figure, Measured, side_by_side
 
@@ -132,3 +132,9 @@ def test_linear_algebra_uses_one_thread() -> None:
         [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True
     )
     assert process.stdout == "1 False\n"
+
+
+def test_failed_study_ends_the_timing_with_its_message(capfd: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="no-study: the study failed with exit code 2"):
+        studies.first_rows("no-study")
+    assert "no-study" in capfd.readouterr().err

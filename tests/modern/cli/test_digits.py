@@ -134,11 +134,25 @@ def test_narrow_report_wraps_statements_and_verdicts(
     assert "    10  X=(-B-R)/(2.*A)" in report
 
 
-def test_page_goes_to_standard_output_without_the_report(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    main(["digits", "my.f", "my.deck", "--html", "-"])
-    output = capsys.readouterr()
-    assert output.out.startswith("<!DOCTYPE html>")
-    assert "Printed numbers\n" in output.err
+@pytest.mark.parametrize(
+    ("option", "start"), [("--html", b"<!DOCTYPE html>"), ("--csv", b"part,row,"), ("--samples", b"\x93NUMPY")]
+)
+def test_data_go_to_standard_output_without_the_report(
+    program: Path, capsysbinary: pytest.CaptureFixture[bytes], option: str, start: bytes
+) -> None:
+    main(["digits", "my.f", "my.deck", option, "-"])
+    output = capsysbinary.readouterr()
+    assert output.out.startswith(start)
+    assert b"Printed numbers\n" in output.err
+
+
+@pytest.mark.parametrize("verb", ["READ", "ACCEPT"])
+def test_listing_with_digits_requires_a_deck_for_a_program_with_input(
+    program: Path, capsys: pytest.CaptureFixture[str], verb: str
+) -> None:
+    Path("input.f").write_text(f"      {verb} 1,A\n    1 FORMAT(F10.4)\n      END\n", encoding="utf-8")
+    assert main(["listing", "input.f", "--digits"]) == 2
+    assert "the program has READ or ACCEPT statements; name a data deck" in capsys.readouterr().err
 
 
 def test_listing_and_trace_show_the_digits(program: Path, capsys: pytest.CaptureFixture[str]) -> None:

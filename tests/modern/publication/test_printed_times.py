@@ -58,12 +58,14 @@ def test_no_other_module_formats_a_time_of_the_model() -> None:
     assert set(names) <= {("timing.py", True), ("run_output.py", True), ("machine.py", True)}
 
 
-def test_the_profile_has_an_interval_in_every_row(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_profile_has_an_interval_in_every_row_except_zeros(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["hull", "example4", "--profile"]) == 0
     rows = re.findall(r"^  cause .*?\n(.*?)^  operations", capsys.readouterr().err, re.DOTALL | re.MULTILINE)
     assert len(rows) == 2
     for line in "".join(rows).replace("  ~ includes estimated times, which no source states\n", "").splitlines():
-        assert re.fullmatch(rf"  [a-z ]+? +\d* +{INTERVAL.replace(' ', ' +', 1)}(, less with overlap|  ~)?", line), line
+        assert re.fullmatch(
+            rf"  [a-z ]+? +\d* +(?:0\.0|(?!0\.0 ){INTERVAL.replace(' ', ' +', 1)})(, less with overlap|  ~)?", line
+        ), line
 
 
 def test_listings_with_statistics_have_intervals(capsys: pytest.CaptureFixture[str]) -> None:
