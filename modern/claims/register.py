@@ -6,6 +6,7 @@ results that the row names.  A definition that our code follows is *used*; a sta
 with the reason.
 """
 
+import re
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -61,6 +62,19 @@ _REASONS: Mapping[str, Verdict] = {
 }
 _OF_VERDICT = {*_REASONS, "code", "note", "result", "file", "run"}
 _FIELDS = {"words", "says", "kind", "part", "same"} | _OF_VERDICT
+# The kind of a statement is the first whose form its page, paraphrase or quotation has: "PAGE: PARAPHRASE [QUOTATION]".
+_KINDS: Mapping[str, str] = {
+    "figure": r"(^|: )Figs?\. |flow charts? (of|use)|list of figures",
+    "table": r"(^|: )(In )?Table \d|[Tt]he table of|of Table \d",
+    "theorem": r": Theorem \S+:",
+    "lemma": r": Lemma",
+    "complexity": r"O\(",
+    "property": r"^Properties|: Property",
+    "step": r": (Step \d|Search rule|In step)",
+    "equation": r"([Ff]ormula|[Ee]quation)s? \(|\[.*[\w})\]] = ",
+    "definition": r": (By d|D)efinition|\bdefines\b|are defined by",
+    "example": r": Example \d|example of theorem",
+}
 _COUNTEREXAMPLES: Final = "transcripts/counterexamples/"
 
 
@@ -166,8 +180,9 @@ def _row(document: str, number: str, tables: Mapping[str, Any]) -> Statement:
     run = raw.get("run", f"hull1620 reproduce {place}" if file else "")
     if verdict == FAILS and not file:
         raise StatementError(f"{place}: a row with the verdict {FAILS!r} needs a counterexample in 'file' or 'run'")
-    of_verdict = {USED: "definition", **dict.fromkeys(SLIPS, SLIP)}.get(verdict, "claim")
-    kind = raw.get("kind", {"Fig": "figure", "Tab": "table"}.get(page[:3], of_verdict))
+    text = f"{page}: {raw['says']} [{raw['words']}]"
+    of_verdict = {USED: "definition or step", **dict.fromkeys(SLIPS, SLIP)}.get(verdict, "claim")
+    kind = raw.get("kind", next((kind for kind, form in _KINDS.items() if re.search(form, text)), of_verdict))
     same = f"{document}.{raw['same']}" if "same" in raw else ""
     results, code, part = _as_tuple(raw.get("result", ())), raw.get("code", ""), raw.get("part", "")
     return Statement(
