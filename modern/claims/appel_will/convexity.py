@@ -46,6 +46,14 @@ def corrected_method(cases: int = CASES) -> Check:
     return check.unless(not star_as_captioned().holds, "the star test as in the caption of Fig. 12")
 
 
+@claim("yau-srihari.113")
+def pairs_of_points() -> Check:
+    """Check that the method tests each pair of points once if no three points are collinear."""
+    curve = [(t, t * t, t**3) for t in range(12)]
+    outcomes = [appel_will(curve[:n]).projections == n * (n - 1) // 2 for n in range(4, 13)]
+    return exhibited(all(outcomes), "the first n points of the curve (t, t^2, t^3) have n (n - 1) / 2 tested pairs")
+
+
 @claim("appel-will.67", "appel-will.68", "appel-will.98", full=300)
 @claim("appel-will.36", "appel-will.116", "appel-will.120", "appel-will.135", "yau-srihari.112", full=300)
 @claim("appel-will.146", "appel-will.147", "appel-will.149", full=300)

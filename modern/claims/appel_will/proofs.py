@@ -91,6 +91,21 @@ def product_of_lines() -> Proof:
     return Proof("the product of two lines of a surface is normal to it", "The lines span the surface.", tuple(steps))
 
 
+def equal_images() -> Proof:
+    """Prove that two points in front of the eye, which is the origin, are collinear with it if their images agree."""
+    p, q = point("p", 3), point("q", 3)
+    normal = cross(p, q)
+    hypotheses = {"depth": positive(q[2]), "x": zero(normal[1]), "y": zero(normal[0])}
+    step = Step(
+        "the points are collinear", hypotheses, zero(normal[2]), (term("x", -q[1]), term("y", -q[0])), ("depth",)
+    )
+    return Proof(
+        "points with the same image are on one line through the eye",
+        "The images x / z and y / z agree if two components of the cross product are 0. Then the third one is 0 too.",
+        (step,),
+    )
+
+
 def fewer_pairs() -> Proof:
     """Prove that six or more objects have fewer pairs than triples."""
     (m,) = variables("m")
@@ -108,6 +123,7 @@ def fewer_pairs() -> Proof:
 
 @claim("appel-will.49", "appel-will.50", "appel-will.51", proof=triangle_area)
 @claim("appel-will.52", proof=inside_triangle)
+@claim("nakamae-nishita.34", proof=equal_images)
 @claim("appel-will.81", "appel-will.82", "appel-will.139", proof=lines_and_planes)
 def proof_of_equation(proof: Callable[[], Proof]) -> Check:
     return proof().check()

@@ -142,7 +142,7 @@ def unmerged_triangles(cases: int = CASES) -> Check:
 def invisible_needs_fewer_faces() -> Check:
     """Check that a grid of points needs fewer new faces if coplanar faces are extended than if they are visible."""
     extended, made = coplanar_hull(GRID, EXTENDED).created, _created(GRID)
-    visible, invisible = (triangles_of_ball(6, coplanar) for coplanar in (VISIBLE, INVISIBLE))
+    visible, invisible = (triangles_of_ball(coplanar) for coplanar in (VISIBLE, INVISIBLE))
     check = exhibited(extended < made, f"{extended} new faces for a grid if coplanar faces are extended, else {made}")
     return check.unless(invisible > visible, f"triangles only: {invisible} for a ball if invisible, else {visible}")
 

@@ -193,7 +193,11 @@ def formula_5() -> Check:
     a, b, c = (algebra.minus(corner, x) for corner in corners)
     computed = height(plane_through(*((*corner, unit) for corner in corners)), (*x, unit))  # type: ignore[arg-type]
     step = algebra.Step("both are equal", {}, algebra.zero(algebra.dot(a, algebra.cross(b, c)) - computed))
-    argument = "The value is the determinant of (5): six times the signed volume of the tetrahedron on the face"
+    argument = (
+        "The value is the determinant of (5): six times the signed volume of the tetrahedron on the face. If a vertex "
+        "of V' were in front of V and another one behind it, the segment between them would meet V, because V is "
+        "convex and its contour encloses that of V'. So one vertex decides for all."
+    )
     check = proved(argument, [step.is_valid()], "the value is positive outside the face, negative on its other side")
     face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))
     return check.unless(height(face, (1, 2, 0, 1)) == 0, "a vertex in the face, for which the value is 0")
