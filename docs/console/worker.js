@@ -1,6 +1,6 @@
 // The emulator in a worker: Python with this project's package, run in slices between the messages of the page.
 // In: {id, name, parameters}, a method of the Desk or a handler below. Out: {id, answer} for each, {slice} after each
-// slice of a run, {progress} while loading.
+// slice of a run, {trouble} if a slice fails, {progress} while loading.
 "use strict";
 
 const SLICE = 40; // milliseconds between two checks for messages
@@ -9,6 +9,7 @@ let desk;
 let pace = 10; // speed relative to the 1620; 0 means at once
 let turn = 0; // counts loads and jumps, so that a slice planned before does nothing
 let planned = false;
+let live = false; // a program is loaded and has not ended
 let isDue = false; // the first slice follows the answer at once, so that no action can come before it
 let before = 0; // seconds on the 1620 at the end of the previous slice
 
@@ -98,10 +99,20 @@ function plan(delay = 0) {
   }, delay);
 }
 
+/** Return the last line of an error, which names it. @param {unknown} error */
+const message = (error) => (error instanceof Error ? error.message : String(error)).trim().split("\n").at(-1);
+
 function slice() {
   const began = performance.now();
   /** @type {{seconds: number, ended: boolean, waits: string}} */
-  const answer = desk("run", SLICE, pace);
+  let answer;
+  try {
+    answer = desk("run", SLICE, pace);
+  } catch (error) {
+    live = false;
+    return postMessage({ trouble: message(error) });
+  }
+  if (answer.ended) live = false;
   postMessage({ slice: answer });
   if (answer.ended || answer.waits) return;
   const delay = pace ? ((answer.seconds - before) / pace) * 1000 - (performance.now() - began) : 0;
@@ -109,30 +120,37 @@ function slice() {
   plan(Math.min(Math.max(delay, 0), 500));
 }
 
-/** Call a method that puts the machine into another state, and run it from there. @param {string} name @param {any[]} parameters */
+/** Call a method that puts the machine into another state. @param {string} name @param {any[]} parameters */
 function restart(name, ...parameters) {
   turn += 1;
   planned = false;
   before = 0;
-  const answer = desk(name, ...parameters);
-  isDue = !answer.refused && name !== "jump";
+  return desk(name, ...parameters);
+}
+
+/** Call a method that loads a program, which then runs. @param {string} name @param {any[]} parameters */
+function load(name, ...parameters) {
+  live = false;
+  const answer = restart(name, ...parameters);
+  live = isDue = !answer.refused;
   return answer;
 }
 
 /** What the page asks for besides the methods of the desk. @type {Record<string, (parameter?: any) => any>} */
 const handlers = {
   begin,
-  load: (request) => restart("load", request),
-  replay: (text) => restart("replay", text),
-  next_load: () => restart("next_load"),
+  load: (request) => load("load", request),
+  replay: (text) => load("replay", text),
+  next_load: () => load("next_load"),
   jump(statement) {
     const answer = restart("jump", statement);
-    if (!answer.undone) plan();
+    live ||= Boolean(answer.undone);
+    if (live && !answer.undone) plan();
     return answer;
   },
   act(line) {
     const answer = desk("act", line);
-    plan();
+    if (live) plan();
     return answer;
   },
   pace(value) {
@@ -147,7 +165,6 @@ self.onmessage = async ({ data: { id, name, parameters } }) => {
     if (isDue) slice();
     isDue = false;
   } catch (error) {
-    const text = error instanceof Error ? error.message : String(error);
-    postMessage({ id, failed: text.trim().split("\n").at(-1) });
+    postMessage({ id, failed: message(error) });
   }
 };

@@ -161,10 +161,29 @@ const deskTape = (() => {
 
   // ---- The beginning
 
+  /** The moment of the last link. @type {Moment | null} */
+  let moment = null;
+  let damage = "";
+
+  /** Read the address of the page, and return the moment that it names, or null. */
+  async function linked() {
+    damage = "";
+    try {
+      const named = await deskLink.read();
+      moment = named ?? moment;
+      return named;
+    } catch {
+      moment = null;
+      damage = "The cards in the address of the page are damaged.";
+      return null;
+    }
+  }
+
   async function begin() {
-    const moment = await deskLink.read();
+    await linked();
     // The emulator loads while the first frame of the recorded run is drawn.
-    const connecting = hull1620.bytes ? deskRun.connect() : null;
+    const label = moment ? undefined : "A recorded run of example 5, while the emulator loads";
+    const connecting = hull1620.bytes ? deskRun.connect(label) : null;
     if (moment) {
       deskChoice.set(moment);
       deskShow.lay(null);
@@ -177,14 +196,12 @@ const deskTape = (() => {
     try {
       await connecting;
     } catch (error) {
-      at("progress", HTMLElement).hidden = true;
-      deskPage.enter("off");
       deskTape.offer();
-      return say(`The emulator is not available: ${error instanceof Error ? error.message : error}. The recorded run is unchanged.`);
+      return deskRun.absent(/** @type {Error} */ (error));
     }
     if (moment) await deskRun.open(moment);
     else if (deskRun.wish) await deskRun.load(deskRun.wish === "START");
-    else say("The machine is on. Press START to run example 5, or choose a program.");
+    else say(damage || "The machine is on. Press START to run example 5, or choose a program.");
   }
 
   // These links need no second start of the emulator.
@@ -194,9 +211,10 @@ const deskTape = (() => {
       location.hash = link.getAttribute("href")?.split("?")[1] ?? "";
     });
   addEventListener("hashchange", async () => {
-    const moment = await deskLink.read();
-    if (moment && deskRun.isOn) deskRun.open(moment);
-    else if (moment) deskChoice.set(moment);
+    const named = await linked();
+    if (damage) say(damage);
+    else if (named && deskRun.isOn) deskRun.open(named);
+    else if (named) deskChoice.set(named);
   });
   begin();
 })();

@@ -56,9 +56,10 @@ const hull1620 = (() => {
    * Start the emulator.
    * @param {(bytes: number) => void} progress
    * @param {(slice: any) => void} slice
+   * @param {(message: string) => void} [trouble] Receives the message of a slice that fails.
    * @returns {Promise<Machine & {offers: any}>}
    */
-  async function connect(progress, slice) {
+  async function connect(progress, slice, trouble) {
     const local = isLocal ? await fromScript() : null;
     if (!local) await keep();
     const address = local ? `data:text/javascript,${encodeURIComponent(local.worker)}` : `${here}worker.js`;
@@ -69,6 +70,7 @@ const hull1620 = (() => {
     worker.onmessage = ({ data }) => {
       if (data.progress !== undefined) return progress(data.progress);
       if (data.slice) return slice(data.slice);
+      if (data.trouble !== undefined) return trouble?.(data.trouble);
       const call = waiting.get(data.id);
       waiting.delete(data.id);
       if (data.failed === undefined) call?.done(data.answer);

@@ -16,6 +16,8 @@ const deskRun = (() => {
   let isChanged = false; // another program or deck has been chosen since the last load
   let wish = ""; // START or LOAD, pressed before the machine is ready
   let looked = 0;
+  let loads = 0; // counts loads, so that an earlier one does not act on the machine of a later one
+  let late = 0;
 
   const clock = (/** @type {Frame} */ { time }) => `${time} on a 1620`;
 
@@ -30,8 +32,16 @@ const deskRun = (() => {
     });
   }
 
-  /** Load the emulator; the desk shows how much of it has arrived. */
-  async function connect() {
+  /** Show the message of a slice that failed; START then loads the program again. @param {string} message */
+  function trouble(message) {
+    running = false;
+    waits = "";
+    deskPage.enter("ended");
+    say(`The emulator reports: ${message}`);
+  }
+
+  /** Load the emulator; the desk shows how much of it has arrived. @param {string} [label] The state of the page meanwhile. */
+  async function connect(label = "The emulator is loading") {
     progress.max = hull1620.bytes;
     progress.hidden = false;
     const began = performance.now();
@@ -41,8 +51,8 @@ const deskRun = (() => {
       const remaining = ((performance.now() - began) / 1000) * (hull1620.bytes / bytes - 1);
       const time = bytes < hull1620.bytes ? `about ${Math.ceil(remaining) + 3} seconds more` : "starting Python, a few seconds";
       progress.title = size;
-      if (!wish) say(`A recorded run of example 5, while the emulator loads: ${size}, ${time}. Nothing leaves your computer.`);
-    }, slice);
+      if (!wish) say(`${label}: ${size}, ${time}. Nothing leaves your computer.`);
+    }, slice, trouble);
     machine = connection;
     progress.hidden = true;
     deskChoice.offer(connection.offers);
@@ -57,15 +67,17 @@ const deskRun = (() => {
       wish = start ? "START" : "LOAD";
       return say("The emulator is still loading. It will begin by itself.");
     }
+    wish = "";
     isChanged = false;
     deskPage.enter("loading");
     say("Compiling …");
-    const late = setTimeout(restart, COMPILING);
-    const answer = await ask("load", deskChoice.request());
+    const own = ++loads;
     clearTimeout(late);
-    if (!received(answer)) return;
+    late = window.setTimeout(restart, COMPILING);
+    const answer = await ask("load", deskChoice.request()).finally(() => own === loads && clearTimeout(late));
+    if (own !== loads || !received(answer)) return;
     if (stop) await act(`BREAK ${stop}`);
-    if (start) await act("START");
+    if (start && own === loads) await act("START");
   }
 
   /** Show the answer of a load, and return whether the machine is loaded. @param {Load} answer */
@@ -80,9 +92,22 @@ const deskRun = (() => {
   function restart() {
     machine?.stop();
     machine = null;
+    running = false;
+    waits = "";
     const stopped = "The compiler was stopped after 10 seconds.";
     say(`${stopped} The command hull1620 check has no time limit. Loading again …`);
-    connect().then(() => say(`${stopped} The machine is on again. Load a program.`));
+    connect(`${stopped} The emulator is loading again`).then(
+      () => (wish ? load(wish === "START") : say(`${stopped} The machine is on again. Load a program.`)),
+      absent,
+    );
+  }
+
+  /** Show that the emulator cannot be loaded. @param {Error} error */
+  function absent(error) {
+    wish = "";
+    progress.hidden = true;
+    deskPage.enter("off");
+    say(`The emulator is not available: ${error.message}.`);
   }
 
   /** Send a command of the operator. @param {string} words */
@@ -137,7 +162,7 @@ const deskRun = (() => {
     deskPage.enter(frame.ended ? "ended" : waits ? "waits" : "runs");
     const program = deskShow.loaded?.program;
     if (frame.ended) end(frame);
-    else if (frame.repeats) say(`This run never ends: it repeats ${statements(frame.repeats)} with the same values. ${clock(frame)}. Press “end run”.`);
+    else if (frame.repeats) say(`Without an action of yours, this run never ends: it repeats ${statements(frame.repeats)} with the same values. ${clock(frame)}. Press “end run”; if the program tests a sense switch, turn it and press START.`);
     else if (waits === "typed") say("The program asks for a line: type it below the typewriter and press Enter.");
     else if (waits && frame.statement === 1) say(`${program} is loaded. Press START.`);
     else if (waits) say(`${frame.stands}. Press START to continue, or step. ${clock(frame)}.`);
@@ -222,18 +247,22 @@ const deskRun = (() => {
   /** Repeat the log of a session. @param {string} text */
   async function replay(text) {
     deskTape.end();
-    received(await ask("replay", text));
+    const own = ++loads;
+    clearTimeout(late);
+    const answer = await ask("replay", text);
+    if (own === loads) received(answer);
   }
 
   /** Open the desk at a moment that a link names. @param {Moment} moment */
-  function open(moment) {
+  async function open(moment) {
     deskChoice.set(moment);
     follows = moment.next;
+    if (machine) await ask("pace", deskPage.pace());
     return load(true, moment.stop);
   }
 
   return {
-    act, ask, back, change, connect, decide, field, jump, load, look, open, press, replay, turn, type, view,
+    absent, act, ask, back, change, connect, decide, field, jump, load, look, open, press, replay, turn, type, view,
     /** Say whether a program and its deck follow program 1 without a key. @param {boolean} on */
     follow: (on) => void (follows = on),
     get isOn() { return machine !== null; },

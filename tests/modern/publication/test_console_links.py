@@ -37,7 +37,7 @@ ENDS = {
     "counterexamples/silent": ("program3.f", DETERMINED),
     "counterexamples/z_in_39": ("program3.f", DETERMINED),
     "grounds/lastpair": ("program3.f", ERROR),
-    "grounds/lastplane": ("program3.f", "This run never ends: it repeats the same 230,000 statements"),
+    "grounds/lastplane": ("program3.f", "this run never ends: it repeats the same 230,000 statements"),
     "grounds/polygon51": ("program2.f", "The run has stopped: program2.f: card 116: A(52) is outside A(51)"),
     "grounds/renumber": ("program2.f", DETERMINED),
     "fibon.deck": ("fibon.f", "RATIO  1.6180339"),
@@ -56,9 +56,10 @@ def links(site: Path) -> dict[str, dict[str, str]]:
     return {query: {key: values[0] for key, values in parse_qs(query).items()} for query in queries}
 
 
-def opened(page: Page, query: str) -> None:
+def opened(page: Page, query: str, speed: int = 0) -> None:
     page.evaluate(
-        "query => { document.getElementById('desk').dataset.state = 'linked'; location.hash = query; }", query
+        "query => { document.getElementById('desk').dataset.state = 'linked'; location.hash = query; }",
+        f"{query}&speed={speed}",
     )
 
 
@@ -83,6 +84,15 @@ def test_every_linked_run_reaches_its_known_end(site: Path, tab: Page) -> None:
             arg=[program, line],
             timeout=2 * LONG,
         )
+
+
+def test_a_link_sets_the_speed_of_a_machine_that_is_on(tab: Page) -> None:
+    opened(tab, "program=program1_examples&deck=example4", speed=1)
+    tab.wait_for_selector("#desk[data-state=runs]", timeout=LONG)
+    tab.wait_for_timeout(1000)
+    assert tab.get_attribute("#desk", "data-state") == "runs", "example 4 takes longer on a 1620"
+    opened(tab, "program=program1_examples&deck=example5", speed=0)
+    tab.wait_for_selector("#desk[data-state=ended]", timeout=LONG)
 
 
 def test_a_sample_of_the_links_of_cards_stops_before_them(site: Path, tab: Page) -> None:

@@ -51,7 +51,13 @@ def press(page: Page, key: str = "START") -> str:
     """Press a key and return the message when the machine halts or ends."""
     page.evaluate("document.getElementById('desk').dataset.state = 'pressed'")
     page.click(f"[data-words={key}]")
-    return state(page, "waits", "ended")
+    # START on an idle machine first loads the program, which waits for a moment.
+    page.wait_for_function(
+        """() => ["waits", "ended"].includes(document.getElementById("desk").dataset.state)
+          && !document.getElementById("desk-state").textContent.endsWith("is loaded. Press START.")""",
+        timeout=LONG,
+    )
+    return page.inner_text("#desk-state")
 
 
 def cards(page: Page) -> list[str]:
@@ -189,6 +195,55 @@ def test_a_refused_load_empties_the_machine(tab: Page) -> None:
     assert message.startswith("Refused: bad.f: card 1, column 8: error: the statement ends too soon")
     assert tab.locator("#desk-listing li").count() == 0
     fit(tab)
+    tab.click("[data-words=ATTN]")
+    tab.wait_for_function("document.getElementById('desk-paper').textContent.includes('nothing is loaded')")
+    assert tab.inner_text("#desk-state") == message
+    tab.select_option("#desk-program", "stats.f")
+    assert press(tab).startswith("The run has ended.")
+
+
+def test_a_slice_that_fails_is_reported_and_start_loads_again(tab: Page) -> None:
+    load(tab, "stats.f")
+    tab.evaluate("deskRun.ask('pace', 'fast')")
+    assert press(tab).startswith("The emulator reports: TypeError")
+    tab.evaluate("deskRun.ask('pace', 0)")
+    assert press(tab).startswith("The run has ended.")
+
+
+def test_an_earlier_load_does_not_press_start_on_a_later_one(tab: Page) -> None:
+    load(tab, "stats.f")
+    tab.evaluate("Promise.all([deskRun.load(true, '131'), deskRun.load()])")
+    assert state(tab, "waits") == "stats.f is loaded. Press START."
+    log = tab.evaluate("deskRun.ask('log')").rpartition("LOAD")[2]
+    assert "START" not in log
+    assert "BREAK" not in log
+
+
+def test_a_slow_compilation_restarts_the_emulator_and_a_failing_one_does_not(tab: Page) -> None:
+    tab.evaluate(
+        """async () => {
+          const { setTimeout } = window;
+          window.setTimeout = (action, time) => setTimeout(action, time / 1000);
+          const { request } = deskChoice;
+          deskChoice.request = () => ({});
+          await deskRun.load().catch(() => {});
+          await new Promise((done) => setTimeout(done, 100));
+          if (!deskRun.isOn) throw new Error("the emulator was restarted after a load that failed");
+          Object.assign(deskChoice, { request });
+          deskRun.load();
+          await new Promise((done) => setTimeout(done, 20));
+          Object.assign(window, { setTimeout });
+        }"""
+    )
+    tab.wait_for_function("!deskRun.isOn")
+    tab.wait_for_function(
+        "/stopped after 10 seconds/.test(document.getElementById('desk-state').textContent)", timeout=LONG
+    )
+    tab.select_option("#desk-program", "stats.f")
+    tab.evaluate("document.getElementById('desk').dataset.state = 'pressed'")
+    tab.click("[data-words=START]")
+    tab.wait_for_selector("#desk[data-state=ended]", timeout=4 * LONG)
+    assert cards(tab)[-1].strip() == "R = -1.00000"
 
 
 def test_the_keypunch_shows_errors_next_to_their_cards_and_loads_three_cards(tab: Page) -> None:
@@ -245,18 +300,43 @@ def test_a_long_run_can_be_stopped(tab: Page) -> None:
     fit(tab)
     tab.click("[data-words=ATTN]")
     assert "stopped (attention) before" in state(tab, "waits")
-    assert press(tab, "STOP").startswith("The run has stopped")
+    message = press(tab, "STOP")
+    assert message.startswith("The run has stopped")
+    tab.click("[data-words=ATTN]")
+    tab.wait_for_function("document.getElementById('desk-paper').textContent.includes('the run has ended: press Load')")
+    assert tab.inner_text("#desk-state") == message
 
 
 def test_an_endless_run_is_recognised_and_a_chosen_program_starts_without_a_load(tab: Page) -> None:
     give(tab, "loop.f", "    1 GO TO 1\n      END\n")
     tab.wait_for_function("document.getElementById('desk-state').textContent.startsWith('loop.f with')")
-    assert press(tab).startswith("This run never ends: it repeats the same statement with the same values.")
+    assert press(tab).startswith("Without an action of yours, this run never ends: it repeats the same st")
     press(tab, "STOP")
     tab.select_option("#desk-program", "stats.f")
     assert tab.inner_text("#desk-state") == "stats.f with stats.deck. Press START."
     assert press(tab).startswith("The run has ended.")
     assert cards(tab)[-1].strip() == "R = -1.00000"
+
+
+def test_a_damaged_link_is_reported_and_a_link_opened_while_the_emulator_loads_is_followed(
+    chromium: Browser, served: str
+) -> None:
+    page = chromium.new_page()
+    page.goto(f"{served}/console.html#program=mine.f&program-cards=!!!")
+    page.wait_for_selector("#desk[data-state=on]", timeout=4 * LONG)
+    damaged = (
+        "document.getElementById('desk-state').textContent === 'The cards in the address of the page are damaged.'"
+    )
+    page.wait_for_function(damaged)
+    page.goto("about:blank")
+    page.goto(f"{served}/console.html#program=stats.f&deck=stats.deck")
+    page.evaluate("location.hash = 'program=program3&deck=example5/punched&speed=0&stop=125'")
+    page.wait_for_function(
+        "document.getElementById('desk-state').textContent.includes('statement 125')", timeout=4 * LONG
+    )
+    page.evaluate("location.hash = 'program=mine.f&program-cards=!!!'")
+    page.wait_for_function(damaged)
+    page.close()
 
 
 def test_the_desk_runs_example_6_from_a_folder_without_a_server(chromium: Browser, folder: Path) -> None:
