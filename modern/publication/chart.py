@@ -267,7 +267,10 @@ def _rails(flow: Flow, inside: range) -> list[_Rail]:
 
 
 def _lanes(rails: Sequence[_Rail]) -> dict[tuple[int, Where], int]:
-    """Assign each rail (the vertical line that jumps to one target share) to a lane, the shortest rail first."""
+    """Assign each rail (the vertical line that jumps to one target share) to a lane, the shortest rail first.
+
+    Rails without a free lane are omitted; their lines get connectors.
+    """
     taken: dict[tuple[Where, int], list[_Rail]] = {}
     lanes: dict[tuple[int, Where], int] = {}
     for rail in sorted(rails, key=lambda r: (r.last - r.first, r.first, r.target)):
