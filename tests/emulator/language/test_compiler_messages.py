@@ -15,7 +15,7 @@ MESSAGES = [
     ("jump to DIMENSION", ["GO TO 5", "5 DIMENSION X(2)", "END"], 1, 0, "statement 5 cannot be executed"),
     ("missing FORMAT", ["PUNCH 5,A", "END"], 1, 13, "no FORMAT number 5"),
     ("FORMAT number of a statement", ["5 A=1.", "PUNCH 5,A", "END"], 2, 13, "no FORMAT number 5"),
-    ("FORMAT without field", ["PUNCH 5,A", "5 FORMAT(3HABC)", "END"], 1, 13, "no field for the list"),
+    ("FORMAT without field", ["PUNCH 5,A", "5 FORMAT(3HABC)", "END"], 1, 13, "no field for the numbers"),
     ("FORMAT with a wrong letter", ["5 FORMAT(B4)", "END"], 1, 11, "'B' is not a specification"),
     ("FORMAT unnumbered", ["FORMAT(I4)", "END"], 1, 10, "a FORMAT needs a statement number"),
     ("mixed sum", ["X=A+I", "END"], 1, 5, "mixed"),

@@ -54,7 +54,7 @@ def checked_ending(machine: Machine, result: Result, options: Options) -> str:
     assert bool(result.ending.message) == (not result.ending.normal)
     assert "\n" not in result.ending.message
     assert len(machine.state.values) == len(machine.state.kinds) == machine.program.storage.length
-    assert measure(machine.program, result).seconds >= 0
+    assert measure(machine.program, result).time.seconds >= 0
     return result.ending.kind
 
 

@@ -223,13 +223,14 @@ def test_a_slow_compilation_restarts_the_emulator_and_a_failing_one_does_not(tab
     tab.evaluate(
         """async () => {
           const { setTimeout } = window;
-          window.setTimeout = (action, time) => setTimeout(action, time / 1000);
+          window.setTimeout = (action, time) => setTimeout(action, time / 20);
           const { request } = deskChoice;
           deskChoice.request = () => ({});
           await deskRun.load().catch(() => {});
-          await new Promise((done) => setTimeout(done, 100));
+          await new Promise((done) => setTimeout(done, 700));
           if (!deskRun.isOn) throw new Error("the emulator was restarted after a load that failed");
           Object.assign(deskChoice, { request });
+          window.setTimeout = (action) => setTimeout(action, 0);
           deskRun.load();
           await new Promise((done) => setTimeout(done, 20));
           Object.assign(window, { setTimeout });

@@ -61,7 +61,8 @@ def test_the_page_links_every_failing_deck_and_period_program_and_each_link_load
 
 def test_an_endless_loop_stops_within_a_slice() -> None:
     desk = Desk()
-    assert "listing" in desk.load({"program": ["loop.f", "    1 GO TO 1\n      END\n"], "deck": ""})
+    counting = "      A=0.\n    1 A=A+1.\n      GO TO 1\n      END\n"
+    assert "listing" in desk.load({"program": ["loop.f", counting], "deck": ""})
     desk.run(1)
     desk.act("START")
     answer = desk.run(20)
@@ -69,13 +70,13 @@ def test_an_endless_loop_stops_within_a_slice() -> None:
     desk.act("ATTN")
     answer = desk.run(20)
     assert answer["waits"] == "answer"
-    assert answer["stands"].startswith("stopped (attention) before statement 1 (card 1)")
+    assert answer["stands"].startswith("stopped (attention) before ")
     desk.act("STOP")
     answer = desk.run(20)
-    assert (answer["ended"], answer["messages"]) == (
-        True,
-        ["hull1620: loop.f: card 1: stopped by the operator, in 1 GO TO 1"],
-    )
+    assert answer["ended"]
+    [message] = answer["messages"]
+    assert message.startswith("hull1620: loop.f: card ")
+    assert "stopped by the operator, in " in message
 
 
 def test_the_pace_limits_the_speed() -> None:

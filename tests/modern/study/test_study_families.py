@@ -71,7 +71,7 @@ def test_points_of_a_box_are_around_its_centre(seed: int, most: int, centre: int
 
 @pytest.mark.parametrize("parameters", [{"most": 0}, {"most": 10**8}, {"most": 1, "centre": 99_999_999}])
 def test_box_with_coordinates_too_long_for_a_card_is_rejected(parameters: dict[str, int]) -> None:
-    with pytest.raises(FamilyError, match="family box: most is"):
+    with pytest.raises(FamilyError, match="family box: most = "):
         draw("box", 1, n=4, **parameters)
 
 
@@ -173,7 +173,7 @@ def test_published_sets_follow_one_another() -> None:
         ("integers", {"digits": 1.5, "n": 3}, "which a card holds, found 1.5"),
         ("integers", {"digits": 1, "n": [9]}, "an integer, or the least and the greatest as [4, 20], found [9]"),
         ("decimals", {"digits": 3, "n": 5, "exponent": "x"}, "least and the greatest as [4, 20], found 'x'"),
-        ("box", {"most": 1.5, "n": 5}, "most is 1.5"),
+        ("box", {"most": 1.5, "n": 5}, "most = 1.5"),
         ("near-coplanar", {"digits": 2, "n": 5, "gap": 1.5}, "for 10**-gap, found 1.5"),
         ("decimals", {"digits": 3, "n": 5, "exponent": 40}, "exponent: expected -20 to 20, found 40"),
         ("near-coplanar", {"digits": 5, "n": 5, "gap": 6}, "significant digits"),
