@@ -24,7 +24,7 @@ from random import Random
 from typing import Any
 
 from emulator.errors import FileError
-from emulator.files import read_text
+from emulator.files import read_text, write_text
 from emulator.language.statements import capitals
 from emulator.progress import Progress
 from modern.edition import chapter6, programs
@@ -175,9 +175,9 @@ def measure(folder: Path, groups: Sequence[Group], rounds: int, workers: int = 1
         # If a run was killed, its last line may be incomplete.  The line is then removed and its copy restored again.
         done = {copy.key: copy for copy in map(_copy, lines[1:-1])}
         remaining = [task for task in tasks if (task[0], task[1].name, task[2]) not in done]
-        with path.open("w", encoding="utf-8") as file:
-            file.writelines(line + "\n" for line in (head, *(json.dumps(astuple(copy)) for copy in done.values())))
-            file.flush()
+        stored = (head, *(json.dumps(astuple(copy)) for copy in done.values()))
+        write_text(str(path), "".join(line + "\n" for line in stored))
+        with path.open("a", encoding="utf-8") as file:
             progress = Progress(len(tasks), len(tasks) - len(remaining))
             for copy in _restored_copies(remaining, workers):
                 done[copy.key] = copy
@@ -185,7 +185,7 @@ def measure(folder: Path, groups: Sequence[Group], rounds: int, workers: int = 1
                 file.flush()
                 progress.add(1)
             progress.close()
-    except (OSError, json.JSONDecodeError) as error:
+    except (OSError, ValueError, TypeError) as error:
         raise FileError(f"{path}: {error}") from None
     return [done[damage, group.name, number] for damage, group, number in tasks]
 
