@@ -176,7 +176,7 @@ def lines_from_pairs(cases: int = CASES) -> Check:
             sides = [_area(p, q, r) for r in flat]
             if max(sides) <= 0 or min(sides) >= 0:
                 lines.add(frozenset(k for k, side in enumerate(sides) if not side))
-        agreeing += len(lines) == len(sampled.judge.facets)
+        agreeing += lines == {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
     return searched(
         SETS[2], cases, [agreeing == len(sets)], f"the supporting lines of {agreeing} of {len(sets)} sets are the edges"
     )

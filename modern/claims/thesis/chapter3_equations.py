@@ -3,46 +3,59 @@
 The equations are transcribed as printed and compared with independent formulas over integers.
 """
 
+from collections.abc import Sequence
 from random import Random
 
-from modern.claims.evidence import Check, Generator, claim, exhibited, identity, search, searched
-from modern.claims.sampled_sets import BOTH, CASES, Plane, Point, flat_and_spatial_sets, plane_through, plane_value
-from modern.exact_hull import exact_hull
+from modern.claims.evidence import Check, Generator, claim, exhausted, identity, search, searched
+from modern.claims.sampled_sets import (
+    BOTH,
+    CASES,
+    SETS,
+    Plane,
+    Point,
+    SampledSet,
+    flat_and_spatial_sets,
+    plane_through,
+    plane_value,
+    sampled_sets,
+)
+from modern.exact_hull import ExactHull, exact_hull
+from modern.geometry.hull import Hull
 from modern.port import convex_hull
 
 Line = tuple[int, int, int]
 
 
-def procedure_against_judge(cases: int = CASES) -> Check:
+def procedure_against_judge(dimensions: Sequence[int], cases: int = CASES) -> Check:
     """Check that the procedure in exact arithmetic finds the vertices, other points and planes of the exact hull."""
-    right = sets = 0
-    for sampled in flat_and_spatial_sets(cases):
-        sets += 1
-        classification = (
-            {*sampled.hull.vertices},
-            {*sampled.hull.boundary},
-            {*sampled.hull.inside},
-            len(sampled.hull.faces),
-        )
-        right += classification == (
-            {*sampled.judge.vertices},
-            {*sampled.judge.boundary},
-            {*sampled.judge.inside},
-            len(sampled.judge.facets),
-        )
-    message = f"in exact arithmetic {right} of {sets} sets agree with the exact hull"
-    return searched(BOTH, 2 * cases, [right == sets], message)
+    same = []
+    for sampled in (sampled for dimension in dimensions for sampled in sampled_sets(dimension, cases)):
+        planes = [face.lowest for face in sampled.hull.faces], [facet.plane for facet in sampled.judge.facets]
+        same.append(_parts(sampled, sampled.hull, planes[0]) == _parts(sampled, sampled.judge, planes[1]))
+    message = f"in exact arithmetic {sum(same)} of {len(same)} sets agree with the exact hull"
+    return searched(BOTH if len(dimensions) == 2 else SETS[dimensions[0]], len(same), same, message)
+
+
+def _parts(sampled: SampledSet, hull: Hull | ExactHull, planes: Sequence[Plane]) -> tuple[object, ...]:
+    """Return the kinds of the points, and for each plane or line the points on it, also for the plane of a flat set."""
+    flat: list[Plane] = [tuple(map(int, hull.plane))] if hull.plane else []  # type: ignore[list-item]
+    on = [[k for k, point in enumerate(sampled.points) if not plane_value(plane, point)] for plane in (*planes, *flat)]
+    return {*hull.vertices}, {*hull.boundary}, {*hull.inside}, sorted(on)
 
 
 @claim("thesis.6", full=400)
 def other_orders(cases: int = CASES) -> Check:
-    """Check that the hull has the same vertices if the points are listed in reverse order, or sorted by y, z and x."""
-    same = [
-        {sampled.points[k] for k in sampled.judge.vertices} == {points[k] for k in exact_hull(points).vertices}
-        for sampled in flat_and_spatial_sets(cases)
-        for points in (sampled.points[::-1], sorted(sampled.points, key=lambda p: (*p[1:], p[0])))
-    ]
-    return searched(BOTH, 2 * cases, same, f"{sum(same)} of {len(same)} other orders give the same vertices")
+    """Check that the hull has the same vertices and planes if the points are reversed, or sorted by y, z and x."""
+    same = []
+    for sampled in flat_and_spatial_sets(cases):
+        orders = [sampled.points, sampled.points[::-1], sorted(sampled.points, key=lambda p: (*p[1:], p[0]))]
+        first, *others = (
+            ({points[k] for k in hull.vertices}, {facet.plane for facet in hull.facets})
+            for points in orders
+            for hull in [exact_hull(points)]
+        )
+        same += [parts == first for parts in others]
+    return searched(BOTH, 2 * cases, same, f"{sum(same)} of {len(same)} other orders give the same vertices and planes")
 
 
 def _draw_line(random: Random) -> tuple[Point, ...]:
@@ -55,7 +68,7 @@ LINES: Generator[tuple[Point, ...]] = Generator(
 )
 
 
-@claim("thesis.7", "thesis.48", full=2_000)
+@claim("thesis.7", "thesis.8", "thesis.48", full=2_000)
 def collinear_points(cases: int = 8) -> Check:
     """Check that the procedure finds the two ends and two equations for the points of a line."""
 
@@ -70,13 +83,16 @@ def collinear_points(cases: int = 8) -> Check:
 
 @claim("thesis.32", "thesis.270")
 def few_points() -> Check:
-    hulls = [convex_hull([(1, 2, 3), (4, 0, 1), (0, 5, 5)][:n]) for n in (1, 2, 3)]
-    outcomes = [(h.status, h.dimension, len(h.vertices)) for h in hulls]
-    message = "the hulls are a point, a segment and a triangle"
-    return exhibited(outcomes == [("determined", k, k + 1) for k in range(3)], message)
+    """Check the hulls of the first 1 to 12 points of the curve (t, t squared, t cubed): all points are vertices."""
+    hulls = [convex_hull([(t, t**2, t**3) for t in range(n)]) for n in range(1, 13)]
+    outcomes = [
+        (hull.status, hull.dimension, len(hull.vertices)) == ("determined", min(n - 1, 3), n)
+        for n, hull in enumerate(hulls, 1)
+    ]
+    return exhausted("the numbers of points from 1 to 12", outcomes, "all points are vertices")
 
 
-@claim("thesis.211", "thesis.46", full=400)
+@claim("thesis.211", full=400)
 def first_two_points(cases: int = CASES) -> Check:
     """Check that the first two points have the largest and smallest x; if all x are equal, y; if all y are too, z."""
     checks = []
@@ -95,7 +111,7 @@ def first_two_points(cases: int = CASES) -> Check:
 
 @claim("thesis.40", "thesis.41", "thesis.43")
 def equation_of_line() -> Check:
-    """Check that equations (3.1), (3.2) and (3.3), each in two coordinates, are 0 only on the line."""
+    """Check that equations (3.1), (3.2) and (3.3), one formula for two coordinates each, are 0 only on the line."""
 
     def difference(u1: int, v1: int, u: int, v: int, along: int, right: int) -> int:
         a, b, c = line_as_printed(u1, v1, u1 + u, v1 + v)
@@ -117,7 +133,7 @@ def equation_of_plane() -> Check:
 
 @claim("thesis.62")
 def equation_of_page_19() -> Check:
-    """Check that equation (3.5) is (3.1) with the two points exchanged and the sign reversed."""
+    """Check that equation (3.5) is (3.1) with the two points exchanged."""
 
     def difference(xk: int, yk: int, xm: int, ym: int) -> int:
         return int(line_of_page_19((xk, yk, 0), (xm, ym, 0)) != line_as_printed(xm, ym, xk, yk))

@@ -30,9 +30,8 @@ from modern.port import convex_hull
 
 @claim("thesis.2", "thesis.29", kind="nested", full=300)
 @claim("thesis.204", "thesis.203", "thesis.69", "thesis.265", kind="last_hull", full=300)
-@claim("thesis.30", kind="contained_points", full=300)
+@claim("thesis.30", "thesis.60", kind="contained_points", full=300)
 @claim("thesis.31", "thesis.78", "thesis.100", kind="finite", full=300)
-@claim("thesis.60", kind="struck_points", full=300)
 @claim("thesis.216", "thesis.72", "thesis.220", "thesis.225", kind="counts", full=300)
 @claim("thesis.217", "thesis.75", kind="decreasing", full=300)
 @claim("thesis.68", "thesis.76", "thesis.255", kind="accepted_planes", full=300)
@@ -46,7 +45,7 @@ from modern.port import convex_hull
 @claim("thesis.222", "thesis.232", kind="vertex_when_added", full=300)
 @claim("thesis.227", "thesis.92", kind="convexity", full=300)
 @claim("thesis.266", kind="added_tetrahedra", full=300)
-@claim("thesis.241", "thesis.240", "thesis.134", "thesis.144", kind="added_triangle", full=300)
+@claim("thesis.241", "thesis.240", kind="added_triangle", full=300)
 @claim("thesis.278", kind="two_new_lines", full=300)
 def stage_property(kind: str, cases: int = CASES) -> Check:
     """Check one property, a key of ``_PROPERTIES``, of all stages H_1, H_2, ... in the construction of sampled sets."""
@@ -134,11 +133,6 @@ def _last_hull(sampled: SampledSet) -> Iterator[bool]:
     for stage in stages:
         support = all(plane_value(plane, point) <= 0 for plane in stage.equations for point in sampled.points)
         yield support == ({reduced_plane(plane) for plane in stage.equations} == hull_planes) == (stage is stages[-1])
-
-
-def _struck_points(sampled: SampledSet) -> Iterator[bool]:
-    for stage in sampled.hull.history:
-        yield not set(stage.struck) & {*sampled.judge.vertices}
 
 
 def _struck_inside(sampled: SampledSet) -> Iterator[bool]:
@@ -320,7 +314,6 @@ _PROPERTIES = {
     "nested": _nested,
     "equations": _equations,
     "last_hull": _last_hull,
-    "struck_points": _struck_points,
     "struck_inside": _struck_inside,
     "contained_points": _contained_points,
     "decreasing": _decreasing,

@@ -5,6 +5,7 @@ Each step that fails as printed has a counterexample in ``transcripts/counterexa
 
 from collections.abc import Iterable, Iterator
 from itertools import combinations, permutations
+from math import isqrt
 from typing import Any
 
 from modern.claims.evidence import Check, Generator, claim, exhausted, refuted, searched, slip
@@ -22,7 +23,7 @@ from modern.claims.sampled_sets import (
     reduced_plane,
     sampled_sets,
 )
-from modern.claims.thesis.chapter3_equations import plane_as_printed
+from modern.claims.thesis.chapter3_equations import line_as_printed, plane_as_printed
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
@@ -46,13 +47,17 @@ def pairs_of_equations(equal: int | None) -> Check:
     lattice: list[Point] = [(x, y, z) for x in (0, 1) for y in (0, 1, 2) for z in (0, 2)]
     outcomes = []
     for p, q in combinations(lattice, 2):
-        if equal is not None and next(k for k in range(3) if p[k] != q[k]) != equal:
+        first = next(k for k in range(3) if p[k] != q[k])
+        if equal not in (None, first):
             continue
-        planes = [tuple(map(int, line)) for line in convex_hull([p, q]).lines]
+        # The two equations are those of (3.1), (3.2) and (3.3) that contain the first coordinate that differs.
+        pairs = [pair for pair in combinations(range(3), 2) if first in pair]
+        equations = [(i, j, *line_as_printed(p[i], p[j], q[i], q[j])) for i, j in pairs]
         for x in lattice:
-            satisfies_both = not any(plane_value((a, b, c, d), x) for a, b, c, d in planes)
+            satisfies_both = not any(a * x[i] + b * x[j] + c for i, j, a, b, c in equations)
             outcomes.append(satisfies_both == (not any(cross(minus(q, p), minus(x, p)))))
-    domain = "pairs of points of a 2 x 3 x 2 lattice, and its points"
+    chosen = "" if equal is None else f" that differ first in {'xyz'[equal]}"
+    domain = f"pairs of points of a 2 x 3 x 2 lattice{chosen}, each with all points of the lattice"
     return exhausted(domain, outcomes, "both equations hold only at the points of the line")
 
 
@@ -103,7 +108,22 @@ def common_first_steps(cases: int = CASES) -> Check:
     return all_hold(SETS[2], cases, checks, "sets start with the same three points in or out of a plane")
 
 
-@claim("thesis.213", "thesis.58", "thesis.59", full=300)
+@claim("thesis.59", full=300)
+def members_by_signs(cases: int = CASES) -> Check:
+    """Check that a point changes the hull of a set, if it is added, if and only if some equation is positive there."""
+    checks = []
+    for sampled in flat_and_spatial_sets(cases):
+        corners = {sampled.points[k] for k in sampled.judge.vertices}
+        for p, q, r in zip(sampled.points, sampled.points[1:], sampled.points[2:], strict=False):
+            # The fourth corner of a parallelogram is in the plane of a flat set.
+            x, y, z = fourth = tuple(a + b - c for a, b, c in zip(p, q, r, strict=True))
+            points = [*{*sampled.points, fourth}]
+            is_member = {points[k] for k in exact_hull(points).vertices} == corners
+            checks.append(is_member == all(plane_value(f.plane, (x, y, z)) <= 0 for f in sampled.judge.facets))
+    return all_hold(BOTH, 2 * cases, checks, "points are in the hull if and only if no equation is positive there")
+
+
+@claim("thesis.213", "thesis.58", full=300)
 def classification_by_signs(cases: int = CASES) -> Check:
     """Check that the signs of the exact equations classify vertices, boundary points and inside points correctly."""
     checks = []
@@ -142,14 +162,12 @@ def outside_convention() -> Check:
 def between_by_distances() -> Check:
     """Check that sums of distances tell which of three collinear points lies between the others."""
     checks = []
-    for a, b, c in permutations(range(-4, 5), 3):
-        between = _between(a, b, c, *(5 * abs(p - q) for p, q in ((b, a), (a, c), (b, c))))
-        checks.append(between == sorted((a, b, c))[1])
+    for mm, nn, i in permutations([(3 * t, 4 * t) for t in range(-4, 5)], 3):
+        # Page 27: D_1 is the distance between MM and NN, D_2 that between MM and P_i, D_3 that between NN and P_i.
+        d1, d2, d3 = (isqrt((e[0] - d[0]) ** 2 + (e[1] - d[1]) ** 2) for d, e in ((nn, mm), (mm, i), (nn, i)))
+        between = mm if d1 + d2 - d3 == 0 else nn if d1 + d3 - d2 == 0 else i
+        checks.append(between == sorted((mm, nn, i))[1] and 3 * d1 == 5 * abs(mm[0] - nn[0]))
     return exhausted("triples of nine points (3t, 4t) of a line", checks, "sums of distances tell which is between")
-
-
-def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:
-    return a if ab + ac - bc == 0 else b if ab + bc - ac == 0 else c
 
 
 @claim("thesis.87")
@@ -210,15 +228,17 @@ def planes_i_and_m() -> Check:
 
 @claim("thesis.98", full=300)
 def planes_of_same_points(cases: int = CASES) -> Check:
-    """Check that planes of the same points are recognised although they list these points in different orders."""
-    positions = [
-        _same_places(before.defining[i], before.defining[m], edge)
-        for _, before, _, visible in _visible(cases)
-        for i, m, edge in _shared(before, visible)
-    ]
-    check = visible_planes("pairs", cases)
-    case = f"a search at equal positions, which misses {positions.count(False)} of {len(positions)} pairs"
-    return check.unless(not all(positions), case)
+    """Check that both planes through the new point and a common edge of two replaced planes are eliminated."""
+    eliminated, in_order = [], []
+    for _, before, after, visible in _visible(cases):
+        for i, m, edge in _shared(before, visible):
+            eliminated.append(all({*plane} != {*edge, after.vertices[-1]} for plane in after.defining))
+            # A new plane names the points of the edge in the order of the replaced plane, and then the new point.
+            first, second = ([k for k in before.defining[plane] if k in edge] for plane in (i, m))
+            in_order.append(first == second)
+    check = all_hold(SETS[3], cases, eliminated, "pairs of planes through the same points are eliminated")
+    case = f"a search at equal positions, which misses {in_order.count(False)} of {len(in_order)} pairs"
+    return check.unless(not all(in_order), case)
 
 
 def _shared(before: Approximation, visible: list[int]) -> Iterator[tuple[int, int, set[int]]]:
@@ -226,10 +246,6 @@ def _shared(before: Approximation, visible: list[int]) -> Iterator[tuple[int, in
         edge = set(before.defining[i]) & set(before.defining[m])
         if len(edge) == 2:
             yield i, m, edge
-
-
-def _same_places(first_triple: tuple[int, ...], second_triple: tuple[int, ...], edge: set[int]) -> bool:
-    return all(first_triple.index(k) == second_triple.index(k) for k in edge)
 
 
 def _separated(points: tuple[Point, ...], before: Approximation, i: int, m: int, edge: set[int], new: Point) -> bool:
@@ -241,15 +257,18 @@ def _separated(points: tuple[Point, ...], before: Approximation, i: int, m: int,
 
 @claim("thesis.95", full=300)
 def order_of_replacement(cases: int = CASES) -> Check:
-    """Check that the text and the listing of the program find the same planes, each in its own order."""
+    """Check that the order of the text finds the planes that the listing finds in another order."""
     outcomes, reordered = [], 0
     for sampled in sampled_sets(3, cases):
         text = convex_hull(sampled.points, text=True, on_refusal="return")
         if text.determined:
             outcomes.append({f.lowest for f in text.faces} == {f.lowest for f in sampled.hull.faces})
             reordered += [f.lowest for f in text.faces] != [f.lowest for f in sampled.hull.faces]
-    check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} sets get the same planes by both")
-    return check.unless(reordered, f"the order of the listing: {reordered} sets get their planes in another order")
+    message = (
+        f"{len(outcomes)} of {cases} sets, all for which the text finds a fourth point, get the same planes by text "
+        f"and listing, {reordered} of them in another order"
+    )
+    return searched(SETS[3], cases, [*outcomes, reordered], message)
 
 
 @claim("thesis.96")

@@ -74,7 +74,7 @@ def _indices_on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
     return [k for k, x in enumerate(points) if not any(cross(minus(q, p), minus(x, p)))]
 
 
-@claim("thesis.276", full=300)
+@claim("thesis.103", "thesis.276", full=300)
 def plane_duplicates_as_printed(cases: int = CASES) -> Check:
     """Check that the text (page 34) keeps the last equation of each plane, whereas the listing keeps the first."""
     checks, differing = [], 0

@@ -13,6 +13,8 @@ from modern.claims.algebra import (
     minus,
     point,
     polynomial,
+    positive,
+    term,
     total,
     variables,
     zero,
@@ -46,6 +48,18 @@ def three_points() -> Proof:
         "The equation of the vector product is 0 at the three points. If it is 0 everywhere, they are collinear.",
         _all_zero("the equation is 0 at the point", [dot(normal, p) + d for p in (P, Q, X)]),
     )
+
+
+def different_z() -> Proof:
+    """Prove that distinct points with the same x and the same y have different z."""
+    dx, dy, dz = minus(P, Q)
+    step = Step(
+        "z differs",
+        {"distinct": positive(dx * dx + dy * dy + dz * dz), "x": zero(dx), "y": zero(dy)},
+        positive(dz * dz),
+        (term("distinct"), term("x", -dx), term("y", -dy)),
+    )
+    return Proof("points with equal x and y differ in z", "Distinct points differ in a coordinate.", (step,))
 
 
 def coordinate_planes() -> Proof:
@@ -106,8 +120,9 @@ def other_letters() -> Proof:
 
 
 @claim("thesis.108", proof=three_points)
+@claim("thesis.46", proof=different_z)
 @claim("thesis.126", "thesis.277", proof=coordinate_planes)
-@claim("thesis.55", "thesis.56", "thesis.237", proof=perpendicular_projection)
+@claim("thesis.55", "thesis.56", "thesis.126", "thesis.237", proof=perpendicular_projection)
 @claim("thesis.127", "thesis.198", proof=projection_along_axis)
 @claim("thesis.128", proof=coefficient_c_0)
 @claim("thesis.130", proof=other_letters)
@@ -120,15 +135,16 @@ def sum_of_page_46() -> Check:
     """Check that the printed sum of page 46 is 0 as claimed, but has other terms than the substitution gives."""
     xa, ya, xb, yb, share = variables("x_a y_a x_b y_b lambda")
     rest = 1 - share
-    k = (share * xa + rest * xb, share * ya + rest * yb)
-    common = [xa * yb, -xa * yb * share, -xa * yb * rest, xa * ya * share, -xa * ya * share]
-    common += [xb * yb * rest, -xb * yb * rest]
+    k = (rest * xa + share * xb, rest * ya + share * yb)
+    common = [xa * yb, -xa * yb * share, -xa * yb * rest]
     printed = [*common, xa * yb * rest, xa * yb * share, -xa * yb]
+    printed += [xa * ya * share, -xa * ya * share, xb * yb * rest, -xb * yb * rest]
     substituted = [*common, xb * ya * rest, xb * ya * share, -xb * ya]
+    substituted += [xa * ya * rest, -xa * ya * rest, xb * yb * share, -xb * yb * share]
     sums = [total(printed), total(substituted), _c_0((xa, ya), (xb, yb), k) - total(substituted)]
     proof = Proof("the printed sum is 0", "All terms cancel.", _all_zero("the sum is 0", sums))
     differ = sorted(str(t.terms) for t in printed) != sorted(str(t.terms) for t in substituted)
-    return proof.check().misprinted(differ, "x_b y_a in the terms that lack it in print")
+    return proof.check().misprinted(differ, "x_b y_a in three terms, and lambda and 1 - lambda exchanged in four")
 
 
 def _v(x: Point, i: Point) -> Polynomial:
@@ -155,7 +171,23 @@ def display_of_page_41() -> Check:
     return theorem_4_3().check().misprinted(is_wrong, "i for 1 in the differences from the point i")
 
 
-@claim("thesis.120", "thesis.234")
+@claim("thesis.120")
+def determinants_of_page_41() -> Check:
+    """Check that the squared distance is the sum of three squared determinants, without the fourth of the OCR text."""
+    way, cosines = minus(Q, X), point("cosine", 3)
+    rows = cross(way, cosines)
+    of_foot = dot(way, way) * dot(cosines, cosines) - dot(way, cosines) * dot(way, cosines)
+    proof = Proof(
+        "the sum of three squared determinants is the squared distance",
+        "By Pythagoras, the square of the distance is that of the way from the point to P_2, less that of its "
+        "component along the line. The squares of the direction cosines have the sum 1.",
+        _all_zero("the sum is the square of the distance", [dot(rows, rows) - of_foot]),
+    )
+    fourth = way[2] * cosines[2] - way[0] * cosines[1]
+    return proof.check().misprinted((fourth * fourth).terms, "three determinants")
+
+
+@claim("thesis.234")
 def displays_of_page_42() -> Check:
     """Check that the formula for the squared distance on page 42 is wrong with the signs that the OCR text has lost."""
     (_, ux, uy, uz), (_, wy, _) = (0, *minus(Q, P)), minus(Q, X)

@@ -138,7 +138,6 @@ def _last_stage_repeated(hull: Hull) -> Hull:
 
 
 PROPERTIES: dict[str, Callable[[Hull], Hull]] = {
-    "struck_points": _vertex_eliminated_twice,
     "decreasing": _vertex_eliminated_twice,
     "finite": _last_stage_repeated,
     "vertex_when_added": _inner_point_added,
