@@ -164,10 +164,14 @@ def between_by_distances() -> Check:
     checks = []
     for mm, nn, i in permutations([(3 * t, 4 * t) for t in range(-4, 5)], 3):
         # Page 27: D_1 is the distance between MM and NN, D_2 that between MM and P_i, D_3 that between NN and P_i.
-        d1, d2, d3 = (isqrt((e[0] - d[0]) ** 2 + (e[1] - d[1]) ** 2) for d, e in ((nn, mm), (mm, i), (nn, i)))
+        d1, d2, d3 = _distance(nn, mm), _distance(mm, i), _distance(nn, i)
         between = mm if d1 + d2 - d3 == 0 else nn if d1 + d3 - d2 == 0 else i
         checks.append(between == sorted((mm, nn, i))[1] and 3 * d1 == 5 * abs(mm[0] - nn[0]))
     return exhausted("triples of nine points (3t, 4t) of a line", checks, "sums of distances tell which is between")
+
+
+def _distance(d: tuple[int, int], e: tuple[int, int]) -> int:
+    return isqrt((e[0] - d[0]) ** 2 + (e[1] - d[1]) ** 2)
 
 
 @claim("thesis.87")
