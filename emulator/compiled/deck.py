@@ -122,7 +122,10 @@ def run_deck(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run one deck and return the reason for its end.  ``desk.devices`` already holds its first and last card."""
+    """Run one deck and return the reason for its end.
+
+    ``desk.devices`` must already hold the number of its first card and that of the first card after it.
+    """
     limit, strict, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers
     devices[dev.ANY_READ] = any_read

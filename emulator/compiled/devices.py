@@ -99,7 +99,7 @@ class Cards(NamedTuple):
 
 
 class Tools(NamedTuple):
-    """Arrays reused for every deck: texts of the FORMATs (changed by reading), registers, a line and a field."""
+    """Buffers reused for every deck: texts of the FORMATs (which a READ can change), registers, line, field."""
 
     texts: Row
     devices: Row

@@ -186,7 +186,7 @@ class _Reader:
     def group(self, depth: int = 0) -> list[Spec]:
         """Read the specifications of a parenthesised group, up to its closing parenthesis."""
         if depth > 2:
-            raise _refused(self.place(), "groups are nested too deep in a FORMAT")
+            raise _refused(self.place(), "groups in a FORMAT may be nested at most two deep, found three")
         self.at += 1
         specs: list[Spec] = []
         need_comma = False

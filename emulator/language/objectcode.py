@@ -135,7 +135,8 @@ class Counter:
 class Line:
     """A statement as messages and traces show it.
 
-    ``effect`` is the kind of result that a trace shows: ``store``, ``test``, ``test fixed``, ``list`` or empty.
+    ``effect`` is the kind of result that a trace shows: ``store``, ``test``, ``test fixed``, ``list`` (the values of a
+    list of input or output) or empty.
     ``index`` is the position in :attr:`Program.statements`.
     """
 

@@ -127,7 +127,7 @@ class IntervalNumbers(Numbers):
         return self._outward(getattr(self._mpmath, name.lower())(argument)), ""
 
     def _roots(self, value: Decimal) -> tuple[Decimal, Decimal]:
-        """Return the largest decimal number not above a square root, and the smallest not below it."""
+        """Return the square root of ``value`` rounded down and rounded up to ``places`` digits."""
         root = self._down.sqrt(value)  # decimal rounds roots to nearest in every context
         square = Context(2 * self.places, Emin=-4 * _RANGE, Emax=4 * _RANGE).multiply(root, root)
         low = root if square <= value else self._down.next_minus(root)

@@ -19,14 +19,17 @@ _INFERRED = {op.IF: 32, op.STOP: 8}
 
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """The positions of core storage for data and object program, and how many of them are inferred without evidence."""
+    """The numbers of core positions that data and object program need.
+
+    ``inferred`` is the number of positions in ``code`` whose need no document confirms.
+    """
 
     data: int
     code: int
     inferred: int
 
     def excess(self, core: int) -> int:
-        """Return how many positions program and data lack in a machine; negative if positions remain free."""
+        """Return by how many positions program and data exceed a machine's core; negative if positions remain free."""
         return self.data + self.code - _room(core)
 
     def overlap(self, core: int) -> str:

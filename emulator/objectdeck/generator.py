@@ -59,8 +59,8 @@ def generate(program: Program, core: int = CORES[-1]) -> ObjectProgram:
 class _Generator:
     """The state of the translation of one program to machine code.
 
-    ``places`` holds the position of each instruction of the emulator's object code, ``operands`` those of the last
-    arithmetic, and ``unused`` a digit that the compiler left in its buffer.
+    ``places`` holds the position of each instruction of the emulator's object code, ``operands`` the operand
+    digits of the last arithmetic instruction, and ``unused`` a digit that the compiler left in its buffer.
     """
 
     program: Program
@@ -232,7 +232,7 @@ class _Generator:
         return compare + to_zero + d.BRANCH_INDICATOR + positive + d.HIGH + d.BRANCH + negative
 
     def _select(self, instruction: Instruction) -> str:
-        """Return the code of a computed GO TO.  Its table has four digits for each statement number, last one first."""
+        """Return the code of a computed GO TO.  Its table has four digits for each target, in reverse order."""
         targets = self._targets(instruction.second)
         selector = address(self.addresses.units(instruction.address))
         branch = self.at + 60

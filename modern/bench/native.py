@@ -46,7 +46,9 @@ def compiler() -> Compiler:
             return Compiler(command, version[0] if version else command[0])
     if command_of_fc:
         raise NoCompiler(f"the Fortran compiler that FC names, {command_of_fc[0]}, is not installed")
-    raise NoCompiler(f"no Fortran compiler is installed ({', '.join(COMPILERS)}, or FC); the native program is omitted")
+    raise NoCompiler(
+        f"no Fortran compiler is installed ({', '.join(COMPILERS)}, or the value of FC); no native program is run"
+    )
 
 
 def built(deck: Deck, fortran: Compiler, folder: Path) -> Path:

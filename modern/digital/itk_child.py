@@ -43,7 +43,10 @@ def main(arguments: Sequence[str]) -> None:
 
 
 def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str, Any]:
-    """Write a file's values to ``array.npy``, and return the other facts.  Raise Refused or the library's errors."""
+    """Read an image file, write its voxels to ``target`` as a numpy array, and return the other facts.
+
+    Raise Refused if the image is not a volume, or the library's own errors.
+    """
     import numpy as np
 
     sitk: Any = importlib.import_module("SimpleITK")

@@ -85,7 +85,7 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
             raise VolumeError(f"{source}: line {fields[name][0]}: {name}: only 0 is supported")
     if "data file" in fields:
         if not body and not data.endswith((b"\n", b"\r")):
-            raise VolumeError(f"{source}: the header is truncated: its last line has no end")
+            raise VolumeError(f"{source}: the header is truncated: its last line lacks a line break")
         body = _read_data_file(source, *fields["data file"])
     expected = math.prod(sizes) * kind.itemsize
     if encoding.lower() in _PACKED:

@@ -59,14 +59,15 @@ def fault(card: str) -> int | None:
 
 
 def progress(card: str) -> int:
-    """Return a number that grows with the column of the first error and falls with characters that no card has."""
+    """Return a score: higher if the first error is further right, lower for each character that no card can have."""
     return (fault(card) or 0) - 100 * len(_BAD.findall(card))
 
 
 def exchanges(card: str) -> Iterator[tuple[str, Pair]]:
     """Yield every text that one exchange makes from a card.
 
-    If the card has a character that no statement has, only exchanges of the first one are of use.
+    If the card has a character that no statement has, only exchanges of the first such
+    character are tried.
     """
     bad = None if card.startswith("C  ") else _BAD.search(card)
     for pair in table():

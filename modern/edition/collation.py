@@ -93,7 +93,7 @@ def _pieces(n: int, line: str) -> tuple[str, ...]:
     """Return the characters of a line that align with each token of a card.
 
     A mark between two tokens that the OCR may have inserted belongs to neither.  Any other character belongs to the
-    token before it, or to the token after it if only that is a word or number as it is.
+    token before it, or to the token after it if only that token begins with a letter or digit, as it does.
     """
     tokens, marks = spans(n), _marks()
     owner = [k for k, (a, b) in enumerate(tokens) for _ in range(a, b)]

@@ -54,7 +54,7 @@ def stored_readings(text: str) -> tuple[Reading, ...]:
 
 
 def blank_table(rows: Sequence[Mapping[str, str]]) -> str:
-    """Return the CSV table of a sheet to be filled: the rows of its items, and rows for the reader and the date."""
+    """Return an empty proof sheet as a CSV table: rows for the reader and the date, then the rows of its items."""
     table = StringIO(newline="")
     writer = csv.DictWriter(table, COLUMNS, restval="", lineterminator="\r\n")
     writer.writeheader()

@@ -55,7 +55,7 @@ class Restored:
 
 @dataclass(slots=True)
 class _Program:
-    """A program while it is restored: the present cards, the open readings of some, and the results for others."""
+    """A program during restoration: ``open`` has possible readings of undecided cards, ``done`` the decided cards."""
 
     cards: list[str]
     trials: tuple[Trial, ...]

@@ -130,7 +130,7 @@ class _Index:
                 self.postings[gram].append(text)
 
     def candidates(self, line: str) -> list[tuple[str, float]]:
-        """Return the texts most like a folded line with their gains: characters, minus two for each difference."""
+        """Return the card texts most similar to a folded line, with gains: their length minus two per difference."""
         shared: Counter[str] = Counter()
         for gram in set(_trigrams(line)):
             shared.update(self.postings.get(gram, ()))
@@ -155,7 +155,7 @@ class _Index:
                     yield (n, n + 1), len(text) - 2.0 * differing
 
     def divided(self, number: int, line: str) -> Iterator[tuple[int, str]]:
-        """Divide a line that holds many cards.  Eight characters that occur in one card only show which ones."""
+        """Divide a line that holds many cards.  Eight characters that occur only once in the cards identify a card."""
         text = solid(line)
         if len(text) <= LONGEST:
             yield number, line
@@ -295,7 +295,7 @@ def _runs(numbers: Sequence[int]) -> Iterator[list[int]]:
 
 
 def _common(a: Sequence[str], b: Sequence[str], likeness: float) -> list[tuple[int, int]]:
-    """Return the index pairs of a best common subsequence of texts whose likeness is at least this (1 if equal)."""
+    """Align two sequences of texts.  Return index pairs of texts with at least this ``likeness`` (1 if equal)."""
     best = [[0.0] * (len(b) + 1) for _ in range(len(a) + 1)]
     alike = [[1 - 1.5 * distance(x, y) / max(len(x), len(y)) for y in b] for x in a]
     alike = [[value if value >= likeness else 0.0 for value in row] for row in alike]

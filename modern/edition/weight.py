@@ -69,7 +69,7 @@ EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """A program with the decks that it reads: the kind of each (``print`` or ``machine``), result, and example or 0."""
+    """A program and its decks; for each deck its kind, ``print`` or ``machine``, the result, and the example or 0."""
 
     program: Program
     decks: tuple[Deck, ...]

@@ -169,7 +169,7 @@ def planes_of(triangles: Ints, points: Coordinates) -> Objects:
 
 
 def segment(points: Sequence[IntPoint]) -> list[Facet]:
-    """Return the two end facets of a hull whose points all lie on a line."""
+    """Return the two facets of collinear points: each end, with the plane through it perpendicular to the line."""
     # The lexicographic order of coordinates is the order of the points along the line.
     indices = range(len(points))
     low, high = min(indices, key=points.__getitem__), max(indices, key=points.__getitem__)

@@ -107,7 +107,9 @@ def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = Fal
     Raise UnfitPoint for a coordinate that no card holds, and ArgumentError for more than 99 points.
     """
     if len(points) > MAX_N:
-        raise ArgumentError(f"{len(points)} points; N has two columns, so a deck holds at most {MAX_N}")
+        raise ArgumentError(
+            f"{len(points)} points; the number of points has two columns on its card, so a deck holds at most {MAX_N}"
+        )
     cards = [f"{len(points):2d}"]
     for point_number, point in enumerate(points, 1):
         fields = []

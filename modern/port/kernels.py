@@ -174,7 +174,9 @@ def sort_descending(order: NDArray[np.int64], values: NDArray[Any], first: int, 
 def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, state: Any, rules: Any) -> int:
     """Write three new planes into empty slots for each plane to be replaced by the new vertex.
 
-    Return flags that tell which corrections of the listing this needed, or -1 if only numpy can run the stage.
+    Return THROUGH if a new plane contains the inner point C, a case for which the listing had to be corrected,
+    otherwise 0. Return -1 if :mod:`modern.port.polyhedron` must compute the stage instead, because a plane is
+    degenerate or rounding puts the new vertex outside it.
     """
     new, slot, corrections = state[VERTICES], state[MADE], 0
     point = corner(cloud.coordinates, index)

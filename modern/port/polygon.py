@@ -175,7 +175,10 @@ def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
 
 
 def listed_numbers(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the vertices at the ends as the listing computes them, sometimes wrongly (179+2 on)."""
+    """Return the vertex numbers of the ends of the lines as the listing computes them (second statement after 179 on).
+
+    A number can be too high, because the listing compares numbers that it has already lowered.
+    """
     numbers = []
     for number in ends.ravel().tolist():
         # The listing compares with the number already lowered, so it can skip a point that is no vertex.

@@ -20,7 +20,10 @@ LISTED_PLANES, PLANES = 98, 193
 
 @dataclass(frozen=True)
 class Fresh:
-    """The planes through a new vertex, and flags: does one pass through the inner point C, or have only zeros?"""
+    """The planes through a new vertex.
+
+    ``through`` is True if one contains the inner point C, ``degenerate`` if one has only zeros as coefficients.
+    """
 
     coefficients: Vector
     defining: NDArray[np.int64]

@@ -67,7 +67,7 @@ def console_page() -> str:
 
 
 def parting_page() -> str:
-    """Return the HTML of the page that compares the programs with exact arithmetic, with the result for one set."""
+    """Return the HTML of the page that compares the programs with exact arithmetic, with one result."""
     sets = point_sets()
     first = next(iter(sets.values()))
     return _filled("parting.html", POINTS=html.escape(first), SETS=_json(sets), FIRST=_json(parted(first)))

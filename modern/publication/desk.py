@@ -260,7 +260,7 @@ class Desk:
         return answer | {"events": [], "undone": {"typed": len(session.result().typed), "punched": len(self._stacker)}}
 
     def decide(self) -> Answer:
-        """Find the first decision of the loaded run that exact arithmetic takes otherwise, from the beginning.
+        """Find the first decision of the loaded run on which exact arithmetic takes another branch.
 
         The answer has ``lines``: the statement with the value and the target in both arithmetics.  ``statement`` is
         its number in the run.  ``hull`` is the true hull of the points of the first stage.

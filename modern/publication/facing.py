@@ -59,9 +59,9 @@ class Card:
     """A card of a deck with the witness that it was made from.
 
     ``number`` is its number in the deck, counted from 1, ``label`` its statement number or 0, and ``page`` the page of
-    the thesis.  ``also`` are its other names (places).  ``witness`` is empty for a card that the witness lacks.
-    ``changed`` are the characters that differ from the witness.  ``rows`` are the rows that changed this card, except
-    those that changed most cards of the deck.  ``variants`` are the readings of further layers.
+    the thesis.  ``also`` has further names of the card, like ``place``.  ``witness`` is empty for a card that the
+    witness lacks.  ``changed`` are the characters that differ from the witness.  ``rows`` are the rows that changed the
+    card, without those that changed most cards of the deck.  ``variants`` has the card as optional layers change it.
     """
 
     number: int

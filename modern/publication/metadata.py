@@ -39,7 +39,7 @@ class Work:
     person: str = ""
 
     def identifiers(self) -> dict[str, str]:
-        """Return DOI, SWHID, repository and responsible person; those that are unknown say so."""
+        """Return DOI, SWHID, repository and responsible person; an unknown one is ``UNKNOWN``."""
         return {name: getattr(self, name) or UNKNOWN for name in _IDENTIFIERS}
 
 

@@ -1,4 +1,4 @@
-"""Tables of the deposit: numbers as numbers, each bound in a column of its own, and a description of every column.
+"""Tables of the deposit: each number and each bound of an interval in a separate column, and a description of each.
 
 The reports print a mean with its interval in one cell, such as ``0.93 (0.88 to 0.98) %``.  Programs read such a cell
 more easily as three numbers.  The descriptions of the columns are in ``columns.toml``.

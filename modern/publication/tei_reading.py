@@ -15,7 +15,7 @@ _ID = "{http://www.w3.org/XML/1998/namespace}id"
 
 
 class TeiError(EmulatorError, ValueError):
-    """A file is not a TEI document of this edition, or lacks the requested part."""
+    """Raised for a file that is not a TEI document of this edition, or that lacks the requested part."""
 
 
 def parsed(name: str, source: str) -> Element:
@@ -96,7 +96,11 @@ def _devices(root: Element) -> Iterator[Element]:
 
 @dataclass(frozen=True)
 class _State:
-    """A state of the text: ``rows`` are the rows that apply, and ``pieces`` the displaced pieces by their places."""
+    """The text with some of its changes made.
+
+    ``rows`` has the references (``#id``) of the ``app`` elements whose changes are made. ``pieces`` maps the reference
+    of each place to which text is moved to the ``seg`` element with that text.
+    """
 
     rows: frozenset[str]
     pieces: Mapping[str, Element]

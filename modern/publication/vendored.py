@@ -50,7 +50,7 @@ def pins(root: Path, lock: str) -> dict[str, str]:
 
 
 def _with_dependencies(roots: Sequence[str]) -> set[str]:
-    """Return the names of the packages that the installed packages ``roots`` need on this platform, and their own."""
+    """Return ``roots`` and the packages that they need on this platform, directly or indirectly, by name."""
     from packaging.requirements import Requirement  # a dependency of Sphinx
 
     queue, visited = [Requirement(line) for line in roots], set[tuple[str, frozenset[str]]]()

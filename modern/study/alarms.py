@@ -63,7 +63,7 @@ NO_E = 999
 
 @dataclass
 class _Tally:
-    """The counts of one run: decisions examined, alarms at right ones, an alarm at the first wrong one, and so on."""
+    """Counts of one run: the decisions, the alarms at right decisions and at the first wrong one, and the digits."""
 
     tests: int = 0
     first: str = ""

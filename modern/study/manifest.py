@@ -21,7 +21,7 @@ _LATER_PROGRAMS = ("program2", "program3")
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of Python and of the packages on which a study depends; empty if one is not installed."""
+    """Return the versions of Python and of the packages on which a study depends, "" if not installed."""
     installed = {"python": platform.python_version()}
     for package in _PACKAGES:
         try:

@@ -25,7 +25,7 @@ INTERVALS = ("The numbers in parentheses are exact 95 % intervals of proportions
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table with notes printed below; ``name`` is that of its file, ``table`` for the main one."""
+    """A table with notes printed below. ``name`` is the name of its file; the main table is called ``table``."""
 
     name: str
     title: str
@@ -126,7 +126,7 @@ class Series:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A value of reference: a line across the chart at an x (``upright``) or a y, explained in the legend."""
+    """A reference line across the chart, at an x if ``upright`` and otherwise at a y; ``label`` explains the line."""
 
     at: float
     label: str

@@ -133,7 +133,11 @@ def damaged_copy(group: Group, damage: str, seed: int) -> list[Job]:
 
 @dataclass(frozen=True, slots=True)
 class Copy:
-    """A restored copy of a group: the kind of damage, its number, the damaged cards, and the cards of each kind."""
+    """A restored copy of a group of programs.
+
+    ``damage`` is a key of ``ROUND``, ``number`` counts the copies of a group, ``damaged`` is the number of damaged
+    cards, and ``counts`` has the number of cards with each outcome of ``KINDS``.
+    """
 
     damage: str
     group: str

@@ -1,4 +1,7 @@
-"""Compute the hulls of a chunk of samples by one route, the programs or the port, and collect the results."""
+"""Compute the hulls of a chunk of samples by one route, and collect the results.
+
+A route is a run of the programs of 1963 or of their modern port, with its options.
+"""
 
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext

@@ -135,7 +135,7 @@ def verify_study(folder: Path) -> tuple[Plan, int, list[str]]:
 
 
 def plain_lines(plan: Plan) -> tuple[str, ...]:
-    """Return a line for each reason why routes of a plan cannot be compiled and need the plain engine."""
+    """Return a line for each reason why routes of a plan cannot be compiled and run in the interpreter."""
     reasons = dict.fromkeys(why_plain(options_of(route)) for route in _program_routes(plan))
     return tuple(reason for reason in reasons if reason)
 

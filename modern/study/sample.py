@@ -17,7 +17,10 @@ CARD_DIGITS = 8
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """A sample: its deck and exact points, the judge's hull, the same as an outcome, and the vertices on each plane."""
+    """A sample: its deck, its exact points, and its exact hull.
+
+    ``outcome`` is the hull in the form used for comparisons. ``on`` has the vertices on each plane of the hull.
+    """
 
     drawn: Drawn
     deck: Deck

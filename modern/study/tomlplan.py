@@ -54,6 +54,7 @@ _TYPES: tuple[tuple[str, type, str], ...] = (
     ("routes", list, "a list of names"),
     ("reference", str, "a route's name"),
 )
+_EXPECTED = {str: "text", int: "an integer", bool: "true or false", tuple: "a list of texts"}
 # Strings and comments of TOML, which may contain anything.
 _MASKED = re.compile(
     r'"""(?:\\.|[^\\])*?"{3,5}|' r"'''.*?'{3,5}|" r'"(?:\\.|[^"\\\n])*"|' r"'[^'\n]*'|#[^\n]*", re.DOTALL
@@ -211,7 +212,8 @@ def _route(raw: Mapping[str, Any], section: _Section) -> Route:
     for name, value in values.items():
         has_only_text = not isinstance(value, tuple) or all(isinstance(element, str) for element in value)
         if type(value) is not type(getattr(default, name)) or not has_only_text:
-            raise section.error(f"{name} = {quoted(raw[name])} has the wrong type", name)
+            expected = _EXPECTED[type(getattr(default, name))]
+            raise section.error(f"{name}: expected {expected}, found {quoted(raw[name])}", name)
     route: Route = route_type(**values)
     with section.locating():
         check_route(route)

@@ -131,9 +131,9 @@ def answers(operator: str) -> tuple[list[str], list[str], list[Collection[int]]]
 
 
 def compare(name: str, program: Program, deck: Deck, operator: str = "") -> Comparison:
-    """Run a program on IBM's library and on the emulator with the arithmetic ``ibm1962``.
+    """Run a program on IBM's library and on the emulator with the arithmetic ``ibm1962``, and return both outputs.
 
-    ``operator`` has the actions of the operator, whose typed lines are compared too.
+    ``operator`` has the actions of the operator. The lines that the operator types are compared too.
     """
     actions, keys, starts = answers(operator)
     starts = starts or [()] * sum(instruction.operation == PAUSE for instruction in program.code)

@@ -133,7 +133,8 @@ def run(
 def run_jobs(deck: Sequence[str], jobs: Sequence[Job], keys: Sequence[str] = ()) -> list[Run]:
     """Load a deck once for many jobs, run them one after the other, and return their outputs.
 
-    What a job leaves in the library's core storage remains there for the next job.  Raise Unavailable, or Failed.
+    Core storage is not cleared between jobs: the library's working storage passes from each job to the next.  Raise
+    Unavailable if the simulator is missing, or Failed if a run fails.
     """
     results: list[Run] = []
     for at in range(0, len(jobs), BATCH):

@@ -26,8 +26,9 @@ from modern.thesis.job import run_hull
 
 FILE = "docs/ibm1962/times.csv"
 HEAD = ("deck", "program", "library", "model", "ratio")
-# Random sets of the study of machine time: a family and a number of points.
+# Programs that call functions which the library lacks.
 LACKING = ("l1.f", "pow.f", "pow2.f")
+# Random sets of the study of machine time: a family and a number of points.
 SETS = tuple((family, n) for family in ("ball", "integers", "cube", "sphere") for n in (6, 12, 20, 30))
 
 
@@ -57,14 +58,13 @@ def subjects(sets: Sequence[tuple[str, int]] = SETS) -> Iterator[tuple[str, str,
             if step.result.ending.kind != "limit":
                 yield name, step.name, step.program, step.deck, seconds
     for title, program, deck, operator in objectdecks.subjects():
-        # The library lacks the functions that some programs call.
         if title.endswith(".f") and not operator and not program.uses("ACCEPT") and title not in LACKING:
             result = Machine(program, deck, OPTIONS).run()
             yield deck.source, title, program, deck, measure(program, result).processor_time.seconds
 
 
 def timed() -> Iterator[TimedRun]:
-    """Measure the simulated time of each run that uses IBM's library.  Raise Unavailable if SIMH counts no time."""
+    """Run every subject with IBM's library in the simulator, and yield its time.  Raise Unavailable without a timer."""
     for name, title, program, deck, seconds in subjects():
         object_deck = with_library(object_cards(program, CORE), library(), "OBJECT_DECK")
         cards = [card.text for card in deck.cards]

@@ -123,7 +123,7 @@ def _listed(lines: bytes, name: str, sizes: tuple[int, ...], path: str) -> tuple
         )
     *complete, rest = lines.split(b"\n")
     if rest.strip():
-        raise VolumeError(f"{path}: the list of files is truncated: its last line has no end")
+        raise VolumeError(f"{path}: the list of files is truncated: its last line lacks a line break")
     names = [os.fsdecode(line.rstrip()) for line in complete if line.strip()]
     count = math.prod(sizes[axes:])
     if len(names) != count:

@@ -254,7 +254,7 @@ def numbers(
     size: tuple[int, int],
     occupied: Sequence[tuple[float, float]] = (),
 ) -> Iterator[str]:
-    """Draw the numbers of points, and of lines in italics, clear of ``edges`` and ``occupied`` if possible."""
+    """Draw the numbers of points, and in italics those of lines, away from ``edges`` and ``occupied`` if possible."""
     together: dict[Pixel, list[int]] = {}
     for index, place in sorted(at.items()):
         together.setdefault(place, []).append(index)

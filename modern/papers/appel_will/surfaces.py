@@ -19,7 +19,10 @@ class MapError(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """An edge of the polyhedron, and its two surfaces: it runs counterclockwise on ``on``, clockwise on ``beyond``."""
+    """An edge of the polyhedron, in the direction that is counterclockwise on the surface ``on``.
+
+    On its other surface, ``beyond``, the same direction is clockwise.
+    """
 
     ends: Pair
     on: int

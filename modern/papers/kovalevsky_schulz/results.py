@@ -69,7 +69,7 @@ def _tetrahedron() -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:
-    """Compute the paper's Table 4 from three of its printed counts: of the body, only a picture is known."""
+    """Compute the paper's Table 4 from three of its printed counts, because only a picture of the body is known."""
     # One Marching Cubes vertex lies in every voxel face. Formulas (5) and (6) then give the numbers of integers.
     voxel_faces = int(surface.split()[-2])
     triangles = cube_triangles(voxel_faces)

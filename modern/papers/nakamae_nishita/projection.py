@@ -48,10 +48,10 @@ def perspective(point: Vector, towards: Vector, near: Fraction | None = None) ->
 
 
 def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[Homogeneous]:
-    """Return the projected vertices of a polyhedron, then the projected corners of its figures.
+    """Return the homogeneous images of a polyhedron's vertices, then of the corners of the figures drawn on its faces.
 
-    A point at the fraction s of an edge in space has the image (1 - s) A + s B. In parallel projection ``origin`` is
-    subtracted from all points of a scene to keep the numbers short.
+    If A and B are the images of the ends of an edge, the point at the fraction s of the edge has the image
+    (1 - s) A + s B. In parallel projection ``origin`` is subtracted from all points of a scene to keep numbers short.
 
     Raise SceneError if a part of the polyhedron lies next to or behind the observation point.
     """

@@ -1,4 +1,4 @@
-"""The built-in studies by name.  Each module of this package is one; :class:`Study` describes what it defines."""
+"""The built-in studies by name.  Each module of this package defines one study, as :class:`Study` describes."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -2,7 +2,7 @@
 
 Every set goes through the corrected programs in eight-digit arithmetic.  Each decision is compared with that of exact
 arithmetic on the same branch, up to the first wrong one, and with what stochastic arithmetic, intervals, sixteen digits
-and chapter 7's e say of it (modern/study/alarms.py).  ``samples`` counts the sets of each family.
+and chapter 7's e report about it (modern/study/alarms.py).  ``samples`` counts the sets of each family.
 """
 
 import json
@@ -130,7 +130,7 @@ class _Group:
         return _Group(*(getattr(self, part.name) + getattr(other, part.name) for part in fields(self)))
 
     def best_e(self) -> int:
-        """Return the exponent k of the least e = 10**k that notices the most wrong decisions."""
+        """Return k of the e = 10**k that notices the most wrong decisions; of several such e, the smallest."""
         return max(POWERS, key=lambda k: self.noticed[e_name(k)])
 
     def share(self, counter: Counter[str], name: str) -> Interval | None:
@@ -202,8 +202,8 @@ def _main(rows: _Rows) -> Table:
         *INTERVALS,
         "A method notices a wrong decision if it raises an alarm there, and announces it by an alarm at an earlier "
         "decision. All decisions of a sound run are right. A method would go wrong if its own decision would be wrong "
-        "somewhere in a sound run. The e of the last row is the least with which most wrong decisions of these runs "
-        "are noticed.",
+        "somewhere in a sound run. The e of the last row notices the largest number of wrong decisions of these runs; "
+        "of several such e, it is the smallest.",
         "CADNA's criterion takes a number for zero if the estimate C of its significant digits is at most 0, as Vignes "
         "defines it. CADNA's library prints @.0 already if C is less than 0.5.",
     )
@@ -218,7 +218,7 @@ def _families(plan: Plan, rows: _Rows) -> Table:
             key = plan.cells[number].key["sets"]
             lines.append(row(key, NAMES.get(name, name), group.wrong, noticed, group.sound, alarmed))
     head = ("sets", "method", "runs with a wrong decision", "noticed", "sound runs", "false alarm")
-    notes = (*INTERVALS, "The e of each family is the least with which most of its wrong decisions are noticed.")
+    notes = (*INTERVALS, "Each family has the e that notices most of its wrong decisions (the smallest of several).")
     return Table("families", "Wrong decisions noticed, and false alarms, by family", head, tuple(lines), notes)
 
 
@@ -330,20 +330,20 @@ def _conclusions(rows: _Rows) -> tuple[str, ...]:
     return (
         f"Of {group.wrong:,} runs in which eight-digit arithmetic took a wrong branch, CADNA's criterion noticed "
         f"{noticed['cadna3']} with three samples and {noticed['cadna10']} with ten"
-        + (": more samples make the mean certain, but the program branches on a single rounded number" if fewer else "")
+        + (", because the program branches on a single number, not on their mean" if fewer else "")
         + f". An alarm says little about a branch: of {hard.sound:,} runs of the same families in which every branch "
         f"was right, the criterion with three samples raised an alarm in {alarmed['cadna3']}, and intervals, which "
         f"miss no wrong branch, in {alarmed['interval']}. "
         + (
             f"Sixteen digits, at {_double_cost(rows):.1f} times the cost of a plain run, took every branch as exact "
-            "arithmetic does: 3d + 4 digits are proved to be enough for coordinates of d digits, except for the choice "
-            "of the first line, and such a bound is a guarantee, which an estimate of the error cannot give."
+            "arithmetic does: a proof shows that 3d + 4 digits are enough for coordinates of d digits, except for the "
+            "choice of the first line. An estimate of the error cannot give such a guarantee."
             if quiet
             else f"Sixteen digits noticed {noticed['double']} and raised a false alarm in {alarmed['double']}."
         ),
         f"Stott Parker's criterion, which judges a single sample, noticed {noticed['parker10']}. These methods noticed "
         f"all wrong decisions: {complete}.",
-        f"Chapter 7's e noticed at most {noticed[e]} of the wrong decisions, at {e}, with an alarm in {alarmed[e]} of "
-        f"the runs without one. In {optimistic} of the runs with rounding errors, CADNA with three samples claimed "
-        "more than one digit too many for some number that a decision tests.",
+        f"Chapter 7's e noticed at most {noticed[e]} of the wrong decisions, at {e}. This e raises an alarm in "
+        f"{alarmed[e]} of the runs without a wrong decision. In {optimistic} of the runs with rounding errors, CADNA "
+        "with three samples claimed more than one digit too many for some number that a decision tests.",
     )

@@ -179,7 +179,7 @@ def _conclusions(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> tuple[
     if sufficient:
         number = sum(counts.of(k, LISTED) for k, cell in enumerate(plan.cells) if cell.key["n"] == sufficient)
         conclusions.append(
-            f"None of the {number} sets that were tried at this N needed more than {PLACES} entries, so at most "
+            f"None of the {number} sets of {sufficient} points needed more than {PLACES} entries, so at most "
             f"{100 * exact(0, number).high:.2f} % of such sets need more (exact 95 % interval)."
         )
     return tuple(conclusions)

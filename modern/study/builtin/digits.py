@@ -94,7 +94,8 @@ def _main(counts: Summary, cells: Cells) -> Table:
     head = ("digits d", "sets", "hull found, as listed", "hull found, corrected", *needed)
     notes = (
         *INTERVALS,
-        "No set failed with the least P. The interval in the last column tells how many sets could still fail.",
+        "No set failed with the least P. The interval in the last column tells what share of such sets could still "
+        "fail.",
     )
     return Table("table", "Digits of the coordinates against digits of the arithmetic", head, tuple(rows), notes)
 
@@ -184,7 +185,7 @@ def _conclusions(counts: Summary, cells: Cells) -> tuple[str, ...]:
         "In eight-digit arithmetic the corrected programs found every hull if the coordinates had one of these numbers "
         f"of digits: {listed(without_failure)}. The programs found no hull at all for these numbers of digits: "
         f"{listed(without_hull)}.",
-        f"Plausible but wrong hulls are this part of the failures: {share_of(wrong, failed)}.",
+        f"Failures that are plausible but wrong hulls: {share_of(wrong, failed)}.",
         f"The least P without a failure is 3d + 1, with which every test for zero is exact, for {len(agree)} of "
         f"{len(cells)} numbers of digits d. If none of {sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of "
         "such sets could fail (exact 95 % interval). A proof shows that no set fails with P = 3d + 4 digits.",

@@ -105,9 +105,9 @@ def _main(counts: _Divergences) -> Table:
     head = ("first other decision", "sets", "of all sets", "hull found all the same", "of these sets")
     notes = (
         *INTERVALS,
-        "Statements are named by number: 196+2 is the second after statement 196. The rows of cards count sets for "
-        "which a plane that program 1 punched with eight digits misses its own points. All families have the same "
-        "number of sets.",
+        "Statements are named by number: 196+2 is the second after statement 196. A row of cards counts the sets for "
+        "which program 1 punched a plane that, with its eight digits, no longer contains its own points. All "
+        "families have the same number of sets.",
     )
     return Table("table", "The first statement that decides differently", head, tuple(rows), notes)
 
@@ -156,8 +156,7 @@ def _conclusions(plan: Plan, counts: _Divergences) -> tuple[str, ...]:
     return (
         f"Eight-digit arithmetic made every decision as exact arithmetic does in {share_of(same, everything)}, of the "
         f"sets. All decisions agreed for all sets of these families: {listed(never)}.",
-        f"Of the sets with a different decision, this part still gives the right hull: "
-        f"{share_of(saved, everything - same)}. Of the sets in which all decisions agree, this part fails because of "
-        f"faults of the programs: {share_of(lost, same)}.",
+        f"Sets with a different decision that still give the right hull: {share_of(saved, everything - same)}. Sets in "
+        f"which all decisions agree, but which fail because of faults of the programs: {share_of(lost, same)}.",
         f"In {counts.undecided} runs, exact arithmetic had to stop before any decision differed.",
     )

@@ -244,9 +244,10 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
     lost = [cell.key["sets"] for number, cell in enumerate(plan.cells) if rows.swallowed.get((number, WITHOUT), 0)]
     same, of = _same_as_port(store)
     return (
-        f"An absolute e removed all failures of these kinds of sets, which fail without e: {saved[0]}. A scaled e "
-        f"removed all failures of these kinds of sets: {saved[1]}. These kinds of sets lose a vertex even at e = 0: "
-        f"{listed(lost)}.",
+        "Chapter 7 counts a value from -e to +e as zero. An absolute e is the same for all equations; a scaled e is "
+        "multiplied by the largest coefficient A, B or C of each equation. Without e, sets of these kinds fail, but "
+        f"with a suitable absolute e none does: {saved[0]}. With a suitable scaled e, no set of these kinds fails: "
+        f"{saved[1]}. Of these kinds, sets lose a vertex even at e = 0: {listed(lost)}.",
         f"In {same:,} of {of:,} runs, the port has the same outcome as the programs with the same e.",
     )
 

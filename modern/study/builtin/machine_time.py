@@ -62,7 +62,7 @@ class _Time:
 
     @property
     def processor(self) -> Interval:
-        """The bounds of the processor's mean time by the model."""
+        """The bounds of the processor's mean time, which follow from the systematic error of the model."""
         devices = self.total.value - self.parts["processor"].value
         return Interval(self.parts["processor"].value, self.model.low - devices, self.model.high - devices)
 
@@ -120,7 +120,7 @@ _HEAD = ("sets", "N", "timed", "minutes", "by the model", "longest", "operations
 _STUDENT = "The numbers in parentheses are Student's 95 % intervals of the mean, truncated at 0 minutes."
 _MODEL = (
     "*By the model* means the lower and upper bound of the mean time, if the processor's true time is "
-    f"{MODEL[0]} to {MODEL[1]} times the computed one, and its true time for input and output "
+    f"{MODEL[0]} to {MODEL[1]} times the computed one, and the true time of input and output "
     f"{CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} times. Runs of IBM's library of 1962 gave both ranges."
 )
 _NOTES = (

@@ -155,8 +155,9 @@ def _main(*routes: _Route) -> Table:
         share, groups = exact(route.failed, route.sets), (route.groups(THESIS, THESIS), route.groups(THESIS))
         rows.append(row(route.name, route.sets, route.failed, share, with_interval(route.mean), *groups))
     notes = (
-        "The numbers in parentheses are exact 95 % intervals (Clopper and Pearson). The interval of failures in "
-        "70 is seventy times that of all sets, because sets are drawn independently. 70s are groups of seventy sets.",
+        "The numbers in parentheses are exact 95 % intervals (Clopper and Pearson). The mean and interval of "
+        "*failures in 70* are seventy times the share of failures, because sets are drawn independently. *70s* are "
+        "groups of seventy sets.",
     )
     return Table("table", "Failures in seventy examples", head, tuple(rows), notes)
 
@@ -251,8 +252,8 @@ def _conclusions(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...],
         "two or more. "
         f"Two failures in seventy are {_unusual(as_listed.groups(THESIS))}.",
         f"The most frequent failures of the programs as listed are: {listed(frequent)}. DATA NOT ACCEPTABLE, the "
-        f"message for too few digits, is this part of the failures: {share_of(digits, as_listed.failed)}. Plausible "
-        f"but wrong hulls are this part: {share_of(wrong, as_listed.failed)}.",
+        f"message for too few digits, ends {share_of(digits, as_listed.failed)}, of the failures. Plausible but wrong "
+        f"hulls are {share_of(wrong, as_listed.failed)}.",
         f"With one more card (emendation P3-025), seventy sets have {with_interval(mended.mean)} failures, which is "
         f"{as_listed.mean.value - mended.mean.value:.2f} fewer.",
         f"The longest run that gave a hull took {longest:,} statements; runs of {_LIMIT:,} count as endless.",
@@ -289,11 +290,11 @@ def _comparison(as_listed: _Route, sheets: tuple[refusals.Sheets, ...]) -> str:
     printed = [s for s in sheets if s.share == max(sheet.share for sheet in sheets)]
     needed = " or ".join(refusals.needed(s) for s in printed)
     return (
-        f"Two explanations are possible. Limits of the machine, as the thesis says: {needed} of seventy sets like its "
-        "data sheet are enough, and the message of a rejection names the cause. But none of the six sets that it "
-        "prints in full has a decimal. Faults of the programs: they occur even with small integers, and "
-        f"{percent(as_listed.groups(THESIS))} of the groups of seventy have two or more failures from this cause "
-        "alone. But these runs end in ERROR IN PROGRAM, in a loop or in a wrong hull, which the author would hardly "
-        "have attributed to too few digits. The thesis does not say which explanation holds. The two "
-        "failures may also have different causes."
+        f"Two explanations are possible. One is limits of the machine, as the thesis says: {needed} of seventy sets "
+        "like its data sheet are enough, and the message of a rejection names the cause. But none of the six sets "
+        "that it prints in full has a decimal. The other is faults of the programs: such failures occur even with "
+        f"small integers, and {percent(as_listed.groups(THESIS))} of the groups of seventy have two or more failures "
+        "from this cause alone. But these runs end in ERROR IN PROGRAM, in a loop or in a wrong hull, which the "
+        "author would hardly have attributed to too few digits. The thesis does not say which explanation holds. The "
+        "two failures may also have different causes."
     )

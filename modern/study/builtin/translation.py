@@ -218,7 +218,7 @@ def _main(plan: Plan, pairs: list[_Pair]) -> Table:
         "negative share is a loss. The seconds are processor time with the origin kept. All time includes reader, "
         "punch and typewriter.",
         "*By the model* means the lower and upper bound of the mean seconds, if the processor's true time is "
-        f"{MODEL[0]} to {MODEL[1]} times the computed one, and its true time for input and output "
+        f"{MODEL[0]} to {MODEL[1]} times the computed one, and the true time of input and output "
         f"{CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} times. Runs of IBM's library of 1962 gave both ranges. Shares "
         "are ratios, in which most of this error cancels.",
     )
@@ -316,9 +316,9 @@ def _time_conclusion(pairs: list[_Pair]) -> str:
     savings = [pair.saved("seconds_processor") for pair in pairs]
     whole = mean((pair.saved_in_all for pair in pairs), most=1.0)
     return (
-        f"Moving the origin saved {_share(whole)} of the total time on average, including cards and typing. Processor "
-        f"time saved: at most {100 * max(savings):.1f} %, at least {100 * min(savings):.1f} %. Sets timed both ways: "
-        f"{len(pairs)}. Effect of moving the origin, by planes of the hull per point: "
+        f"Moving the origin saved {_share(whole)} of the total time on average, including cards and typing. For "
+        f"{len(pairs)} sets timed with and without the move, it saved {100 * min(savings):.1f} % to "
+        f"{100 * max(savings):.1f} % of the processor time. Effect of the move, by planes of the hull per point: "
         f"{listed(f'{_verdict(_saved(here))} ({name})' for name, here in _classes(pairs))}."
     )
 
@@ -337,8 +337,8 @@ def _digit_conclusion(plan: Plan, counts: Summary) -> str:
         plain, moved = counts.share(number, PLAIN), counts.share(number, MOVED)
         verdicts["loses" if plain.low > moved.high else "gains" if moved.low > plain.high else "same"].append(name)
     return (
-        "Kinds of sets for which no failure occurs from some number of digits P on if the origin is kept, but failures "
-        f"occur at every P tried if it is moved: {listed(never)}. With the origin moved, the programs with eight "
-        f"digits find fewer hulls for these kinds: {listed(verdicts['loses'])}. They find more for: "
+        "For these kinds of sets, no failure occurs from some number of digits P on if the origin is kept, but "
+        f"failures occur at every tested P if it is moved: {listed(never)}. With the origin moved, the programs with "
+        f"eight digits find fewer hulls for these kinds: {listed(verdicts['loses'])}. The programs find more for: "
         f"{listed(verdicts['gains'])}. The difference is not significant for: {listed(verdicts['same'])}."
     )

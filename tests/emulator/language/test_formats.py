@@ -99,7 +99,7 @@ def test_invalid_specification_is_error_11(text: str) -> None:
         ("(I4,4".ljust(64), 72, "'the end' is not a specification"),
         ("(I4".ljust(64), 72, "expected a closing parenthesis at the end of the FORMAT"),
         ("(10000I1)", 15, "the number 10000 in a FORMAT is too large"),
-        ("((((I4))))", 12, "groups are nested too deep"),
+        ("((((I4))))", 12, "groups in a FORMAT may be nested at most two deep, found three"),
     ],
 )
 def test_message_and_column_of_a_format_error(text: str, column: int, words: str) -> None:

@@ -391,4 +391,4 @@ def test_sizes_of_dicom_must_agree_with_its_pixel_data(element: tuple[int, int],
 def test_a_detached_nrrd_header_that_ends_within_a_line_is_rejected() -> None:
     nhdr("a.raw", True)
     lines = Path("a.nhdr").read_bytes().replace(b"space origin: (-10,5,0.25)\n", b"") + b"spacings: nan nan na"
-    assert rejection(saved("a.nhdr", lines)) == "the header is truncated: its last line has no end"
+    assert rejection(saved("a.nhdr", lines)) == "the header is truncated: its last line lacks a line break"

@@ -290,7 +290,7 @@ def test_coordinates_that_no_card_holds_are_rejected() -> None:
             coordinate_field(text)
     with pytest.raises(ValueError, match=r"^point 2, field 3: 9 significant digits"):
         data_deck([("1", "2", "3"), ("1", "2", "1.23456789")], "d")
-    with pytest.raises(ValueError, match=r"^100 points; N has two columns"):
+    with pytest.raises(ValueError, match=r"^100 points; the number of points has two columns"):
         data_deck([("1", "2", "3")] * 100, "d")
 
 

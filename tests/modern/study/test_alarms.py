@@ -80,8 +80,8 @@ def test_report_counts_noticed_decisions_and_false_alarms() -> None:
     assert rows["e = 10^2"][2].startswith("50.0 ")
     assert rows["e = 10^2"][6].startswith("0.0 ")
     assert "Of 2 runs" in report.conclusions[0]
-    assert "more samples make the mean certain" in report.conclusions[0]
-    assert "3d + 4 digits are proved to be enough" in report.conclusions[0]
+    assert "branches on a single number, not on their mean" in report.conclusions[0]
+    assert "a proof shows that 3d + 4 digits are enough" in report.conclusions[0]
     cost = dict(report.tables[-1].rows)
     assert float(cost["sixteen digits"]) == pytest.approx(3.6, abs=0.3)
 

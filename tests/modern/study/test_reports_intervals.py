@@ -193,8 +193,8 @@ def test_divergence_sorts_statements_by_frequency_and_gives_their_shares(twenty:
 
 def test_divergence_separates_faults_of_the_arithmetic_from_faults_of_the_programs(twenty: Report) -> None:
     """3 of 7 sets with a difference are right (.099 to .816); 3 of 13 without one fail (.050 to .538)."""
-    assert "this part still gives the right hull: 3 of 7, 42.9 (9.9 to 81.6) %." in twenty.conclusions[1]
-    assert "this part fails because of faults of the programs: 3 of 13, 23.1 (5.0 to 53.8) %." in twenty.conclusions[1]
+    assert "that still give the right hull: 3 of 7, 42.9 (9.9 to 81.6) %." in twenty.conclusions[1]
+    assert "which fail because of faults of the programs: 3 of 13, 23.1 (5.0 to 53.8) %." in twenty.conclusions[1]
 
 
 def test_divergence_counts_runs_that_exact_arithmetic_cannot_follow(twenty: Report) -> None:

@@ -136,7 +136,7 @@ def test_capacity_reports_the_greatest_number_of_entries_of_its_rows(tmp_path: P
     assert [row[1] for row in report.tables[0].rows] == ["-", "51"]
     assert f" sets: up to {max(figures)} entries were in use at once" in report.conclusions[0]
     assert report.conclusions[0].endswith("no set needed more than 98 entries is 8.")
-    assert report.conclusions[1].startswith("None of the 4 sets that were tried at this N needed ")
+    assert report.conclusions[1].startswith("None of the 4 sets of 8 points needed ")
     assert report.tables[2].rows[0][1:] == ("98", str(capacity.positions(98)), "40000")
 
 
@@ -190,7 +190,7 @@ def test_divergence_report_follows_changed_rows(tmp_path: Path) -> None:
         assert "because of faults of the programs: 0 of 3," in divergence.report(plan, store).conclusions[1]
         store.query("UPDATE runs SET outcome = 'endless' WHERE place = 0")
         once = divergence.report(plan, store).conclusions[1]
-        assert once.startswith("Of the sets with a different decision, this part still gives the right hull: 2 of 3,")
+        assert once.startswith("Sets with a different decision that still give the right hull: 2 of 3,")
         assert "because of faults of the programs: 1 of 3," in once
         store.query("UPDATE runs SET figures = json_set(figures, '$.diverges', 'program3 116')")
         after = divergence.report(plan, store)
