@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import combinations, product
+from itertools import product
 
-from modern.claims.evidence import Check, claim, exhibited, refuted, search, searched
+from modern.claims.evidence import Check, claim, refuted, search, searched
 from modern.claims.kovalevsky_schulz.polyhedra import hulls
-from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels
+from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels, local
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -19,25 +19,9 @@ from modern.claims.sampled_sets import (
 )
 from modern.digital.solids import listed
 from modern.exact_hull import exact_hull
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import dot, minus
 from modern.papers.kovalevsky_schulz import CENTRES, convex_polyhedron, local_corners
 from modern.papers.kovalevsky_schulz.cells import CellList
-
-# The corners of a triangle and a point inside it that lies on no line through two of them.
-TRIANGLE: tuple[Point, ...] = ((0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0))
-
-
-@claim("kovalevsky-schulz.67")
-def combination_of_three() -> Check:
-    """Check that a point can be a convex combination of three points without being one of any two of them."""
-    middle = 2 not in exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0)]).vertices
-    corners, inner = TRIANGLE[:3], TRIANGLE[3]
-    two = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]
-    message = "the middle of three collinear points is a combination of two"
-    return exhibited(middle, message).unless(
-        not two and 3 not in exact_hull(TRIANGLE).vertices,
-        "(1, 1) in the triangle (0, 0), (3, 0), (0, 3), a combination of three points and of no two",
-    )
 
 
 @claim("kovalevsky-schulz.120", vertices="interior")
@@ -64,14 +48,14 @@ def smaller_polyhedron(vertices: str) -> Check:
 
 @claim("kovalevsky-schulz.151", "kovalevsky-schulz.126", full=1_000)
 def vertices_are_local_corners(cases: int = 4) -> Check:
-    """Check that the polyhedron constructed from the local corners has the vertices of the hull of all voxels."""
+    """Check that the polyhedron constructed from local corners has all vertices of the hull, and only local corners."""
 
     def agrees(solid: Voxels) -> bool:
         cells = convex_polyhedron(local_corners(listed(solid), CENTRES))
         hull_vertices = {solid[k] for k in exact_hull(solid).vertices}
-        return not isinstance(cells, CellList) or hull_vertices <= {v.point for v in cells.vertices} <= {*solid}
+        return isinstance(cells, CellList) and hull_vertices <= {*cells.points} <= local(solid)
 
-    return search(SOLIDS, agrees, cases, "the constructed polyhedra have the vertices of the hulls of all voxels")
+    return search(SOLIDS, agrees, cases, "the vertices are local corners, and all vertices of the hull are among them")
 
 
 def _horizons(cases: int = CASES) -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:
@@ -89,7 +73,7 @@ def _horizons(cases: int = CASES) -> Iterator[tuple[Point, Plane, Plane, Plane, 
                     yield new, visible, hidden, plane_through(*ends, new), [points[k] for k in judge.vertices], ends
 
 
-@claim("kovalevsky-schulz.76", "yau-srihari.14", full=400)
+@claim("yau-srihari.14", full=400)
 def closed_boundary(cases: int = CASES) -> Check:
     """Check that the edges between a visible and an invisible face of a hull form one closed curve."""
     checks = []
@@ -161,15 +145,3 @@ def _coefficients(u: Point, v: Point, w: Point) -> tuple[Fraction, Fraction]:
     uu, uv, vv, uw, vw = dot(u, u), dot(u, v), dot(v, v), dot(u, w), dot(v, w)
     determinant = uu * vv - uv * uv
     return Fraction(uw * vv - vw * uv, determinant), Fraction(vw * uu - uw * uv, determinant)
-
-
-@claim("kovalevsky-schulz.169", "kovalevsky-schulz.77", full=400)
-def hulls_of_more_points(cases: int = CASES) -> Check:
-    """Check that the hull of some of a set's points lies in the hull of more of them."""
-    checks = []
-    for points, _ in hulls(cases):
-        for n in range(5, len(points)):
-            few, more = exact_hull(points[:n]), exact_hull(points[: n + 1])
-            if few.dimension == more.dimension == 3:
-                checks.append(all(plane_value(f.plane, points[k]) <= 0 for f in more.facets for k in few.vertices))
-    return searched(SETS[3], cases, checks, f"{len(checks)} hulls lie in the next one")

@@ -19,10 +19,8 @@ from modern.claims.algebra import (
     zero,
 )
 from modern.claims.evidence import Check, claim
-from modern.claims.sampled_sets import Point, plane_through, plane_value
 from modern.exact_hull import exact_hull
-
-TETRAHEDRON: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
+from modern.geometry import vectors
 
 
 def lemma_lz() -> Proof:
@@ -144,38 +142,28 @@ def lemma_be() -> Proof:
     )
 
 
-@claim("kovalevsky-schulz.66", "kovalevsky-schulz.68", "kovalevsky-schulz.124", proof=lemma_lz)
+@claim("kovalevsky-schulz.65", "kovalevsky-schulz.66", "kovalevsky-schulz.68", proof=lemma_lz)
+@claim("kovalevsky-schulz.124", proof=lemma_lz)
 @claim("kovalevsky-schulz.69", proof=lemma_ch)
 @claim("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17", proof=vertex_is_no_combination)
 @claim("kovalevsky-schulz.121", "kovalevsky-schulz.167", proof=vertex_is_no_combination)
 @claim("appel-will.16", "appel-will.19", "appel-will.41", "appel-will.133", proof=vertex_is_no_combination)
 @claim("kovalevsky-schulz.49", "kovalevsky-schulz.173", proof=choice_of_q)
 @claim("kovalevsky-schulz.95", proof=symmetry)
-@claim("kovalevsky-schulz.168", proof=lemma_be)
+@claim("kovalevsky-schulz.71", "kovalevsky-schulz.168", proof=lemma_be)
 def proof_of_lemma(proof: Callable[[], Proof]) -> Check:
     return proof().check()
 
 
-@claim("kovalevsky-schulz.65")
-def nonempty_part() -> Check:
-    """Check lemma LZ, and that it fails for an empty part: beyond the largest x of a tetrahedron there is no vertex."""
-    beyond = [p for p in TETRAHEDRON if p[0] >= 1 + max(q[0] for q in TETRAHEDRON)]
-    return lemma_lz().check().unless(not beyond, "an empty part, beyond the largest x")
-
-
-@claim("kovalevsky-schulz.71")
-def plane_of_horizon() -> Check:
-    """Check lemma BE (the plane through a new point and a horizon edge supports the hull), and its excluded case."""
-    on_line = plane_through((0, 0, 0), (2, 0, 0), (4, 0, 0))
-    case = "a point on the line of the edge, which determines no plane with it"
-    return lemma_be().check().unless(not any(on_line), case)
-
-
 @claim("kovalevsky-schulz.72")
 def formula_4() -> Check:
-    """Check that the factor a of formula (4) is positive, but 0 if the new point is coplanar with the other face."""
-    hidden, new = (0, 0, 1), (4, -1, 0)
-    return lemma_be().check().unless(plane_value((*hidden, 0), new) == 0, f"{new}, in the plane of a square: a is 0")
+    """Check that the factors of formula (4) are positive, but a is 0 if the new point is coplanar with the other face.
+
+    The case is an edge of the cube with corners from 0 to 2, between the faces x = 2 and z = 0.
+    """
+    visible, hidden, edge, new = (1, 0, 0), (0, 0, -1), (2, 1, 0), (4, 1, 0)
+    a, b = -vectors.dot(hidden, vectors.minus(new, edge)), vectors.dot(visible, vectors.minus(new, edge))
+    return lemma_be().check().unless(a == 0 < b, f"{new}, in the plane of a face of a cube: a is 0")
 
 
 @claim("kovalevsky-schulz.146", "yau-srihari.17")
@@ -184,10 +172,3 @@ def halves_of_sorted_set() -> Check:
     first, second = [(0, 0, 0), (0, 2, 0)], [(0, 1, 0), (1, 1, 0)]
     meet = max(p[0] for p in first) <= min(p[0] for p in second) and 2 not in exact_hull([*first, second[0]]).vertices
     return halves().check().unless(meet, "the halves (0, 0), (0, 2) and (0, 1), (1, 1), whose hulls meet in (0, 1)")
-
-
-@claim("kovalevsky-schulz.15")
-def combinations_of_others() -> Check:
-    """Check that a vertex is not a combination of other points, although it is one of itself with the weight 1."""
-    itself = TETRAHEDRON[0] in TETRAHEDRON and 0 in exact_hull(TETRAHEDRON).vertices
-    return vertex_is_no_combination().check().unless(itself, "a vertex, which is itself with the weight 1")

@@ -1,4 +1,4 @@
-"""Checks of Kovalevsky and Schulz on voxels: local corners, corners of voxels, and the cells of rasters.
+"""Checks of Kovalevsky and Schulz on voxels: local corners and corners of voxels.
 
 A *local corner* is a voxel (or a corner of voxels) that lies between no two opposite neighbours in the same set.
 """
@@ -6,14 +6,12 @@ A *local corner* is a voxel (or a corner of voxels) that lies between no two opp
 from itertools import combinations, product
 from random import Random
 
-import numpy as np
-
 from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search
 from modern.claims.sampled_sets import Point, counterexample_points, plane_value
 from modern.digital.solids import ball, listed
 from modern.exact_hull import exact_hull
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners
-from modern.papers.kovalevsky_schulz.corners import Of, places
+from modern.papers.kovalevsky_schulz.corners import Of
 from modern.papers.kovalevsky_schulz.polyhedron import Coplanar
 from modern.papers.kovalevsky_schulz.results import hull_of_ball
 
@@ -29,23 +27,16 @@ def _draw_solid(random: Random) -> Voxels:
 SOLIDS: Generator[Voxels] = Generator("sets of about 26 voxels of a block of 64", 1, _draw_solid, lambda s: len(s) > 3)
 
 
-def _placed(solid: Voxels, of: Of) -> set[Point]:
-    """Return the voxels of a solid, or the elements that the program labels for the corners of its voxels."""
-    volume = listed(solid)
-    x, y, z = volume.origin
-    return {(i + x, j + y, k + z) for i, j, k in np.argwhere(places(volume, of)).tolist()}
-
-
-def _local(solid: Voxels, of: Of = CENTRES, neighbours: int = 26) -> set[Point]:
+def local(solid: Voxels, of: Of = CENTRES, neighbours: int = 26) -> set[Point]:
     return {(x, y, z) for x, y, z in local_corners(listed(solid), of, neighbours).tolist()}
 
 
-@claim("kovalevsky-schulz.7", "kovalevsky-schulz.11", "kovalevsky-schulz.125", full=4_000)
+@claim("kovalevsky-schulz.11", "kovalevsky-schulz.125", full=4_000)
 def vertices_among_local_corners(cases: int = 5) -> Check:
     """Check that each vertex of the hull of a set of voxels is a local corner of the set."""
     return search(
         SOLIDS,
-        lambda solid: {solid[k] for k in exact_hull(solid).vertices} <= _local(solid),
+        lambda solid: {solid[k] for k in exact_hull(solid).vertices} <= local(solid),
         cases,
         "the vertices of the hull of each solid are local corners",
     )
@@ -56,7 +47,7 @@ def local_corner_inside_hull() -> Check:
     """Check the counterexample: a local corner that lies inside the triangle of three neighbours is no vertex."""
     *around, middle = points = tuple(counterexample_points("tripod.csv"))
     near = all(max(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in around)
-    wrong = middle in _local(points) and near and len(around) not in exact_hull(points).vertices
+    wrong = middle in local(points) and near and len(around) not in exact_hull(points).vertices
     return refuted(wrong, f"{middle} is a local corner and a convex combination of its {len(around)} neighbours")
 
 
@@ -64,7 +55,7 @@ def local_corner_inside_hull() -> Check:
 def fewer_corners_with_more_neighbours(cases: int = 5) -> Check:
     """Check that each local corner by a test of 26 neighbours is also a local corner by a test of 6."""
     message = "local corners by 26 neighbours are local corners by 6"
-    return search(SOLIDS, lambda solid: _local(solid) <= _local(solid, CENTRES, 6), cases, message)
+    return search(SOLIDS, lambda solid: local(solid) <= local(solid, CENTRES, 6), cases, message)
 
 
 @claim("kovalevsky-schulz.23", of=CENTRES, full=4_000)
@@ -79,7 +70,7 @@ def local_corners_by_definition(of: Of, cases: int = 5) -> Check:
             for x, y, z in points
             if any({(x + i, y + j, z + k), (x - i, y - j, z - k)} <= points for i, j, k in DIRECTIONS)
         }
-        return _local(solid, of) == points - between
+        return local(solid, of) == points - between
 
     return search(SOLIDS, agrees, cases, "local corners are the points between no two opposite neighbours")
 
@@ -121,14 +112,7 @@ def printed_faces() -> Check:
     )
 
 
-@claim("kovalevsky-schulz.24", "kovalevsky-schulz.25", full=4_000)
-def corners_of_voxels(cases: int = 5) -> Check:
-    """Check that the elements that the program labels are exactly the corners of the voxels."""
-    message = "the labelled corners are exactly those of the voxels"
-    return search(SOLIDS, lambda solid: _placed(solid, VERTICES) == _corners(solid), cases, message)
-
-
-@claim("kovalevsky-schulz.12", "kovalevsky-schulz.13", full=1_000)
+@claim("kovalevsky-schulz.12", full=1_000)
 def corners_against_centres(cases: int = 3) -> Check:
     """Check that the hull of the voxels' corners contains the centres and is the hull of unit cubes about them."""
 
@@ -147,7 +131,7 @@ def corners_against_centres(cases: int = 3) -> Check:
 def corner_of_single_voxel() -> Check:
     """Check the counterexample: corners of a single voxel that are no local corners by a test of 6 neighbours."""
     voxels = tuple(counterexample_points("two_voxels.csv"))
-    corners = _local(voxels, VERTICES, 6)
+    corners = local(voxels, VERTICES, 6)
     single = {c for c in _corners(voxels) if sum(c in _corners((v,)) for v in voxels) == 1}
     wrong = sorted(single - corners)
     message = f"corners of only one voxel that are not local corners: {', '.join(map(str, wrong))}"
@@ -159,20 +143,9 @@ def corners_of_eight_voxels() -> Check:
     """Check for subsets of eight voxels that their common corner is a local corner of a single voxel only."""
     # By symmetry the first voxel can be in every subset.
     subsets = [(STEPS[0], *rest) for n in range(8) for rest in combinations(STEPS[1:], n)]
-    outcomes = [((1, 1, 1) in _local(voxels, VERTICES, 6)) == (len(voxels) == 1) for voxels in subsets]
+    outcomes = [((1, 1, 1) in local(voxels, VERTICES, 6)) == (len(voxels) == 1) for voxels in subsets]
     return exhausted(
         "subsets of the eight voxels at a corner that contain one of them",
         outcomes,
         f"true for {sum(outcomes)} subsets",
     )
-
-
-@claim("kovalevsky-schulz.174", "kovalevsky-schulz.33", full=4_000)
-def additional_labels(cases: int = 5) -> Check:
-    """Check which elements become labelled besides the vertices: those behind a voxel, seen from the origin."""
-
-    def agrees(solid: Voxels) -> bool:
-        behind = {(x + i, y + j, z + k) for x, y, z in solid for i, j, k in STEPS} - {*solid}
-        return _placed(solid, VERTICES) - {*solid} == behind
-
-    return search(SOLIDS, agrees, cases, "the elements labelled in addition are those behind a voxel")

@@ -7,13 +7,12 @@ from functools import cache
 from itertools import combinations
 from random import Random
 
-from modern.claims.evidence import Check, Generator, claim, exhibited, search, searched
+from modern.claims.evidence import Check, Generator, claim, search, searched
 from modern.claims.nakamae_nishita.tables import side
 from modern.claims.sampled_sets import CASES, SETS, sampled_sets
 from modern.drawing.visible import sign
 from modern.geometry.vectors import dot
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
-from modern.papers.nakamae_nishita.nearness import BY_FACE, BY_PLANE
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
@@ -135,20 +134,6 @@ def _visible_length(drawing: Drawing) -> Fraction:
         length = sum(abs(b - a) for a, b in zip(vertices[piece.start], vertices[piece.end], strict=True))
         total += piece.visible * (piece.last - piece.first) * length
     return total
-
-
-@claim("nakamae-nishita.17")
-def nearer_by_face() -> Check:
-    """Check that a face tells which of two boxes is nearer if one encloses the other, unless the boxes touch."""
-
-    def by(*boxes: Box) -> str:
-        (relation,) = draw(_polyhedra(boxes), parallel((2, -3, 1))).relations
-        return relation.by
-
-    decided = by(((0, 0, 0), (8, 1, 8)), ((3, 2, 3), (4, 3, 4)))
-    touching = by(((0, 0, 0), (1, 1, 1)), ((0, 0, 1), (1, 1, 2)))
-    check = exhibited(decided == BY_FACE, "the face around a vertex decides for a box behind a wall")
-    return check.unless(touching == BY_PLANE, "a box on another one: a separating plane decides")
 
 
 @claim("nakamae-nishita.18", full=400)

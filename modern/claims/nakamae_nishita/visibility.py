@@ -4,7 +4,8 @@ from fractions import Fraction
 from functools import cache
 from itertools import combinations, permutations, product
 
-from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
+from modern.claims import algebra
+from modern.claims.evidence import Check, claim, exhausted, exhibited, proved, refuted, searched, slip
 from modern.claims.nakamae_nishita.drawings import pieces_against_rays
 from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, crosses, inside, lines_of, pairs, side, tables_of
 from modern.claims.sampled_sets import CASES, counterexample, counterexample_points
@@ -132,22 +133,27 @@ def indices(index: int = 0) -> Check:
     return exhausted(domain, [*checks, ways == expected, not index or alone == {1}], message)
 
 
-@claim("nakamae-nishita.35", full=600)
-def touching_solids(cases: int = 3) -> Check:
-    """Check that formula (5) tells which of two boxes is nearer, unless they touch and need a separating plane."""
-    (relation,) = _scene("stacked.toml").relations
-    without = _scene("stacked.toml", "touching")
-    less = _hidden(without, INNER) + _hidden(without, CONTOUR) < _hidden(_scene("stacked.toml"), INNER) + _hidden(
-        _scene("stacked.toml"), CONTOUR
-    )
-    passed = relation.by == "plane" and less
+@claim("nakamae-nishita.35")
+def formula_4() -> Check:
+    """Prove that formula (4) is negative if P_1 is nearer than P_2, and check that it cannot decide for touching boxes.
+
+    As P_0, P_1 and P_2 are collinear, P_1 - P_0 = s u and P_2 - P_0 = t u with the direction u and s, t > 0.
+    """
+    s, t, u = *algebra.variables("s t"), algebra.point("u", 3)
+    value_of_4 = algebra.dot([s * c for c in u], [(s - t) * c for c in u])
+    signs = {"s": algebra.positive(s), "nearer": algebra.positive(t - s), "u": algebra.positive(algebra.dot(u, u))}
+    nearer = algebra.Step("dr < 0 if s < t", signs, algebra.positive(-value_of_4), (algebra.term("s nearer u"),))
     crossing = _two_boxes((1, 3, 0)).relations[0]
-    passed &= (crossing.by, crossing.nearer) == ("(4)", 1)
+    argument = "dr = s (s - t) u u, which is negative if P_1 is nearer, and positive if P_2 is nearer."
+    decided = (crossing.by, crossing.nearer) == ("(4)", 1)
+    check = proved(argument, [nearer.is_valid(), decided], "the sign of (4) tells the nearer point")
+    scenes = [_scene("stacked.toml", *without) for without in (("touching",), ())]
+    hidden = [_hidden(scene, INNER) + _hidden(scene, CONTOUR) for scene in scenes]
     case = "two boxes that touch: the value is 0, and only a separating plane decides"
-    return pieces_against_rays(cases).unless(passed, case)
+    return check.unless(scenes[1].relations[0].by == "plane" and hidden[0] < hidden[1], case)
 
 
-@claim("nakamae-nishita.43", "nakamae-nishita.42")
+@claim("nakamae-nishita.42")
 def three_conditions() -> Check:
     """Check that a segment that crosses the contour of a square enters it, leaves it, or does both."""
     index_patterns, touching = [], 0

@@ -1,8 +1,9 @@
 """Checks of Yau and Srihari: envelopes, the two theorems, floor and ceiling, and the algorithm as printed."""
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from itertools import combinations
+from itertools import combinations, product
 from random import Random
 
 import numpy as np
@@ -51,12 +52,14 @@ def _draw_solid(random: Random) -> tuple[Point, ...]:
 
 
 SOLIDS: Generator[tuple[Point, ...]] = Generator(
-    "connected solids of up to 41 voxels in a cube of 6", 1983, _draw_solid, lambda s: len(s) > 1 and _connected(s)
+    "connected solids of up to 41 voxels in a cube of 6, not flat", 1983, _draw_solid, lambda s: _is_spatial_solid(s)
 )
+# Normals of supporting planes that have the surface on or above them.
+NORMALS = [normal for normal in product(range(-3, 4), range(-3, 4), range(4)) if any(normal)]
 
 
-def _connected(voxels: tuple[Point, ...]) -> bool:
-    return components(array_of(voxels)) == 1
+def _is_spatial_solid(voxels: tuple[Point, ...]) -> bool:
+    return len(voxels) > 3 and components(array_of(voxels)) == 1 and exact_hull(voxels).dimension == 3
 
 
 @cache
@@ -80,8 +83,6 @@ def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
     """Return True if both envelopes have faces of the exact hull and the filled hull has its digital points."""
     points, hull = _placed(voxels), hull_of(voxels)
     judge = exact_hull(points)
-    if judge.dimension < 3:
-        return True
     for envelope, sign in ((hull.lower, 1), (hull.upper, -1)):
         expected = {frozenset(points[k] for k in f.polygon) for f in judge.facets if sign * f.plane[2] < 0}
         if {frozenset((x, y, sign * z) for x, y, z in face.vertices) for face in envelope.faces} != expected:
@@ -116,7 +117,7 @@ def minimum_not_unique() -> Check:
 
 
 @claim("yau-srihari.2", "yau-srihari.48", "yau-srihari.51", "yau-srihari.53", "yau-srihari.54", full=500)
-@claim("yau-srihari.59", "yau-srihari.120", full=500)
+@claim("yau-srihari.52", "yau-srihari.59", "yau-srihari.103", "yau-srihari.120", full=500)
 def envelopes_against_judge(cases: int = 5) -> Check:
     """Check that the envelopes consist of faces of the exact hull and have its digital points between them."""
     message = "the envelopes are the lower and upper faces of the exact hull, with its digital points between them"
@@ -200,39 +201,35 @@ def floor_and_ceiling() -> Check:
     return slip(as_printed, as_corrected, "the floor and the ceiling", message)
 
 
-@claim("yau-srihari.103", full=500)
-def ceiling_by_negation(cases: int = 5) -> Check:
-    """Check that the envelope of -beta, with its sign changed, is the upper hull; without the change it is not."""
-    envelope, upper = _upper_heights()
-    return envelopes_against_judge(cases).unless(envelope != upper, "the heights without the change of sign")
+def _floor_and_vertices(voxels: tuple[Point, ...]) -> tuple[set[Point], set[Point]]:
+    """Return the points of a solid's floor and the vertices of its lower envelope."""
+    hull = hull_of(voxels)
+    return {(x, y, z) for (x, y), z in hull.floor.items()}, {v for face in hull.lower.faces for v in face.vertices}
 
 
-@claim("yau-srihari.52")
-def envelope_of_negated_ceiling() -> Check:
-    """Check that the algorithm applied to -beta gives the negative of the concave envelope of beta."""
-    envelope, upper = _upper_heights()
-    message = f"{len(upper)} vertices are right only if their heights are negated"
-    negated = {(x, y, -z) for x, y, z in envelope}
-    return slip(envelope == upper, negated == upper, "the negative of that envelope", message)
+@claim("yau-srihari.55", full=500)
+def supporting_planes(cases: int = 5) -> Check:
+    """Check that each plane that supports the floor from below, or upright, contains a vertex of the lower envelope.
+
+    A plane that supports the envelope from above touches its faces at their vertices.
+    """
+
+    def touch(voxels: tuple[Point, ...]) -> bool:
+        floor, vertices = _floor_and_vertices(voxels)
+        return all(min(dot(n, p) for p in floor) == min(dot(n, v) for v in vertices) for n in NORMALS)
+
+    return search(SOLIDS, touch, cases, f"{len(NORMALS)} supporting planes of each solid contain an extreme point")
 
 
-def _upper_heights() -> tuple[set[Point], set[Point]]:
-    """Return the vertices of the envelope of -beta, and the vertices of the exact upper hull."""
-    judge = exact_hull(SOLID)
-    envelope = {vertex for face in _hull().upper.faces for vertex in face.vertices}
-    return envelope, {SOLID[k] for f in judge.facets if f.plane[2] > 0 for k in f.polygon}
-
-
-@claim("yau-srihari.55", "yau-srihari.56", "yau-srihari.64", full=500)
+@claim("yau-srihari.56", full=500)
 def extreme_points(cases: int = 5) -> Check:
-    """Check that each vertex of the lower envelope is an extreme point of its row and of its column of the floor."""
+    """Check that each vertex of the lower envelope is a point of the floor."""
 
     def among(voxels: tuple[Point, ...]) -> bool:
-        hull = hull_of(voxels)
-        floor = {(x, y, z) for (x, y), z in hull.floor.items()}
-        return {v for face in hull.lower.faces for v in face.vertices} <= floor & {*hull.lower.reduced}
+        floor, vertices = _floor_and_vertices(voxels)
+        return vertices <= floor
 
-    return search(SOLIDS, among, cases, "all vertices are points of the floor that are extreme in their row and column")
+    return search(SOLIDS, among, cases, "all vertices of the lower envelopes are points of the floors")
 
 
 @claim("yau-srihari.84", full=500)
@@ -265,7 +262,8 @@ def triangles_of_a_hull(cases: int = CASES) -> Check:
             outcomes += [
                 (frozenset(three) in faces) == (min(row) >= 0 or max(row) <= 0) for three, row in values.items()
             ]
-    check = searched(SETS[3], 4 * cases, outcomes, f"true for {len(outcomes)} triangles")
+    generator = replace(SETS[3], name=f"the first six points of {SETS[3].name}, if no four of them are coplanar")
+    check = searched(generator, 4 * cases, outcomes, f"true for {len(outcomes)} triangles")
     as_printed = algorithm_as_printed("triangles")
     return check.unless(not as_printed.holds, f"a solid with four coplanar points: {as_printed.message}")
 

@@ -56,13 +56,15 @@ def number_of_edges() -> Proof:
 
 
 def hull_is_convex() -> Proof:
-    """Prove that a set that equals its hull is convex: the hull contains the segment between any two of its points."""
+    """Prove that the combinations of points are the smallest convex set that contains the points, their hull."""
     m, k, w = variables("m k w")
     weights = {"w": not_negative(w), "k": not_negative(k), "m": not_negative(m), "rest": not_negative(1 - m)}
     return Proof(
-        "a combination of two combinations of points is a combination of these points",
+        "the combinations of points form the smallest convex set that contains the points",
         "With the weights w and k of a point in the two combinations its new weight is (1 - m) w + m k. This is not "
-        "negative, and the new weights have the sum (1 - m) + m = 1.",
+        "negative, and the new weights have the sum (1 - m) + m = 1. So the segment between two combinations consists "
+        "of combinations. A convex set that contains the points contains all combinations of them, because more than "
+        "two points are combined one after the other.",
         (
             Step(
                 "the new weight is not negative",
@@ -84,6 +86,23 @@ def convex_epigraph() -> Proof:
         "them is in the epigraph, and so f is at most their combination. A concave function is treated in the same way "
         "with the opposite sign.",
         (combination_above(),),
+    )
+
+
+def negative_is_concave() -> Proof:
+    """Prove that the negative of a convex function is concave, and the negative of a concave function convex."""
+    m, f_x, f_y, f_between = variables("m f_x f_y f_between")
+    return Proof(
+        "the negative of a convex function is concave, and vice versa",
+        "The definitions differ only in the direction of the inequality, and multiplying by -1 reverses it.",
+        (
+            Step(
+                "-f satisfies the inequality of concave functions",
+                {"convex": not_negative((1 - m) * f_x + m * f_y - f_between)},
+                not_negative(-f_between - (1 - m) * -f_x - m * -f_y),
+                (term("convex"),),
+            ),
+        ),
     )
 
 
@@ -151,8 +170,9 @@ def angle_of_theorem_2() -> Check:
 
 
 @claim("yau-srihari.16", proof=number_of_edges)
-@claim("yau-srihari.41", proof=hull_is_convex)
-@claim("yau-srihari.47", "yau-srihari.96", proof=convex_epigraph)
+@claim("yau-srihari.40", "yau-srihari.41", proof=hull_is_convex)
+@claim("yau-srihari.44", proof=negative_is_concave)
+@claim("yau-srihari.47", "yau-srihari.96", "yau-srihari.117", "yau-srihari.118", proof=convex_epigraph)
 @claim("yau-srihari.48", proof=theorem_1)
 @claim("yau-srihari.101", proof=theorem_2)
 def proof_of_theorem(proof: Callable[[], Proof]) -> Check:

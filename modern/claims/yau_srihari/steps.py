@@ -1,6 +1,6 @@
 """Checks of Yau and Srihari on steps: edges of the queue, rows and columns, and the angles of the search."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import product
 from random import Random
 
@@ -23,7 +23,7 @@ from modern.papers.yau_srihari.quadtree import Leaf, Place, heights, no_columns,
 from modern.papers.yau_srihari.search import Search
 
 
-@claim("yau-srihari.6", "yau-srihari.116")
+@claim("yau-srihari.6")
 def definitions_differ() -> Check:
     """Check that two definitions differ: two voxels with a common corner are midpoint convex but no convex solid."""
     corner, bend = (array_of([(0, 0, 0), (1, 1, 0)]), array_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (2, 2, 0)]))
@@ -96,19 +96,31 @@ def _draw_floor(random: Random) -> tuple[Point, ...]:
 FLOORS: Generator[tuple[Point, ...]] = Generator("floors of about 13 columns of height 0 to 3", 29, _draw_floor)
 
 
-@claim("yau-srihari.128", full=1_000)
-def row_and_column_steps(cases: int = 12) -> Check:
-    """Check that the reductions by rows and then by columns keep all vertices, though some other points remain too."""
-    checks, larger = [], 0
+def _reductions(cases: int) -> Iterator[tuple[set[Place], set[Place], set[Place]]]:
+    """Yield for each floor the vertices of its lower hull, the points extreme in row and column, and those kept."""
     for floor_ in FLOORS.cases(cases):
         heights_ = {(x, y): z for x, y, z in floor_}
         extreme_in_both = {place for place in heights_ if all(_extreme(place, axis, heights_) for axis in (0, 1))}
         tree = written(no_columns(4), {place: Leaf(z) for place, z in heights_.items()})
-        after_steps = {*heights(reduced_tree(tree))}
-        floor: list[Point] = [(x, y, z) for (x, y), z in heights_.items()]
         # The lower hull of the floor: copies of all points far above leave its lower vertices unchanged.
-        hull = exact_hull([*floor, *((x, y, z + 9) for x, y, z in floor)])
-        checks.append({floor[k][:2] for k in hull.vertices if k < len(floor)} <= extreme_in_both <= after_steps)
+        hull = exact_hull([*floor_, *((x, y, z + 9) for x, y, z in floor_)])
+        vertices = {floor_[k][:2] for k in hull.vertices if k < len(floor_)}
+        yield vertices, extreme_in_both, {*heights(reduced_tree(tree))}
+
+
+@claim("yau-srihari.64", full=1_000)
+def extreme_in_row_and_column(cases: int = 12) -> Check:
+    """Check that the vertices of a floor's lower hull are extreme points of their rows and columns."""
+    checks = [vertices <= extreme_in_both for vertices, extreme_in_both, _ in _reductions(cases)]
+    return searched(FLOORS, cases, checks, "all extreme points are extreme in their row and column")
+
+
+@claim("yau-srihari.128", full=1_000)
+def row_and_column_steps(cases: int = 12) -> Check:
+    """Check that the reductions by rows and then by columns keep all vertices, though some other points remain too."""
+    checks, larger = [], 0
+    for vertices, extreme_in_both, after_steps in _reductions(cases):
+        checks.append(vertices <= extreme_in_both <= after_steps)
         larger += extreme_in_both < after_steps
     return searched(FLOORS, cases, checks, f"{len(checks)} floors keep all vertices").unless(
         larger, f"floors with a remaining point that is not extreme in its column ({larger})"

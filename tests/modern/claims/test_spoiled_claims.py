@@ -69,7 +69,7 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "appel-will.80": ("findings", lambda original: lambda paper: [replace(f, produced=()) for f in original(paper)]),
     "appel-will.84": ("oriented", _turned_if_changed),
     "appel-will.119": ("as_corrected", lambda _: lambda images: images[0] == (1, 1)),
-    "kovalevsky-schulz.18": ("_local", lambda original: lambda solid, *_: original(solid) if _ else {*solid}),
+    "kovalevsky-schulz.18": ("local", lambda original: lambda solid, *_: original(solid) if _ else {*solid}),
     "kovalevsky-schulz.96": ("_is_symmetric", lambda _: lambda ring: True),
     "thesis.3": ("programs", _without_code),
     "thesis.65": ("programs", _listing_with("NETC", "NTC")),

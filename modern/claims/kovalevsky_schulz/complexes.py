@@ -1,0 +1,203 @@
+"""Checks of Kovalevsky and Schulz on cell complexes: the definitions of the appendix, and topological coordinates.
+
+A cell of a Cartesian complex is the tuple of its topological coordinates.  An even coordinate is a 0-cell of its axis,
+and an odd one is a 1-cell.  The voxel (x, y, z) is the cell (2 x + 1, 2 y + 1, 2 z + 1).
+"""
+
+from collections.abc import Iterable, Iterator
+from itertools import combinations, combinations_with_replacement, product
+
+import numpy as np
+
+from modern.claims.evidence import Check, claim, exhausted, exhibited, search
+from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels
+from modern.claims.sampled_sets import Point
+from modern.digital.solids import listed
+from modern.papers.kovalevsky_schulz import CENTRES, VERTICES
+from modern.papers.kovalevsky_schulz.corners import Of, places
+
+Cell = tuple[int, ...]
+# The dimensions of the cells of a complex, and its bounding relation as pairs of cells; cells are numbered from 0.
+Complex = tuple[tuple[int, ...], frozenset[tuple[int, int]]]
+
+
+def dimension(cell: Cell) -> int:
+    return sum(c % 2 for c in cell)
+
+
+def sides(cell: Cell) -> set[Cell]:
+    """Return the cells that bound a cell."""
+    return {*product(*((c - 1, c, c + 1) if c % 2 else (c,) for c in cell))} - {cell}
+
+
+def star(cell: Cell) -> set[Cell]:
+    """Return the smallest neighbourhood of a cell: the cell and all cells that it bounds (Definition SON)."""
+    return {*product(*((c,) if c % 2 else (c - 1, c, c + 1) for c in cell))}
+
+
+def closure(cells: Iterable[Cell]) -> set[Cell]:
+    """Return the smallest closed set that contains the given cells (Definition CL)."""
+    return {side for cell in cells for side in (cell, *sides(cell))}
+
+
+def interior(cells: set[Cell]) -> set[Cell]:
+    """Return the greatest open subset of a set of cells (Definition IN)."""
+    return {cell for cell in cells if star(cell) <= cells}
+
+
+def farthest_ground_cell(cell: Cell) -> Cell:
+    """Return the incident cell of the highest dimension that is farthest from the origin."""
+    return max(product(*((c,) if c % 2 else (c - 1, c + 1) for c in cell)), key=sum)
+
+
+def _halved(cells: Iterable[Cell], dimension_: int) -> set[Cell]:
+    """Return the coordinates, without the factor 2, of the cells of one dimension."""
+    return {tuple(c // 2 for c in cell) for cell in cells if dimension(cell) == dimension_}
+
+
+def _complex(solid: Iterable[Point]) -> set[Cell]:
+    """Return all cells of the complex M whose ground cells are the voxels of a solid."""
+    return closure((2 * x + 1, 2 * y + 1, 2 * z + 1) for x, y, z in solid)
+
+
+def _placed(solid: Voxels, of: Of) -> set[Cell]:
+    """Return the voxels of a solid, or the elements that the program labels for the corners of its voxels."""
+    volume = listed(solid)
+    return {
+        tuple(map(sum, zip(place, volume.origin, strict=True))) for place in np.argwhere(places(volume, of)).tolist()
+    }
+
+
+@claim("kovalevsky-schulz.25", full=4_000)
+def interior_and_closure(cases: int = 3) -> Check:
+    """Check that the program takes the voxels of Int(M) and the 0-cells of Cl(M) as the points of the two hulls."""
+
+    def agrees(solid: Voxels) -> bool:
+        cells = _complex(solid)
+        inner, corners = _halved(interior(cells), 3), _halved(closure(cells), 0)
+        return (_placed(solid, CENTRES), _placed(solid, VERTICES)) == (inner, corners)
+
+    return search(SOLIDS, agrees, cases, "the points are the voxels of the interior and the 0-cells of the closure")
+
+
+@claim("kovalevsky-schulz.174", full=4_000)
+def additional_labels(cases: int = 3) -> Check:
+    """Check that assigning 0-cells to their farthest voxels labels more elements, the farthest of all among them."""
+
+    def agrees(solid: Voxels) -> bool:
+        corners = {cell for cell in _complex(solid) if dimension(cell) == 0}
+        added = _halved(map(farthest_ground_cell, corners), 3) - {*solid}
+        return _placed(solid, VERTICES) - {*solid} == added and max(map(sum, added)) > max(map(sum, solid))
+
+    return search(SOLIDS, agrees, cases, "the element farthest from the origin is labelled in addition to the voxels")
+
+
+@claim("kovalevsky-schulz.27")
+def cells_of_a_cube() -> Check:
+    """Check that a cube of n voxels on each side has (2 n + 1)^3 cells, which is nearly 8 n^3 only for large n."""
+    cubes = [(n, len(_complex((x, y, z) for x, y, z in product(range(n), repeat=3)))) for n in range(1, 7)]
+    message = "cubes of n^3 voxels have (2 n + 1)^3 cells"
+    check = exhausted("cubes with up to 6 voxels on each side", [m == (2 * n + 1) ** 3 for n, m in cubes], message)
+    return check.unless(cubes[0][1] > 16, f"a single voxel, whose complex has {cubes[0][1]} cells")
+
+
+@claim("kovalevsky-schulz.175")
+def edges_at_a_0_cell() -> Check:
+    """Check that a 0-cell is incident to four 1-cells in a plane, but to more in space."""
+    plane, space = (sum(dimension(cell) == 1 for cell in star((2,) * n)) for n in (2, 3))
+    check = exhibited(plane == 4, f"a 0-cell is incident to {plane} 1-cells in a plane")
+    return check.unless(space > 4, f"a 0-cell in space, which is incident to {space} 1-cells")
+
+
+@claim("kovalevsky-schulz.139", "kovalevsky-schulz.140", "kovalevsky-schulz.152", "kovalevsky-schulz.110")
+def incidence_by_coordinates() -> Check:
+    """Check dimensions and incidences that follow from coordinates against the cells as closed sets of points.
+
+    A cell bounds another one if its set of points is a part of that of the other cell.  Incidence is not transitive.
+    """
+    cells = [*product(range(5), repeat=3)]
+    points = {cell: [(c // 2, (c + 1) // 2) for c in cell] for cell in cells}
+    near = {cell: star(cell) | sides(cell) for cell in cells}
+    outcomes = [len(set(map(tuple, points.values()))) == len(cells)]
+    outcomes += [dimension(cell) == sum(low < high for low, high in points[cell]) for cell in cells]
+    for e, f in product(cells, repeat=2):
+        pairs = [*zip(points[e], points[f], strict=True)]
+        within = all(p[0] >= q[0] and p[1] <= q[1] for p, q in pairs)
+        around = all(p[0] <= q[0] and p[1] >= q[1] for p, q in pairs)
+        outcomes.append((within or around) == (f in near[e]) == (e in near[f]))
+    outcomes.append(any(near[f] - near[e] for e in cells for f in near[e] & {*cells}))
+    return exhausted("pairs of cells of a block of eight voxels", outcomes, "dimension and incidence are as expected")
+
+
+@claim("kovalevsky-schulz.138")
+def cells_with_common_coordinates() -> Check:
+    """Check that a voxel and seven cells, of which three are 1-cells and three 2-cells, have the same coordinates."""
+    dimensions: dict[Cell, list[int]] = {}
+    # The cells beyond the last voxels belong to ground cells outside the block.
+    for cell in product(range(8), repeat=3):
+        dimensions.setdefault(farthest_ground_cell(cell), []).append(dimension(cell))
+    outcomes = [sorted(of_voxel) == [0, 1, 1, 1, 2, 2, 2, 3] for of_voxel in dimensions.values()]
+    return exhausted("voxels of a block of 64", outcomes, "eight cells of all dimensions have the same coordinates")
+
+
+def is_complex(cells: Complex) -> bool:
+    """Return True if a bounding relation is transitive and only cells of lower dimension bound others (Definition ACC).
+
+    Such a relation is antisymmetric and irreflexive, too.
+    """
+    dimensions, relation = cells
+    rises = all(dimensions[e] < dimensions[f] for e, f in relation)
+    return rises and all((e, g) in relation for e, f in relation for f_, g in relation if f == f_)
+
+
+def _complexes() -> Iterator[Complex]:
+    """Yield all complexes of up to four cells with dimensions from 0 to 3, except for the order of the cells."""
+    for count in range(5):
+        for dimensions in combinations_with_replacement(range(4), count):
+            rising = [(e, f) for e, f in combinations(range(count), 2) if dimensions[e] < dimensions[f]]
+            relations = (frozenset(pairs) for size in range(len(rising) + 1) for pairs in combinations(rising, size))
+            yield from (cells for relation in relations if is_complex(cells := (dimensions, relation)))
+
+
+def subcomplex(cells: Complex, subset: set[int]) -> Complex:
+    """Return the subcomplex with the given cells; its relation is that of the complex, restricted (Definition SC)."""
+    dimensions, relation = cells
+    numbers = {cell: number for number, cell in enumerate(sorted(subset))}
+    pairs = ((numbers[e], numbers[f]) for e, f in relation if {e, f} <= subset)
+    return tuple(dimensions[cell] for cell in numbers), frozenset(pairs)
+
+
+@claim("kovalevsky-schulz.136")
+def subsets_are_subcomplexes() -> Check:
+    """Check that every subset of a complex, with the restricted relation, is a complex."""
+    outcomes = [
+        is_complex(subcomplex(cells, {*subset}))
+        for cells in _complexes()
+        for size in range(len(cells[0]) + 1)
+        for subset in combinations(range(len(cells[0])), size)
+    ]
+    domain = "subsets of the cells of complexes with up to 4 cells of dimensions 0 to 3"
+    return exhausted(domain, outcomes, "every subset of a complex determines a subcomplex")
+
+
+def connected(cells: Complex) -> set[tuple[int, int]]:
+    """Return the pairs of connected cells: incident, or connected to the same cell (Definition CN)."""
+    numbers = range(len(cells[0]))
+    pairs = {(e, f) for e, f in product(numbers, repeat=2) if e == f or {(e, f), (f, e)} & cells[1]}
+    while new := {(e, f) for (e, c), (f, c_) in product(pairs, repeat=2) if c == c_} - pairs:
+        pairs |= new
+    return pairs
+
+
+@claim("kovalevsky-schulz.141")
+def connected_by_paths() -> Check:
+    """Check that cells are connected if and only if a path of incident cells leads from one to the other."""
+    outcomes = []
+    for cells in _complexes():
+        group = [*range(len(cells[0]))]
+        for e, f in cells[1]:
+            group = [group[f] if g == group[e] else g for g in group]
+        expected = {(e, f) for e, f in product(range(len(group)), repeat=2) if group[e] == group[f]}
+        outcomes.append(connected(cells) == expected)
+    domain = "complexes with up to 4 cells of dimensions 0 to 3"
+    return exhausted(domain, outcomes, "connected cells are those that paths of incident cells join")
