@@ -79,7 +79,8 @@ def vertex_of_hull(dimension: int, cases: int = CASES) -> Check:
     between = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]  # type: ignore[arg-type]
     alone = not between and len(corners) not in exact_hull([*corners, inner]).vertices
     check = searched(SETS[dimension], cases, checks, f"true for {len(checks)} points")
-    return check.unless(alone, f"{inner} inside a triangle or tetrahedron, which lies between no two given points")
+    body = "triangle" if dimension == 2 else "tetrahedron"
+    return check.unless(alone, f"{inner} inside a {body}, which lies between no two given points")
 
 
 @claim("thesis.202", "thesis.27", kind="planes", full=200)

@@ -84,7 +84,7 @@ def duplicate_lines(cases: int = 3 * CASES) -> Check:
         for face in hull.faces:
             side = {k for k in used if _on_side(points, face.polygon, k)}
             outcomes += [sum({*ends} <= side for ends in last) >= 2] if len(side) > 2 else []
-    return searched(LATTICE_SETS[2], cases, outcomes, f"{len(outcomes)} sides have two equations")
+    return searched(LATTICE_SETS[2], cases, outcomes, f"{len(outcomes)} sides have two or more equations")
 
 
 def _on_side(points: Sequence[Point], ends: tuple[int, ...], k: int) -> bool:

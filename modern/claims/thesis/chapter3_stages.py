@@ -191,9 +191,12 @@ def _largest_of_all(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each new point outside a single facet, whether one new facet on each of its edges replaces it."""
+    """Yield, for each new point outside a single facet, whether one new facet on each of its edges replaces it.
+
+    In a plane, every new point must be outside a single line.
+    """
     for before, after, record, added in _steps(sampled):
-        if record.outside == 1:
+        if sampled.flat or record.outside == 1:
             replaced = {*before.defining[record.checked - 1]}
             kept_lines = [d for k, d in enumerate(before.defining) if k != record.checked - 1]
             new_facets = [{*d} for d in after.defining if {*d} not in [{*k} for k in kept_lines]]
