@@ -4,7 +4,6 @@ Requests and answers are plain data that JSON can represent; the page is ``docs/
 of some milliseconds.  The operator has the same questions, commands and log as on the command line
 (:mod:`emulator.machine.operator`).  Python in the browser cannot wait: if the machine halts and has no answer, the
 slice ends, and the next one continues there.  To go back, a new session repeats the log up to an earlier statement.
-The module imports only the standard library, lark and mpmath.
 """
 
 import io
@@ -54,9 +53,10 @@ class _Visitor(FromFile):
         self.actions: deque[Action] = deque()
         self._record = record
 
-    def forget(self) -> None:
-        """Drop the remaining lines of the log."""
-        self._lines.clear()
+    def forget(self) -> bool:
+        """Drop the remaining lines of the log, and return True if there were any."""
+        has_lines, self._lines = bool(self._lines), deque()
+        return has_lines
 
     @property
     def is_idle(self) -> bool:
@@ -86,10 +86,7 @@ class _Loaded:
 
 @dataclass
 class Desk:
-    """A machine with program, decks and operator.
-
-    ``clock`` decides when a slice ends; it is read after each ``small`` operations.
-    """
+    """A machine with program, decks and operator.  ``clock`` is read after each ``small`` operations of a slice."""
 
     clock: Callable[[], float] = time.monotonic
     small: int = 2_000
@@ -110,6 +107,7 @@ class Desk:
     _record: panel.Record = field(default_factory=panel.Record)
 
     offers = staticmethod(offered)
+    check = staticmethod(panel.compile_messages)
 
     def load(self, request: Answer) -> Answer:
         """Compile a program and load a deck; the machine then waits for START.
@@ -122,6 +120,8 @@ class Desk:
         :mod:`modern.publication.panel` ``core``, ``touched`` and ``formats``.  If the request is invalid, it has
         ``refused``, a list of messages, and the machine is empty.
         """
+        if "log" not in request:  # a new load ends the repetition of a log
+            self._queue.clear()
         self._earlier += self._log.getvalue()
         self._log, self._session, self._loaded = io.StringIO(), None, None
         try:
@@ -138,10 +138,9 @@ class Desk:
             )
             self._loaded = _Loaded(program, deck, name if isinstance(name, str) else str(name[0]), options)
             self._begin(self._loaded, str(request.get("log", "")))
-        except LowerCaseError as error:
-            return self._refused(f"{error}; choose “read lower case as capitals” to accept it")
         except (EmulatorError, ValueError) as error:
-            return self._refused(str(error))
+            hint = "; choose “read lower case as capitals” to accept it" if isinstance(error, LowerCaseError) else ""
+            return self._refused(f"{error}{hint}")
         if "log" not in request:
             self._visitor.actions.append(Action("ATTN"))
         return {
@@ -236,7 +235,11 @@ class Desk:
         if session.halt and session.halt.what == "accept" and action.word in ("START", "STEP"):
             return {"lines": [halt_line(session.halt)]}
         self._visitor.actions.append(action)
-        return {"lines": [action_line(action)] if action.word in ("SWITCH", "BREAK", "CLEAR") else []}
+        lines = [action_line(action)] if action.word in ("SWITCH", "BREAK", "CLEAR") else []
+        if self._visitor.forget():
+            self._queue.clear()
+            lines.append("the rest of the log is not repeated")
+        return {"lines": lines}
 
     def jump(self, statement: int) -> Answer:
         """Go back to the beginning of a statement of this run, counted from 1, by repeating the run; see :meth:`run`.
@@ -248,6 +251,7 @@ class Desk:
             self.act(f"STEP {statement - len(self._record.times)}")
         if self._loaded is None or not 1 <= statement <= len(self._record.times):
             return self._answer()
+        self._queue.clear()
         work, log, self._log = self._record.times[statement - 1] - 1, self._log.getvalue(), io.StringIO()
         session = self._begin(self._loaded, log)
         # The log stops the machine at some statements; _Unanswered ends the repetition if it waited at the last one.
@@ -297,8 +301,6 @@ class Desk:
         """Carry out a command that only shows something, such as ``VARIABLES``."""
         lines = command(self._session, line, self._cards, _WIDTH) if self._session else []
         return {"lines": lines if isinstance(lines, list) else []}
-
-    check = staticmethod(panel.compile_messages)
 
     def log(self) -> str:
         """Return the loads and the operator's actions since the page was opened, as a log that can be repeated."""
@@ -371,7 +373,7 @@ class Desk:
     def _answer(self) -> Answer:
         session, events, self._happened = self._session, self._happened, []
         if session is None:
-            return {"events": [], "card": 0, "work": 0, "time": "0 s", "stands": "", "waits": "", "ended": False}
+            return {"events": [], "card": 0, "time": "0 s", "stands": "", "waits": "", "ended": False}
         halt = None if self._ending else session.halt
         accepts = halt is not None and halt.what == "accept"
         timing = measure(session.program, session.result())
@@ -379,13 +381,11 @@ class Desk:
             "events": [[event.what, event.text] for event in events if event.what != "begin"],
             "card": session.here.place.card,
             "statement": len(self._record.times),
-            "work": session.state.work,
             "read": session.devices.position,
             "time": str(timing.time),
             "seconds": timing.time.seconds,
             "switches": [bool(on) for on in session.switches],
             "breaks": [session.program.statements[index].place.card for index in session.breakpoints],
-            "watched": list(session.watched),
             "did": done(session, session.last, _WIDTH) if halt and halt.why == "step" and session.last else [],
             "stands": halt_line(halt) if halt else "",
             "waits": "typed" if accepts else "answer" if halt else "",

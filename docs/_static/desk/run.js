@@ -12,6 +12,7 @@ const deskRun = (() => {
   let machine = null;
   let waits = "";
   let running = false;
+  let isLoading = false; // slices that arrive during a load belong to the machine before it
   let follows = false; // the next program is loaded when program 1 ends
   let isChanged = false; // another program or deck has been chosen since the last load
   let wish = ""; // START or LOAD, pressed before the machine is ready
@@ -68,31 +69,48 @@ const deskRun = (() => {
       return say("The emulator is still loading. It will begin by itself.");
     }
     wish = "";
-    isChanged = false;
-    deskPage.enter("loading");
-    say("Compiling …");
-    const own = ++loads;
-    clearTimeout(late);
-    late = window.setTimeout(restart, COMPILING);
-    const answer = await ask("load", deskChoice.request()).finally(() => own === loads && clearTimeout(late));
-    if (own !== loads || !received(answer)) return;
+    if (!(await begin("load", deskChoice.request()))) return;
+    const own = loads;
     if (stop) await act(`BREAK ${stop}`);
     if (start && own === loads) await act("START");
   }
 
-  /** Show the answer of a load, and return whether the machine is loaded. @param {Load} answer */
+  /**
+   * Let the emulator load a program and show its answer, unless a later load replaces it. Return whether it is loaded.
+   * @param {"load" | "next_load" | "replay"} name @param {any[]} parameters
+   */
+  async function begin(name, ...parameters) {
+    const own = ++loads;
+    isChanged = false;
+    isLoading = true;
+    deskPage.enter("loading");
+    say("Compiling …");
+    clearTimeout(late);
+    late = window.setTimeout(restart, COMPILING);
+    /** @type {Load | Error} */
+    const answer = await ask(name, ...parameters).catch((error) => error);
+    if (own !== loads) return false;
+    clearTimeout(late);
+    running = isLoading = false;
+    return received(answer);
+  }
+
+  /** Show the answer of a load, and return whether the machine is loaded. @param {Load | Error} answer */
   function received(answer) {
-    running = false;
-    waits = answer.refused ? "" : "answer";
-    if (answer.refused) deskShow.refuse(answer.refused);
+    const isLoaded = !(answer instanceof Error || answer.refused);
+    waits = isLoaded ? "answer" : "";
+    if (answer instanceof Error) {
+      deskShow.lay(null);
+      trouble(answer.message);
+    } else if (answer.refused) deskShow.refuse(answer.refused);
     else deskShow.lay(answer);
-    return !answer.refused;
+    return isLoaded;
   }
 
   function restart() {
     machine?.stop();
     machine = null;
-    running = false;
+    running = isLoading = false;
     waits = "";
     const stopped = "The compiler was stopped after 10 seconds.";
     say(`${stopped} The command hull1620 check has no time limit. Loading again …`);
@@ -153,6 +171,7 @@ const deskRun = (() => {
 
   /** Show a slice of the live machine, and what the visitor can do next. @param {Frame} frame */
   function slice(frame) {
+    if (isLoading) return;
     deskShow.render(frame);
     paper(frame.did ?? [], "note");
     running = !frame.ended && !frame.waits;
@@ -181,7 +200,7 @@ const deskRun = (() => {
     const trouble = frame.messages?.findLast((text) => text.startsWith("hull1620:"));
     const isHull = (frame.stages ?? 0) > 0 && !frame.next;
     say(`${trouble ? `The run has stopped: ${trouble.slice(10)}` : "The run has ended."} ${clock(frame)}.${isHull ? " Is the hull right? Press “Compare with exact arithmetic”." : ""}`);
-    if (frame.queued) return void ask("next_load").then(received);
+    if (frame.queued) return void begin("next_load");
     if (!frame.next) return;
     deskChoice.choosePunched(frame.next);
     next.textContent = `Run ${frame.next.replace(/(\d)/, " $1")} with the punched cards`;
@@ -245,12 +264,10 @@ const deskRun = (() => {
   }
 
   /** Repeat the log of a session. @param {string} text */
-  async function replay(text) {
+  function replay(text) {
     deskTape.end();
-    const own = ++loads;
-    clearTimeout(late);
-    const answer = await ask("replay", text);
-    if (own === loads) received(answer);
+    follows = false;
+    return begin("replay", text);
   }
 
   /** Open the desk at a moment that a link names. @param {Moment} moment */

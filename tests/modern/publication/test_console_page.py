@@ -219,6 +219,34 @@ def test_an_earlier_load_does_not_press_start_on_a_later_one(tab: Page) -> None:
     assert "BREAK" not in log
 
 
+def test_start_loads_again_after_a_load_that_fails(tab: Page) -> None:
+    load(tab, "stats.f")
+    tab.evaluate("deskChoice.took = deskChoice.request; deskChoice.request = () => ({})")
+    tab.click("#desk-load")
+    assert state(tab, "ended") == "The emulator reports: KeyError: 'program'"
+    assert tab.locator("#desk-listing li").count() == 0
+    tab.evaluate("deskChoice.request = deskChoice.took")
+    assert press(tab).startswith("The run has ended.")
+
+
+def test_a_load_or_a_key_ends_the_repetition_of_a_log(tab: Page) -> None:
+    # START waits for a halt of a program that has none.
+    cards = "CARDS count.f\nCARD       X=0.\nCARD     1 X=X+1.\nCARD       GO TO 1\nCARD       END\n"
+    log = cards + 2 * "LOAD count.f\nSTART\n"
+    tab.select_option("#desk-program", "stats.f")
+    tab.evaluate("log => Promise.all([deskRun.replay(log), deskRun.load()])", log)
+    assert state(tab, "waits") == "stats.f is loaded. Press START."
+    assert press(tab).startswith("The run has ended.")
+    assert tab.evaluate("deskRun.ask('log')").rpartition("LOAD ")[2].startswith("stats.f")
+    give(tab, "session.operator", log)
+    state(tab, "runs")
+    tab.click("[data-words=ATTN]")
+    assert "stopped (attention) before" in state(tab, "waits")
+    assert press(tab, "STOP").startswith("The run has stopped")
+    assert "the rest of the log is not repeated" in tab.inner_text("#desk-paper")
+    assert "START" not in tab.evaluate("deskRun.ask('log')").rpartition("LOAD ")[2]
+
+
 def test_a_slow_compilation_restarts_the_emulator_and_a_failing_one_does_not(tab: Page) -> None:
     tab.evaluate(
         """async () => {
@@ -226,7 +254,7 @@ def test_a_slow_compilation_restarts_the_emulator_and_a_failing_one_does_not(tab
           window.setTimeout = (action, time) => setTimeout(action, time / 20);
           const { request } = deskChoice;
           deskChoice.request = () => ({});
-          await deskRun.load().catch(() => {});
+          await deskRun.load();
           await new Promise((done) => setTimeout(done, 700));
           if (!deskRun.isOn) throw new Error("the emulator was restarted after a load that failed");
           Object.assign(deskChoice, { request });
