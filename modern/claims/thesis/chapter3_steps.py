@@ -23,7 +23,7 @@ from modern.claims.sampled_sets import (
     reduced_plane,
     sampled_sets,
 )
-from modern.claims.thesis.chapter3_equations import line_as_printed, plane_as_printed
+from modern.claims.thesis.chapter3_equations import plane_as_printed
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
@@ -33,32 +33,6 @@ def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], 
     """Return the check that all outcomes are true; its message starts with the numbers of true and of all outcomes."""
     checks = list(outcomes)
     return searched(generator, cases, checks, f"{sum(map(bool, checks))} of {len(checks)} {message}")
-
-
-@claim("thesis.42", equal=0)
-@claim("thesis.44", equal=1)
-@claim("thesis.45", equal=2)
-@claim("thesis.47", equal=None)
-def pairs_of_equations(equal: int | None) -> Check:
-    """Check that both equations of a line through two lattice points hold at exactly the lattice points of the line.
-
-    equal: the number of coordinates, beginning with x, that are equal in both points; None checks all pairs.
-    """
-    lattice: list[Point] = [(x, y, z) for x in (0, 1) for y in (0, 1, 2) for z in (0, 2)]
-    outcomes = []
-    for p, q in combinations(lattice, 2):
-        first = next(k for k in range(3) if p[k] != q[k])
-        if equal not in (None, first):
-            continue
-        # The two equations are those of (3.1), (3.2) and (3.3) that contain the first coordinate that differs.
-        pairs = [pair for pair in combinations(range(3), 2) if first in pair]
-        equations = [(i, j, *line_as_printed(p[i], p[j], q[i], q[j])) for i, j in pairs]
-        for x in lattice:
-            satisfies_both = not any(a * x[i] + b * x[j] + c for i, j, a, b, c in equations)
-            outcomes.append(satisfies_both == (not any(cross(minus(q, p), minus(x, p)))))
-    chosen = "" if equal is None else f" that differ first in {'xyz'[equal]}"
-    domain = f"pairs of points of a 2 x 3 x 2 lattice{chosen}, each with all points of the lattice"
-    return exhausted(domain, outcomes, "both equations hold only at the points of the line")
 
 
 @claim("thesis.49", full=400)

@@ -49,9 +49,9 @@ def _computed(theorem: str) -> Mapping[str, Check]:
     return worked_example_checks(theorem_of(theorem))
 
 
-@claim("thesis.35", "thesis.233", theorem="4.1", claim="six_extremes")
-@claim("thesis.37", "thesis.112", theorem="4.2", claim="not_supporting")
-@claim("thesis.91", theorem="4.8", claim="last_outside")
+@claim("thesis.233", theorem="4.1", claim="six_extremes")
+@claim("thesis.112", theorem="4.2", claim="not_supporting")
+@claim("thesis.146", theorem="4.8", claim="last_outside")
 @claim("thesis.111", theorem="4.1", claim="programs")
 @claim("thesis.109", "thesis.110", "thesis.111", theorem="4.1", claim="equations")
 @claim("thesis.118", theorem="4.2", claim="programs")

@@ -62,6 +62,37 @@ def different_z() -> Proof:
     return Proof("points with equal x and y differ in z", "Distinct points differ in a coordinate.", (step,))
 
 
+def equations_of_line() -> Proof:
+    """Prove that two points with different x are on one line with all points that satisfy (3.1) and (3.2).
+
+    The same is proved of different y with (3.1) and (3.3), and of different z with (3.2) and (3.3).
+    """
+    u = minus(Q, P)
+    product = cross(u, minus(X, P))
+    printed = [
+        (Q[j] - P[j]) * X[i] + (P[i] - Q[i]) * X[j] + (Q[i] - P[i]) * P[j] + (P[j] - Q[j]) * P[i]
+        for i, j in ((1, 2), (0, 2), (0, 1))
+    ]
+    steps = [
+        Step(
+            "the third component is 0",
+            {"differ": positive(u[k] * u[k]), "first": zero(product[i]), "second": zero(product[j])},
+            zero(product[k]),
+            (term("first", -u[i] * u[k]), term("second", -u[j] * u[k])),
+            ("differ",),
+        )
+        for k, i, j in ((0, 1, 2), (1, 0, 2), (2, 0, 1))
+    ]
+    components = [printed[0] + product[0], printed[1] - product[1], printed[2] + product[2]]
+    return Proof(
+        "the two equations hold exactly at the points of the line",
+        "Each equation is a component of the vector product of the ways from the first point to the others, which is 0 "
+        "exactly on the line. The equations are those with a coordinate that differs, and then the third component "
+        "is 0 if they hold.",
+        (*_all_zero("the equation is the component", components), *steps),
+    )
+
+
 def coordinate_planes() -> Proof:
     """Prove that the equation of a coordinate plane has only one nonzero coefficient."""
     planes = [_plane(_with_0(P, axis), _with_0(Q, axis), _with_0(X, axis)) for axis in range(3)]
@@ -120,6 +151,7 @@ def other_letters() -> Proof:
 
 
 @claim("thesis.108", proof=three_points)
+@claim("thesis.42", "thesis.44", "thesis.45", "thesis.47", proof=equations_of_line)
 @claim("thesis.46", proof=different_z)
 @claim("thesis.126", "thesis.277", proof=coordinate_planes)
 @claim("thesis.55", "thesis.56", "thesis.126", "thesis.237", proof=perpendicular_projection)
