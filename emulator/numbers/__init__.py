@@ -14,7 +14,7 @@ To add a decimal arithmetic, for example one that keeps ten digits and rounds:
 3. Add the name to the help of ``--arithmetic`` in ``modern/cli/shared/arguments.py`` and to the tables in
    ``docs/reference/machine.md`` and ``docs/how-to/own-arithmetic.md``.
 4. Add tests: the name in ``tests/emulator/numbers/test_arithmetic_laws.py``, measured results with their source in
-   ``tests/data/vectors/``, the rules in ``tests/support/published/specification.py``, and the name in ``made.py``.
+   ``tests/data/vectors/``, the rules in ``tests/support/published/specification.py``, and lines that they compute.
 
 To add numbers that are not decimal, write a subclass of :class:`~emulator.numbers.base.Numbers` in a new module here,
 add its name to :data:`HOSTED` and create it in :func:`hosted`.  Continue with steps 3 and 4, where the test is

@@ -1,1 +1,1 @@
-"""The published vectors: rules in fractions, operands and lines.  Nothing of ``emulator`` is used here."""
+"""The published vectors: their rules in fractions, and their lines.  Nothing of ``emulator`` is used here."""
