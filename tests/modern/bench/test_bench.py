@@ -9,11 +9,9 @@ from pathlib import Path
 import pytest
 
 from emulator.compiled import runner
-from emulator.language.cards import deck_from_lines
-from emulator.machine.machine import Machine
 from modern.bench import native
-from modern.bench.agreement import compare, data_sets, plain
-from modern.bench.decks import LAYERS, OPTIONS, PROGRAM, middle_texts, random_points
+from modern.bench.agreement import compare, plain
+from modern.bench.decks import LAYERS, PROGRAM
 from modern.bench.measure import COLD, COMPILED, NATIVE, PLAIN, PORT, WARM, Bench, Row, document, lines, measure
 from modern.bench.timing import Figure, side_by_side
 from modern.cli.main import main
@@ -21,22 +19,6 @@ from modern.edition import programs
 
 GFORTRAN = shutil.which("gfortran")
 needs_compiler = pytest.mark.skipif(GFORTRAN is None, reason="no gfortran")
-
-
-@needs_compiler
-def test_native_program_3_agrees_with_the_emulated_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Thirty sets in one process give the same cards, except for zeros. The user's folder stays empty."""
-    (tmp_path / "empty").mkdir()
-    monkeypatch.chdir(tmp_path / "empty")
-    texts = middle_texts([random_points(4 + n, n) for n in range(30)])
-    cards_file, punched_file = tmp_path / "cards", tmp_path / "punched"
-    cards_file.write_text("".join(texts))
-    native.run(native.built(programs.deck(PROGRAM, LAYERS), native.compiler(), tmp_path), cards_file, punched_file)
-    program = programs.program(PROGRAM, LAYERS)
-    ours = [Machine(program, deck_from_lines("d", text.splitlines()), OPTIONS).run().punched for text in texts]
-    agreement = compare(ours, data_sets(punched_file.read_text().splitlines()))
-    assert (agreement.same, agreement.digits, agreement.different) == (30, 0, 0)
-    assert list(Path().iterdir()) == []
 
 
 def test_missing_compilers_are_reported(monkeypatch: pytest.MonkeyPatch) -> None:

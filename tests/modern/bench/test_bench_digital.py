@@ -1,14 +1,11 @@
 """The benchmarks of solids: octree hulls compared with their peers, and the growth of their times."""
 
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from modern.bench.suite import digital
-from modern.bench.timing import Curve
 from modern.digital.solids import ball
 from modern.papers.kovalevsky_schulz import voxel_hull
 
@@ -50,30 +47,3 @@ def test_table_reports_a_different_hull(name: str, monkeypatch: pytest.MonkeyPat
     assert "OTHER HULLS" not in digital.table(ball(5), slow=True).points
     monkeypatch.setattr(digital, name, wrong[name])
     assert digital.table(ball(5), slow=True).points.endswith(", OTHER HULLS")
-
-
-def test_growth_is_printed_and_plotted_with_slopes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    pytest.importorskip("matplotlib")
-    without_scikit_image(monkeypatch)
-    measured = digital.growth((3, 5))
-    assert [curve.name for curve in measured] == ["octree hull", "voxel hull, cell list", "digital hull"]
-    assert [count for count, _ in measured[0].points] == [ball(3).count, ball(5).count]
-    curves = [Curve("ours", [(10, 1.0), (100, 10.0), (1000, 100.0)]), Curve("theirs", [(10, 2.0)])]
-    monkeypatch.setattr(digital, "growth", lambda: curves)
-    monkeypatch.setattr(digital, "SLOPES_FROM", 100)
-    monkeypatch.setattr(sys, "argv", ["digital", str(tmp_path / "growth.svg")])
-    digital.main()
-    assert capsys.readouterr().out.splitlines() == [
-        "ours 10: 1.0000 s, 100: 10.0000 s, 1,000: 100.0000 s slope 1.00",
-        "theirs 10: 2.0000 s",
-    ]
-    assert "ours: slope 1.00" in (tmp_path / "growth.svg").read_text()
-
-
-def test_peak_memory_is_that_of_the_measured_process_alone() -> None:
-    held = np.ones(300_000_000, dtype=np.int8)
-    size, most = digital.peak(7, "voxel")
-    assert size == 7**3
-    assert 10e6 < most < held.nbytes

@@ -21,8 +21,6 @@ point_sets = st.one_of(
     st.lists(st.tuples(mixed, mixed, mixed), min_size=1, max_size=14),
     st.lists(st.tuples(tiny, tiny, st.just(1)), min_size=1, max_size=12),
 )
-fractions = st.fractions(min_value=-1000, max_value=1000, max_denominator=60)
-positive = st.fractions(min_value=Fraction(1, 60), max_value=1000, max_denominator=60)
 
 
 def from_smallest(cycle):
@@ -43,12 +41,6 @@ def classes(hull) -> tuple[object, ...]:
     return hull.dimension, hull.vertices, hull.boundary, hull.inside, hull.duplicates
 
 
-def reduced(plane) -> tuple[int, ...]:
-    whole = math.lcm(*(Fraction(number).denominator for number in plane))
-    integers = [int(number * whole) for number in plane]
-    return tuple(number // math.gcd(*integers) for number in integers)
-
-
 @LAW
 @given(point_sets, st.randoms(use_true_random=False))
 def test_reordering_changes_only_the_indices_of_points(points, rng) -> None:
@@ -62,44 +54,6 @@ def test_reordering_changes_only_the_indices_of_points(points, rng) -> None:
     assert [facet.plane for facet in shuffled.facets] == [facet.plane for facet in hull.facets]
     for facet, shuffled_facet in zip(hull.facets, shuffled.facets, strict=True):
         assert from_smallest([order[index] for index in shuffled_facet.polygon]) == facet.polygon
-
-
-@LAW
-@given(point_sets, st.tuples(fractions, fractions, fractions))
-def test_translation_changes_only_the_constant_terms(points, shift) -> None:
-    hull = exact_hull(points)
-    moved = exact_hull([tuple(number + step for number, step in zip(point, shift, strict=True)) for point in points])
-    assert classes(moved) == classes(hull)
-    assert polygons(moved) == polygons(hull)
-    assert moved.polygon == hull.polygon
-    assert planes(moved) == {
-        reduced((a, b, c, d - a * shift[0] - b * shift[1] - c * shift[2])) for a, b, c, d in planes(hull)
-    }
-
-
-@LAW
-@given(point_sets, positive)
-def test_scaling_changes_only_the_constant_terms(points, factor) -> None:
-    hull = exact_hull(points)
-    scaled = exact_hull([tuple(number * factor for number in point) for point in points])
-    assert classes(scaled) == classes(hull)
-    assert polygons(scaled) == polygons(hull)
-    assert planes(scaled) == {reduced((a, b, c, d * factor)) for a, b, c, d in planes(hull)}
-
-
-@LAW
-@given(point_sets, st.lists(st.tuples(st.integers(0, 2), st.integers(1, 2), st.integers(-(10**9), 10**9)), max_size=4))
-def test_shearing_keeps_classes_and_polygons(points, steps) -> None:
-    """Each step adds a multiple of another axis to one axis."""
-    mapped = [list(point) for point in points]
-    for axis, distance, factor in steps:
-        for point in mapped:
-            point[axis] += factor * point[(axis + distance) % 3]
-    hull, sheared = exact_hull(points), exact_hull(mapped)
-    assert classes(sheared) == classes(hull)
-    assert polygons(sheared) == polygons(hull)
-    if hull.dimension == 2:
-        assert sheared.polygon in (hull.polygon, from_smallest(hull.polygon[::-1]))
 
 
 @LAW
@@ -127,20 +81,6 @@ def test_a_point_between_points_changes_no_facet(points, data) -> None:
     extended = exact_hull([*points, between])
     assert (extended.vertices, planes(extended), polygons(extended)) == (hull.vertices, planes(hull), polygons(hull))
     assert planes(exact_hull([points[index] for index in hull.vertices])) == planes(hull)
-
-
-@LAW
-@given(point_sets)
-def test_classes_follow_from_the_values_of_the_planes(points) -> None:
-    hull = exact_hull(points)
-    if hull.dimension == 0:
-        return
-    for index, (x, y, z) in enumerate(points):
-        values = [a * x + b * y + c * z + d for a, b, c, d in map(hull.plane_of, hull.facets)]
-        assert max(values) <= 0
-        assert (max(values) < 0) == (dict(hull.duplicates).get(index, index) in hull.inside)
-    if hull.dimension == 3:
-        assert len(hull.vertices) - len(hull.edges()) + len(hull.facets) == 2
 
 
 @LAW
