@@ -29,12 +29,12 @@ from modern.port import convex_hull
 
 
 @claim("thesis.2", "thesis.29", kind="nested", full=300)
-@claim("thesis.204", "thesis.203", "thesis.69", "thesis.265", kind="last_hull", full=300)
+@claim("thesis.204", "thesis.203", "thesis.69", "thesis.79", "thesis.101", "thesis.265", kind="last_hull", full=300)
 @claim("thesis.30", "thesis.60", kind="contained_points", full=300)
 @claim("thesis.31", "thesis.78", "thesis.100", kind="finite", full=300)
 @claim("thesis.216", "thesis.72", "thesis.220", "thesis.225", kind="counts", full=300)
 @claim("thesis.217", "thesis.75", kind="decreasing", full=300)
-@claim("thesis.68", "thesis.76", "thesis.255", kind="accepted_planes", full=300)
+@claim("thesis.68", "thesis.76", "thesis.79", "thesis.101", "thesis.255", kind="accepted_planes", full=300)
 @claim("thesis.70", kind="farthest_outside", full=300)
 @claim("thesis.73", kind="replaced_line", full=300)
 @claim("thesis.218", kind="renumbering", full=300)

@@ -20,7 +20,6 @@ from modern.claims.sampled_sets import (
     sampled_sets,
 )
 from modern.claims.thesis.chapter3_boundary import PYRAMID
-from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter3_steps import fourth_point_by_largest, order_of_replacement
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.edition import programs
@@ -103,20 +102,6 @@ def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
     reduced = reduced_plane(plane)
     a, b, c, d = reduced
     return max(reduced, (-a, -b, -c, -d))
-
-
-@claim("thesis.79", dimension="2", full=300)
-@claim("thesis.101", dimension="3", full=300)
-def last_equation_accepted(dimension: str, cases: int = CASES) -> Check:
-    """Check that the hull need not be complete when NETC = NE: the last equation may not have been tested yet."""
-    flat = dimension == "2"
-    points = [(0, 3, 0), (0, 2, 0), (4, 4, 0), (4, 3, 0)]
-    if not flat:
-        points = [(2, 4, 4), (0, 3, 4), (1, 4, 4), (1, 3, 0), (3, 2, 4)]
-    history = convex_hull(points, history=True).history
-    equal = [before.number for before, after in pairwise(history) if after.checked == len(before.equations)]
-    case = f"H_{', H_'.join(map(str, equal))} of a set: NETC = NE, but a point is outside equation NE"
-    return stage_property("last_hull", cases).unless(equal, case)
 
 
 @claim("thesis.272")
