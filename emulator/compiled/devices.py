@@ -63,7 +63,7 @@ STAMP = 6
 # The arrays are grouped in the tuples below, so that each function receives only those it needs: numba passes an array
 # as seven or more numbers in every call.
 class Marks(NamedTuple):
-    """Parts of the object code that the devices use: second operand and statement of each instruction, verbs."""
+    """The object code as devices use it: the second operand and statement of each instruction, and the verbs."""
 
     seconds: Row
     statements: Row
@@ -108,7 +108,7 @@ class Tools(NamedTuple):
 
 
 class Desk(NamedTuple):
-    """The arrays for the current deck: those of :class:`Tools`, its rows of the report, and the log."""
+    """The arrays for the current deck: those of :class:`Tools`, the deck's rows of :class:`Report`, and the log."""
 
     texts: Row
     devices: Row

@@ -107,7 +107,7 @@ def core_address(index: int, core: int) -> int:
 
 @dataclass
 class Allocator:
-    """Reserves a storage field for each name in order of first appearance, while a program compiles."""
+    """The allocation of a storage field to each name in order of first appearance, while a program compiles."""
 
     entries: dict[tuple[str, str], Entry] = field(default_factory=dict)
     used: int = 0

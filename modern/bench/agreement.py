@@ -21,7 +21,7 @@ _ZERO = " .00000000E-99"
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """Numbers of decks with the same results, other digits or another hull, and the first difference."""
+    """Counts of decks with the same result, different digits or a different hull, and the first difference."""
 
     same: int
     digits: int

@@ -82,8 +82,8 @@ def _digits(parser: ArgumentParser) -> None:
     add(parser, {"--runs N": "make N stochastic runs with the digits of --arithmetic (default: 10)"}, type=int)
     add(parser, {"--seed S": "give the runs the seeds S, S + 1, ... (default: 1)"}, type=int)
     modes = {
-        "--proportional": "round up with a probability proportional to the distance, instead of 1/2",
-        "--majority": "let most runs choose the common branch, instead of the mean",
+        "--proportional": "round up with a probability proportional to the rounded-off part, instead of 1/2",
+        "--majority": "follow the branch that most runs would take, instead of that of the mean",
         "--independent": "estimate the printed numbers from runs that each follow their own branches",
     }
     add(parser, modes)

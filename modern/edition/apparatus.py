@@ -36,7 +36,7 @@ Certainty = Literal["certain", "probable", "conjecture"]
 
 
 class ApparatusError(EmulatorError, ValueError):
-    """An error in a row of the apparatus that cannot be read or does not fit the text; the message names the row."""
+    """Raised for a row of the apparatus that cannot be read or does not fit the text; the message names the row."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,7 +244,7 @@ def built_without(text: Text, row_id: str) -> tuple[frozenset[str], tuple[Line, 
 
 
 class RowMisfit(ApparatusError):
-    """An error: the fragment that a row replaces does not occur at the place that the row names."""
+    """Raised if the fragment that a row replaces does not occur at the place that the row names."""
 
     def __init__(self, row_id: str, message: str) -> None:
         super().__init__(f"row {row_id}: {message}")

@@ -104,7 +104,7 @@ def names(card: str) -> frozenset[str]:
 
 @lru_cache(1 << 18)
 def form(card: str) -> str:
-    """Return a statement with each name replaced by the order of its first occurrence, without its own number."""
+    """Return a statement without its number, with each name replaced by the order of its first occurrence."""
     order: dict[str, str] = {}
     text = re.sub(r"^\d+", "", solid(card))
     return _NAME.sub(lambda m: order.setdefault(m[0], f"<{len(order)}>"), text)

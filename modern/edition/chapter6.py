@@ -32,7 +32,7 @@ Role = Literal[
 
 
 class LayoutError(ValueError):
-    """An error in the layout of chapter 6; the message names the card or the device file."""
+    """Raised for an error in the layout of chapter 6; the message names the card or the device file."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ _BLANK = " \t"
 
 
 class TranscriptError(ValueError):
-    """An error: the corrected print does not fit on its cards; the message names file, card, line and columns."""
+    """Raised if the corrected print does not fit on its cards; the message names file, card, line and columns."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,7 +168,7 @@ def write_files(chapter: Chapter, folder: Path) -> tuple[str, ...]:
 
 
 class _Reader:
-    """Reads the fields of cards one after another from printed lines whose spacing has no meaning."""
+    """A reader of the fields of cards, one after another, from printed lines whose spacing has no meaning."""
 
     def __init__(self, name: str, lines: Sequence[Line]) -> None:
         self._name = name

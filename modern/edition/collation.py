@@ -93,7 +93,7 @@ def _pieces(n: int, line: str) -> tuple[str, ...]:
     """Return the characters of a line that align with each token of a card.
 
     A mark between two tokens that the OCR may have inserted belongs to neither.  Any other character belongs to the
-    token before it, or to the token after it if only that token begins with a letter or digit, as it does.
+    token before it. But a letter or digit belongs to the token after it if only that token has one at this place.
     """
     tokens, marks = spans(n), _marks()
     owner = [k for k, (a, b) in enumerate(tokens) for _ in range(a, b)]

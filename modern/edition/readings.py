@@ -45,7 +45,7 @@ RULED = (*CLASSES, *KEEPS, "displaced", "lost", "doubled", "overlaid", "page")
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Characters of the witness, those that replace them, their class, and any evidence other than the rows."""
+    """Characters of the witness that may be replaced by those of ``lemma``; ``known`` is other evidence than rows."""
 
     witness: str
     lemma: str
@@ -55,7 +55,7 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A replacement by a pair at index ``at`` of the witness and ``to`` of the lemma; blanks are not counted."""
+    """A replacement by a pair, at index ``at`` of the witness and index ``to`` of the lemma, both without blanks."""
 
     change: int
     at: int

@@ -45,7 +45,7 @@ ALONE = 20
 
 @dataclass(frozen=True, slots=True)
 class Restored:
-    """A card that the restorer changed or gave up, counted from 0.  ``text`` has no blanks."""
+    """A card that the restorer changed or gave up.  ``card`` counts from 0, and ``text`` has no blanks."""
 
     card: int
     text: str

@@ -33,7 +33,7 @@ class Trial:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """A damaged program, and the printed results that it produced."""
+    """A damaged program, and the printed results of the undamaged one."""
 
     cards: tuple[str, ...]
     trials: tuple[Trial, ...] = ()

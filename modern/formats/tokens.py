@@ -15,7 +15,7 @@ Line = tuple[int, list[Token]]
 
 @dataclass(frozen=True, slots=True)
 class FileMesh:
-    """The surface in a file: points as decimal text with their lines (or triangles), and faces as indices."""
+    """The surface in a file: points as decimal text, the lines (or triangles) that hold them, and faces as indices."""
 
     source: str
     points: tuple[Point, ...]

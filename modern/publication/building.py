@@ -17,7 +17,7 @@ DIST: Final = ROOT / "dist"
 
 
 class BuildError(Exception):
-    """The reason why a build failed, in one line."""
+    """Raised if a build fails; the message gives the reason in one line."""
 
 
 def run(name: str, build: Callable[[], str]) -> int:

@@ -24,7 +24,7 @@ VERDICTS = {EXACT: "identical", ORDER: "the same hull in another order"}
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A line of the OCR text: its number in the excerpt, ``at`` in the document, and the spans that rows change."""
+    """A line of the OCR text: its number in the excerpt and, ``at``, in the document; and spans that rows change."""
 
     line: str
     page: str
@@ -52,7 +52,7 @@ class Shown:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """The cards or lines of one device in an example, the verdicts for both states of program 1, and the rows used."""
+    """The cards or lines of one device in an example, verdicts for both states of program 1, and emendations."""
 
     example: int
     program: int

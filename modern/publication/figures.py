@@ -27,7 +27,7 @@ _PLACE = re.compile(r"\{\{ *([a-z][\w.-]*) *\}\}")
 
 
 class FigureError(ValueError):
-    """An error: a document quotes an unknown figure, or a table lacks the cell of a figure."""
+    """Raised if a document quotes an unknown figure, or if a table lacks the cell of a figure."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,7 +40,7 @@ _DEFINING = ("MM", "NN", "KK")
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """The geometry in a program's variables: its points, how many of the first are vertices, and its faces."""
+    """The geometry in a program's variables: points, of which the first ``vertices`` are vertices, and faces."""
 
     points: tuple[Point, ...] = ()
     vertices: int = 0

@@ -187,7 +187,7 @@ def _in_order(points: Sequence[Whole], loop: Sequence[int]) -> tuple[int, ...]:
 
 
 def _differences(true_vertices: set[int], punched: set[int], points: Sequence[Whole]) -> list[str]:
-    """Compare the vertices; points are counted from 1, and equal points count as one."""
+    """Describe how the vertices of the two hulls differ; points are counted from 1, and equal points count as one."""
     true_points, punched_points = {points[n] for n in true_vertices}, {points[n] for n in punched}
     missed = [f"point {n + 1}" for n in sorted(true_vertices) if points[n] not in punched_points]
     extra = [f"point {n + 1}" for n in sorted(punched) if points[n] not in true_points]

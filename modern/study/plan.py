@@ -39,11 +39,11 @@ CHUNK = 200
 
 
 class PlanError(EmulatorError):
-    """A study that cannot be carried out as its plan is written; the message is one line."""
+    """Raised for a plan that cannot be carried out; the message is one line."""
 
 
 class StudyFileError(PlanError):
-    """A file of a study that cannot be written or read, with a one-line message that says what to do."""
+    """Raised if a file of a study cannot be written or read; the message, of one line, says what to do."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,7 +40,7 @@ def cells(samples: int, route: Programs) -> tuple[Cell, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Sheets:
-    """Counts for one share and form of decimals: data sheets drawn, rejected, and failing otherwise."""
+    """Counts for one share and form of decimals: data sheets drawn, rejected, and failing in another way."""
 
     share: int
     form: str

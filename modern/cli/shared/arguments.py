@@ -80,7 +80,7 @@ def machine_arguments(parser: ArgumentParser) -> None:
 
 
 def compared_machine(parser: ArgumentParser) -> None:
-    """Add ``machine_arguments`` and ``--upcase``, with a lower limit because every statement is compared."""
+    """Add ``machine_arguments`` and ``--upcase``; ``--limit`` is lower because every value is compared."""
     machine_arguments(parser)
     upcase_argument(parser)
     parser.set_defaults(limit=1_000_000)
@@ -169,7 +169,7 @@ def listed(names: Iterable[str]) -> str:
 
 
 def epsilon_text(text: str) -> str:
-    """Return ``text`` if it is a valid tolerance e of chapter 7, such as ``.001`` or ``rel:E``, otherwise raise."""
+    """Return a valid tolerance e of chapter 7, such as ``.001`` or ``rel:E``.  Raise ArgumentTypeError otherwise."""
     from modern.geometry.numbers import read_epsilon  # imported here because few commands need it
 
     try:

@@ -24,7 +24,7 @@ OK, DIFFERS, BAD_INPUT = 0, 1, 2
 
 
 class UsageError(EmulatorError):
-    """Options or arguments that cannot be carried out; the message names the option."""
+    """Raised for options or arguments that cannot be carried out; the message names the option."""
 
 
 class InputFile(str):

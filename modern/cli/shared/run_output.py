@@ -66,7 +66,7 @@ def print_ending(result: Result) -> None:
 
 
 class _StreamError(Exception):
-    """An error of a standard stream, which ``writing`` must not report as an error of a named file."""
+    """Raised for an error of a standard stream, which ``writing`` must not report as an error of a named file."""
 
     def __init__(self, error: OSError) -> None:
         super().__init__()

@@ -15,7 +15,7 @@ from modern.papers.appel_will.surfaces import Fates, Surface, check_surfaces, fa
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """Options of the method: the star polygon test, the reading of the appendix, and a rule to delete points."""
+    """Options of the method: the star polygon test, the steps of the appendix, and a rule to delete points."""
 
     star: StarTest = in_one_pass
     rules: Rules = PREFERRED

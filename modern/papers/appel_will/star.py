@@ -105,7 +105,7 @@ class Deleted:
 
 @dataclass(frozen=True, slots=True)
 class Edges:
-    """The result of testing all pairs of points: the edges (i, j) of the hull, the deleted points, and a count."""
+    """The result of testing all pairs of points: edges (i, j), deleted points, and the number of projections."""
 
     edges: tuple[Pair, ...]
     deleted: tuple[Deleted, ...]

@@ -141,7 +141,7 @@ class _Group:
 
 @dataclass
 class _Rows:
-    """All counts: by cell, by the statement of the first wrong decision, of digits, and of operations."""
+    """All counts: of runs by cell, of first wrong decisions by statement, of digits, and of operations."""
 
     groups: dict[int, _Group] = field(default_factory=dict)
     places: dict[str, _Group] = field(default_factory=dict)

@@ -158,8 +158,8 @@ def _main(plan: Plan, rows: _Rows) -> Table:
     head = ("sets", "of each", "hull found, e = 0", *by_way)
     notes = (
         *INTERVALS,
-        "The column swallows from has the smallest tried e such that this e and every larger one lost a true vertex "
-        "of some set or counted a body as flat.",
+        "The column *swallows from* has the smallest tried e such that this e and every larger one lost a true "
+        "vertex of some set or counted a body as flat.",
     )
     return Table("table", "Which e works", head, tuple(lines), notes)
 
@@ -268,7 +268,7 @@ def _same_as_port(store: Store) -> tuple[int, int]:
 
 
 def _wrong_outside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:
-    """Return how many sets have a wrong hull with an e below (or above) those without failures, and the total."""
+    """Return how many sets have a wrong hull if e is below (or above) every e without failures, and the total."""
     wrong = of = 0
     for number, cell in enumerate(plan.cells):
         clean = rows.clean(number, taken, ABSOLUTE)

@@ -165,10 +165,10 @@ def _main(plan: Plan, counts: Summary, tested: Mapping[str, _Pairs], widened: Ma
     head = ("way", *exact_test, "against truncating", "with the interval")
     notes = (
         "The numbers in parentheses are exact 95 % intervals (Clopper and Pearson).",
-        "The columns sets, failed and wrong hulls are those of the exact test. The second column has the largest size "
-        "up to which no set failed. The column against truncating counts the sets whose hull is found only by this "
-        "arithmetic / only by truncation, and the last column those whose hull is found at more / at fewer widths than "
-        "by truncation.",
+        "The columns *sets*, *failed* and *wrong hulls* are those of the exact test. The second column has the "
+        "largest size up to which no set failed. The column *against truncating* counts the sets whose hull is found "
+        "only by this arithmetic / only by truncation, and the last column those whose hull is found at more / at "
+        "fewer widths than by truncation.",
     )
     return Table("table", "Arithmetics compared, all sets", head, tuple(rows), notes)
 
@@ -261,10 +261,10 @@ def _verdicts(tested: Mapping[str, _Pairs], widened: Mapping[str, _Pairs]) -> Ta
         for way, compared in pairs.items()
     )
     notes = (
-        "With the exact test, the columns better and worse count the sets whose hull is found only by this arithmetic, "
-        "or only by truncation. With the interval, they count the sets whose hull is found at more, or at fewer, "
-        "widths than by truncation. The verdict follows from the exact 95 % interval (Clopper and Pearson) of the "
-        "share that is better.",
+        "With the exact test, the columns *better* and *worse* count the sets whose hull is found only by this "
+        "arithmetic, or only by truncation. With the interval, they count the sets whose hull is found at more, or "
+        "at fewer, widths than by truncation. The verdict follows from the exact 95 % interval (Clopper and Pearson) "
+        "of the share that is better.",
     )
     return Table(
         "pairs", "Compared with truncation, set by set", ("way", "test", "better", "worse", "verdict"), rows, notes

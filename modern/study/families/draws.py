@@ -20,7 +20,7 @@ _TRIES = 200
 
 
 class FamilyError(EmulatorError):
-    """Parameters for which no points exist, or points that do not fit on a card.  The message is one line."""
+    """Raised if no points exist for the parameters, or if points do not fit on a card.  The message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
