@@ -202,7 +202,6 @@ def _root_steps(operation: str, first: Exact, second: Exact) -> int:
 
 
 def _power_steps(base: Exact, count: int) -> int:
-    """Estimate the steps of a power computed by repeated squaring."""
     bits = min(_longest(base) * abs(count), 2 * MAX_BITS)
     if base in (0, 1, -1) or _too_long(base, count):
         return 0

@@ -74,5 +74,4 @@ def extent(program: Program) -> Extent:
 
 
 def _routines(code: ObjectProgram) -> int:
-    """Return the total length of the library functions that the program calls."""
     return code.end - min(code.functions.values(), default=code.end)

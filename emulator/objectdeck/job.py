@@ -130,7 +130,6 @@ def clearing(program: Program, labels: Collection[str]) -> Iterator[str]:
 
 
 def _data(deck: Deck, data: Deck) -> tuple[Card, ...]:
-    """Return the data cards: those after END, or those of the deck ``data``."""
     return parse(deck).data or data.cards
 
 

@@ -132,7 +132,6 @@ def _pair(text: str) -> tuple[int, int]:
 
 
 def _names(args: argparse.Namespace) -> Sequence[str]:
-    """Return the names of the rules that ``--literal`` or ``--printed`` applies as the paper prints them."""
     return PRINTED if args.literal else [name.strip() for name in (args.printed or "").split(",") if name.strip()]
 
 

@@ -351,7 +351,6 @@ $parts
 
 
 def _html(heading: str, tables: Sequence[Table]) -> str:
-    """Return the report as a self-contained HTML page."""
     parts = []
     for table in tables:
         parts += [f"<h2>{escape(table.title)}</h2>", *(f"<p>{escape(sentence)}</p>" for sentence in table.sentences)]

@@ -69,7 +69,6 @@ def _scene(args: argparse.Namespace) -> SceneFile:
 
 
 def _check_overwrites(output: str | None, files: Sequence[str]) -> None:
-    """Raise UsageError if the output is a file of the scene."""
     if output not in (None, "-") and os.path.realpath(str(output)) in {os.path.realpath(name) for name in files}:
         raise UsageError(
             f"{output}: this output is also a file of the scene, which would be overwritten; choose another name"
@@ -77,7 +76,6 @@ def _check_overwrites(output: str | None, files: Sequence[str]) -> None:
 
 
 def _near_plane_notes(drawing: Drawing) -> Iterator[str]:
-    """Yield notes on the parts that the near plane clips."""
     for effect, parts in (("cut by the near plane", drawing.cut), ("omitted behind the near plane", drawing.behind)):
         if parts:
             more = f" and {len(parts) - _MOST_NAMES} more" if len(parts) > _MOST_NAMES else ""

@@ -70,7 +70,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _call(tokens: Sequence[str]) -> int:
-    """Parse the arguments, run the command and return its exit code."""
     try:
         args, unknown = build_parser(tokens).parse_known_args(tokens)
     except SystemExit as end:

@@ -142,7 +142,6 @@ def _mesh(hull: VoxelHull, args: argparse.Namespace) -> str:
 
 
 def _check_options(args: argparse.Namespace) -> None:
-    """Raise UsageError for options that would have no effect."""
     options = ("vertices", "corners", "coplanar", "order", "cells", "straight")
     unused = [name for name in options if getattr(args, name)]
     if args.fill and unused:

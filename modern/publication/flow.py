@@ -136,7 +136,6 @@ def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
 
 
 def _tested(written: str) -> str:
-    """Return the expression that an IF tests: the text between its outer parentheses."""
     return written[written.index("(") + 1 : written.rindex(")")].strip()
 
 

@@ -97,8 +97,6 @@ def moments(program: str) -> Mapping[int, Moment]:
 
 @dataclass
 class _Recorder:
-    """A tracer that keeps the moment of each block."""
-
     blocks: Sequence[Block]
     example: int
     record: Record

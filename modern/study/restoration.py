@@ -195,7 +195,6 @@ def measure(folder: Path, groups: Sequence[Group], rounds: int, workers: int = 1
 
 
 def _restored_copies(tasks: Sequence[tuple[str, Group, int]], workers: int) -> Iterator[Copy]:
-    """Restore copies in several processes, and yield them in order."""
     with ExitStack() as stack:
         free: SimpleQueue[Restorer] = SimpleQueue()
         for _ in range(min(workers, len(tasks))):

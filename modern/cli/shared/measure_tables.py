@@ -127,5 +127,4 @@ def _plain(number: Decimal) -> str:
 
 
 def _precision(area: Decimal) -> str:
-    """Return the number of digits of an irrational area, or nothing if the area is exact."""
     return f", to {AREA_DIGITS} digits" if len(area.as_tuple().digits) >= AREA_DIGITS else ""

@@ -45,7 +45,6 @@ def refusal_lines(cause: Cause, request: Request) -> Iterator[str]:
 
 
 def _commands_to_try(cause: Cause, request: Request) -> Iterator[tuple[str, str]]:
-    """Yield commands that may help, each with its purpose."""
     deck, is_corrected = shlex.quote(request.deck), "corrected" in request.layers
     if request.points:
         yield f"hull1620 cards {shlex.quote(request.points)} -o {deck}", "Make the deck for the next commands."

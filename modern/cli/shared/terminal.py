@@ -179,7 +179,6 @@ class Terminal(Operator):
                     return reply
 
     def _report_halt(self, session: Session, halt: Halt) -> None:
-        """Show why the machine has halted."""
         if halt.why == "step" and session.last is not None:
             self._keys.write("".join(text + "\n" for text in done(session, session.last, self._keys.width)))
         self._halt = halt

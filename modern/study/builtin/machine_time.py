@@ -106,7 +106,6 @@ def _by_model(bounds: Interval) -> str:
 
 
 def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float, _Time]]:
-    """Return the numbers N of points at which runs of one kind of set were timed, and the times."""
     return [(float(cell.key["n"]), times[k]) for k, cell in cells(plan, sets=name) if k in times]
 
 
