@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from itertools import combinations, pairwise, permutations
 from random import Random
 
-from modern.claims.appel_will.convexity import Flat
+from modern.claims.appel_will.convexity import Flat, holds_origin
 from modern.claims.evidence import Check, Generator, claim, exhibited, search, searched, slip
 from modern.claims.sampled_sets import Point, counterexample_points
 from modern.exact_hull import exact_hull
@@ -41,50 +41,53 @@ IMAGES: Generator[tuple[Flat, ...]] = Generator(
 )
 
 
-def _holds_origin(images: Sequence[Flat]) -> bool:
-    return len(images) not in exact_hull([*((a, b, 0) for a, b in images), (0, 0, 0)]).vertices
-
-
 @claim("appel-will.131", full=5_000)
 def star_test(cases: int = 20) -> Check:
     """Check that the star polygon test is right as printed if no two images are in line with the tested point."""
     general: list[bool] = []
     in_line: list[bool] = []
     for images in IMAGES.cases(cases):
-        right = as_printed(images) != _holds_origin(images)
+        right = as_printed(images) != holds_origin(images)
         (general if all(vorticity(a, b) for a, b in combinations(images, 2)) else in_line).append(right)
     check = searched(IMAGES, cases, general, f"right for {len(general)} sets of images")
     return check.unless(not all(in_line), f"{in_line.count(False)} sets with two images in line with the point")
 
 
-@claim("appel-will.58", full=5_000)
+@claim("appel-will.55", "appel-will.58", full=5_000)
 def change_of_sense(cases: int = 20) -> Check:
     """Check that a point is outside the hull if two sides of its star polygon turn differently."""
 
     def is_right(images: tuple[Flat, ...]) -> bool:
         star = star_polygon(images)
         turns = [vorticity(a, b) for a, b in zip(star, (*star[1:], star[0]), strict=True)]
-        return min(turns) >= 0 or max(turns) <= 0 or not _holds_origin(images)
+        return min(turns) >= 0 or max(turns) <= 0 or not holds_origin(images)
 
     return search(IMAGES, is_right, cases, "a change of sense is seen only from outside")
 
 
-@claim("appel-will.119", relation="ray", full=1_000)
-@claim("appel-will.60", relation="opposite", full=1_000)
-def images_in_line(relation: str, cases: int = 10) -> Check:
-    """Check the star polygon test for two projected points that are in line with the tested point.
+@claim("appel-will.119", full=1_000)
+def order_on_one_ray(cases: int = 10) -> Check:
+    """Check that two images on one ray keep, in the star polygon, the order in which they are listed."""
 
-    relation: ``ray``, any order of two images on one ray gives the same result; ``opposite``, a point between two
-    images is not outside.
-    """
+    def is_listed_order(images: tuple[Flat, ...]) -> bool:
+        near, far = images[0], (2 * images[0][0], 2 * images[0][1])
+        rest = [image for image in images if image not in (near, far)]
+        return all(
+            [p for p in star_polygon([a, b, *rest]) if p not in rest] == [a, b] for a, b in permutations((near, far))
+        )
 
-    def is_right(images: tuple[Flat, ...]) -> bool:
-        factor = 2 if relation == "ray" else -1
+    return search(IMAGES, is_listed_order, cases, "sorting by angle leaves two images on one ray in either order")
+
+
+@claim("appel-will.60", full=1_000)
+def opposite_images(cases: int = 10) -> Check:
+    """Check that the star polygon test finds a point between two opposite images inside, for all orders of images."""
+
+    def is_inside(images: tuple[Flat, ...]) -> bool:
         a, b = images[0]
-        results = {as_corrected([*order]) for order in permutations((*images[:3], (factor * a, factor * b)))}
-        return len(results) == 1 and (relation == "ray" or not results.pop())
+        return not any(as_corrected([*order]) for order in permutations((*images[:3], (-a, -b))))
 
-    return search(IMAGES, is_right, cases, "all orders of the images give the same result")
+    return search(IMAGES, is_inside, cases, "all orders of the images give the same result")
 
 
 @claim("appel-will.101")

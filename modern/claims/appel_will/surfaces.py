@@ -1,12 +1,14 @@
 """Checks of Appel and Will on objects given by surfaces: maps, lines and planes, inside corners, preprocessing."""
 
 from collections import Counter
+from collections.abc import Collection
+from contextlib import suppress
 from functools import cache
-from itertools import combinations
+from itertools import combinations, product
 
-from modern.claims.appel_will.convexity import CUBE, RINGS, Flat
-from modern.claims.appel_will.proofs import product_of_lines
-from modern.claims.evidence import Check, claim, exhibited, refuted, search, slip
+from modern.claims.appel_will.convexity import CUBE, RINGS, Flat, _area
+from modern.claims.appel_will.steps import FIG_18
+from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, search, slip
 from modern.claims.invariants import is_sphere
 from modern.claims.kovalevsky_schulz.proofs import vertex_is_no_combination
 from modern.claims.published import PAPERS, findings, printed_lines
@@ -18,14 +20,13 @@ from modern.claims.sampled_sets import (
 )
 from modern.exact_hull import exact_hull
 from modern.formats.off import parse_off
-from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
+from modern.geometry.vectors import area_vector, dot, lowest, minus
 from modern.papers.appel_will import Method, appel_will
 from modern.papers.appel_will.corners import Rule, corners, preprocess, triple_product
 from modern.papers.appel_will.results import Solid, printed_solid
 from modern.papers.appel_will.star import as_corrected
-from modern.papers.appel_will.surfaces import lines, oriented
+from modern.papers.appel_will.surfaces import MapError, lines, oriented
 
-Whole = tuple[int, int, int]
 TETRAHEDRON: tuple[Point, ...] = ((0, 0, 0), (12, 0, 0), (0, 12, 0), (0, 0, 12))
 # The apex of the pit in each face of the tetrahedron.
 PITS: dict[tuple[int, int, int], Point] = {
@@ -105,18 +106,36 @@ def keeps_vertices(ring: tuple[Flat, ...], rule: Rule) -> bool:
     return not {*preprocess(solid.points, solid.surfaces, rule).deleted} & {*exact_hull(solid.points).vertices}
 
 
-@claim("appel-will.72", "appel-will.75", "appel-will.136", rule="any", full=2_000)
-@claim("appel-will.74", rule="two", full=2_000)
+@claim("appel-will.72", "appel-will.136", rule="any", full=2_000)
+@claim("appel-will.75", rule="concave", full=2_000)
 def deletion_in_prisms(rule: Rule, cases: int = 5) -> Check:
     """Check that a deletion rule deletes no vertex of the hull of a prism, at each point of which three planes meet."""
-    return search(RINGS, lambda ring: keeps_vertices(ring, rule), cases, "no vertex of the hull of a prism is deleted")
+    return search(RINGS, lambda ring: keeps_vertices(ring, rule), cases, "no vertex of the hull is deleted")
 
 
-@claim("appel-will.43", full=2_000)
-def inside_corners_deleted(cases: int = 5) -> Check:
-    """Check that deletion keeps the vertices of prisms, but not those of the crown, a pyramid over a star."""
-    crown_ = inside_corner_at_vertex()
-    return deletion_in_prisms("any", cases).unless(crown_.holds, f"a star: {crown_.message}")
+@claim("appel-will.74")
+def deletion_in_blocks() -> Check:
+    """Check that rule two deletes no vertex of the hull of a solid of cubes, and that it deletes other points."""
+    outcomes = []
+    for cubes in combinations(CUBE[1:], 4):
+        solid = solid_of_cubes((CUBE[0], *cubes))
+        with suppress(MapError):
+            deleted = {*preprocess(solid.points, solid.surfaces, "two").deleted}
+            outcomes.append(deleted and not deleted & {*exact_hull(solid.points).vertices})
+    domain = "solids of five cubes of a block of eight, the first cube among them, if each line is on two surfaces"
+    return exhausted(domain, outcomes, f"{len(outcomes)} solids lose points, but no vertex of their hulls")
+
+
+def solid_of_cubes(cubes: Collection[tuple[int, ...]]) -> Solid:
+    """Return the solid that unit cubes fill; its surfaces are the squares that belong to one cube only."""
+    squares: Counter[frozenset[tuple[int, ...]]] = Counter()
+    for cube, axis, side in product(cubes, range(3), (0, 1)):
+        corners_ = (tuple(c + d for c, d in zip(cube, way, strict=True)) for way in CUBE if way[axis] == side)
+        squares[frozenset(corners_)] += 1
+    outer = [sorted(square) for square, count in squares.items() if count == 1]
+    points = sorted({point for square in outer for point in square})
+    # Sorted corners a, b, c, d of a square follow each other in the order a, b, d, c.
+    return Solid(tuple(points), tuple(tuple(points.index(s[k]) for k in (0, 1, 3, 2)) for s in outer))  # type: ignore[arg-type]
 
 
 @claim("appel-will.84")
@@ -234,23 +253,6 @@ def vertex_without_supporting_surface() -> Check:
     return exhibited(passed, message)
 
 
-@claim("appel-will.157")
-def normal_from_two_lines() -> Check:
-    """Check that the cross product of two lines of a surface is normal to it, and points inward at a concave corner."""
-    solid, turned, shorter = bent(), 0, 0
-    for ring in oriented(solid.points, solid.surfaces):
-        normal = area_vector(solid.points, ring)
-        for a, corner, b in zip(ring, (*ring[1:], ring[0]), (*ring[2:], *ring[:2]), strict=True):
-            u, v = (minus(solid.points[q], solid.points[p]) for p, q in ((a, corner), (corner, b)))
-            turned += dot(cross(u, v), normal) < 0
-    for ring in oriented(crown().points, crown().surfaces):
-        u, v = (minus(crown().points[k], crown().points[ring[1]]) for k in (ring[0], ring[2]))
-        # For unit directions the length of the product is the sine of the angle.
-        shorter += dot(cross(u, v), cross(u, v)) < dot(u, u) * dot(v, v)
-    case = f"corners where the product is reversed ({turned}) or shorter than 1 ({shorter})"
-    return product_of_lines().check().unless(turned and shorter, case)
-
-
 @claim("appel-will.83")
 def product_of_directions() -> Check:
     """Check that the dot product of the directions of two sides is negative if their angle is obtuse."""
@@ -259,26 +261,28 @@ def product_of_directions() -> Check:
     return refuted(product_ < 0, f"the product is {product_} for an obtuse angle")
 
 
-@claim("appel-will.85")
-def direction_of_line() -> Check:
-    """Check that the determinants of Fig. 18 change sign if the line is reversed or its two surfaces are exchanged."""
-    rows = {"512": ((-1, 0, 0), (0, 0, -1), (0, -1, 0)), "723": ((-1, 0, 0), (0, -1, 0), (0, 0, -1))}
-    signs = {}
-    for name, matrix in rows.items():
-        columns: list[Whole] = [(matrix[0][k], matrix[1][k], matrix[2][k]) for k in range(3)]
-        i, k, m = columns
-        signs[name] = (triple_product(i, k, m), triple_product(minus((0, 0, 0), i), k, m), triple_product(i, m, k))
-    kept = [product_[0] for product_ in signs.values()] == [1, -1]
-    changed = [product_[1:] for product_ in signs.values()] == [(-1, -1), (1, 1)]
-    check = exhibited(kept, "[512] is 1 and [723] is -1")
-    return check.unless(changed, "a reversed line, or exchanged surfaces: the sign changes")
+@claim("appel-will.85", full=2_000)
+def sign_at_concave_corners(cases: int = 5) -> Check:
+    """Check that the triple product is negative exactly at the vertical lines of a prism over concave corners."""
+
+    def is_right(ring: tuple[Flat, ...]) -> bool:
+        solid, n = prism(ring), len(ring)
+        inside = {
+            min(c.line.ends) for c in corners(solid.points, oriented(solid.points, solid.surfaces)) if c.product < 0
+        }
+        return inside == {k for k in range(n) if _area(ring[k - 1], ring[k], ring[(k + 1) % n]) < 0}
+
+    return search(RINGS, is_right, cases, "only lines at concave corners have a negative product")
 
 
 @claim("appel-will.140")
 def sense_of_line() -> Check:
-    """Check that the direction of a line decides the sign of the determinant that tests for an inside corner."""
-    check = direction_of_line()
-    return exhibited(check.evidence.violation, f"{check.message}; {check.evidence.violation}")
+    """Check that the determinants of Fig. 18 change sign if the line is reversed or its two surfaces are exchanged."""
+    outcomes = []
+    for i, k, m in FIG_18:
+        product_ = triple_product(i, k, m)
+        outcomes.append(product_ == -triple_product(minus((0, 0, 0), i), k, m) == -triple_product(i, m, k) != 0)
+    return exhibited(all(outcomes), "the products change sign if the line is reversed or the surfaces are exchanged")
 
 
 @claim("appel-will.80")
@@ -294,7 +298,7 @@ def figure_of_minimum_data() -> Check:
     )
 
 
-@claim("appel-will.79", "appel-will.91")
+@claim("appel-will.91")
 def simple_hull_of_complex_object() -> Check:
     """Check that a cube with a pit of 1, 2, 3 or 27 points has the hull of the cube: 8 vertices and 6 faces."""
     cube = [(8 * x, 8 * y, 8 * z) for x, y, z in CUBE]

@@ -84,7 +84,7 @@ def vertex_of_hull(dimension: int, cases: int = CASES) -> Check:
 
 
 @claim("thesis.202", "thesis.27", kind="planes", full=200)
-@claim("thesis.201", kind="lines", full=400)
+@claim("thesis.201", "appel-will.126", kind="lines", full=400)
 def gift_wrapping(kind: str, cases: int = 1) -> Check:
     """Check that turning planes about edges (in a plane: lines about points) finds exactly the facets of the hull."""
     checks = []

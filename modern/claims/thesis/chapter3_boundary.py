@@ -125,10 +125,13 @@ def boundary_points_on_edges(cases: int = 5) -> Check:
         judge = exact_hull(points)
         for k, point in enumerate(points):
             on = [f for f in judge.facets if not plane_value(f.plane, point)]
-            in_one_plane += len(on) == 1
-            if len(on) == 2:
-                p, q = (points[j] for j in {*on[0].polygon} & {*on[1].polygon})
-                between = not any(cross(minus(point, p), minus(q, p))) and dot(minus(point, p), minus(point, q)) < 0
-                checks.append(between and k not in judge.vertices)
+            edges = [{*on[0].polygon} & {*on[1].polygon}] if len(on) == 2 else judge.edges()
+            between = any(_is_between(point, *(points[j] for j in edge)) for edge in edges)
+            in_one_plane += len(on) == 1 and not between
+            checks += [between and k not in judge.vertices] if len(on) == 2 else []
     check = searched(LATTICE_SETS[3], cases, checks, f"{len(checks)} points in two planes agree")
     return check.unless(in_one_plane, "a point in one plane only, which is between no two ends of an edge")
+
+
+def _is_between(x: Point, p: Point, q: Point) -> bool:
+    return not any(cross(minus(x, p), minus(q, p))) and dot(minus(x, p), minus(x, q)) < 0

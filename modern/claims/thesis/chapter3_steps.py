@@ -110,7 +110,7 @@ def classification_by_signs(cases: int = CASES) -> Check:
     return searched(BOTH, 2 * cases, [*checks, some_boundary], message)
 
 
-@claim("thesis.215", "thesis.61", "thesis.63", "thesis.64", "thesis.88", full=300)
+@claim("thesis.61", "thesis.63", "thesis.64", "thesis.88", full=300)
 def mean_of_first_hull(cases: int = CASES) -> Check:
     """Check that H_1 has the equations of the exact hull of its points, negative at their mean, the inside point C."""
     checks = []

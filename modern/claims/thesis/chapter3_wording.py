@@ -59,12 +59,17 @@ def line_duplicates_as_printed() -> Check:
 def _duplicates_removed_as_worded(
     points: Sequence[Point], used: Sequence[int], equations: Sequence[Pair]
 ) -> list[Pair]:
-    """Apply pages 26 to 28: remove equation k if some point satisfies it that is not one of its two defining points."""
-    remaining = list(equations)
+    """Apply pages 26 to 28 to each point that satisfies an equation but is not one of its two defining points.
+
+    The middle one of the three points is eliminated, if it still remains, and so is the equation.
+    """
+    remaining, vertices = list(equations), list(used)
     for i in used:
         for pair in [*remaining]:
-            if i not in pair and i in _indices_on_line(points, *pair):
+            if i in vertices and i not in pair and i in _indices_on_line(points, *pair):
                 remaining.remove(pair)
+                middle = sorted((i, *pair), key=lambda k: points[k])[1]
+                vertices = [k for k in vertices if k != middle]
     return remaining
 
 
@@ -80,7 +85,7 @@ def plane_duplicates_as_printed(cases: int = CASES) -> Check:
     for points in (PYRAMID, *(list(sampled.points) for sampled in sampled_sets(3, cases))):
         last = convex_hull(points, history=True).history[-1].equations
         planes = [plane_through(points[a], points[b], points[c]) for a, b, c in last]
-        # Page 34 removes plane j if a later plane i contains its three points.
+        # Page 34 removes plane j if it contains the three points of a later plane i.
         kept_indices = [
             j
             for j, plane in enumerate(planes)
@@ -127,6 +132,13 @@ def consecutive_hulls() -> Check:
     message = f"in {sum(checks)} of {len(checks)} sets H_2 is the first hull that has a predecessor"
     # As printed, j + 1 may be 1, and then H_0 is the hull before.
     return slip(0 in numbers, all(checks), "2", message)
+
+
+@claim("thesis.219")
+def netc_in_listings() -> Check:
+    """Check that programs 2 and 3 set NETC to 1 once, at their start, and otherwise only increase it by 1."""
+    assigned = [re.findall(r"\bNETC *= *(\S+)", programs.deck(name).text()) for name in ("program2", "program3")]
+    return exhibited(assigned == [["1", "NETC+1"]] * 2, "the listings set NETC to 1 once and otherwise add 1 to it")
 
 
 @claim("thesis.286")

@@ -70,9 +70,11 @@ def _first_run(exponent: str) -> HullRun:
 
 @claim("thesis.281")
 def points_are_coplanar() -> Check:
-    """Check that the program reports points in space as coplanar if the squares of their differences underflow."""
+    """Check which sets the program reports as coplanar: points in space too if the squares of differences underflow."""
     typed_coplanar = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-16", "E-17")]
-    check = exhibited(typed_coplanar[:2] == [False, False], "five points in space are not reported as coplanar")
+    flat = exact_hull([*exact_points(deck_of("between.deck"))[0].values()]).dimension == 2
+    right = flat and COPLANAR in run_of("between.deck").steps[0].result.typed and typed_coplanar[:2] == [False, False]
+    check = exhibited(right, "a set in a plane is reported as coplanar, and five points in space are not")
     wrong = typed_coplanar[2] and exact_hull(_SPACE).dimension == 3
     return check.unless(wrong, "the same points scaled to about 1E-18, which are reported as coplanar")
 
@@ -220,6 +222,37 @@ def storage_of_translation() -> Check:
     except DeckError as error:
         return exhibited("OVERLAP" in str(error), f"with the translation: {error}")
     return exhibited(False, "the programs with the translation fit 40,000 positions")
+
+
+@claim("thesis.195")
+def sign_without_products() -> Check:
+    """Check that the translation omits the statement that evaluates an equation at the inside point C for its sign."""
+    at_c = {"program2": "D(J)=A(J)*C1+B(J)*C2+C(J)", "program3": "E(I)=A(I)*C1+B(I)*C2+C(I)*C3+D(I)"}
+    layers: tuple[tuple[str, ...], ...] = ((), ("translation",))
+    versions = [
+        [statement in programs.deck(name, layer).text().replace(" ", "") for name, statement in at_c.items()]
+        for layer in layers
+    ]
+    return exhibited(versions == [[True] * 2, [False] * 2], "with the translation, no equation is evaluated at C")
+
+
+@claim("thesis.196")
+def total_of_translation() -> Check:
+    """Check that the translation saves operations for a set with many planes, and costs some for one with many points.
+
+    The counts are those of program 3: moving N points takes 6 N sums, and each plane of H_1 and of the result takes
+    three products and three sums.  The same number is saved for each plane that a step makes.
+    """
+    tetrahedron = [(0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60)]
+    saved = []
+    for points in ([*tetrahedron, *((k, 1, 1) for k in range(1, 40))], [(k, k**2, k**3) for k in range(20)]):
+        hull = convex_hull(points, history=True)
+        products = 3 * (3 * sum(stage.outside for stage in hull.history) - len(tetrahedron) - len(hull.faces))
+        saved.append((products, products - 6 * len(points)))
+    many_points, many_planes = saved
+    message = "a curve saves {} products and {} sums; ".format(*many_planes)
+    message += "a tetrahedron with 39 inside points saves {} and {}".format(*many_points)
+    return exhibited(max(many_points) < 0 < min(many_planes), message)
 
 
 @claim("thesis.192")

@@ -9,7 +9,7 @@ from emulator.language.cards import Deck, deck_from_text
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
 from emulator.objectdeck.extent import code_positions
-from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, search, searched, slip
+from modern.claims.evidence import Check, Generator, claim, exhibited, identity, refuted, search, searched, slip
 from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_through, plane_value, sampled_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
 from modern.comparison.outcome import from_cards
@@ -21,6 +21,7 @@ from modern.geometry.vectors import dot
 from modern.port import convex_hull
 from modern.port.arithmetic import at, plane
 from modern.port.points import take
+from modern.thesis.cards import read_hull
 from modern.thesis.job import HullRun, run_hull
 
 CORE, SMALLER_CORE = 40_000, 20_000
@@ -46,12 +47,19 @@ def typed(run: HullRun) -> str:
     return " / ".join(line for step in run.steps for line in step.result.typed)
 
 
-@claim("thesis.3", "thesis.169")
+@claim("thesis.3", "thesis.169", "thesis.208")
 def programs_compile() -> Check:
     cards = {name: len(programs.deck(name).cards) for name in THREE}
     compiled = all(programs.program(name).code for name in THREE)
     message = "all three decks compile: " + ", ".join(f"{name} with {n} cards" for name, n in cards.items())
     return exhibited(compiled, message)
+
+
+@claim("thesis.155")
+def cards_read_and_punched() -> Check:
+    """Check that each program reads its data from cards and punches cards."""
+    words = [{line.text.split()[0] for line in programs.program(name).statements} for name in THREE]
+    return exhibited(all({"READ", "PUNCH"} <= of_program for of_program in words), "all programs have READ and PUNCH")
 
 
 def _positions(name: str) -> int:
@@ -67,7 +75,7 @@ def program_sizes() -> Check:
     return exhibited(SMALLER_CORE < max(sizes) <= CORE, message)
 
 
-@claim("thesis.14", "thesis.157")
+@claim("thesis.14")
 def fifty_one_points() -> Check:
     """Check that the arrays hold 51 points, and that a deck of fewer points overflows the plane table."""
     points, _ = exact_points(deck_of("table.deck"))
@@ -188,7 +196,7 @@ def _digits(number: Fraction) -> int:
     return len(str((number * 10**20).numerator).rstrip("0"))
 
 
-@claim("thesis.180", "thesis.249")
+@claim("thesis.249")
 def two_kinds_of_error() -> Check:
     """Check that eight-digit arithmetic truncates coordinates and also the coefficients of a plane."""
     third = coordinate_field("0.333333333", truncate=True)
@@ -199,6 +207,18 @@ def two_kinds_of_error() -> Check:
     return exhibited(
         passed, f"a card truncates 1/3; {sum(differ)} of a plane's coefficients are truncated, none in exact arithmetic"
     )
+
+
+@claim("thesis.180")
+def hull_of_approximations() -> Check:
+    """Check that program 3 finds the vertices of a hull whose coordinates need more digits within 1E-8 of them."""
+    thirds = [[Fraction(int(j == k) - 1, 3) for j in range(3)] for k in range(4)]
+    deck = data_deck([[format(float(x), ".12f") for x in point] for point in thirds], "thirds", truncate=True)
+    punched = read_hull(run_hull(deck, programs.program).final.result.punched).vertices
+    errors = [
+        max(abs(a - b) for a, b in zip(p, q, strict=True)) for p, q in zip(sorted(punched), sorted(thirds), strict=True)
+    ]
+    return exhibited(0 < max(errors) < Fraction(1, 10**8), f"{len(errors)} vertices differ from the given points")
 
 
 @claim("thesis.248", "thesis.183")
@@ -213,7 +233,9 @@ def errors_on_any_computer() -> Check:
     """Check that rounding errors also occur with binary numbers of 53 bits, and not in exact arithmetic."""
     thirds = [(Fraction(1, 3), Fraction(1, 7), Fraction(k, 11)) for k in range(3)]
     as_floats = [Fraction(float(x)) != x for point in thirds for x in point if x.denominator > 1]
-    check = exhibited(_misses(_THREE) and all(as_floats), "eight digits and 53 bits truncate or round numbers")
+    x, y, _ = map(float, thirds[1])
+    calculated = _misses(_THREE) and Fraction(x * y) != Fraction(x) * Fraction(y)
+    check = exhibited(calculated and all(as_floats), "eight digits and 53 bits truncate or round numbers and products")
     return check.unless(not _misses(_THREE, "exact"), "exact arithmetic, in which three points satisfy their own plane")
 
 
@@ -270,16 +292,21 @@ def interval_instead_of_rejection() -> Check:
 
 @claim("thesis.188")
 def value_against_distance() -> Check:
-    """Check that the value of a plane's equation may be much smaller than the distance: 1/100 at the distance 1."""
+    """Check that the value of an equation is the distance times the length of (A, B, C), which can be 1/100."""
     csv_rows, _ = csv_points(counterexample("short_normal.csv"), "short_normal.csv")
     p, q, r, x = (tuple(map(Fraction, map(str, point))) for point in csv_rows)
     a, b, c, d = plane(p, q, r)  # type: ignore[arg-type]
     value = at((a, b, c, d), x)
     distance = value * value / (a * a + b * b + c * c)
-    unit = at((Fraction(1), Fraction(0), Fraction(0), Fraction(0)), (Fraction(1, 100), Fraction(5), Fraction(7)))
-    check = exhibited(unit == Fraction(1, 100), "for a unit normal the value is the distance")
-    short = distance == 1 and abs(value) == Fraction(1, 100)
-    return check.unless(short, "a plane through points close together, whose value is 1/100 at the distance 1")
+    if distance != 1 or abs(value) != Fraction(1, 100):
+        return exhibited(False, f"the value is {value} at the distance {distance}")
+
+    def difference(a: int, b: int, c: int, t: int) -> int:
+        # The point t (a, b, c) has its foot at the origin, which the plane contains.
+        value_of_point = dot((a, b, c), (t * a, t * b, t * c))
+        return value_of_point**2 - dot((a, b, c), (a, b, c)) * (t * t) * dot((a, b, c), (a, b, c))
+
+    return identity(difference, (4, 4, 4, 2), "the value is the distance times the length of (A, B, C)")
 
 
 @claim("thesis.189", full=300)
@@ -339,11 +366,9 @@ def data_sheet(part: str) -> Check:
         z = [point[2] for point in points.values()][-1]
         return slip(Fraction(z) == 1, _column_of_z() == 42, "29 to 42", f"a z of 1 in columns 39 to 52 is read as {z}")
     if part == "digits":
-        printed = "+.3000000E+01"
-        whole = coordinate_field("3")
-        passed = len(printed) == len(whole) - 1 and printed.replace("E", "0E") == whole
-        check = exhibited(coordinate_field("12") == "+.12000000E+02", "the sample card for 12 is read as 12")
-        return check.unless(passed, f"{printed}, which has {len(printed)} characters instead of {len(whole)}")
+        text, field = "+.3000000E+01", coordinate_field("3")
+        message = f"{text} has {len(text)} characters, and a field has {len(field)} columns"
+        return slip(len(text) == len(field), field.replace("0E", "E") == text, field, message)
     numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
     message = f"the sample cards are read as {', '.join(numbers)}"
     return exhibited(all(coordinate_field(value) == field for value, field in numbers.items()), message)
