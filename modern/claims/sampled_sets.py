@@ -8,11 +8,11 @@ from importlib.resources import files
 from random import Random
 
 from modern.claims.evidence import Generator
-from modern.exact_hull import ExactHull, exact_hull
+from modern.claims.hulls import convex_hull, exact_hull
+from modern.exact_hull import ExactHull
 from modern.formats.csv import points as csv_points
 from modern.geometry.hull import Hull
 from modern.geometry.vectors import cross, dot, minus
-from modern.port import convex_hull
 
 Point = tuple[int, int, int]
 Plane = tuple[int, int, int, int]

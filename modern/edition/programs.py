@@ -148,9 +148,13 @@ def deck(name: str, layers: Sequence[str] = ()) -> Deck:
     return built(name, layers)
 
 
-@cache
 def program(name: str, layers: tuple[str, ...] = ()) -> Program:
     """Compile a built-in program.  The result is cached."""
+    return _compiled(name, layers)
+
+
+@cache
+def _compiled(name: str, layers: tuple[str, ...]) -> Program:
     return compile_deck(deck(name, layers))
 
 

@@ -17,6 +17,7 @@ from modern.claims.evidence import (
     searched,
     slip,
 )
+from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -26,7 +27,7 @@ from modern.claims.sampled_sets import (
     plane_value,
     sampled_sets,
 )
-from modern.exact_hull import ExactHull, exact_hull
+from modern.exact_hull import ExactHull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will import Method, appel_will, printed
 from modern.papers.appel_will.star import as_corrected, as_printed, project, vorticity

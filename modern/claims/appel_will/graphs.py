@@ -5,8 +5,9 @@ from itertools import combinations
 
 from modern.claims.appel_will.convexity import CUBE
 from modern.claims.evidence import Check, claim, searched
+from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import CASES, SETS, Point, is_closed_curve, sampled_sets
-from modern.exact_hull import ExactHull, exact_hull
+from modern.exact_hull import ExactHull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will.results import found_solid
 

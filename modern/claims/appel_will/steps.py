@@ -6,8 +6,8 @@ from random import Random
 
 from modern.claims.appel_will.convexity import Flat, holds_origin
 from modern.claims.evidence import Check, Generator, claim, exhibited, search, searched, slip
+from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import Point, counterexample_points
-from modern.exact_hull import exact_hull
 from modern.papers.appel_will import Method, appel_will, printed
 from modern.papers.appel_will.corners import triple_product
 from modern.papers.appel_will.results import found_solid

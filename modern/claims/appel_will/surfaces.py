@@ -9,6 +9,7 @@ from itertools import combinations, product
 from modern.claims.appel_will.convexity import CUBE, RINGS, Flat, _area
 from modern.claims.appel_will.steps import FIG_18
 from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, search, slip
+from modern.claims.hulls import exact_hull
 from modern.claims.invariants import is_sphere
 from modern.claims.kovalevsky_schulz.proofs import vertex_is_no_combination
 from modern.claims.published import PAPERS, findings, printed_lines
@@ -18,7 +19,6 @@ from modern.claims.sampled_sets import (
     counterexample_points,
     plane_value,
 )
-from modern.exact_hull import exact_hull
 from modern.formats.off import parse_off
 from modern.geometry.vectors import area_vector, dot, lowest, minus
 from modern.papers.appel_will import Method, appel_will

@@ -5,6 +5,7 @@ from fractions import Fraction
 from itertools import product
 
 from modern.claims.evidence import Check, claim, refuted, search, searched
+from modern.claims.hulls import exact_hull
 from modern.claims.kovalevsky_schulz.polyhedra import hulls
 from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels, local
 from modern.claims.sampled_sets import (
@@ -18,7 +19,6 @@ from modern.claims.sampled_sets import (
     plane_value,
 )
 from modern.digital.solids import listed
-from modern.exact_hull import exact_hull
 from modern.geometry.vectors import dot, minus
 from modern.papers.kovalevsky_schulz import CENTRES, convex_polyhedron, local_corners
 from modern.papers.kovalevsky_schulz.cells import CellList

@@ -5,16 +5,16 @@ from dataclasses import replace
 from itertools import product
 
 from modern.claims.evidence import Check, claim, exhibited, search, searched
+from modern.claims.hulls import convex_polyhedron, exact_hull
 from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels
 from modern.claims.sampled_sets import CASES, SETS, Point, plane_value, sampled_sets
 from modern.digital.hull import digital_hull
 from modern.digital.solids import Volume, listed
-from modern.exact_hull import ExactHull, exact_hull
+from modern.exact_hull import ExactHull
 from modern.papers.kovalevsky_schulz import (
     CENTRES,
     INVISIBLE,
     VISIBLE,
-    convex_polyhedron,
     expanded,
     reconstructed,
     voxel_hull,

@@ -19,7 +19,7 @@ from modern.claims.algebra import (
     zero,
 )
 from modern.claims.evidence import Check, claim
-from modern.exact_hull import exact_hull
+from modern.claims.hulls import exact_hull
 from modern.geometry import vectors
 
 

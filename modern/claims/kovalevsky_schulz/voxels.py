@@ -7,9 +7,9 @@ from itertools import combinations, product
 from random import Random
 
 from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search
+from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import Point, counterexample_points, plane_value
 from modern.digital.solids import ball, listed
-from modern.exact_hull import exact_hull
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners
 from modern.papers.kovalevsky_schulz.corners import Of
 from modern.papers.kovalevsky_schulz.polyhedron import Coplanar
@@ -81,7 +81,7 @@ def _corners(solid: Voxels) -> set[Point]:
 
 def triangles_of_ball(coplanar: Coplanar) -> int:
     """Return the number of triangles of the hull of the ball of diameter 32."""
-    return len(hull_of_ball(32, coplanar=coplanar).polyhedron.triangles.faces)
+    return len(hull_of_ball(32, coplanar).polyhedron.triangles.faces)
 
 
 @claim("kovalevsky-schulz.21")
@@ -104,7 +104,7 @@ def printed_triangles() -> Check:
 @claim("kovalevsky-schulz.64")
 def printed_faces() -> Check:
     """Check that 1404 triangles and 266 faces result if coplanar faces are invisible, but not if they are visible."""
-    hull = hull_of_ball(32).polyhedron
+    hull = hull_of_ball(32, INVISIBLE).polyhedron
     passed = (len(hull.triangles.faces), len(hull.faces.faces)) == (1404, 266)
     visible = triangles_of_ball(VISIBLE)
     return exhibited(passed, "1404 triangles and 266 faces").unless(

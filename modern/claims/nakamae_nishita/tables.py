@@ -11,9 +11,10 @@ from random import Random
 
 from modern.claims import algebra
 from modern.claims.evidence import Check, Generator, claim, exhibited, identity, proved, searched
+from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
-from modern.exact_hull import ExactHull, exact_hull
+from modern.exact_hull import ExactHull
 from modern.geometry.vectors import dot
 from modern.papers.nakamae_nishita.contours import Tables
 from modern.papers.nakamae_nishita.results import contour_tables

@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import combinations, permutations
 
 from modern.claims.evidence import Check, claim, exhausted, searched, slip
+from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -20,7 +21,6 @@ from modern.claims.sampled_sets import (
     reduced_plane,
     sampled_sets,
 )
-from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
 
 

@@ -9,6 +9,7 @@ from functools import partial
 from random import Random
 
 from modern.claims.evidence import Check, Generator, claim, exhibited, searched
+from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -16,9 +17,7 @@ from modern.claims.sampled_sets import (
     plane_value,
     sampled_sets,
 )
-from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
-from modern.port import convex_hull
 
 # A triangle, and a point on one of its sides that the procedure adds to the hull under construction.
 _POINT_ON_A_SIDE: list[Point] = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from random import Random
 
 from modern.claims.evidence import Check, Generator, claim, exhausted, identity, search, searched
+from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import (
     BOTH,
     CASES,
@@ -19,9 +20,8 @@ from modern.claims.sampled_sets import (
     plane_value,
     sampled_sets,
 )
-from modern.exact_hull import ExactHull, exact_hull
+from modern.exact_hull import ExactHull
 from modern.geometry.hull import Hull
-from modern.port import convex_hull
 
 Line = tuple[int, int, int]
 

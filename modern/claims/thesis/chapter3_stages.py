@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from itertools import combinations, product
 
 from modern.claims.evidence import Check, claim, searched, slip
+from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import (
     BOTH,
     CASES,
@@ -22,10 +23,8 @@ from modern.claims.sampled_sets import (
     reduced_plane,
     sampled_sets,
 )
-from modern.exact_hull import exact_hull
 from modern.geometry.hull import Stage
 from modern.geometry.vectors import cross, dot, minus
-from modern.port import convex_hull
 
 
 @claim("thesis.2", "thesis.29", kind="nested", full=300)

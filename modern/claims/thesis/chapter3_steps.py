@@ -9,6 +9,7 @@ from math import isqrt
 from typing import Any
 
 from modern.claims.evidence import Check, Generator, claim, exhausted, refuted, searched, slip
+from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import (
     BOTH,
     CASES,
@@ -24,9 +25,7 @@ from modern.claims.sampled_sets import (
     sampled_sets,
 )
 from modern.claims.thesis.chapter3_equations import plane_as_printed
-from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
-from modern.port import convex_hull
 
 
 def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], message: str) -> Check:

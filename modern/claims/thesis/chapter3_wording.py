@@ -8,6 +8,7 @@ from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
+from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -23,10 +24,9 @@ from modern.claims.thesis.chapter3_boundary import PYRAMID
 from modern.claims.thesis.chapter3_steps import fourth_point_by_largest, order_of_replacement
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.edition import programs
-from modern.exact_hull import ExactHull, exact_hull
+from modern.exact_hull import ExactHull
 from modern.formats.deck import data_deck
 from modern.geometry.vectors import cross, dot, minus
-from modern.port import convex_hull
 from modern.thesis.job import run_hull
 
 Pair = tuple[int, int]

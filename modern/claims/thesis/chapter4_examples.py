@@ -12,16 +12,15 @@ from itertools import product
 
 from emulator.machine.result import Options
 from modern.claims.evidence import Check, claim, exhibited, slip
+from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import counterexample
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
 from modern.edition.chapter4 import Point, Theorem, load_text, load_theorems, theorem_faults
-from modern.exact_hull import exact_hull
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import data_deck
 from modern.geometry.hull import NOT_ACCEPTABLE
-from modern.port import convex_hull
 from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
 

@@ -8,6 +8,7 @@ from itertools import product
 
 from modern.claims.algebra import Point, Polynomial, Step, Term, polynomial, positive, term, variables, zero
 from modern.claims.evidence import Check, claim, exhibited, proved, refuted, searched, slip
+from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -21,8 +22,6 @@ from modern.claims.thesis.chapter3_equations import first_two_points
 from modern.claims.thesis.chapter3_steps import third_point
 from modern.claims.thesis.chapter4_examples import theorem_of
 from modern.edition.chapter4 import load_theorems
-from modern.exact_hull import exact_hull
-from modern.port import convex_hull
 
 
 @claim("thesis.5")

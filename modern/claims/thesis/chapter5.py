@@ -11,6 +11,7 @@ from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
 from modern.claims.evidence import Check, claim, exhausted, exhibited
+from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import CASES
 from modern.claims.thesis.chapter3_equations import procedure_against_judge
 from modern.claims.thesis.chapter7 import (
@@ -26,9 +27,7 @@ from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_card_hull, from_judge
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, Print, input_deck, prints
-from modern.exact_hull import exact_hull
 from modern.formats.deck import data_deck, exact_points
-from modern.port import convex_hull
 from modern.thesis.cards import read_hull
 from modern.thesis.job import COPLANAR, HullRun, run_hull
 

@@ -10,15 +10,14 @@ from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
 from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, Generator, claim, exhibited, identity, refuted, search, searched, slip
+from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_through, plane_value, sampled_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
 from modern.comparison.outcome import from_cards
 from modern.edition import programs
-from modern.exact_hull import exact_hull
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import coordinate_field, data_deck, exact_points
 from modern.geometry.vectors import dot
-from modern.port import convex_hull
 from modern.port.arithmetic import at, plane
 from modern.port.points import take
 from modern.thesis.cards import read_hull

@@ -7,12 +7,11 @@ from fractions import Fraction
 from itertools import combinations, product
 
 from modern.claims.evidence import Check, claim, proved
+from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.invariants import is_sphere
 from modern.claims.thesis.chapter4_examples import ADDED, theorem_of
 from modern.edition.chapter4 import Point
-from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
-from modern.port import convex_hull
 
 # An extreme is an axis and a sign: (0, 1) is the largest x, (0, -1) the smallest.
 Extreme = tuple[int, int]

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from itertools import product
 
 from modern.claims.evidence import Check, claim, exhibited, searched, slip
+from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -13,7 +14,7 @@ from modern.claims.sampled_sets import (
 )
 from modern.claims.thesis.chapter4_examples import theorem_of
 from modern.claims.thesis.identities import coordinate_planes
-from modern.exact_hull import ExactHull, exact_hull
+from modern.exact_hull import ExactHull
 from modern.geometry.vectors import cross, dot, minus
 
 # Rays in this direction from the sampled points meet no edge of the polyhedron.

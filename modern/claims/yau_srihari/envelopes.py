@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, search, searched, slip
+from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -20,7 +21,6 @@ from modern.claims.sampled_sets import (
     sampled_sets,
 )
 from modern.digital.solids import listed
-from modern.exact_hull import exact_hull
 from modern.geometry.vectors import dot, minus
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.convexity import convex_deficiency, is_digitally_convex, is_simple

@@ -7,7 +7,7 @@ The test by 6 neighbours runs slab by slab over whole arrays. The other 10 pairs
 remain.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import product
 from typing import Final, Literal
 
@@ -58,18 +58,18 @@ def _extra(volume: Volume, of: Of) -> int:
     return int(of == VERTICES)
 
 
-def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points]:
-    """Return the local corners (points that can be vertices) twice: as tested with 6 neighbours and with 26."""
+def corners_by_neighbours(volume: Volume, of: Of = VERTICES, numbers: Sequence[int] = NEIGHBOURS) -> dict[int, Points]:
+    """Return the local corners (points that can be vertices) by the number of neighbours of their test: 6 or 26."""
     extra = _extra(volume, of)
     # The slabs are cut across the axis with the largest stride, so that each is contiguous in memory.
     order = sorted(range(3), key=lambda axis: -abs(volume.array.strides[axis]))
     solid = volume.array.transpose(order)
-    corners: dict[int, list[NDArray[np.intp]]] = {neighbours: [] for neighbours in NEIGHBOURS}
+    corners: dict[int, list[NDArray[np.intp]]] = {neighbours: [] for neighbours in numbers}
     for first, slab in _slabs(solid, extra):
         flat = slab.ravel()
         strides = (slab.shape[1] * slab.shape[2], slab.shape[2], 1)
         at = _by_six_neighbours(flat, strides)
-        for neighbours in NEIGHBOURS:
+        for neighbours in numbers:
             if neighbours != 6:
                 for step in _steps():
                     if sum(map(abs, step)) > 1:
@@ -130,7 +130,7 @@ def local_corners(volume: Volume, of: Of = VERTICES, neighbours: int = 26) -> Po
     """
     if neighbours not in NEIGHBOURS:
         raise ValueError(f"expected 6 or 26 neighbours, found {neighbours}")
-    return corners_by_neighbours(volume, of)[neighbours]
+    return corners_by_neighbours(volume, of, (neighbours,))[neighbours]
 
 
 def _steps() -> Iterator[tuple[int, ...]]:

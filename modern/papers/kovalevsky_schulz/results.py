@@ -40,8 +40,8 @@ def produced(printed: Lines) -> Lines:
 
 
 @cache
-def hull_of_ball(diameter: int, neighbours: int = 6, coplanar: Coplanar = INVISIBLE) -> VoxelHull:
-    return voxel_hull(ball(diameter), neighbours=neighbours, coplanar=coplanar)
+def hull_of_ball(diameter: int, coplanar: Coplanar) -> VoxelHull:
+    return voxel_hull(ball(diameter), neighbours=6, coplanar=coplanar)
 
 
 @cache
@@ -51,7 +51,7 @@ def half_ball_cells(diameter: int, centre: str = VERTEX) -> CellList:
 
 
 def _ball(diameter: int) -> Iterator[tuple[str, Sequence[str]]]:
-    hull = hull_of_ball(diameter)
+    hull = hull_of_ball(diameter, INVISIBLE)
     yield "ball-voxels", [f"diameter {diameter} contains {hull.voxels} voxels"]
     yield "ball-corners-6", [f"{hull.corners[6]} when testing 6 neighbors"]
     yield "ball-corners-26", [f"{hull.corners[26]} when testing 26 neighbors"]

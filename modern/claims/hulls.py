@@ -1,0 +1,33 @@
+"""Hulls of point sets, each computed once for all checks that need it.
+
+Many checks examine the same sampled sets and counterexamples. They import the functions that compute hulls from here.
+"""
+
+from collections.abc import Callable, Iterable
+from functools import lru_cache, wraps
+from typing import Any, Concatenate, ParamSpec, TypeVar
+
+import modern.exact_hull
+import modern.papers.kovalevsky_schulz
+import modern.port
+
+P = ParamSpec("P")
+R = TypeVar("R")
+# More hulls than the checks need at their quick sizes; the full searches compute many more.
+_MOST_HULLS = 1024
+
+
+def _shared(compute: Callable[Concatenate[Any, P], R]) -> Callable[Concatenate[Iterable[Iterable[Any]], P], R]:
+    """Return the function with its last results kept, by the points and the options. The results must be immutable."""
+    kept = lru_cache(_MOST_HULLS)(compute)
+
+    @wraps(compute)
+    def hull(points: Iterable[Iterable[Any]], /, *args: P.args, **options: P.kwargs) -> R:
+        return kept(tuple(map(tuple, points)), *args, **options)  # type: ignore[arg-type]
+
+    return hull
+
+
+exact_hull = _shared(modern.exact_hull.exact_hull)
+convex_hull = _shared(modern.port.convex_hull)
+convex_polyhedron = _shared(modern.papers.kovalevsky_schulz.convex_polyhedron)
