@@ -109,7 +109,7 @@ def edges_at_a_0_cell() -> Check:
     return check.unless(space > 4, f"a 0-cell in space, which is incident to {space} 1-cells")
 
 
-@claim("kovalevsky-schulz.139", "kovalevsky-schulz.140", "kovalevsky-schulz.152", "kovalevsky-schulz.110")
+@claim("kovalevsky-schulz.139", "kovalevsky-schulz.140", "kovalevsky-schulz.110")
 def incidence_by_coordinates() -> Check:
     """Check dimensions and incidences that follow from coordinates against the cells as closed sets of points.
 

@@ -124,7 +124,7 @@ def envelopes_against_judge(cases: int = 5) -> Check:
     return search(SOLIDS, _envelopes_agree, cases, message)
 
 
-@claim("yau-srihari.4", "yau-srihari.38", "yau-srihari.49", full=500)
+@claim("yau-srihari.49", full=500)
 def digital_hull_by_envelopes(cases: int = 5) -> Check:
     """Check that the points between the envelopes are the digital hull, unless they do not form a digital solid."""
     disconnected = disconnected_hull()
@@ -248,7 +248,7 @@ def integer_normals(cases: int = 5) -> Check:
     return search(SOLIDS, are_integers, cases, "all normals of faces and of starting faces are integers")
 
 
-@claim("yau-srihari.58", "yau-srihari.100", full=400)
+@claim("yau-srihari.100", full=400)
 def triangles_of_a_hull(cases: int = CASES) -> Check:
     """Check that three points are a face if and only if their plane supports, unless four points are coplanar."""
     outcomes = []
