@@ -7,9 +7,14 @@ from collections.abc import Callable, Iterable
 from functools import lru_cache, wraps
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
+import numpy as np
+
 import modern.exact_hull
 import modern.papers.kovalevsky_schulz
+import modern.papers.yau_srihari
 import modern.port
+from modern.digital.solids import Voxels
+from modern.papers.yau_srihari import OctreeHull, Printed
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -31,3 +36,13 @@ def _shared(compute: Callable[Concatenate[Any, P], R]) -> Callable[Concatenate[I
 exact_hull = _shared(modern.exact_hull.exact_hull)
 convex_hull = _shared(modern.port.convex_hull)
 convex_polyhedron = _shared(modern.papers.kovalevsky_schulz.convex_polyhedron)
+
+
+def octree_hull(region: Voxels, printed: Printed | None = None) -> OctreeHull:
+    """Return the digital hull of a region by the algorithm of Yau and Srihari, computed once for each region."""
+    return _octree_hull(region.shape, region.tobytes(), printed)
+
+
+@lru_cache(_MOST_HULLS)
+def _octree_hull(shape: tuple[int, ...], voxels: bytes, printed: Printed | None) -> OctreeHull:
+    return modern.papers.yau_srihari.octree_hull(np.frombuffer(voxels, np.bool_).reshape(shape), printed)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, search, searched, slip
-from modern.claims.hulls import exact_hull
+from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -22,7 +22,7 @@ from modern.claims.sampled_sets import (
 )
 from modern.digital.solids import listed
 from modern.geometry.vectors import dot, minus
-from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
+from modern.papers.yau_srihari import OctreeHull, Printed
 from modern.papers.yau_srihari.convexity import convex_deficiency, is_digitally_convex, is_simple
 from modern.papers.yau_srihari.hull import components
 from modern.papers.yau_srihari.octree import count

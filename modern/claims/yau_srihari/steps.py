@@ -7,11 +7,11 @@ from random import Random
 import numpy as np
 
 from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, search, searched
-from modern.claims.hulls import exact_hull
+from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import Point, counterexample_points
 from modern.claims.yau_srihari.envelopes import SOLIDS, array_of, hull_of
 from modern.digital.solids import VERTEX, ball
-from modern.papers.yau_srihari import Printed, octree_hull
+from modern.papers.yau_srihari import Printed
 from modern.papers.yau_srihari.convexity import (
     half_cell_expansion,
     is_digitally_convex,
