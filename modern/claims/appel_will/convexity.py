@@ -112,15 +112,17 @@ def deletion_passes(cases: int = 8) -> Check:
 def deletion_makes_nonconvex() -> Check:
     """Check a polygon in which deleting a nonconvex point makes a convex neighbour nonconvex."""
     ring = [(0, 0), (10, 0), (10, 10), (6, 1), (5, 5), (4, 1), (0, 10)]
-    before = {p for k, p in enumerate(ring) if _area(ring[k - 1], p, ring[(k + 1) % len(ring)]) > 0}
-    remaining = [p for p in ring if p in before]
-    after = {p for k, p in enumerate(remaining) if _area(remaining[k - 1], p, remaining[(k + 1) % len(remaining)]) > 0}
-    lost = sorted(before - after)
+    before = _convex_points(ring)
+    lost = sorted({*before} - {*_convex_points(before)})
     return exhibited(bool(lost), f"{', '.join(map(str, lost))} is convex at first and nonconvex after a deletion")
 
 
+def _convex_points(ring: Sequence[Flat]) -> list[Flat]:
+    return [p for k, p in enumerate(ring) if _area(ring[k - 1], p, ring[(k + 1) % len(ring)]) > 0]
+
+
 def _passed(ring: Sequence[Flat]) -> list[Flat]:
-    remaining = [p for k, p in enumerate(ring) if _area(ring[k - 1], p, ring[(k + 1) % len(ring)]) > 0]
+    remaining = _convex_points(ring)
     return remaining if len(remaining) in (len(ring), 2) else _passed(remaining)
 
 

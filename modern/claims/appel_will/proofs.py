@@ -127,7 +127,7 @@ def points_of_hull() -> Proof:
     return Proof(
         "a combination of points is on the inner side of every plane that has all these points on this side",
         "The points of the hull are the combinations of the vertices, and all vertices are on the inner side of each "
-        "plane. So adding any of the infinitely many points inside, for example the apex of a pit, keeps the hull.",
+        "plane. So adding any number of the infinitely many points inside, for example apexes of pits, keeps the hull.",
         combination_satisfies(),
     )
 
@@ -185,7 +185,7 @@ def concave_point() -> Proof:
     )
 
 
-@claim("appel-will.27", "appel-will.79", proof=points_of_hull)
+@claim("appel-will.27", "appel-will.79", "appel-will.91", proof=points_of_hull)
 @claim("appel-will.31", proof=projections)
 @claim("appel-will.38", proof=fewer_pairs)
 @claim("appel-will.72", "appel-will.136", proof=three_planes)

@@ -296,13 +296,3 @@ def figure_of_minimum_data() -> Check:
     return slip(
         words == printed, words == corrected, "Fig. 4", "Fig. 3 shows no polyhedron; Fig. 4 has a list and a map"
     )
-
-
-@claim("appel-will.91")
-def simple_hull_of_complex_object() -> Check:
-    """Check that a cube with a pit of 1, 2, 3 or 27 points has the hull of the cube: 8 vertices and 6 faces."""
-    cube = [(8 * x, 8 * y, 8 * z) for x, y, z in CUBE]
-    pit = [(x, y, 7 - (x + y) % 3) for x in range(1, 8) for y in range(1, 8, 2)]
-    hulls = [exact_hull([*cube, *pit[:n]]) for n in (1, 2, 3, 27)]
-    same = all(hull.vertices == tuple(range(8)) and len(hull.facets) == 6 for hull in hulls)
-    return exhibited(same, "four objects, one of 35 points, have the hull of a cube")

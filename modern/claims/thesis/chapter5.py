@@ -227,11 +227,10 @@ def storage_of_translation() -> Check:
 def sign_without_products() -> Check:
     """Check that the translation omits the statement that evaluates an equation at the inside point C for its sign."""
     at_c = {"program2": "D(J)=A(J)*C1+B(J)*C2+C(J)", "program3": "E(I)=A(I)*C1+B(I)*C2+C(I)*C3+D(I)"}
-    layers: tuple[tuple[str, ...], ...] = ((), ("translation",))
-    versions = [
-        [statement in programs.deck(name, layer).text().replace(" ", "") for name, statement in at_c.items()]
-        for layer in layers
+    texts = [
+        {n: programs.deck(n, layer.split()).text().replace(" ", "") for n in at_c} for layer in ("", "translation")
     ]
+    versions = [[statement in text[name] for name, statement in at_c.items()] for text in texts]
     return exhibited(versions == [[True] * 2, [False] * 2], "with the translation, no equation is evaluated at C")
 
 
