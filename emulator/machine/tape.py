@@ -165,13 +165,13 @@ class TapeNumbers(Numbers):
         return self.inner.write(field, value[:2])
 
     def function(self, name: str, value: Number) -> tuple[Number, str]:
-        raise Undecided(f"{name} cannot be recorded for other arithmetics")
+        raise Undecided(f"the function {name} cannot be repeated in other arithmetics")
 
     def power(self, base: Number, exponent: Number) -> tuple[Number, str]:
-        raise Undecided("a power cannot be recorded for other arithmetics")
+        raise Undecided("a power cannot be repeated in other arithmetics")
 
     def integer_power(self, base: Number, count: int) -> tuple[Number, str]:
-        raise Undecided("a power cannot be recorded for other arithmetics")
+        raise Undecided("a power cannot be repeated in other arithmetics")
 
 
 def record(program: Program, deck: Deck, options: Options) -> Tape:

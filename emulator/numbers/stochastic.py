@@ -171,8 +171,8 @@ def stochastic(name: str) -> StochasticNumbers | StochasticBinaryNumbers | Sampl
     match = _FORM.fullmatch(name)
     if not match or (match["majority"] and not match["last"]):
         raise ArgumentError(
-            f"{name[:40]}: expected {NAME}:P:SEED or {NAME}:BITSb:SEED, where SEED is 1, or 1-10 for runs in step; "
-            "only :proportional may follow, and then :majority for runs in step"
+            f"{name[:40]}: expected {NAME}:P:SEED or {NAME}:BITSb:SEED; SEED is a number, or a range such as 1-10 "
+            "for runs in step; only :proportional may follow, and then, for runs in step, :majority"
         )
     size, seed, last = int(match["size"]), int(match["seed"]), int(match["last"] or match["seed"])
     least, most, what = (MIN_BITS, MAX_BITS, "bits") if match["binary"] else (MIN_DIGITS, MAX_DIGITS, "digits")

@@ -96,7 +96,7 @@ def _use(state: str) -> None:
     if not os.path.isfile(os.path.join(state, "fortran_src", READINGS)):
         raise UsageError(f"{state}: expected a folder that --sheet wrote; it has no fortran_src/{READINGS}")
     if programs.text.cache_info().currsize:
-        raise UsageError("--state needs a new process")
+        raise UsageError("--state: this process has already read another edition; run the command in a new process")
     sys.modules.pop("fortran_src", None)
     sys.path.insert(0, os.path.abspath(state))
 

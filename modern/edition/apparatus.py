@@ -344,7 +344,7 @@ def _row(head: Mapping[str, Any], raw: Mapping[str, Any]) -> Row:
     for change in changes:
         if not (change.witness or change.after or change.through or change.dense):
             raise ApparatusError(
-                f"{text_id}: row {name}: a change needs a witness reading, `after`, `through` or `dense`"
+                f"{text_id}: row {name}: a change needs one of the fields `witness`, `after`, `through` and `dense`"
             )
     rejected = tuple(Rejected(str(r.get("reading", "")), str(r.get("reason", ""))) for r in raw.get("rdg", ()))
     if not all(r.reading and r.reason for r in rejected):

@@ -265,7 +265,7 @@ def _join_labels(
     texts: dict[int, tuple[str, tuple[int, ...]]],
     every: Sequence[EditionCard],
 ) -> None:
-    """Put each statement number back before its statement if the OCR made a column of its own of the numbers."""
+    """Put each statement number back before its statement if the OCR put the numbers into a separate column."""
     line_of = {number: n for n, (number, _) in enumerate(numbered)}
     lacking = [
         n for n in sorted(texts) if every[n].label and not folded(texts[n][0]).startswith(folded(every[n].label)[:2])

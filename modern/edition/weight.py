@@ -277,7 +277,7 @@ def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int =
         folder.mkdir(parents=True, exist_ok=True)
         lines = path.read_text(encoding="utf-8").split("\n") if path.exists() else []
         if lines and json.loads(lines[0]) != {"decks": print_of}:
-            raise FileError(f"{path}: holds answers for other listings; choose another folder")
+            raise FileError(f"{path}: contains results for other listings; choose another folder")
         # If a run was killed, its last line may be incomplete.  The line is then removed and its variant judged again.
         done = {key: answer for line in lines[1:-1] for key, answer in [json.loads(line)]}
         with path.open("w", encoding="utf-8") as file:

@@ -129,7 +129,7 @@ def _cycle(lines: list[tuple[int, ...]], count: int) -> tuple[int, ...]:
             break
         cycle.append(following)
     if len(cycle) != count or count < 3 or len(set(cycle)) != count:
-        raise ExportError("the lines of the polygon do not close to one polygon")
+        raise ExportError("the lines of the polygon do not form one closed polygon")
     return tuple(cycle)
 
 

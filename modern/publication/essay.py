@@ -50,7 +50,7 @@ def plane_values(arithmetic: str, points: Sequence[Sequence[int]]) -> tuple[str,
 
 
 def plane_row(x: int) -> tuple[str, ...]:
-    """Return, for x of the third point, D exactly and in eight digits, and the three values in eight digits."""
+    """Return D of the plane for this ``x`` exactly and in eight digits, and the plane's values in eight digits."""
     points = ((x, *FIRST), *CORNERS)
     (exact, _), (machine, values) = (plane_values(name, points) for name in ("exact", "truncating"))
     return exact, machine, *values

@@ -215,7 +215,7 @@ def expanded(encoding: Economical) -> CellList:
     if unused.size:
         raise CellListError(f"vertex {unused[0]} belongs to no face")
     if 2 * len(first) != len(start) or len(points) - len(first) + len(faces) != 2:
-        raise CellListError(f"{len(points)} vertices, {len(first)} edges and {len(faces)} faces are not a polyhedron")
+        raise CellListError(f"{len(points)} vertices, {len(first)} edges and {len(faces)} faces form no polyhedron")
     _check_convex(points, sizes, start, face)
     first_used = np.sort(first)
     number = np.searchsorted(first_used, first)[edge_of] + 1

@@ -294,7 +294,7 @@ def test_readings_for_a_table(tmp_path: Path) -> None:
         ([("r", "a", '{ line = "1", witness = "a", lemma = "" }')], "occurs 2 times"),
         ([("r", "a", '{ line = "2", witness = "a", lemma = "" }')], "line 2 does not exist"),
         ([("r", "c", '{ line = "1", witness = "a", lemma = "" }')], "unknown layer 'c'"),
-        ([("r", "a", '{ line = "1", lemma = "x" }')], "needs a witness reading"),
+        ([("r", "a", '{ line = "1", lemma = "x" }')], "needs one of the fields"),
         ([("r", "a", '{ line = "1", witness = " l", lemma = "" }')] * 2, "is used 2 times"),
     ],
 )

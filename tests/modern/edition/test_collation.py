@@ -95,7 +95,7 @@ def test_a_collation_is_saved_and_read() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"edition": "0"}, "x.json: belongs to other cards of the listings; collate the transcription again"),
+        ({"edition": "0"}, "x.json: was made for other cards of the listings; collate the transcription again"),
         ({"format": "other"}, "x.json: is not a collation"),
         ({"cards": [["program1", 1, [], "cc", {}]]}, "x.json: is not a collation"),
     ],

@@ -99,7 +99,7 @@ def test_answers_are_stored_and_a_run_is_resumed(tmp_path: Path) -> None:
     assert "6 of " in text
     assert {p.name for p in tmp_path.iterdir()} == {"variants.jsonl", "report.md", "cards.csv", "silent.csv"}
     path.write_text('{"decks": "others"}\n')
-    with pytest.raises(FileError, match="holds answers for other listings"):
+    with pytest.raises(FileError, match="contains results for other listings"):
         weigh(tmp_path, "", most=6)
 
 

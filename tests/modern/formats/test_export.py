@@ -312,7 +312,7 @@ def test_inconsistent_hulls_have_no_mesh() -> None:
         mesh(
             replace(cube, vertices=tuple(k for k in cube.vertices if k != 7), faces=(replace(face, polygon=(0, 1, 7)),))
         )
-    with pytest.raises(ExportError, match="do not close to one polygon"):
+    with pytest.raises(ExportError, match="do not form one closed polygon"):
         mesh(replace(square, faces=square.faces[:-1]))
     with pytest.raises(ExportError, match="fewer than three"):
         mesh(replace(cube, faces=(replace(cube.faces[0], polygon=cube.vertices[:2]),)))

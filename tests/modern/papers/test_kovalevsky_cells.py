@@ -108,7 +108,7 @@ def faces(*cycles: tuple[int, ...]) -> ks.Economical:
                 (*CUBE.points, *((x + 9, y, z) for x, y, z in CUBE.points)),
                 (*CUBE.faces, *(tuple(number + 8 for number in face) for face in CUBE.faces)),
             ),
-            "16 vertices, 24 edges and 12 faces are not a polyhedron",
+            "16 vertices, 24 edges and 12 faces form no polyhedron",
         ),
         (replace(CUBE, points=((0, 0, -1), *CUBE.points[1:])), "face 1: its vertices do not lie in one plane"),
         (replace(CUBE, points=((1, 1, 1), *CUBE.points[1:])), "face 1: vertex 2 lies outside of its plane"),
