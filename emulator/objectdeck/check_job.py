@@ -21,6 +21,9 @@ from collections.abc import Callable
 # The digit that each character of a disk in text form stands for; a flag adds 16.
 DIGITS = {c: n for n, c in enumerate('0123456789|=@  }]JKLMNOPQR!$-  "') if c != " "}
 
+# The digits of a sector: five of its address and 100 of data.
+SECTOR = 105
+
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:E[-+]\d\d)?")
 
 CLASSES = {
@@ -38,11 +41,18 @@ def disk(source: str, target: str) -> None:
     with open(source, encoding="latin-1") as file:
         for number, line in enumerate(file, 1):
             sector, comma, text = line.rstrip("\r\n").partition(",")
-            if not comma and sector.strip():
-                raise ValueError(f"{source}, line {number}: expected a sector number, a comma and digits")
+            if not comma and not sector.strip():
+                continue
+            place, expected = f"{source}, line {number}", len(digits) // SECTOR
+            if not comma or not sector.strip().isdecimal():
+                raise ValueError(f"{place}: expected a sector number, a comma and {SECTOR} digits")
+            if int(sector) != expected:
+                raise ValueError(f"{place}: expected sector {expected}, found {int(sector)}; a sector is lost or moved")
+            if len(text) != SECTOR:
+                raise ValueError(f"{place}: expected {SECTOR} digits, found {len(text)}; a line is truncated or joined")
             for column, character in enumerate(text, len(sector) + 2):
                 if character not in DIGITS:
-                    raise ValueError(f"{source}, line {number}, column {column}: invalid digit {character!r}")
+                    raise ValueError(f"{place}, column {column}: invalid digit {character!r}")
                 digits.append(DIGITS[character])
     if not digits:
         raise ValueError(f"{source}: no sector; expected a disk in text form")

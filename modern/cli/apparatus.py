@@ -81,13 +81,17 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _collate(args: argparse.Namespace) -> int:
-    collation = collate(read_text(args.collate), Path(args.collate).name)
+    text = read_text(args.collate)
+    collation = collate(text, Path(args.collate).name)
     if not any(card.lines for card in collation.cards):
-        raise UsageError(f"--collate: no line of {quoted(args.collate)} resembles a card of the listings")
+        raise UsageError(
+            f"--collate: no line of {quoted(args.collate)} can be assigned to a card of the listings; "
+            "expected the text of a page or of several statements"
+        )
     for path, written in ((args.json, to_json), (args.csv, to_csv)):
         if path is not None:
             write_text(path, written(collation))
-    print_report(args, report(collation))
+    print_report(args, report(collation, text))
     return OK
 
 

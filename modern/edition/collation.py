@@ -19,9 +19,10 @@ import io
 import json
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from itertools import groupby
 from typing import Literal
 
 from modern.edition import programs
@@ -30,7 +31,7 @@ from modern.edition.apparatus import ApparatusError, Row
 from modern.edition.readings import Pair, explains, table
 from modern.edition.sources import read, sources
 from modern.edition.tokens import Rival, rivals, row_rivals, spans
-from modern.edition.transcription import align, edition_cards
+from modern.edition.transcription import align, edition_cards, read_lines
 
 Verdict = Literal["confirms", "supports a rival", "contradicts", "unreadable"]
 VERDICTS: tuple[Verdict, ...] = ("confirms", "supports a rival", "contradicts", "unreadable")
@@ -72,9 +73,6 @@ class Collation:
     lines: int
     cards: tuple[CollatedCard, ...]
 
-    def counts(self) -> Counter[Verdict]:
-        return Counter(reading.verdict for card in self.cards for reading in card.readings)
-
 
 def collate(text: str, file: str = "", name: str = "") -> Collation:
     """Collate a transcription of the listings or of a part of them."""
@@ -86,7 +84,7 @@ def collate(text: str, file: str = "", name: str = "") -> Collation:
         for n in range(len(edition_cards()))
     )
     digest = hashlib.sha256(text.encode()).hexdigest()
-    return Collation(name or digest[:12], file, digest, text.count("\n") + 1, cards)
+    return Collation(name or digest[:12], file, digest, len(read_lines(text)), cards)
 
 
 def _pieces(n: int, line: str) -> tuple[str, ...]:
@@ -166,13 +164,20 @@ def _readings(n: int, aligned: tuple[str, ...] | None, pairs: tuple[Pair, ...]) 
             doubtful = any(r.first == r.last == k and r.text != token and explains(token, r.text, pairs) for r in known)
             yield Reading(token, there, "unreadable" if doubtful else "confirms")
         elif (
-            _kind(there) == _kind(token) != ""
+            not _is_truncated(pieces, k, token)
+            and _kind(there) == _kind(token) != ""
             and not explains(there, token, pairs)
             and not explains("".join(pieces[near]), "".join(tokens[near]), pairs)
         ):
             yield Reading(token, there, "contradicts")
         else:
             yield Reading(token, there, "unreadable")
+
+
+def _is_truncated(pieces: Sequence[str], k: int, token: str) -> bool:
+    """Return True if a line begins or ends within the token, so that only a part of the token is there."""
+    ends = not any(pieces[k + 1 :]) and token.startswith(pieces[k])
+    return ends or (not any(pieces[:k]) and token.endswith(pieces[k]))
 
 
 def _kind(token: str) -> str:
@@ -248,20 +253,38 @@ def to_csv(collation: Collation) -> str:
     return out.getvalue()
 
 
-def report(collation: Collation) -> Iterator[str]:
-    """Yield the lines of a summary: cards, readings by verdict, errors shared with the witness, and differences."""
+def report(collation: Collation, text: str) -> Iterator[str]:
+    """Yield a summary: cards, lines without a card, readings by verdict, errors shared with the witness, differences.
+
+    ``text`` is the transcription.  Only the cards that it contains count.
+    """
     aligned = [card for card in collation.cards if card.lines]
     yield f"cards: {len(aligned)} of {len(collation.cards)} are in the transcription"
-    counts = collation.counts()
-    yield "readings: " + ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS)
+    numbers = [number for number, _ in read_lines(text)]
+    skipped = sorted({*numbers} - {line for card in aligned for line in card.lines})
+    yield f"lines: {len(skipped)} of {len(numbers)} belong to no card" + (f": {_ranges(skipped)}" if skipped else "")
+    counts = Counter(reading.verdict for card in aligned for reading in card.readings)
+    yield "readings of these cards: " + ", ".join(f"{counts[verdict]} {verdict}" for verdict in VERDICTS)
     shared, places = shared_errors(collation)
-    yield f"errors of our OCR text: {shared} of {places} are in the transcription too"
+    yield f"errors of our OCR text: {shared} of the {places} on these cards are in the transcription too"
     for card in aligned:
         entry = edition_cards()[card.card]
-        for r in card.readings:
-            if r.verdict in ("contradicts", "supports a rival"):
-                place = f"{entry.program} {entry.place}, line {card.lines[0]}"
-                yield f"{place}: {r.verdict}: {r.transcription or 'nothing'} for {r.edition}"
+        place = f"{entry.program} {entry.place}, line {card.lines[0]}"
+        # The readings that one rival replaces are reported together; every other difference separately.
+        for _, group in groupby(
+            enumerate(card.readings), lambda p: p[1].rival if p[1].verdict == "supports a rival" else p[0]
+        ):
+            readings = [reading for _, reading in group]
+            if readings[0].verdict in ("contradicts", "supports a rival"):
+                there, here = "".join(r.transcription for r in readings), "".join(r.edition for r in readings)
+                yield f"{place}: {readings[0].verdict}: {there or 'nothing'} for {here}"
+
+
+def _ranges(numbers: Sequence[int], most: int = 10) -> str:
+    """Return numbers as ranges such as ``1-3, 7``, at most the first ``most`` of them."""
+    runs = [[n for _, n in run] for _, run in groupby(enumerate(numbers), lambda pair: pair[1] - pair[0])]
+    texts = [f"{run[0]}-{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs]
+    return ", ".join(texts[:most]) + (", ..." if len(texts) > most else "")
 
 
 def shared_errors(collation: Collation) -> tuple[int, int]:

@@ -5,13 +5,16 @@ not one monotone sequence.  A Viterbi search assigns a card to each line: follow
 skipping cards costs a little, and a jump to any other card costs as much as a short line gains.  A line may also belong
 to no card (a page number, a running head), two lines may make one card (a hyphenated line), and one line may hold two
 cards.  A line that holds more is first divided where its characters align with the cards.  Statement numbers that
-form a separate column are joined with their statements afterwards.
+form a separate column are joined with their statements afterwards.  Line numbers and columns 73 to 80 are removed if
+the rest resembles the cards more.  A run of cards counts only if it gains more than a jump costs, and if its lines
+resemble no other cards equally well.
 
 Lines are compared after characters that may be confused have been replaced by one representative
 (:mod:`modern.edition.alignment`), so that misreadings of the expected kind cost nothing.
 """
 
 import re
+import unicodedata
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -28,11 +31,18 @@ JUMP, SKIP, SKIP_CARD, FARTHEST = 14.0, 0.7, 0.3, 25
 # The number of card texts with which a line is compared, and the share of differing characters above which it is no
 # match.  A line that differs more than POOR from every card may be a part of a card or hold two.
 CANDIDATES, NO_MATCH, POOR = 8, 0.45, 0.15
-# A line with more characters than any two cards is divided.
-LONGEST = 132
+# A line with more characters than any two cards is divided if it has an anchor for every FEW characters.
+LONGEST, FEW = 132, 20
 _MARKS = sorted((p.witness for p in table() if p.cls == "noise" and not p.lemma and len(p.witness) > 1), reverse=True)
-_NOISE = re.compile("|".join(map(re.escape, _MARKS)) + r"|[$}`]|^\s*[-·•*]\s+")
-_DASHES = str.maketrans({"−": "-", "–": "-", "—": "-", "‐": "-", "\xad": "-", "\xa0": " "})
+_NOISE = re.compile("|".join(map(re.escape, _MARKS)) + r"|\\[A-Za-z]+\*?|[\\$}{`\u200b\ufeff]|^\s*[-·•*]\s+")
+# Typographic signs that stand for characters of a card, in addition to the compatibility forms of Unicode.
+_SIGNS = {sign: to for signs, to in (("−–—‐‑\xad", "-"), ("×∗⋅", "*"), ("‚", ","), ("∕⁄÷", "/")) for sign in signs}
+_TYPOGRAPHY = str.maketrans(_SIGNS)
+# Line numbers and columns 73 to 80 may be removed if this share of the lines has them.
+_MOST = 0.9
+_PROSE = re.compile(r"[a-z]{2,}[,;]? [a-z]{2,}")
+_LINE_NUMBER = re.compile(r"\s*(\d+)[.:)|]?\s")
+_IDENTIFICATION = re.compile(r"(?=.{73,80}$)(.{72}).*\d\s*$")
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,16 +84,33 @@ def edition_cards() -> tuple[EditionCard, ...]:
 def read_lines(text: str) -> list[tuple[int, str]]:
     """Return the lines of a transcription with their numbers, without blank lines, page marks and typesetting marks.
 
-    If most letters are small, as in a retyping, they become capitals.
+    If most letters outside of prose are small, as in a retyping, they become capitals.  A form feed ends no line.
     """
-    letters = Counter("small" if c.islower() else "capital" for c in text if c.isalpha())
-    text = text.upper() if letters["small"] > letters["capital"] and not text.isupper() else text
+    raw_lines = re.split(r"\r\n|\r|\n", text)
+    letters = [c for line in raw_lines if not _PROSE.search(line) for c in line if c.isalpha()]
+    is_small = sum(map(str.islower, letters)) > len(letters) / 2
     lines = []
-    for number, raw in enumerate(text.splitlines(), 1):
-        cleaned = _NOISE.sub(" ", raw.translate(_DASHES))
+    for number, raw in enumerate(raw_lines, 1):
+        cleaned = _NOISE.sub(" ", unicodedata.normalize("NFKC", raw.translate(_TYPOGRAPHY)))
         if cleaned.strip() and not raw.startswith(PAGE_MARK):
-            lines.append((number, cleaned))
+            lines.append((number, cleaned.upper() if is_small else cleaned))
     return lines
+
+
+def _forms(lines: list[tuple[int, str]]) -> Iterator[list[tuple[int, str]]]:
+    """Yield the lines as they are, and again without line numbers or columns 73 to 80 if most lines have them."""
+    yield lines
+    numbers = [_LINE_NUMBER.match(line) for _, line in lines]
+    rising = 0
+    for k, match in enumerate(numbers):
+        before = numbers[k - 1] if k else None
+        step = int(match[1]) - int(before[1]) if match and before else 0
+        rising += bool(match) and (step in (1, lines[k][0] - lines[k - 1][0]) or int(match[1]) == 1)
+    if rising >= _MOST * len(lines):
+        yield [(n, line[match.end() :] if match else line) for (n, line), match in zip(lines, numbers, strict=True)]
+    cards = [_IDENTIFICATION.match(line) for _, line in lines]
+    if sum(map(bool, cards)) >= _MOST * len(lines):
+        yield [(n, card[1] if card else line) for (n, line), card in zip(lines, cards, strict=True)]
 
 
 def align(text: str, cards: Sequence[EditionCard] | None = None) -> dict[int, tuple[str, tuple[int, ...]]]:
@@ -93,15 +120,22 @@ def align(text: str, cards: Sequence[EditionCard] | None = None) -> dict[int, tu
     """
     every = edition_cards() if cards is None else tuple(cards)
     index = _Index(every)
-    numbered = [piece for line in read_lines(text) for piece in index.divided(*line)]
-    lines = [solid(line) for _, line in numbered]
-    spans = _best_path(lines, index)
+    best: tuple[float, list[tuple[int, str]], list[str], list[Span]] = (0.0, [], [], [])
+    for form in _forms(read_lines(text)):
+        numbered = [piece for line in form for piece in index.divided(*line)]
+        lines = [solid(line) for _, line in numbered]
+        spans = [span for run in _span_runs(_best_path(lines, index)) if _is_clear(run, lines, index) for span in run]
+        gain = sum(span.gain for span in spans)
+        best = max(best, (gain, numbered, lines, spans), key=lambda result: result[0])
+    _, numbered, lines, spans = best
+    if not spans:
+        return {}
     texts: dict[int, tuple[str, tuple[int, ...]]] = {}
     used: set[int] = set()
     for span in sorted(spans, key=lambda s: -s.gain):
+        used.update(span.lines)
         if any(card in texts for card in span.cards):
             continue
-        used.update(span.lines)
         joined = "".join(_unhyphenated(lines[n], n < span.lines[-1]) for n in span.lines)
         numbers = tuple(numbered[n][0] for n in span.lines)
         pieces = divide(joined, [every[card].solid for card in span.cards])
@@ -170,12 +204,12 @@ class _Index:
             first = joined.find(gram)
             if first >= 0 and joined.find(gram, first + 1) < 0:
                 anchors.append(owner[first])
-        if not anchors:
+        anchors.sort()
+        near = [n for n in anchors if abs(n - anchors[len(anchors) // 2]) < len(text) // 4]
+        # A line of prose may share a few characters with a card by chance.
+        if len(near) * FEW < len(text):
             yield number, line
             return
-        anchors.sort()
-        middle = anchors[len(anchors) // 2]
-        near = [n for n in anchors if abs(n - middle) < len(text) // 4]
         # The ends of the line may have no anchor, so one card more is tried on either side.
         pieces = divide(text, [card.solid for card in self.cards[max(near[0] - 1, 0) : near[-1] + 2]])
         yield from ((number, piece) for piece in pieces if piece)
@@ -223,6 +257,38 @@ def _best_path(lines: Sequence[str], index: _Index) -> list[Span]:
         path.append(node.span)
         node = node.before
     return path[::-1]
+
+
+def _span_runs(spans: Sequence[Span]) -> Iterator[list[Span]]:
+    """Yield the runs of spans between the jumps of a path."""
+    run: list[Span] = []
+    for span in spans:
+        if run and not 0 < span.cards[0] - run[-1].cards[-1] <= FARTHEST:
+            yield run
+            run = []
+        run.append(span)
+    if run:
+        yield run
+
+
+def _is_clear(run: Sequence[Span], lines: Sequence[str], index: _Index) -> bool:
+    """Return True if a run gains more than a jump costs, and its lines resemble no other cards equally well."""
+    if sum(span.gain for span in run) <= JUMP:
+        return False
+
+    def differing(span: Span, offset: int) -> int:
+        cards = [index.cards[card + offset] for card in span.cards]
+        line = folded("".join(_unhyphenated(lines[n], n < span.lines[-1]) for n in span.lines))
+        rest = "".join(card.solid for card in cards[1:])
+        return min(distance(folded(text + rest), line) for text in (cards[0].solid, cards[0].text))
+
+    first, last = run[0].cards[0], run[-1].cards[-1]
+    texts = {folded(text) for text in (index.cards[first].solid, index.cards[first].text)}
+    offsets = {n - first for text in texts for n in index.owners[text]} - {0}
+    return not any(
+        last + offset < len(index.cards) and all(differing(span, offset) <= differing(span, 0) for span in run)
+        for offset in offsets
+    )
 
 
 def _extended(ends: Mapping[int, _Node], span: Span) -> _Node:

@@ -179,14 +179,19 @@ def test_check_joins_decks_and_converts_a_disk(tmp_path: Path) -> None:
     (tmp_path / "b").write_text("TWO", encoding="ascii")
     assert check("join", "c", "a", "b", folder=tmp_path)[0] == 0
     assert (tmp_path / "c").read_text(encoding="ascii") == "ONE\nTWO\n"
-    (tmp_path / "pack").write_text("    0,019|@}]JR!\n", encoding="ascii")
+    first, zeros = "019|@}]JR!".ljust(105, "0"), "0" * 105
+    (tmp_path / "pack").write_text(f"    0,{first}\n    1,{zeros}\n", encoding="ascii")
     assert check("disk", "pack", "dsk", folder=tmp_path)[0] == 0
-    assert (tmp_path / "dsk").read_bytes() == bytes([0, 1, 9, 10, 12, 15, 16, 17, 25, 26])
+    assert (tmp_path / "dsk").read_bytes() == bytes([0, 1, 9, 10, 12, 15, 16, 17, 25, 26]).ljust(210, b"\0")
     for line, message in (
-        ("    1,0x9", ", column 8: invalid digit 'x'"),
-        ("    1 019", ": expected a sector number, a comma and digits"),
+        ("    1,0x9" + zeros[3:], ", column 8: invalid digit 'x'"),
+        ("    1 019", ": expected a sector number, a comma and 105 digits"),
+        ("    1,019", ": expected 105 digits, found 3; a line is truncated or joined"),
+        (f"    1,{zeros}0", ": expected 105 digits, found 106; a line is truncated or joined"),
+        (f"    2,{zeros}", ": expected sector 1, found 2; a sector is lost or moved"),
+        (f"    0,{zeros}", ": expected sector 1, found 0; a sector is lost or moved"),
     ):
-        (tmp_path / "pack").write_text(f"    0,019\n\n{line}\n", encoding="ascii")
+        (tmp_path / "pack").write_text(f"    0,{zeros}\n\n{line}\n", encoding="ascii")
         assert check("disk", "pack", "bad", folder=tmp_path) == (2, f"check.py disk: pack, line 3{message}\n")
         assert not (tmp_path / "bad").exists()
     assert check(folder=tmp_path)[0] == 2

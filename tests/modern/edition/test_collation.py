@@ -2,19 +2,23 @@
 
 import json
 import os
+import re
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
 from modern.cli.apparatus import show
+from modern.cli.main import main
 from modern.edition import collation, programs, sources
 from modern.edition.alignment import distance
 from modern.edition.apparatus import ApparatusError
 from modern.edition.collation import collate, from_json, shared_errors, to_csv, to_json, verdicts_by_id
-from modern.edition.tokens import spans
-from modern.edition.transcription import align, edition_cards
+from modern.edition.tokens import rivals, spans
+from modern.edition.transcription import align, edition_cards, read_lines
 from modern.publication import tei_header
 from modern.publication.tei import tei
 from modern.publication.tei_header import ID, TEI
@@ -61,6 +65,78 @@ def test_a_retyped_page_in_small_letters_confirms_its_cards() -> None:
     assert not any(r.verdict in ("contradicts", "supports a rival") for c in result.cards for r in c.readings)
 
 
+def _page(first: int = 40, last: int = 75) -> list[str]:
+    return [card.text for card in programs.committed("program3").cards[first:last]]
+
+
+@pytest.mark.parametrize(
+    ("typed", "lines_without_card"),
+    [
+        (lambda cards: "\r\n".join(cards), []),
+        (lambda cards: "\r".join(cards), []),
+        (lambda cards: "\f".join(["\n".join(cards[:20]) + "\n", "\n".join(cards[20:])]), []),
+        (lambda cards: "\n".join(card.replace("      ", "\t", 1) for card in cards), []),
+        (lambda cards: "\n".join(f" {card}" for card in cards), []),
+        (lambda cards: "\n".join(f"{n:>3}: {card}" for n, card in enumerate(cards, 1)), []),
+        (lambda cards: "\n\n".join(f"{2 * n - 1:04d}\t{card.strip()}" for n, card in enumerate(cards, 1)), []),
+        (lambda cards: "\n".join(f"{card:<72}BUTL{n:04d}" for n, card in enumerate(cards, 1)), []),
+        (lambda cards: "\n".join(cards).translate(str.maketrans("-*=,", "\u2212\u00d7\uff1d\u201a")), []),
+        (lambda cards: "\n".join(["94", "Program 3, not coplanar", *cards, "- 94 -"]), [1, 2, 38]),
+        (lambda cards: "\n".join(cards + cards), list(range(36, 71))),
+    ],
+    ids="crlf cr form-feed tabs shifted numbered numbered-by-line identified typographic running-head twice".split(),
+)
+def test_a_page_typed_by_hand_confirms_its_cards_only(
+    typed: Callable[[list[str]], str], lines_without_card: list[int]
+) -> None:
+    text = typed(_page())
+    result = collate(text)
+    expected = [n for n, card in enumerate(edition_cards()) if card.program == "program3" and 41 <= card.number <= 75]
+    assert [card.card for card in result.cards if card.lines] == expected
+    assert {reading.verdict for n in expected for reading in result.cards[n].readings} == {"confirms"}
+    used = {line for card in result.cards for line in card.lines}
+    assert [number for number, _ in read_lines(text) if number not in used] == lines_without_card
+
+
+def test_numbers_of_formats_are_not_taken_for_line_numbers() -> None:
+    formats = [card.text for card in programs.committed("program2").cards if re.match(r" +\d+ FORMAT", card.text)]
+    result = collate("\n".join(formats))
+    readings = [card.readings[0].verdict for card in result.cards if card.lines]
+    assert readings == ["confirms"] * len(formats)
+
+
+def test_a_truncated_token_is_unreadable() -> None:
+    cut = collate("\n".join(card[:24] for card in _page()))
+    ends = [card.readings[-1] for card in cut.cards if card.lines and not card.readings[-1].transcription]
+    assert ends
+    assert {reading.verdict for reading in ends} == {"unreadable"}
+
+
+@pytest.mark.parametrize("text", ["", "\n \n", "  GO TO 104\n", "(a) The hull is convex.\n(b) (c)\nI = 1\nEND\n"])
+def test_a_text_that_decides_no_card_is_rejected_in_one_line(
+    text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "page.txt").write_text(text, encoding="utf-8")
+    assert main(["apparatus", "--collate", str(tmp_path / "page.txt")]) == 2
+    message = capsys.readouterr().err
+    assert "can be assigned to a card of the listings" in message
+    assert message.count("\n") == 1
+
+
+def test_no_rival_typed_on_a_single_page_is_confirmed() -> None:
+    """One page does not show which errors the typist makes, so that a rival may be unreadable, but never confirms."""
+    texts, tested = _page(), 0
+    first = next(n for n, card in enumerate(edition_cards()) if card.program == "program3") + 40
+    for n in range(first, first + len(texts), 5):
+        for rival in (r for r in rivals().get(n, ()) if r.first == r.last and r.origin == "silent"):
+            a, b = spans(n)[rival.first]
+            solid = edition_cards()[n].solid
+            typed = [*texts[: n - first], solid[:a] + rival.text + solid[b:], *texts[n - first + 1 :]]
+            assert collate("\n".join(typed)).cards[n].readings[rival.first].verdict != "confirms"
+            tested += 1
+    assert tested > 5
+
+
 def test_another_number_contradicts_and_a_rival_is_supported() -> None:
     lines = [card.text for card in programs.committed("program1").cards]
     n = next(k for k, line in enumerate(lines) if "IF(N-2)102,107,134" in line.replace(" ", ""))
@@ -101,7 +177,7 @@ def test_a_collation_is_saved_and_read() -> None:
     ],
 )
 def test_a_file_that_is_no_collation_is_rejected(change: dict[str, object], message: str) -> None:
-    data = json.loads(to_json(collate("  GO TO 100\n"))) | change
+    data = json.loads(to_json(collate("\n".join(_page())))) | change
     with pytest.raises(ApparatusError, match="^" + message):
         from_json(json.dumps(data), "x.json")
 
