@@ -101,11 +101,11 @@ def _forms(lines: list[tuple[int, str]]) -> Iterator[list[tuple[int, str]]]:
     """Yield the lines as they are, and again without line numbers or columns 73 to 80 if most lines have them."""
     yield lines
     numbers = [_LINE_NUMBER.match(line) for _, line in lines]
-    rising = 0
-    for k, match in enumerate(numbers):
-        before = numbers[k - 1] if k else None
-        step = int(match[1]) - int(before[1]) if match and before else 0
-        rising += bool(match) and (step in (1, lines[k][0] - lines[k - 1][0]) or int(match[1]) == 1)
+    rising, before, line_before = 0, 0, 0
+    for match, (line_number, _) in zip(numbers, lines, strict=True):
+        value = int(match[1]) if match else 0
+        rising += value == 1 or (value > 1 and value - before in (1, line_number - line_before))
+        before, line_before = value, line_number
     if rising >= _MOST * len(lines):
         yield [(n, line[match.end() :] if match else line) for (n, line), match in zip(lines, numbers, strict=True)]
     cards = [_IDENTIFICATION.match(line) for _, line in lines]

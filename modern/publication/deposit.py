@@ -35,11 +35,15 @@ from modern.publication.tei import archive
 _CACHES = {"node_modules", "__pycache__", ".mypy_cache", ".ruff_cache", ".pytest_cache"}
 _NOT_SOURCE = {".git", ".venv", "dist", "build", "hull1620.egg-info"} | _CACHES
 _MIT, _CC0 = "https://spdx.org/licenses/MIT", "https://creativecommons.org/publicdomain/zero/1.0/"
-_OTHERS = "The licences of the packages, in wheels/licences; Pyodide: MPL-2.0 (pyodide/package.json)"
+_OTHERS = "The licences of the packages, in wheels/licences"
+_PYODIDE = "Pyodide: MPL-2.0 (pyodide/package.json)"
 _THESIS = "Text of the thesis and the papers: rights of their authors and publishers, not ours to license"
 _MIXED = "Code and documents MIT, data CC0, quoted sources not ours: source/LICENSE names the folders"
 # The folders and files of a deposit: description and licence.
 CONTENTS = {
+    "README.txt": Part("the contents of the deposit and how to use them", _MIT, "text/plain"),
+    "codemeta.json": Part("the software, described by CodeMeta", _CC0, "application/ld+json"),
+    "datapackage.json": Part("the tables, described by Frictionless schemas", _CC0, "application/json"),
     "hull1620.pyz": Part("the program as one file: python3 hull1620.pyz", _MIT, "application/zip"),
     "source/": Part("all files of the project", _MIXED),
     "source/emulator/": Part("code: the machine", _MIT),
@@ -51,7 +55,7 @@ CONTENTS = {
     "source/transcripts/": Part("printed results as found, with their emendations (data CC0)", _THESIS),
     "wheel/": Part("the package that pip installs", _MIT),
     "wheels/": Part("the packages of others that run it and build the site and the book", _OTHERS),
-    "pyodide/": Part("Python for browsers, which the site's machine loads", _OTHERS),
+    "pyodide/": Part("Python for browsers, which the site's machine loads", _PYODIDE),
     "site/": Part("the edition as a website: open site/index.html", _MIXED),
     "book/": Part("the edition as a book, PDF/A", _MIXED),
     "tei/": Part("listings and printed results with their emendations, TEI P5", _MIXED),
@@ -91,12 +95,8 @@ def gather(dist: Path, rows: Path | None = None, root: Path = ROOT) -> Parts:
     """
     from modern.bench.benchmark import benchmark  # its imports take a second
 
-    wheel, site, book, pyz = (
-        newest_wheel(dist) or dist / "hull1620.whl",
-        dist / "edition",
-        dist / "hull1620.pdf",
-        dist / NAME,
-    )
+    wheel = newest_wheel(dist) or dist / "hull1620.whl"
+    site, book, pyz = dist / "edition", dist / "hull1620.pdf", dist / NAME
     builds = ((wheel, "wheel"), (pyz, "pyz"), (site / "index.html", "edition"), (book, "book"))
     for path, command in ((path, f"make {target}") for path, target in builds):
         if not path.is_file():
@@ -151,9 +151,6 @@ def with_descriptions(parts: Parts, root: Path = ROOT) -> Parts:
     files["codemeta.json"] = codemeta(about).encode()
     files["README.txt"] = readme(about, Parts(files, parts.executable), root).encode()
     crate_parts = {
-        "README.txt": Part("the contents of the deposit and how to use them", _MIT, "text/plain"),
-        "codemeta.json": Part("the software, described by CodeMeta", _CC0, "application/ld+json"),
-        "datapackage.json": Part("the tables, described by Frictionless schemas", _CC0, "application/json"),
         **{name: part for name, part in CONTENTS.items() if any(file.startswith(name) for file in files)},
         **{name: Part("a table of a study", _CC0, "text/csv") for name in tables},
         **{
@@ -187,9 +184,10 @@ def readme(about: Work, parts: Parts, root: Path = ROOT) -> str:
     files = parts.files
     wheel = next(name for name in files if name.startswith("wheel/"))
     contents = "\n".join(
-        f"  {name:<14} {part.description}\n{'':17}rights: {part.licence.removeprefix('https://')}"
+        f"  {name} ({_extent(name, files)})\n      {part.description}\n"
+        f"      rights: {part.licence.removeprefix('https://')}"
         for name, part in CONTENTS.items()
-        if name.count("/") < 2 and any(file.startswith(name) for file in files)
+        if any(file.startswith(name) for file in files)
     )
     left_out = vendored.left_out(files)
     numpy = next((name.split("-", 2)[2] for name in files if name.startswith("wheels/numpy-")), "none")
@@ -226,7 +224,8 @@ examples were run (source/fortran_src/OPEN-QUESTIONS.md). The flow charts of the
 figures are not in the OCR text.
 
 CONTENTS (this folder is the "data" folder of a BagIt bag, RFC 8493. Its files
-have {total / 1e6:.0f} MB, of which the wheels have {wheels / 1e6:.0f} MB.)
+have {total / 1e6:.0f} MB, of which the wheels have {wheels / 1e6:.0f} MB. The rights in a folder also hold for its
+folders, unless they are listed. ro-crate-metadata.json has the same list for machines.)
 
 {contents}
 
@@ -295,6 +294,12 @@ IDENTIFIERS (pyproject.toml, [tool.deposit], is their place)
 
 {identifiers}
 """
+
+
+def _extent(name: str, files: Mapping[str, bytes]) -> str:
+    """Return the number of files of a part and their size in megabytes."""
+    sizes = [len(data) for file, data in files.items() if file.startswith(name)]
+    return f"{f'{len(sizes):,} files, ' if name.endswith('/') else ''}{sum(sizes) / 1e6:.1f} MB"
 
 
 def _pinned(package: str, root: Path) -> str:

@@ -10,13 +10,17 @@ from modern.edition.sheets import DEPENDS, Item, Question, Sheet
 
 _INTRODUCTION = (
     "This sheet belongs to page {page} of Karen Jensen Butler, An Algorithm for Determining the Convex Hull of N "
-    "Points in 3-Space, Oregon State University, 1963. The text below was restored from a transcription of unknown "
-    "origin. Nobody who worked on it has seen the page. If you have the page, you can settle the readings marked below."
+    "Points in 3-Space, Oregon State University, 1963. Our text was restored from a transcription of unknown origin. "
+    "Nobody who worked on it has seen the page. If you have the page, you can settle what is asked below."
 )
 _STEPS = (
     "Find each marked piece on the page, and tick the box with the reading of the page. The first box is our reading. "
     "Tick nothing if you are not sure. If the page has something else, copy the whole line after “other”. "
     "If it cannot be read, tick “unreadable”. Blanks do not matter, and all other lines need no check."
+)
+_STEPS_OF_QUESTIONS = (
+    "Tick the box with the answer of the page. Tick nothing if you are not sure. If no box fits, copy the whole "
+    "sentence after “other”. If the page cannot be read, tick “unreadable”."
 )
 _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 52rem; margin: 2rem auto; padding: 0 1rem }
@@ -78,6 +82,10 @@ def table(sheet: Sheet) -> str:
     )
 
 
+def _steps(sheet: Sheet) -> str:
+    return _STEPS if sheet.items else _STEPS_OF_QUESTIONS
+
+
 def _token(text: str) -> str:
     return text.strip() or "no such line"
 
@@ -113,7 +121,7 @@ def html(sheet: Sheet) -> str:
 <body>
 <h1>{title}</h1>
 <p>{introduction}</p>
-<p>{escape(_STEPS)}</p>
+<p>{escape(_steps(sheet))}</p>
 <form>
 <p><label>Your name <input type="text" name="reader" required></label> <label>Date
 <input type="date" name="date" required></label></p>
@@ -174,7 +182,7 @@ def typst(sheet: Sheet) -> str:
 = Proof sheet for page {sheet.page}
 {_say(_INTRODUCTION.format(page=sheet.page))}
 
-{_say(_STEPS)}
+{_say(_steps(sheet))}
 #v(0.6em)
 {cards}"""
 
@@ -199,7 +207,7 @@ def _typst_question(question: Question) -> str:
 
 def _typst_choices(entry: Item | Question) -> str:
     boxes = "".join(f"#tick({_string(_token(choice.token))})" for choice in entry.choices)
-    last = '#tick("unreadable")#box[#tick("other:")#blank(45mm)]'
+    last = '#tick("unreadable")#box[#tick("other:")#blank(90mm)]'
     return f"#text(size: 7.5pt, fill: luma(90))[{entry.id}. {_say(_depends(entry))}]\\\n{boxes}{last}\n\n"
 
 
