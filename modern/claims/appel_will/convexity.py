@@ -204,9 +204,10 @@ def surface_area(cases: int = 1) -> Check:
     """Check that hulls have less surface than convex bodies around them, but a nonconvex star less than its hull."""
     outcomes = []
     for points, judge in _hulls(cases):
+        whole = _surface([*points])
         for k in judge.vertices:
             rest = [point for point in points if point != points[k]]
-            outcomes += [_surface(rest) < _surface([*points])] if exact_hull(rest).dimension == len("xyz") else []
+            outcomes += [_surface(rest) < whole] if exact_hull(rest).dimension == len("xyz") else []
     cubes = (
         {(k, 0, 0) for k in range(ARM + 1)} | {(0, k, 0) for k in range(ARM + 1)} | {(0, 0, k) for k in range(ARM + 1)}
     )
