@@ -63,7 +63,7 @@ FORMULAS = {formula.name: (name, formula) for name, group in formulas().items() 
 
 
 @pytest.mark.parametrize("name", FORMULAS)
-def test_fpcore_computes_what_the_code_does_at_a_thousand_points(name: str) -> None:
+def test_fpcore_computes_what_the_code_does(name: str) -> None:
     """The body has the code's values in doubles, bit for bit, and :spec has them in exact numbers."""
     formula: Formula = FORMULAS[name][1]
     (core,) = parsed(formula.text())
@@ -73,7 +73,7 @@ def test_fpcore_computes_what_the_code_does_at_a_thousand_points(name: str) -> N
     )
     assert isinstance(spec, Tree)
     source = random.Random(name)
-    for _ in range(1000):
+    for _ in range(100):
         floats = [source.uniform(-formula.most, formula.most) for _ in formula.arguments]
         assert evaluated(body, dict(zip(formula.arguments, floats, strict=True))) == formula.computed(*floats)
         exact = [Fraction(source.randint(1, formula.most) * source.choice((-1, 1))) for _ in formula.arguments]

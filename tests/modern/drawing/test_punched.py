@@ -91,18 +91,6 @@ def test_card_has_the_proportions_of_the_standard() -> None:
     assert {hole[1] + hole[3] / 2 for hole in holes(card)} == {Fraction(1, 4), Fraction(1), Fraction(3)}
 
 
-def test_blank_form_has_a_cut_corner_and_its_digits() -> None:
-    root = ElementTree.fromstring(cards_svg(deck_from_lines("deck", [" ", "X"])))
-    (form,) = [group for group in root.iter(f"{SVG}g") if group.get("id") == "form"]
-    corners = [tuple(map(float, corner.split(","))) for corner in form.find(f"{SVG}polygon").get("points").split()]  # type: ignore[union-attr]
-    assert corners == [(24, 0), (708, 0), (708, 312), (0, 312), (0, 41.57)]
-    printed = words(form)
-    assert [text for text in printed if len(text) == COLUMNS] == [str(digit) * COLUMNS for digit in range(10)]
-    assert [text for text in printed if len(text) < COLUMNS] == ["1", *map(str, range(5, 81, 5))]
-    assert form.get("aria-hidden") == "true"
-    assert len(list(root.iter(f"{SVG}use"))) == 2
-
-
 @given(st.lists(st.text(st.sampled_from(sorted(set(PUNCHES) - {"@"})), max_size=COLUMNS), min_size=1, max_size=4))
 def test_holes_and_characters_reproduce_the_deck(lines: list[str]) -> None:
     drawn = cards(cards_svg(deck_from_lines("deck", lines)))
@@ -112,46 +100,6 @@ def test_holes_and_characters_reproduce_the_deck(lines: list[str]) -> None:
         for text in card.iter(f"{SVG}text"):
             assert len(text.get("x", "").split()) == len(line.rstrip(" "))
             assert text.get("{http://www.w3.org/XML/1998/namespace}space") == "preserve"
-
-
-def test_characters_are_printed_above_their_columns() -> None:
-    (card,) = cards(cards_svg(deck_from_lines("deck", ["  X " * 20])))
-    (text,) = card.iter(f"{SVG}text")
-    places = [float(x) for x in text.get("x", "").split()]
-    for left, top, width, _ in holes(card):
-        column = round((left * INCH - Fraction("24.1")) / Fraction("8.352")) + 1
-        middle = places[column - 1] + 3.3
-        assert abs(middle - float(left + width / 2) * INCH) < 0.1
-        assert float(text.get("y", "")) < float(top * INCH)
-
-
-def test_cards_are_arranged_in_one_column_or_in_rows() -> None:
-    deck = deck_from_lines("deck", ["1", "2", "3"])
-    places = [card.get("transform") for card in cards(cards_svg(deck))]
-    assert places == ["translate(12 12)", "translate(12 336)", "translate(12 660)"]
-    assert '<svg xmlns="http://www.w3.org/2000/svg" width="732" height="984"' in cards_svg(deck)
-    places = [card.get("transform") for card in cards(cards_svg(deck, across=2))]
-    assert places == ["translate(12 12)", "translate(732 12)", "translate(12 336)"]
-    assert 'width="1452" height="660"' in cards_svg(deck, across=2)
-    assert 'width="2172" height="336"' in cards_svg(deck, across=9)
-
-
-def test_file_has_titles_and_a_description() -> None:
-    root = ElementTree.fromstring(cards_svg(deck_from_lines("points.deck", ["A(B", "C"])))
-    assert root.find(f"{SVG}title").text == "points.deck: 2 cards"  # type: ignore[union-attr]
-    assert "IBM 026" in (root.find(f"{SVG}desc").text or "")  # type: ignore[union-attr]
-    assert root.get("role") == "graphics-document document"
-    assert [card.find(f"{SVG}title").text for card in cards(ElementTree.tostring(root, "unicode"))] == [  # type: ignore[union-attr]
-        "card 1",
-        "card 2",
-    ]
-
-
-def test_picture_uses_only_grey() -> None:
-    """Marks differ by shape and grey, never by colour."""
-    for colour in re.findall(r"#([0-9a-fA-F]+)", cards_svg(deck_from_lines("deck", ["AB"])).replace("#form", "")):
-        parts = re.findall("." if len(colour) == 3 else "..", colour)
-        assert len(set(parts)) == 1, colour
 
 
 def test_error_names_card_and_column_of_a_character_without_a_punch() -> None:

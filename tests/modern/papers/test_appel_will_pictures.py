@@ -1,6 +1,5 @@
 """Pictures of Appel and Will's method: the solid, the star polygon of a line, and the planar topological map."""
 
-import math
 import random
 from collections import Counter
 from fractions import Fraction
@@ -12,11 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modern.exact_hull import exact_hull
-from modern.geometry.coplanar import join
 from modern.geometry.mesh import ExportError, sides
-from modern.papers.appel_will import appel_will, printed
-from modern.papers.appel_will.pictures import PictureError, as_mesh, joined_surfaces, solid_svg, star, star_svg
+from modern.papers.appel_will import appel_will
+from modern.papers.appel_will.pictures import PictureError, solid_svg, star, star_svg
 from modern.papers.appel_will.planar import MOST, embedded, map_svg
 from modern.papers.appel_will.results import found_solid
 from tests.support.commands import call
@@ -80,16 +77,6 @@ def test_the_star_polygon_of_a_cubes_edge_and_of_its_diagonal() -> None:
     assert "Star polygon of line 1-2, seen along the line: C, the image of the line, is outside (one side" in caption
 
 
-def test_c_is_outside_if_all_images_are_on_one_ray() -> None:
-    triangle = appel_will([(0, 0, 0), (4, 0, 0), (0, 4, 0)])
-    polygon = star(triangle, (0, 1))
-    assert (polygon.outside, polygon.clockwise) == (True, ())
-    assert "outside (all images are on one ray); the line is a convex edge" in legend(star_svg(triangle, (0, 1)))
-    segment = appel_will([(0, 0, 0), (4, 0, 0)])
-    assert star(segment, (0, 1)).order == ()
-    assert "outside (no point is off the line)" in legend(star_svg(segment, (0, 1)))
-
-
 @pytest.mark.parametrize(
     ("pair", "message"),
     [
@@ -128,21 +115,6 @@ def test_the_solid_shows_its_convex_edges_and_the_other_given_lines(name: str) -
     assert ("given line that is not a convex edge" in legend_rows) == bool(nonconvex)
 
 
-def test_many_lines_are_not_numbered_and_a_fault_is_not_drawn() -> None:
-    draw = random.Random(7)
-    points = [tuple(draw.randrange(-999, 1000) for _ in range(3)) for _ in range(60)]
-    picture = solid_svg(appel_will(points), texts(points))  # type: ignore[arg-type]
-    assert "lines" not in groups(picture)
-    with pytest.raises(PictureError, match="there is no hull to draw"):
-        solid_svg(appel_will(CUBE, method=printed("star")), texts(CUBE))
-    for make in (
-        lambda: solid_svg(appel_will(CUBE), texts(CUBE), width=9),
-        lambda: star_svg(appel_will(CUBE), (0, 1), width=9),
-    ):
-        with pytest.raises(ExportError, match="9 pixels wide"):
-            make()
-
-
 # --- the map
 
 
@@ -176,25 +148,6 @@ def test_no_two_lines_of_the_map_cross_and_every_region_is_convex(seed: int) -> 
         assert len(signs) == 2, signs
 
 
-@pytest.mark.parametrize(("corners", "rings"), [(3, 33), (4, 25)])
-def test_no_region_of_a_deeply_nested_map_is_inverted(corners: int, rings: int) -> None:
-    """The solid is a stack of rings, each rotated a little, so that the map's regions are nested many deep."""
-    points = []
-    for level in range(rings):
-        height = (2 * level + 1) / rings - 1
-        wide = 10_000 * math.sqrt(1 - height * height)
-        turns = [2 * math.pi * (k + 0.37 * level) / corners for k in range(corners)]
-        points += [(round(wide * math.cos(t)), round(wide * math.sin(t)), round(10_000 * height)) for t in turns]
-    surfaces = [facet.polygon for facet in exact_hull(points).facets]
-    places = embedded(surfaces, 0)
-    areas = []
-    for surface in surfaces[1:]:
-        ring = [places[k] for k in surface]
-        areas.append(sum(a * d - b * c for (a, b), (c, d) in zip(ring, ring[1:] + ring[:1], strict=True)))
-    assert len({area > 0 for area in areas}) == 1
-    assert min(map(abs, areas)) > 1e-4
-
-
 def test_the_map_has_every_line_point_and_surface_once() -> None:
     solid = found_solid("fig23")
     hull = appel_will(solid.points, solid.surfaces)
@@ -218,16 +171,6 @@ def test_a_polygon_has_a_map_and_maps_that_cannot_be_drawn_are_rejected() -> Non
         map_svg((ring, ring[::-1]), ())
     with pytest.raises(ExportError, match="9 pixels wide"):
         map_svg(square.surfaces, square.edges, width=9)
-
-
-def test_merged_faces_are_one_face_in_every_picture() -> None:
-    points = dodecahedron()
-    hull = appel_will(points)
-    joined = join(as_mesh(hull, texts(points)), Fraction(1, 10**9))  # type: ignore[arg-type]
-    parts = groups(solid_svg(hull, texts(points), joined=joined))  # type: ignore[arg-type]
-    assert len(parts["seen"]) + len(parts["hidden"]) == len(parts["lines"]) == 30
-    regions = groups(map_svg(joined_surfaces(hull, joined), hull.edges))
-    assert (len(regions["seen"]), len(regions["surfaces"])) == (30, 11)
 
 
 @pytest.mark.parametrize(

@@ -7,11 +7,9 @@ from itertools import combinations
 import pytest
 from lxml import etree
 
-from modern.claims.published import PAPERS, printed_lines
 from modern.digital.solids import ball
-from modern.geometry.vectors import dot, minus
 from modern.papers.appel_will import appel_will
-from modern.papers.appel_will.results import found_solid, printed_solid
+from modern.papers.appel_will.results import found_solid
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.scenes import scene
 from modern.publication import steps
@@ -54,19 +52,6 @@ def test_line_widths_of_a_loop_show_the_uses() -> None:
     assert set(drawn) == {2}
 
 
-def test_a_line_inside_its_star_polygon_is_not_an_edge() -> None:
-    """The middle of the line lies inside the hull: on the inner side of every supporting plane."""
-    solid = printed_solid(printed_lines(next(paper for paper in PAPERS if paper.name == "appel-will")))
-    hull = appel_will(solid.points, solid.surfaces)
-    a, b = papers.within(hull)
-    assert (a, b) not in hull.edges
-    for surface in hull.outward():
-        p, q, r = (solid.points[k] for k in surface[:3])
-        u, v = minus(q, p), minus(r, p)
-        normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-        assert dot(normal, minus(solid.points[a], p)) + dot(normal, minus(solid.points[b], p)) < 0
-
-
 def _length(plate: Plate, *kinds: str) -> float:
     """Return the length in space of all strokes of the given kinds."""
     return sum(math.dist(s.start, s.end) for s in plate.strokes if s.kind in kinds)
@@ -78,14 +63,6 @@ def test_the_next_step_lacks_what_a_step_removes() -> None:
     assert _length(facing, SEEN, EDGE_OF_CONTOUR) == pytest.approx(_length(nearer, SEEN, REMOVED))
     assert _length(nearer, SEEN) == pytest.approx(_length(result, SEEN, REMOVED))
     assert all(plate.count(REMOVED) for plate in (facing, nearer, result))
-
-
-def test_the_first_step_has_all_edges_and_figures_of_the_scene() -> None:
-    solids = scene("house").make()
-    edges = sum(sum(map(len, item.faces)) // 2 for item in solids)
-    figures = sum(len(figure.corners) for item in solids for figure in item.figures)
-    _, (everything, *_) = steps.hidden_lines()
-    assert len(everything.strokes) == edges + figures
 
 
 def test_the_last_step_is_the_drawing() -> None:
@@ -128,15 +105,3 @@ def test_the_hull_of_three_rods_is_a_corner_of_the_grid() -> None:
         for quadrant in level.quadrants:
             height = n - 1 - quadrant.x - quadrant.y
             assert quadrant.height == (height if height >= 0 else None)
-
-
-def test_quadrants_are_drawn_to_scale() -> None:
-    hull, levels = steps.rods()
-    for level in levels:
-        picture = etree.fromstring(papers.quadrants_svg(level, hull.side))
-        squares = [each for each in picture.iter(f"{SVG}rect") if each.get("data-side")]
-        assert len(squares) == len(level.quadrants)
-        units = {float(each.get("width", "")) / int(each.get("data-side", "")) for each in squares}
-        assert len(units) == 1
-        heights = [int(each.text or "") for each in picture.iter(f"{SVG}text")]
-        assert sorted(heights) == sorted(q.height for q in level.quadrants if q.height is not None)
