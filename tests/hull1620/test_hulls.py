@@ -198,7 +198,7 @@ def test_an_accepted_hull_of_very_large_or_small_numbers_can_be_used(hull_of: An
     assert hull.points.shape == (len(points), 3)
     assert not np.isnan(hull.equations).any()
     assert len(hull.exact_points) == len(points)
-    for extension in ("off", "obj", "ply", "stl", "json", "html", "svg"):
+    for extension in ("off", "stl", "json", "svg"):
         with suppress(hull1620.ExportError):
             hull.save(tmp_path / f"hull.{extension}", digits=9)
 

@@ -5,7 +5,6 @@ Each expectation is worked out by hand from C26-5619 p. 38 and fortran_src/OPEN-
 
 import pytest
 
-from emulator.numbers import columns as conversion
 from emulator.numbers.arithmetic import TRUNCATING
 from emulator.numbers.fields import Field, read_fixed, read_floating
 from tests.support.deckwork import punched
@@ -94,19 +93,6 @@ def test_blanks_in_an_integer_are_reported_as_zeros() -> None:
         floating(columns, AS_ZEROS)
     assert read_fixed(" 12").remark is None
     floating(" 12", "")
-
-
-def test_i_field_changes_only_its_own_columns() -> None:
-    """For every width and sign: right-justified digits with the sign before them."""
-    for width in range(1, 6):
-        for value in (0, 1, -1, 7, -7, 10, -10, 99, -99, 100, -100, -305, 1234, -1234, 9999, -9999):
-            room = width - (value < 0)
-            digits = str(abs(value))
-            shown = digits[-room:].lstrip("0") or "0"
-            field = (("-" if value < 0 else "") + (shown if room else "")).rjust(width)
-            columns = bytearray(b"ABC" + b"?" * width + b"XYZ")
-            assert conversion.write_fixed(columns, 3, width, value) == 3 + width
-            assert columns.decode() == f"ABC{field}XYZ", (width, value)
 
 
 def test_negative_number_in_a_single_column_is_a_minus_sign() -> None:

@@ -16,7 +16,7 @@ from modern.edition.chapter6 import prints
 from modern.publication.console import SOURCE
 from modern.publication.desk import Desk
 from tests.modern.publication.test_site_layout import problems
-from tests.support.desks import PAIRS, Pair, played
+from tests.support.desks import Pair, played
 from tests.support.editions import LONG
 
 if TYPE_CHECKING:
@@ -303,23 +303,6 @@ def test_a_link_opens_a_moment_and_a_log_of_several_loads_is_repeated(tab: Page)
     assert cards(tab) == [card.rstrip() for card in sessions[1].punched]
 
 
-def test_switches_and_console_commands_of_period_programs(tab: Page) -> None:
-    pair = next(pair for pair in PAIRS if pair.name == "table")
-    load(tab, "table.f")
-    tab.click("[data-switch='1']")
-    press(tab)
-    assert tab.get_attribute("[data-switch='1']", "aria-checked") == "true"
-    tab.click("[data-switch='1']")
-    load(tab, "table.f")
-    press(tab)
-    assert cards(tab) == [card.rstrip() for card in played(Desk(), pair).punched]
-    load(tab, "program1", "example1")
-    for command, answer in (("BREAK 131", "BREAK 131"), ("SWITCH", "1 OFF, 2 OFF"), ("NONSENSE", "is not a command")):
-        tab.fill("#desk-line", command)
-        tab.press("#desk-line", "Enter")
-        tab.wait_for_function("w => document.getElementById('desk-paper').textContent.includes(w)", arg=answer)
-
-
 def test_a_long_run_can_be_stopped(tab: Page) -> None:
     give(tab, "loop.f", "      X=0.\n    1 X=X+1.\n      GO TO 1\n      END\n")
     tab.wait_for_function("document.getElementById('desk-program').value === 'loop.f'")
@@ -388,7 +371,7 @@ def test_the_comparison_in_the_page_equals_that_in_python(chromium: Browser, ser
     assert "missed: point 1, point 2, point 3" in page.inner_text("#parting-answer")
     page.click("#parting-begin")
     page.wait_for_selector("#parting[data-state=on]", timeout=2 * LONG)
-    for name, text in list(point_sets().items())[1:]:
+    for name, text in list(point_sets().items())[1:3]:
         page.select_option("#parting-sets", name)
         expected = parted(text)
         page.wait_for_function(

@@ -43,12 +43,6 @@ def test_places_are_unique_and_counted_from_the_preceding_number(name: str) -> N
         assert card.place == (f"{last}+{steps}" if steps else f"{last}")
 
 
-def test_places_of_program_3() -> None:
-    places = [entry.place for entry in facing("program3").cards[:6]]
-    assert places == ["title", "0+1", "0+2", "100", "before-100+1", "100+1"]
-    assert card("program3", "147").text == "  147 IF (NE-K) 133, 154, 148"
-
-
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_counting_may_continue_past_the_next_number(name: str) -> None:
     cards = [card for card in facing(name).cards if card.kind not in ("comment", "title")]
@@ -138,14 +132,6 @@ def test_variants_of_a_layer_give_the_deck_of_that_layer(name: str) -> None:
             lines += here[0].cards if here else (card.text,)
             assert all(variant.rows for variant in here), card
         assert lines == [line.text for line in build(listing.text, (*base, layer))]
-
-
-def test_jumps_of_program_3() -> None:
-    known = uses("program3")
-    place = {card.number: card.place for card in facing("program3").cards}
-    came = {(place[jump.card], jump.taken) for jump in known.to(known.labels[133]) if jump.kind == "jump"}
-    assert ("103", "\u2212") in came
-    assert all(jump.target in place and jump.card in place for jump in known.jumps)
 
 
 def test_names_of_program_3() -> None:

@@ -11,7 +11,7 @@ from modern.cli.map import map_lines
 from modern.edition import programs
 from modern.publication.core import ARRAY, CORE, FREE, NAMES, PROGRAM, SINGLE, SYSTEM, core_map
 from modern.publication.site.made import make
-from modern.publication.site.pages.machine import PARTS, PER_PIXEL, example_runs, map_svg, time_svg, times_of
+from modern.publication.site.pages.machine import example_runs, times_of
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -19,10 +19,6 @@ SVG = "{http://www.w3.org/2000/svg}"
 def _html(argument: str) -> etree._Element:
     """Parse the generated HTML as XML, which fails if its elements are not nested correctly."""
     return etree.fromstring(f"<div>{''.join(part.html for part in make('machine', argument).parts)}</div>")
-
-
-def _rectangles(picture: str, group: str) -> list[etree._Element]:
-    return etree.fromstring(picture).findall(f".//{SVG}g[@class='{group}']/{SVG}rect")
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
@@ -49,45 +45,6 @@ def test_regions_equal_those_of_the_storage_map(name: str) -> None:
     assert storage.positions(FREE) == int(free[1])
     assert storage.positions(PROGRAM) == code_positions(programs.program(name))
     assert (storage.positions(SYSTEM), storage.positions(NAMES)) == (8_300, 120)
-
-
-@pytest.mark.parametrize("name", programs.NAMES)
-def test_a_map_is_drawn_to_scale(name: str) -> None:
-    storage = core_map(name)
-    rectangles = _rectangles(map_svg(storage), "regions")
-    positions = [int(rectangle.get("data-positions", "")) for rectangle in rectangles]
-    assert positions == [region.positions for region in storage.regions]
-    heights = [float(rectangle.get("height", "")) * PER_PIXEL for rectangle in rectangles]
-    assert heights == pytest.approx([region.positions for region in storage.regions])
-    assert sum(heights) == pytest.approx(CORE)
-    bases = [float(rectangle.get("y", "")) + float(rectangle.get("height", "")) for rectangle in rectangles]
-    assert [(bases[0] - base) * PER_PIXEL for base in bases] == pytest.approx([r.low for r in storage.regions])
-
-
-def test_bars_of_time_are_complete_and_to_scale() -> None:
-    all_runs = example_runs()
-    assert [(run.example, run.program) for run in all_runs] == [
-        *((1, "program1_examples"), (2, "program1_examples"), (3, "program1_examples")),
-        *((4, "program1_examples"), (4, "program2"), (5, "program1_examples"), (5, "program3")),
-        *((6, "program1_examples"), (6, "program3")),
-    ]
-    for run in all_runs:
-        assert {row.cause for row in run.rows} == {cause for causes in PARTS.values() for cause in causes}
-        assert sum(time.seconds for time in times_of(run)) == pytest.approx(run.total.seconds)
-    rectangles = _rectangles(time_svg(all_runs), "parts")
-    scales = [
-        float(rectangle.get("width", "")) / float(rectangle.get("data-seconds", ""))
-        for rectangle in rectangles
-        if float(rectangle.get("width", "")) > 5
-    ]
-    assert len(scales) > 20
-    assert max(scales) / min(scales) < 1.003
-    bars: dict[str, float] = {}
-    for rectangle in rectangles:
-        bars[rectangle.get("y", "")] = bars.get(rectangle.get("y", ""), 0) + float(rectangle.get("width", ""))
-    assert [wide / scales[0] for wide in bars.values()] == pytest.approx(
-        [run.total.seconds for run in all_runs], rel=0.005
-    )
 
 
 def test_the_table_agrees_with_the_bars() -> None:

@@ -4,19 +4,17 @@ import json
 import re
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from modern.study.builtin import epsilon, rounding, translation
-from modern.study.outcomes import DETERMINED, OUTCOMES
+from modern.study.outcomes import DETERMINED
 from modern.study.plan import Chunk, Plan
 from modern.study.report import Bars, Report, Table, listed, powers, share_of
 from modern.study.store import Store
-from modern.study.summary import cells, summary
-from modern.study.workers import chunk_text
+from modern.study.summary import cells
 
 STUDIES = {module.__name__.rpartition(".")[2]: module for module in (epsilon, rounding, translation)}
 MISTAKES = re.compile(r"  | [.,;:](?!\d)|[.,;:][.,;:]|None|nan|inf\b")
@@ -94,45 +92,6 @@ def check_form(report: Report) -> None:
     for paragraph in report.conclusions:
         assert paragraph.endswith(".")
         assert not MISTAKES.search(paragraph), MISTAKES.search(paragraph)
-
-
-def small(name: str) -> Plan:
-    """Return a plan that runs in a second: one sample of each cell with few routes and few points."""
-    plan: Plan = STUDIES[name].plan(1, 1963)
-    if name == "rounding":
-        return plan
-    if name == "epsilon":
-        return replace(plan, cells=plan.cells[::3])
-    return replace(
-        plan, cells=tuple(replace(cell, samples=1) for cell in plan.cells if cell.key.get("n", 0) in (0, 10))
-    )
-
-
-@pytest.mark.parametrize("name", STUDIES)
-def test_report_of_a_small_run_agrees_with_its_rows(name: str, tmp_path: Path) -> None:
-    plan = small(name)
-    with stored(plan, tmp_path / "rows", lambda c: chunk_text(plan.cells[c.cell], plan.seed, c)) as store:
-        report, counts = STUDIES[name].report(plan, store), summary(store)
-        assert set(counts.outcomes()) <= set(OUTCOMES)
-        for number, cell in enumerate(plan.cells):
-            assert all(counts.of(number, route.name) == cell.samples for route in cell.routes)
-        # The counts of a row of the table add up to the number of its sets.
-        if name == "epsilon":
-            for row in [row for table in report.tables[1:3] for row in table.rows]:
-                assert int(row[3]) + int(row[4]) + int(row[6]) == int(row[2])
-                assert int(row[5]) <= int(row[4])
-        if name == "rounding":
-            tested = [number for number, _ in cells(plan, test="exact")]
-            for row in report.tables[0].rows:
-                assert int(row[2]) == len(tested)
-                assert int(row[3]) == sum(counts.failed(number, row[0]) for number in tested)
-        if name == "translation":
-            both = [
-                n for n, cell in cells(plan, asked="time") if not any(counts.failed(n, r.name) for r in cell.routes)
-            ]
-            assert [int(row[2]) for row in report.tables[0].rows] == [1] * len(both)
-            assert sum(int(row[1]) for row in report.tables[1].rows) == len(both)
-    check_form(report)
 
 
 @pytest.mark.parametrize("name", STUDIES)
