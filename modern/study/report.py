@@ -15,7 +15,7 @@ from modern.study.statistics import Interval, exact
 from modern.study.store import Store, put
 from modern.study.summary import summary
 
-_RAISED = str.maketrans("0123456789-+k", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᵏ")
+_RAISED = str.maketrans("0123456789-+dk", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᵈᵏ")
 _NUMBER = r"[\N{MINUS SIGN}\d.,]+"
 # An estimate with its interval, or an interval alone, in percent or not; a number of percent.
 _TOGETHER = re.compile(rf"(?:{_NUMBER} )?\({_NUMBER} to {_NUMBER}\)(?: %)?|{_NUMBER} %")
@@ -81,7 +81,7 @@ Place = str | float
 def typeset(text: str) -> str:
     """Return text with typographic characters: 10⁻³ for ``10^-3`` or ``1E-3``, and a minus sign before a number."""
     text = re.sub(r"(?<![\w.])(\d+\.?\d*)E([+-]?\d+)\b", _power, text)
-    text = re.sub(r"(?<=\d)\^([+-]?\d+|k\b)", lambda match: match[1].translate(_RAISED), text)
+    text = re.sub(r"(?<=\w)\^([+-]?\d+|[dk]\b)", lambda match: match[1].translate(_RAISED), text)
     return re.sub(r"(?<![\w.)-])-(?=\.?\d)", "\N{MINUS SIGN}", text)
 
 

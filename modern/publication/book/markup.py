@@ -26,8 +26,8 @@ _NUMBER = re.compile(r"[-−+±]?[\d.,]+(?:[\s%×·^/]|\([−\d.,\sto–-]*\)|[\
 # Widths in characters: of a table, the largest weight of a column, of a cell that is not a sentence, the default for
 # the longest word, of the gap between columns, and of a name that stays on one line.
 _LINE, _LONG, _CELL, _WORD, _GAP, _NAME = 104, 90, 40, 12, 2, 16
-# Font sizes of tables in points: the normal size, the smallest for cells on one line, and the smallest of all.
-_USUAL, _SMALL, _SMALLEST = 8.5, 6.5, 5.0
+# The normal and the smallest font size of tables in points.
+_USUAL, _SMALL = 8.5, 6.5
 # The size of lines of a program in points, the smallest, and the size of a letter times the letters that fit on a line.
 _CODE, _LEAST, _LETTERS = 7.8, 6.2, 725
 # What lets Typst move a picture of a report to the top or the bottom of a page.
@@ -89,9 +89,26 @@ def table(
     """Return a table as Typst markup.
 
     ``widths`` are the longest cell of each column in characters, ``longest`` the longest words.  ``right`` are the
-    columns of numbers, which are aligned to the right.
+    columns of numbers, which are aligned to the right.  A table that is too wide is split: the columns that name the
+    rows stand in both halves.
     """
-    size, columns = columns_of(widths, [min(width, _WORD) for width in widths] if longest is None else longest)
+    rows = list(rows)
+    longest = [min(width, _WORD) for width in widths] if longest is None else longest
+    size, columns = columns_of(widths, longest)
+    naming = next((k for k in range(1, len(head)) if len({tuple(row[:k]) for row in rows}) == len(rows)), 1)
+    if size < _SMALL and len(head) > naming + 1:
+        middle = (naming + len(head) + 1) // 2
+        halves = [[*range(naming), *half] for half in (range(naming, middle), range(middle, len(head)))]
+        return "".join(
+            table(
+                [head[k] for k in half],
+                [[row[k] for k in half] for row in rows],
+                [widths[k] for k in half],
+                [longest[k] for k in half],
+                [place for place, k in enumerate(half) if k in right],
+            )
+            for half in halves
+        )
     cells = "".join(f"[{cell}], " for row in rows for cell in row)
     top = "".join(f"[{call('strong', cell)}], " for cell in head)
     aligned = ", ".join("right" if k in right else "left" for k in range(len(head)))
@@ -111,7 +128,7 @@ def columns_of(widths: Sequence[int], longest: Sequence[int]) -> tuple[float, li
     if sum(widths) * _SMALL <= room * _USUAL and max(widths) <= _CELL:
         return _USUAL * room / sum(widths), [f"{width + _GAP}fr" for width in widths]
     least = sum(longest)
-    size = max(_SMALLEST, min(_USUAL, _USUAL * room / least))
+    size = min(_USUAL, _USUAL * room / least)
     extra = [min(width, _LONG) - word if width > word else 0 for width, word in zip(widths, longest, strict=True)]
     spare = max(0.0, room * _USUAL / size - least) / max(1, sum(extra))
     return size, [f"{word + _GAP + spare * weight:.1f}fr" for word, weight in zip(longest, extra, strict=True)]

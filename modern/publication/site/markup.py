@@ -93,6 +93,7 @@ _TABLE = re.compile(r"<table\b([^>]*)>(.*?)</table>", re.DOTALL)
 _ROW = re.compile(r"<tr\b.*?</tr>", re.DOTALL)
 _CELL = re.compile(r"<(t[dh])\b([^>]*)>(.*?)</\1>", re.DOTALL)
 _TAG = re.compile(r"<[^>]+>")
+_NO_BREAK = "\N{NO-BREAK SPACE}"
 # The letters that fit side by side into a window of 360 pixels.
 _NARROW = 40
 
@@ -101,7 +102,7 @@ def stacked(html: str) -> str:
     """Prepare the tables of a page that are too wide for a phone.
 
     Such a table gets the class ``stacks``, and its cells get the heading of their column as ``data-label``.  The style
-    sheet shows a row of it as a list if the window is narrow.
+    sheet shows a row of it as a list if the window is narrow, and on paper breaks its cells also after no-break spaces.
     """
 
     def labelled(match: re.Match[str]) -> str:
@@ -127,8 +128,9 @@ def _with_labels(row: str, labels: list[str]) -> str:
 
     def cell(match: re.Match[str]) -> str:
         name, attributes, inner = match.groups()
-        label = next(names, "")
-        return f'<{name}{attributes} data-label="{label}">{inner}</{name}>' if label and inner else match[0]
+        label, inner = next(names, ""), inner.replace(_NO_BREAK, f'{_NO_BREAK}<wbr class="gap">')
+        attributes += f' data-label="{label}"' if label and inner else ""
+        return f"<{name}{attributes}>{inner}</{name}>"
 
     return _CELL.sub(cell, row)
 

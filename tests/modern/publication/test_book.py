@@ -106,6 +106,14 @@ def test_a_wide_table_breaks_its_widest_column_or_is_set_smaller() -> None:
     assert "#tabular(8.5pt" in table("ab", ["xy"], (60, 60)), "a sentence is broken"
 
 
+def test_a_table_that_is_too_wide_is_split_and_both_halves_name_the_rows() -> None:
+    rows = [["x", str(n), *"cdefgh"] for n in range(3)]
+    halves = table("abCDEFGH", rows, (20,) * 8, (20,) * 8, (1, 3, 7)).split("#tabular")[1:]
+    assert [re.findall(r"strong\(\[(.)\]\)", half) for half in halves] == [[*"abCDE"], [*"abFGH"]]
+    assert ["(left, right, left, right, left,)" in halves[0], "(left, right, left, left, right,)" in halves[1]] == [True] * 2
+    assert all(float(half[1:4]) >= 6.5 for half in halves)
+
+
 def test_pictures_use_the_fonts_of_the_book() -> None:
     text = '<text font-family="Helvetica, Arial, sans-serif">a</text>'
     svg = f'<svg><a href="x">{text}</a><style>.m{{font-family:monospace}}</style></svg>'
