@@ -93,7 +93,7 @@ _TABLE = re.compile(r"<table\b([^>]*)>(.*?)</table>", re.DOTALL)
 _ROW = re.compile(r"<tr\b.*?</tr>", re.DOTALL)
 _CELL = re.compile(r"<(t[dh])\b([^>]*)>(.*?)</\1>", re.DOTALL)
 _TAG = re.compile(r"<[^>]+>")
-_NO_BREAK = "\N{NO-BREAK SPACE}"
+_NO_BREAK = re.compile("\N{NO-BREAK SPACE}(?!%)")
 # The letters that fit side by side into a window of 360 pixels.
 _NARROW = 40
 
@@ -128,7 +128,7 @@ def _with_labels(row: str, labels: list[str]) -> str:
 
     def cell(match: re.Match[str]) -> str:
         name, attributes, inner = match.groups()
-        label, inner = next(names, ""), inner.replace(_NO_BREAK, f'{_NO_BREAK}<wbr class="gap">')
+        label, inner = next(names, ""), _NO_BREAK.sub(r'\g<0><wbr class="gap">', inner)
         attributes += f' data-label="{label}"' if label and inner else ""
         return f"<{name}{attributes}>{inner}</{name}>"
 

@@ -110,7 +110,9 @@ def test_a_table_that_is_too_wide_is_split_and_both_halves_name_the_rows() -> No
     rows = [["x", str(n), *"cdefgh"] for n in range(3)]
     halves = table("abCDEFGH", rows, (20,) * 8, (20,) * 8, (1, 3, 7)).split("#tabular")[1:]
     assert [re.findall(r"strong\(\[(.)\]\)", half) for half in halves] == [[*"abCDE"], [*"abFGH"]]
-    assert ["(left, right, left, right, left,)" in halves[0], "(left, right, left, left, right,)" in halves[1]] == [True] * 2
+    assert ["(left, right, left, right, left,)" in halves[0], "(left, right, left, left, right,)" in halves[1]] == [
+        True
+    ] * 2
     assert all(float(half[1:4]) >= 6.5 for half in halves)
 
 
