@@ -290,6 +290,9 @@ def test_the_readme_names_the_required_packages(made: tuple[Path, Path]) -> None
         "LEFT OUT of this deposit",
         "doi         not known yet",
         "swh:1:dir:",
+        "  hull1620.pyz (",
+        "  source/ (",
+        "      rights: spdx.org/licenses/MIT",
     ):
         assert phrase in text
     assert not re.search(r"\brows/", text), "what is not in the bag is not spoken of"
