@@ -11,6 +11,7 @@ from modern.claims.apparatus_checks import check_listing, count_pair_uses, texts
 from modern.edition import grounds, programs
 from modern.edition.apparatus import Change, Row, Text
 from modern.edition.readings import attested, reading_faults, steps, table, without_step
+from tests.support.caches import cleared
 
 TEXTS = texts()
 PLACES = count_pair_uses(TEXTS)
@@ -108,11 +109,7 @@ def altered(row: Row) -> Iterator[Text]:
     def built(name: str) -> Deck:
         return programs.built(name)
 
-    with pytest.MonkeyPatch.context() as patch:
-        for cached in (programs.program, programs._named, grounds._printed):
-            cached.cache_clear()
+    with cleared(programs, grounds), pytest.MonkeyPatch.context() as patch:
         patch.setattr(programs, "text", instead)
         patch.setattr(programs, "committed", built)
         yield text
-    for cached in (programs.program, programs._named, grounds._printed):
-        cached.cache_clear()
