@@ -77,13 +77,13 @@ def sources_of(decision: Decision) -> str:
     """Return a digest of the code of a check, of what it uses in its module, of the evidence and of the samples."""
     function = decision.function
     names = ("modern.claims.evidence", "modern.claims.sampled_sets")
-    text = "".join(code for name in names for code in map(ast.dump, _definitions(name).values()))
-    text += "".join(map(ast.dump, _used(_definitions(function.__module__), function.__name__)))
+    text = "".join(code for name in names for code in map(ast.dump, definitions(name).values()))
+    text += "".join(map(ast.dump, _used(definitions(function.__module__), function.__name__)))
     return hashlib.sha256(f"{decision.full} {text}".encode()).hexdigest()[:12]
 
 
 @cache
-def _definitions(name: str) -> Mapping[str, ast.stmt]:
+def definitions(name: str) -> Mapping[str, ast.stmt]:
     """Return the functions, classes and constants of a module, without docstrings and decorators of functions."""
     tree = ast.parse(getsource(import_module(name)))
     for node in ast.walk(tree):

@@ -5,7 +5,8 @@ table of confusables, and each exchange needs a ground:
 
 ``parse``   of the readings with the fewest exchanges, only this one compiles: it has the form of a statement, the
             numbers to which it refers exist, its own number is free, and its names occur elsewhere
-``print``   only with this reading are the printed results reproduced; if several cards must be emended for it, all are
+``print``   with this reading the program reproduces more lines of its printed results than with every other reading.  A
+            card that compiles and to which no other rule applies is emended only if all results are then reproduced.
 ``forced``  only this reading equals another card (a sibling) with names exchanged; a card that compiles is emended so
             only if it has 20 characters and two siblings.  The equations of chapter 3 are
             symmetric in x, y and z, so that their cards are siblings of each other.

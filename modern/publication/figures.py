@@ -118,7 +118,7 @@ def _restoration(docs: Path) -> Iterator[tuple[str, str]]:
     for damage, short in (("as the OCR", "ocr"), ("signs lost", "signs")):
         yield f"restoration.{short}-copies", str(sum(copy.damage == damage for copy in copies))
         for name in CLASSES:
-            cards, wrong, rate, interval = totals[damage, name]
+            cards, wrong, rate, interval, _ = totals[damage, name]
             yield f"restoration.{short}-{name}-cards", _formatted(cards)
             yield f"restoration.{short}-{name}-wrong", _formatted(wrong)
             yield f"restoration.{short}-{name}-rate", f"{rate} ({interval})"

@@ -8,13 +8,14 @@ printed results and cannot open the originals.  Each emended card is right or wr
 Pearson's (:mod:`modern.study.statistics`).
 """
 
+import ast
 import hashlib
 import json
 import re
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, astuple, dataclass
@@ -27,6 +28,7 @@ from emulator.errors import FileError
 from emulator.files import read_text, write_text
 from emulator.language.statements import capitals
 from emulator.progress import Progress
+from modern.claims.full import definitions
 from modern.edition import chapter6, programs
 from modern.edition.damage import damaged, rates, with_lost_signs
 from modern.edition.readings import attested
@@ -35,6 +37,9 @@ from modern.study.statistics import exact
 
 Restorer = Callable[[Sequence[Job]], list[list[dict[str, Any]]]]
 COPIES = "copies.jsonl"
+LISTINGS = "the listings"
+# The modules that damage and restore a copy.
+RULES = ("damage", "readings", "card_readings", "trials", "restorer")
 CLASSES = ("certain", "probable", "conjecture")
 # What can happen to a card: its class, the ground, and whether the restored text is right.
 KINDS = (
@@ -47,8 +52,9 @@ KINDS = (
     ("abstained", "a statement of several cards", ""),
     ("unnoticed", "", ""),
 )
-# The copies that a round makes of the listings and of the other programs, which are shorter, by the kind of damage.
-ROUND = {"as the OCR": (1, 30), "signs lost": (1, 12)}
+# The copies that a round makes of the listings and of the other programs, by the kind of damage.  There are more of the
+# other programs because these are shorter, and because their copies have more conjectures for the same work.
+ROUND = {"as the OCR": (1, 120), "signs lost": (1, 50)}
 LOST_SIGNS = 0.1
 SEED = 1963
 
@@ -75,7 +81,7 @@ def listings() -> Group:
             cards = tuple(p.lines)
     decks = (programs.committed(name).cards for name in programs.TEXTS)
     return Group(
-        "the listings",
+        LISTINGS,
         tuple(tuple(card.text for card in cards) for cards in decks),
         tuple(tuple(trials[name]) for name in programs.TEXTS),
     )
@@ -159,10 +165,9 @@ def measure(folder: Path, groups: Sequence[Group], rounds: int, workers: int = 1
     """Damage and restore the copies of the rounds, and return them.
 
     They are kept in ``folder/copies.jsonl``, and copies already in this file are not restored again.  Raise FileError
-    if the file holds copies of other programs or cannot be written.
+    if the file holds copies of other programs or of other rules, or cannot be written.
     """
-    originals = repr(([group.originals for group in groups], sorted(map(repr, rates().items()))))
-    head = json.dumps({"originals": hashlib.sha256(originals.encode()).hexdigest(), "kinds": KINDS})
+    head = json.dumps({"originals": _digest(groups), "rules": rules(), "kinds": KINDS})
     path = folder / COPIES
     tasks = [
         (damage, group, round_number * times + k)
@@ -175,7 +180,7 @@ def measure(folder: Path, groups: Sequence[Group], rounds: int, workers: int = 1
         folder.mkdir(parents=True, exist_ok=True)
         lines = path.read_text(encoding="utf-8").split("\n") if path.exists() else [""]
         if lines[0] not in ("", head):
-            raise FileError(f"{path}: holds copies of other programs; choose another folder")
+            raise FileError(f"{path}: holds copies of other programs or rules; choose another folder")
         # If a run was killed, its last line may be incomplete.  The line is then removed and its copy restored again.
         done = {copy.key: copy for copy in map(_copy, lines[1:-1])}
         remaining = [task for task in tasks if (task[0], task[1].name, task[2]) not in done]
@@ -192,6 +197,20 @@ def measure(folder: Path, groups: Sequence[Group], rounds: int, workers: int = 1
     except (OSError, ValueError, TypeError) as error:
         raise FileError(f"{path}: {error}") from None
     return [done[damage, group.name, number] for damage, group, number in tasks]
+
+
+def _digest(groups: Sequence[Group]) -> str:
+    """Return a digest of the programs, their printed results, and the rates of damage."""
+    text = repr(([(group.originals, group.trials) for group in groups], sorted(map(repr, rates().items())), LOST_SIGNS))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def rules() -> str:
+    """Return a digest of the code that damages and restores a copy, without its docstrings."""
+    code = [ast.unparse(node) for name in RULES for node in definitions(f"modern.edition.{name}").values()]
+    own = definitions(__name__)
+    code += [ast.unparse(own[name]) for name in ("damaged_copy", "restored_copy", "SEED")]
+    return hashlib.sha256("".join(code).encode()).hexdigest()
 
 
 def _restored_copies(tasks: Sequence[tuple[str, Group, int]], workers: int) -> Iterator[Copy]:
@@ -270,28 +289,40 @@ def blind_restorer() -> Iterator[Restorer]:
 def summary(copies: Sequence[Copy]) -> list[tuple[str, ...]]:
     """Return a table: for each damage, class and ground the emended cards, the errors, and their interval.
 
-    For cards without a restored text, the table gives the number of damaged cards.
+    The last column counts the errors in copies of the listings alone.  For cards without a restored text, the table
+    gives the number of damaged cards.
     """
-    lines: list[tuple[str, ...]] = [("damage", "class", "ground", "cards", "wrong", "error rate", "95 % interval")]
+    header = ("damage", "class", "ground", "cards", "wrong", "error rate", "95 % interval", "wrong in the listings")
+    lines: list[tuple[str, ...]] = [header]
     for damage in ROUND:
         chosen = [copy for copy in copies if copy.damage == damage]
-        total = Counter[tuple[str, str, str]]()
-        for copy in chosen:
-            total.update(dict(zip(KINDS, copy.counts, strict=True)))
+        total, in_listings = _total(chosen), _total([copy for copy in chosen if copy.group == LISTINGS])
         for cls in (*CLASSES, "abstained", "unnoticed"):
             grounds = dict.fromkeys(ground for name, ground, _ in KINDS if name == cls)
             for ground in (*grounds, "all") if len(grounds) > 1 else ("all",):
                 kinds = [kind for kind in KINDS if kind[0] == cls and ground in (kind[1], "all")]
                 cards = sum(total[kind] for kind in kinds)
-                share: tuple[str, ...] = ("", "", "")
+                share: tuple[str, ...] = ("", "", "", "")
                 if cls in CLASSES and cards:
-                    wrong = sum(total[kind] for kind in kinds if kind[2] == "wrong")
-                    rate = exact(wrong, cards)
+                    rate = exact(wrong := _wrong(total, kinds), cards)
                     low, high = 100 * rate.low, 100 * rate.high
-                    share = (str(wrong), f"{100 * rate.value:.2f} %", f"{low:.2f} to {high:.2f} %")
+                    part = f"{_wrong(in_listings, kinds)} of {sum(in_listings[kind] for kind in kinds)}"
+                    share = (str(wrong), f"{100 * rate.value:.2f} %", f"{low:.2f} to {high:.2f} %", part)
                 lines.append((damage, cls, ground, str(cards), *share))
-        lines.append((damage, "damaged", "all", str(sum(copy.damaged for copy in chosen)), "", "", ""))
+        lines.append((damage, "damaged", "all", str(sum(copy.damaged for copy in chosen)), "", "", "", ""))
     return lines
+
+
+def _total(copies: Sequence[Copy]) -> Counter[tuple[str, str, str]]:
+    """Return the number of cards of each kind in all copies."""
+    total = Counter[tuple[str, str, str]]()
+    for copy in copies:
+        total.update(dict(zip(KINDS, copy.counts, strict=True)))
+    return total
+
+
+def _wrong(total: Mapping[tuple[str, str, str], int], kinds: Sequence[tuple[str, str, str]]) -> int:
+    return sum(total[kind] for kind in kinds if kind[2] == "wrong")
 
 
 def table_text(table: Sequence[Sequence[str]]) -> str:

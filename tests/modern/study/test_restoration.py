@@ -26,6 +26,7 @@ from modern.study.restoration import (
     others,
     read_restoration,
     restored_copy,
+    rules,
     summary,
 )
 from tests.support.paths import DATA, ROOT
@@ -140,13 +141,13 @@ def counts(**numbers: int) -> tuple[int, ...]:
 
 def test_the_table_counts_errors_with_exact_intervals() -> None:
     copies = [
-        Copy("as the OCR", "g", 0, 70, counts(certain_parse_right=60, abstained_severalreadings=3)),
+        Copy("as the OCR", "the listings", 0, 70, counts(certain_parse_right=60, abstained_severalreadings=3)),
         Copy("as the OCR", "g", 1, 40, counts(certain_parse_right=39, certain_print_wrong=1)),
         Copy("signs lost", "g", 0, 9, counts(probable_sibling_right=9)),
     ]
     lines = {line[:3]: line[3:] for line in summary(copies)}
     # Clopper and Pearson's interval for 1 of 100, from their tables: .0003 to .0545.
-    assert lines["as the OCR", "certain", "all"] == ("100", "1", "1.00 %", "0.03 to 5.45 %")
+    assert lines["as the OCR", "certain", "all"] == ("100", "1", "1.00 %", "0.03 to 5.45 %", "0 of 60")
     assert lines["as the OCR", "abstained", "all"][0] == "3"
     assert lines["as the OCR", "damaged", "all"][0] == "110"
     assert lines["signs lost", "probable", "all"][:2] == ("9", "0")
@@ -161,6 +162,40 @@ def test_the_committed_copies_follow_from_the_seed() -> None:
             assert copies[damage, group.name, 0] == restored_copy(damage, group, 0, restorer)
 
 
+def test_the_committed_copies_are_complete_rounds() -> None:
+    """Each kind of damage has the copies of the same rounds, numbered from 0."""
+    groups = (listings(), others(DATA / "period"))
+    numbers: dict[tuple[str, str], list[int]] = {}
+    for damage, group, number in (copy.key for copy in read_restoration(ROOT / "docs" / "restoration")):
+        numbers.setdefault((damage, group), []).append(number)
+    rounds = {
+        len(numbers[damage, g.name]) / k for damage, times in ROUND.items() for g, k in zip(groups, times, strict=True)
+    }
+    assert len(rounds) == 1
+    assert all(sorted(of_group) == list(range(len(of_group))) for of_group in numbers.values())
+
+
+def test_the_committed_copies_were_made_by_the_present_rules() -> None:
+    head = json.loads((ROOT / "docs" / "restoration" / "copies.jsonl").read_text(encoding="utf-8").splitlines()[0])
+    assert head["rules"] == rules()
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["{}", "3", '["as the OCR"]', '["as the OCR", "the listings", 0, 1, 5]'],
+    ids=["object", "number", "short", "count"],
+)
+def test_a_file_with_a_line_that_is_no_copy_is_rejected(tmp_path: Path, line: str) -> None:
+    period = others(DATA / "period")
+    group = Group("one program", period.originals[:1], period.trials[:1])
+    measure(tmp_path, [group], 0)
+    path = tmp_path / "copies.jsonl"
+    head = path.read_text(encoding="utf-8").splitlines()[0]
+    path.write_text(f"{head}\n{line}\n", encoding="utf-8")
+    with pytest.raises(FileError, match=r"copies\.jsonl: "):
+        measure(tmp_path, [group], 0)
+
+
 def test_a_measurement_continues_where_it_was_interrupted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("modern.study.restoration.ROUND", {"as the OCR": (2,)})
     period = others(DATA / "period")
@@ -171,7 +206,7 @@ def test_a_measurement_continues_where_it_was_interrupted(tmp_path: Path, monkey
     path.write_text(complete[:-9], encoding="utf-8")
     assert measure(tmp_path, [group], 1) == copies == read_restoration(tmp_path)
     assert path.read_text(encoding="utf-8") == complete
-    with pytest.raises(FileError, match="holds copies of other programs"):
+    with pytest.raises(FileError, match="holds copies of other programs or rules"):
         measure(tmp_path, [replace(group, originals=(CARDS,))], 1)
 
 
