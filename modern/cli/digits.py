@@ -10,6 +10,7 @@ import argparse
 import csv
 import io
 import math
+import re
 import shutil
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -326,6 +327,7 @@ def _csv(tables: Sequence[Table]) -> str:
     return output.getvalue()
 
 
+_NUMBER = re.compile(r"[-+]?[0-9.]*(?:[Ee][-+][0-9]+)?")
 _PAGE = Template("""<!DOCTYPE html>
 <html lang="en">
 <meta charset="utf-8">
@@ -339,6 +341,7 @@ div { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .15rem .8rem .15rem 0; border-bottom: 1px solid #8886; white-space: nowrap; }
 td { font-family: ui-monospace, monospace; font-size: .9rem; }
+.number { text-align: right; }
 @media (max-width: 40rem) {
   th, td { font-size: .75rem; padding-right: .5rem; }
   th, td:last-child { white-space: normal; }
@@ -355,8 +358,12 @@ def _html(heading: str, tables: Sequence[Table]) -> str:
     for table in tables:
         parts += [f"<h2>{escape(table.title)}</h2>", *(f"<p>{escape(sentence)}</p>" for sentence in table.sentences)]
         if table.rows:
-            rows = ["".join(f"<th scope=col>{escape(head)}</th>" for head in table.heads)]
-            rows += ["".join(f"<td>{escape(cell)}</td>" for cell in row) for row in table.rows]
+            columns = zip(*table.rows, strict=True)
+            sides = [" class=number" if all(map(_NUMBER.fullmatch, column)) else "" for column in columns]
+            heads = zip(sides, table.heads, strict=True)
+            rows = ["".join(f"<th scope=col{side}>{escape(head)}</th>" for side, head in heads)]
+            for row in table.rows:
+                rows.append("".join(f"<td{side}>{escape(cell)}</td>" for side, cell in zip(sides, row, strict=True)))
             parts.append("<div><table>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table></div>")
     return _PAGE.substitute(title=escape(heading), parts="\n".join(parts))
 
