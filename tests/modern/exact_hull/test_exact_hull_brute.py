@@ -169,6 +169,20 @@ def test_every_set_of_the_2_2_3_grid_has_the_hull_of_all_triples() -> None:
         compare(points, rng)
 
 
+def test_every_set_of_the_3_3_square_in_a_skew_plane() -> None:
+    square = [(x + 2 * y, 3 * x - y, y - 2 * x) for x in range(3) for y in range(3)]
+    rng = random.Random(33)
+    for bits in range(1, 512):
+        compare([point for index, point in enumerate(square) if bits >> index & 1], rng)
+
+
+def test_every_set_of_six_points_in_a_line() -> None:
+    line = [(2 * k - 3, 5 - k, 3 * k) for k in range(6)]
+    rng = random.Random(6)
+    for bits in range(1, 64):
+        compare([point for index, point in enumerate(line) if bits >> index & 1], rng, 2)
+
+
 def test_random_sets_of_the_3_3_3_grid_have_the_hull_of_all_triples() -> None:
     rng = random.Random(0)
     points = grid(3, 3, 3)
@@ -176,6 +190,13 @@ def test_random_sets_of_the_3_3_3_grid_have_the_hull_of_all_triples() -> None:
         compare(rng.sample(points, rng.randint(5, 14)), rng)
     for _ in range(10):
         compare(rng.sample(points, rng.randint(15, 27)), rng)
+
+
+def test_random_sets_of_wider_grids_have_the_hull_of_all_triples() -> None:
+    rng = random.Random(5)
+    for _ in range(200):
+        side = rng.choice((4, 5, 9))
+        compare(list({tuple(rng.randrange(side) for _ in range(3)) for _ in range(rng.randint(4, 14))}), rng)
 
 
 @pytest.mark.parametrize("digits", [8, 15, 30])
@@ -189,6 +210,17 @@ def test_grids_under_a_skew_map_need_integers(digits: int) -> None:
         if len(set(points)) == len(points):
             in_integers += compare(points, rng)
     assert in_integers > 1000
+
+
+@pytest.mark.parametrize("power", [2, 8, 20])
+def test_close_pairs_and_flat_lenses_have_the_hull_of_all_triples(power: int) -> None:
+    """Pairs of points one unit apart, and points one unit above a wide plane."""
+    rng = random.Random(power)
+    for _ in range(20):
+        ends = [tuple(rng.randrange(10**power) for _ in range(3)) for _ in range(6)]
+        compare(list({tuple(n + rng.randrange(2) for n in p) for p in ends * 2}), rng)
+        lens = {(rng.randrange(-3, 4) * 10**power, rng.randrange(10**power), rng.randrange(-1, 2)) for _ in range(12)}
+        compare([(x + 3 * z, y - x, z + 2 * x + 5 * y) for x, y, z in lens], rng)
 
 
 def test_duplicates_change_nothing_but_the_list_of_duplicates() -> None:

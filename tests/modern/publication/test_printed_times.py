@@ -11,6 +11,7 @@ from emulator.machine.timing import COSTS, PUNCH_SECONDS, modelled, nominal
 from modern.cli.main import main
 from modern.publication.desk import Desk
 from modern.publication.site.made import make
+from tests.support import documents
 from tests.support.paths import ROOT
 
 UNIT = r"(?:ms|s|min|h|(?:micro|milli)?seconds?|minutes?|hours?)"
@@ -19,6 +20,21 @@ BOUNDS = r"\((?:[\d.,]+ to [\d.,]+|nominal)\)"
 TIME = re.compile(rf"(?<![\w.,-])(?!0 s)(\d[\d.,]* to )?\d[\d,]*(?:\.\d+)?( {BOUNDS})?[ \u00a0-]{UNIT}\b")
 ROUGH = re.compile(rf"\b(?:half|tenth|twentieth|hundredth|thousandth|fraction|few|some) (?:of an? )?{UNIT}\b")
 INTERVAL = rf"[\d.,]+ {BOUNDS}"
+
+# Texts with other times than those of the model, each with the reason why the model's interval does not apply.
+OTHER = {
+    r"CHANGELOG\.md|docs/explanation/(digital|engines|judge|verdicts)\.md|docs/papers/.*|docs/how-to/voxels\.md": (
+        "times of programs on computers of today"
+    ),
+    r"README\.md|docs/index\.md: .* in ten minutes|docs/tutorial/.*: .* ten minutes|docs/how-to/.*: .* skip:.*": (
+        "the time of a reader"
+    ),
+    r"docs/index\.md: .*estimated range: .*": "the interval is in the sentence",
+    r"docs/explanation/context\.md: .* cycle of 20 microseconds.*": "published by IBM",
+    r"docs/explanation/studies\.md: .*s work\.": "the size of a chunk on a computer of today",
+    r"docs/reference/machine\.md: .*(library takes 124\.4 s|takes 79\.8 s).*": "measured in a simulator",
+    r"docs/reference/machine\.md: .*(five minutes|tens of milliseconds).*": "times of the emulator",
+}
 
 
 def bare(text: str) -> list[str]:
@@ -32,6 +48,15 @@ def test_a_time_without_interval_is_noticed() -> None:
     rough = "hundredth of a second"
     assert bare(f"in 20.9 s, 1,364 minutes, about a {rough}") == ["20.9 s", "1,364 minutes", rough]
     assert bare(f"{modelled(20.9)}, {nominal(PUNCH_SECONDS)}, {modelled(0.001)} and {modelled(400)}") == []
+
+
+def test_no_other_module_formats_a_time_of_the_model() -> None:
+    """The desk and the tests may read ``seconds``; only the profile aligns them in a column, next to the interval."""
+    formatted = re.compile(r"(?:time|processor|total)\.(?:seconds|low|high):")
+    paths = [path for folder in ("emulator", "modern", "hull1620") for path in (ROOT / folder).rglob("*.py")]
+    lines = [(path.name, line) for path in paths for line in path.read_text(encoding="utf-8").splitlines()]
+    names = [(name, "interval" in line or "data-seconds" in line) for name, line in lines if formatted.search(line)]
+    assert set(names) <= {("timing.py", True), ("run_output.py", True), ("machine.py", True)}
 
 
 def test_the_profile_has_an_interval_in_every_row_except_zeros(capsys: pytest.CaptureFixture[str]) -> None:
@@ -73,11 +98,23 @@ def test_the_desk_has_intervals() -> None:
     assert sum("{time} on a 1620" in script for script in scripts) == 1
 
 
+@pytest.mark.parametrize("path", documents.PAGES, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_documents_have_intervals(path: Path) -> None:
+    name, text = path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
+    places = [f"{name}: {' '.join(part.split())}" for part in re.split(r"\n\n|(?<=[.:]) (?=[A-Z])|(?<=[.:])\n", text)]
+    reasons = re.compile("|".join(f"(?:{pattern})" for pattern in OTHER))
+    found = [(place, times) for place in places if (times := bare(place)) and not reasons.match(place)]
+    assert [(place, times) for place, times in found if not reasons.fullmatch(name)] == []
+
+
 def test_quoted_times_of_operations_are_those_of_the_model() -> None:
     page = (ROOT / "docs" / "explanation" / "eight-digits.md").read_text(encoding="utf-8")
     quoted = [str(modelled(COSTS[name].milliseconds / 1000)) for name in ("FAD", "FDV")]
     assert [time for time in quoted if time not in " ".join(page.split())] == []
     assert quoted[0] in (ROOT / "docs" / "explanation" / "context.md").read_text(encoding="utf-8")
+    time, low, high = re.findall(r"[\d.]+", quoted[0])
+    home = " ".join((ROOT / "docs" / "index.md").read_text(encoding="utf-8").split())
+    assert f"took about {time} ms to add two numbers (estimated range: {low} to {high} ms)" in home
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "docs" / "studies").glob("*/*.csv")), ids=lambda path: path.stem)

@@ -23,7 +23,10 @@ KINDS = (
 )
 """One page of each kind; with ``HULL1620_PAGES=all``, the check reads all pages."""
 Theme = Literal["light", "dark"]
-WINDOWS: tuple[tuple[int, Theme, bool], ...] = (*((360, "dark", True), (768, "light", False), (1280, "dark", True)),)
+WINDOWS: tuple[tuple[int, Theme, bool], ...] = (
+    *((360, "light", False), (768, "dark", False), (1280, "light", False)),
+    *((1280, "dark", True), (360, "dark", True)),
+)
 """The widths and themes of the check; True opens everything that the reader can open."""
 PICTURES = (("example2.html", ".print-cards"), ("program3.html", "[id='147']"), ("index.html", "h1"))
 REFERENCES = DATA / "site"
