@@ -218,7 +218,7 @@ def test_a_list_nested_too_deeply_is_an_error() -> None:
     for _ in range(5):
         items = f"({items},I=1,2)"
     (message,) = errors(f"PUNCH 90,{items}", F, "END")
-    assert "nested at most two deep" in message.message
+    assert "the parentheses of this list are nested too deep" in message.message
 
 
 # Typewriter.
