@@ -1,7 +1,4 @@
-"""Hulls of point sets, each computed once for all checks that need it.
-
-Many checks examine the same sampled sets and counterexamples. They import the functions that compute hulls from here.
-"""
+"""Functions that compute hulls and keep their last results, because many checks examine the same sets."""
 
 from collections.abc import Callable, Iterable
 from functools import lru_cache, wraps
@@ -45,4 +42,6 @@ def octree_hull(region: Voxels, printed: Printed | None = None) -> OctreeHull:
 
 @lru_cache(_MOST_HULLS)
 def _octree_hull(shape: tuple[int, ...], voxels: bytes, printed: Printed | None) -> OctreeHull:
-    return modern.papers.yau_srihari.octree_hull(np.frombuffer(voxels, np.bool_).reshape(shape), printed)
+    hull = modern.papers.yau_srihari.octree_hull(np.frombuffer(voxels, np.bool_).reshape(shape), printed)
+    hull.filled.flags.writeable = False
+    return hull

@@ -2,9 +2,11 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from modern.claims import full
+from modern.claims.hulls import octree_hull
 from modern.claims.register import CONDITION, DOCUMENTS, HOLDS, statements_of
 
 ROWS = {row.id: row for document in DOCUMENTS for row in statements_of(document)}
@@ -19,12 +21,22 @@ def test_every_search_has_a_result_that_is_the_verdict_of_its_rows() -> None:
         assert all(ROWS[row].verdict == CONDITION for row in ids if results[name].result == CONDITION)
 
 
+def test_no_search_is_outstanding() -> None:
+    assert list(full.outstanding({result.check: result for result in full.recorded()})) == []
+
+
 def test_search_is_outstanding_without_a_result_or_after_a_change() -> None:
     results = {result.check: result for result in full.recorded()}
     name = next(iter(results))
     changed = {name: replace(results[name], sources=""), **{k: v for k, v in results.items() if k != name}}
     assert name in full.outstanding(changed)
     assert name in full.outstanding({})
+
+
+def test_a_shared_octree_hull_cannot_be_altered() -> None:
+    hull = octree_hull(np.ones((2, 2, 2), np.bool_))
+    with pytest.raises(ValueError, match="read-only"):
+        hull.filled[:] = False
 
 
 def test_run_records_a_refuted_check(monkeypatch: pytest.MonkeyPatch) -> None:
