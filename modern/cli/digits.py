@@ -327,7 +327,7 @@ def _csv(tables: Sequence[Table]) -> str:
     return output.getvalue()
 
 
-_NUMBER = re.compile(r"[-+]?[0-9.]*(?:[Ee][-+][0-9]+)?")
+_NUMBER = re.compile(r"-|[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]\d+)?")
 _PAGE = Template("""<!DOCTYPE html>
 <html lang="en">
 <meta charset="utf-8">

@@ -175,9 +175,9 @@ def _readings(n: int, aligned: tuple[str, ...] | None, pairs: tuple[Pair, ...]) 
 
 
 def _is_truncated(pieces: Sequence[str], k: int, token: str) -> bool:
-    """Return True if a line begins or ends within the token, so that only a part of the token is there."""
-    ends = not any(pieces[k + 1 :]) and token.startswith(pieces[k])
-    return ends or (not any(pieces[:k]) and token.endswith(pieces[k]))
+    """Return True if a line begins or ends within the token: a part of it is there, and nothing beyond it."""
+    ends = k + 1 < len(pieces) and not any(pieces[k + 1 :]) and token.startswith(pieces[k])
+    return ends or (k > 0 and not any(pieces[:k]) and token.endswith(pieces[k]))
 
 
 def _kind(token: str) -> str:

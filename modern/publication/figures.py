@@ -23,7 +23,7 @@ from modern.edition.reproduce import reproduce
 from modern.publication.building import citation
 from modern.study.restoration import CLASSES, read_restoration, summary
 
-_PLACE = re.compile(r"\{\{ *([a-z][\w.-]*) *\}\}")
+_PLACE = re.compile(r"\{\{\s*([a-z][\w.-]*)\s*\}\}")
 
 
 class FigureError(ValueError):

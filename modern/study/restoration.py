@@ -31,7 +31,7 @@ from emulator.progress import Progress
 from modern.claims.full import definitions
 from modern.edition import chapter6, programs
 from modern.edition.damage import damaged, rates, with_lost_signs
-from modern.edition.readings import attested
+from modern.edition.readings import attested, table
 from modern.edition.trials import Job, Trial
 from modern.study.statistics import exact
 
@@ -200,8 +200,15 @@ def measure(folder: Path, groups: Sequence[Group], rounds: int, workers: int = 1
 
 
 def _digest(groups: Sequence[Group]) -> str:
-    """Return a digest of the programs, their printed results, and the rates of damage."""
-    text = repr(([(group.originals, group.trials) for group in groups], sorted(map(repr, rates().items())), LOST_SIGNS))
+    """Return a digest of the programs, their printed results, the rates of damage, and the table of confusables."""
+    text = repr(
+        (
+            [(group.originals, group.trials) for group in groups],
+            sorted(map(repr, rates().items())),
+            LOST_SIGNS,
+            sorted(map(repr, table())),
+        )
+    )
     return hashlib.sha256(text.encode()).hexdigest()
 
 

@@ -50,6 +50,7 @@ def test_report_says_which_digits_to_believe_and_which_statement_loses_them(
     assert {row["part"] for row in table} == {"Printed numbers", "Statements", "Input cards"}
     page = Path("out.html").read_text(encoding="utf-8")
     assert all(f"<h2>{part}</h2>" in page for part in ("Printed numbers", "Decisions", "Statements", "Input cards"))
+    assert "<td class=number>" in page
     assert np.load("out.npy").shape == (10, 2)
 
 

@@ -37,6 +37,11 @@ def test_every_cell_is_quoted_on_a_page() -> None:
     assert sorted(set(CELLS) - quoted) == []
 
 
+def test_no_page_has_a_place_that_is_not_filled() -> None:
+    texts = {page.name: page.read_text(encoding="utf-8") for page in documents.PAGES}
+    assert [name for name, text in texts.items() if "{{" in filled(text, dict.fromkeys(named(text), ""))] == []
+
+
 def test_figures_agree_with_other_reports(values: dict[str, str]) -> None:
     report = (DOCS / "weight" / "report.md").read_text(encoding="utf-8")
     assert f"no check detects {values['weight.silent']} ({values['weight.silent-share']})" in report

@@ -19,6 +19,7 @@ from modern.study.restoration import (
     ROUND,
     Copy,
     Group,
+    _digest,
     blind_restorer,
     damaged_copy,
     listings,
@@ -178,6 +179,7 @@ def test_the_committed_copies_are_complete_rounds() -> None:
 def test_the_committed_copies_were_made_by_the_present_rules() -> None:
     head = json.loads((ROOT / "docs" / "restoration" / "copies.jsonl").read_text(encoding="utf-8").splitlines()[0])
     assert head["rules"] == rules()
+    assert head["originals"] == _digest((listings(), others(DATA / "period")))
 
 
 @pytest.mark.parametrize(
