@@ -5,9 +5,9 @@ from fractions import Fraction
 from itertools import product
 
 from modern.claims.evidence import Check, claim, refuted, search, searched
-from modern.claims.hulls import exact_hull
+from modern.claims.hulls import convex_polyhedron, exact_hull
 from modern.claims.kovalevsky_schulz.polyhedra import hulls
-from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels, local
+from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels, local, points_of
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -20,7 +20,7 @@ from modern.claims.sampled_sets import (
 )
 from modern.digital.solids import listed
 from modern.geometry.vectors import dot, minus
-from modern.papers.kovalevsky_schulz import CENTRES, convex_polyhedron, local_corners
+from modern.papers.kovalevsky_schulz import CENTRES, VERTICES, local_corners
 from modern.papers.kovalevsky_schulz.cells import CellList
 
 
@@ -36,26 +36,33 @@ def smaller_polyhedron(vertices: str) -> Check:
     *corners, lower = counterexample_points("shortened.csv")
     larger, smaller = exact_hull(corners), exact_hull([*corners[:-1], lower])
     within = [max(plane_value(f.plane, p) for f in larger.facets) for p in (*corners[:-1], lower)]
-    wrong = smaller.dimension == 3 and smaller.vertices == (0, 1, 2, 3) and max(within) == min(within) == 0
+    wrong = smaller.vertices == (0, 1, 2, 3) and max(within) == min(within) == 0 and lower not in corners
     message = f"{lower} is a vertex of the smaller tetrahedron and on the boundary of the larger"
     if vertices == "moved":
-        return refuted(wrong and lower not in corners, f"{message}, but not one of its vertices")
+        return refuted(wrong, f"{message}, but not one of its vertices")
     four = [p for p in product((0, 1), repeat=3) if sum(p) % 2 == 0]
     return refuted(
         wrong and exact_hull(four).dimension == 3, f"{message}, like all of four alternate corners of a cube"
     )
 
 
-@claim("kovalevsky-schulz.151", "kovalevsky-schulz.126", full=1_000)
+@claim("kovalevsky-schulz.151", "kovalevsky-schulz.156", "kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
 def vertices_are_local_corners(cases: int = 4) -> Check:
-    """Check that the polyhedron constructed from local corners has all vertices of the hull, and only local corners."""
+    """Check that the polyhedron constructed from local corners is the hull of the voxels, or of their corners.
+
+    All of its vertices must be local corners.
+    """
 
     def agrees(solid: Voxels) -> bool:
-        cells = convex_polyhedron(local_corners(listed(solid), CENTRES))
-        hull_vertices = {solid[k] for k in exact_hull(solid).vertices}
-        return isinstance(cells, CellList) and hull_vertices <= {*cells.points} <= local(solid)
+        for of in (CENTRES, VERTICES):
+            cells, judge = convex_polyhedron(local_corners(listed(solid), of)), exact_hull(points_of(solid, of))
+            if not (isinstance(cells, CellList) and {*cells.points} <= local(solid, of)):
+                return False
+            if {*cells.planes()} != {facet.plane for facet in judge.facets}:
+                return False
+        return True
 
-    return search(SOLIDS, agrees, cases, "the vertices are local corners, and all vertices of the hull are among them")
+    return search(SOLIDS, agrees, cases, "the hull of the local corners is that of the points, with local corners only")
 
 
 def _horizons(cases: int = CASES) -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:

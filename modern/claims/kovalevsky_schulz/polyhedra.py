@@ -1,7 +1,7 @@
 """Checks of Kovalevsky and Schulz: the algorithm, coplanar faces, and the cell list."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from itertools import product
 
 from modern.claims.evidence import Check, claim, exhibited, search, searched
@@ -14,13 +14,15 @@ from modern.exact_hull import ExactHull
 from modern.papers.kovalevsky_schulz import (
     CENTRES,
     INVISIBLE,
+    VERTICES,
     VISIBLE,
     expanded,
     reconstructed,
     voxel_hull,
 )
-from modern.papers.kovalevsky_schulz.cells import CellList
+from modern.papers.kovalevsky_schulz.cells import CellList, Vertex
 from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, Treatment, coplanar_hull
+from modern.papers.kovalevsky_schulz.corners import Of
 from modern.papers.kovalevsky_schulz.hull import merged, straightened
 from modern.papers.kovalevsky_schulz.polyhedron import Coplanar, CurrentPolyhedron, independent
 
@@ -58,7 +60,7 @@ def either_treatment(cases: int = CASES) -> Check:
     return searched(SETS[3], cases, outcomes, f"{len(outcomes) // 2} hulls agree with the exact hull")
 
 
-@claim("kovalevsky-schulz.156", "kovalevsky-schulz.35", full=400)
+@claim("kovalevsky-schulz.35", full=400)
 def any_order(cases: int = CASES) -> Check:
     """Check that any order of points gives the same hull: the first four that are not coplanar make a tetrahedron."""
     outcomes = []
@@ -126,14 +128,15 @@ def cells_removed(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.52")
 def cube_visible_from_corner() -> Check:
-    """Check that a point beyond a corner of a cube removes three faces, three edges and one vertex of it."""
+    """Check that a point beyond a corner of a cube removes the three faces that it sees and the edges between them."""
     cube = [*product((0, 2), repeat=3)]
     judge, after = exact_hull(cube), exact_hull([*cube, (3, 3, 3)])
-    visible = [f for f in judge.facets if plane_value(f.plane, (3, 3, 3)) > 0]
-    edges = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in visible) == 2]
-    gone = set(judge.vertices) - set(after.vertices)
-    message = "three faces, three edges and one vertex are removed"
-    return exhibited((len(visible), len(edges), len(gone)) == (3, 3, 1), message)
+    visible = {f for f in judge.facets if plane_value(f.plane, (3, 3, 3)) > 0}
+    edges = {frozenset(e) for e in judge.edges() if sum({*e} <= {*f.polygon} for f in visible) == 2}
+    planes = {f.plane for f in judge.facets} - {f.plane for f in after.facets}
+    removed = {*map(frozenset, judge.edges())} - {*map(frozenset, after.edges())}
+    message = f"{len(planes)} faces and {len(removed)} edges are removed"
+    return exhibited(planes == {f.plane for f in visible} and removed == edges and len(planes) == 3, message)
 
 
 @claim("kovalevsky-schulz.54", "kovalevsky-schulz.166")
@@ -223,11 +226,31 @@ def economical_encoding(cases: int = 4) -> Check:
     return search(SOLIDS, returns, cases, "the edges follow from the economical encodings")
 
 
+@claim("kovalevsky-schulz.37")
+def incident_cells() -> Check:
+    """Check that the entries of edges and faces list all incident cells, but those of vertices list no faces."""
+    cells = polyhedron(PYRAMID)
+    of_faces = [{abs(edge) for _, edge in face.pairs} for face in cells.faces]
+    outcomes = []
+    for number, edge in enumerate(cells.edges, 1):
+        outcomes.append({n for n, edges in enumerate(of_faces, 1) if number in edges} == {edge.left, edge.right})
+        outcomes += [{edge.start, edge.end} <= {*cells.faces[n - 1].vertices} for n in (edge.left, edge.right)]
+    check = exhibited(all(outcomes), f"{len(cells.edges)} edges and {len(cells.faces)} faces list all incident cells")
+    return check.unless([f.name for f in fields(Vertex)] == ["point", "edges"], "a vertex, which lists only its edges")
+
+
 def _incidences(cells: CellList) -> tuple[set[tuple[int, ...]], list[set[int]]]:
     """Return the ends and faces of each edge, in both directions, and the neighbours of each vertex."""
     edges = {(e.start, e.end, e.left, e.right) for e in cells.edges}
     ends = {sign * k: end for k, e in enumerate(cells.edges, 1) for sign, end in ((-1, e.end), (1, e.start))}
     return edges | {(q, p, b, a) for p, q, a, b in edges}, [{ends[k] for k in v.edges} for v in cells.vertices]
+
+
+def _restored(voxels: object, of: Of) -> list[list[int]]:
+    """Return the voxels that the cell list of a solid's hull restores."""
+    hull = voxel_hull(listed(voxels), of)  # type: ignore[arg-type]
+    restored: list[list[int]] = reconstructed(hull.polyhedron.straight.economical(), of).coordinates().tolist()
+    return restored
 
 
 @claim("kovalevsky-schulz.46", full=500)
@@ -237,12 +260,9 @@ def reconstruction_by_corners(cases: int = 2) -> Check:
     A voxel belongs to the object if its eight corners are in the hull.
     """
 
-    def again(volume: Volume) -> Volume:
-        return reconstructed(voxel_hull(volume).polyhedron.straight.economical())
-
     def restores(solid: Voxels) -> bool:
-        convex = again(listed(solid)).coordinates().tolist()
-        return all(list(v) in convex for v in solid) and again(listed(convex)).coordinates().tolist() == convex
+        convex = _restored(solid, VERTICES)
+        return all(list(v) in convex for v in solid) and _restored(convex, VERTICES) == convex
 
     return search(SOLIDS, restores, cases, "the convex objects around the solids are restored")
 
@@ -253,14 +273,10 @@ def reconstruction(cases: int = 4) -> Check:
 
     def returns(solid: Voxels) -> bool:
         volume = listed(solid)
-        surface = voxel_hull(volume, CENTRES).surface
-        filled = Volume(digital_hull(volume).filled, volume.origin).coordinates().tolist()
-        straight = getattr(surface, "straight", None)
-        return straight is None or reconstructed(straight.economical(), CENTRES).coordinates().tolist() == filled
+        filled: list[list[int]] = Volume(digital_hull(volume).filled, volume.origin).coordinates().tolist()
+        return _restored(solid, CENTRES) == filled == _restored(filled, CENTRES)
 
-    gap = listed([(0, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 1)])
-    restored = reconstructed(voxel_hull(gap, CENTRES).polyhedron.straight.economical(), CENTRES).count
-    check = search(
-        SOLIDS, returns, cases, "the reconstruction is the filled hull, for a convex object the object itself"
-    )
-    return check.unless(restored > gap.count, "four voxels with a gap, which is filled")
+    gap = [(0, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 1)]
+    message = "the filled hull of each solid is restored from its own cell list and from that of the solid"
+    check = search(SOLIDS, returns, cases, message)
+    return check.unless(len(_restored(gap, CENTRES)) > len(gap), "four voxels with a gap, which is filled")

@@ -9,7 +9,7 @@ from random import Random
 from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import Point, counterexample_points, plane_value
-from modern.digital.solids import ball, listed
+from modern.digital.solids import VERTEX, VOXEL, ball, listed
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners
 from modern.papers.kovalevsky_schulz.corners import Of
 from modern.papers.kovalevsky_schulz.polyhedron import Coplanar
@@ -36,7 +36,7 @@ def vertices_among_local_corners(cases: int = 5) -> Check:
     """Check that each vertex of the hull of a set of voxels, or of their corners, is a local corner of the set."""
 
     def among(solid: Voxels) -> bool:
-        sets: tuple[tuple[Voxels, Of], ...] = (solid, CENTRES), (tuple(_corners(solid)), VERTICES)
+        sets: tuple[tuple[Voxels, Of], ...] = tuple((points_of(solid, of), of) for of in (CENTRES, VERTICES))
         return all({points[k] for k in exact_hull(points).vertices} <= local(solid, of) for points, of in sets)
 
     return search(SOLIDS, among, cases, "the vertices of the hull of each solid are local corners")
@@ -64,7 +64,7 @@ def local_corners_by_definition(of: Of, cases: int = 5) -> Check:
     """Check that the program finds the points that the definition by 13 pairs of neighbours calls local corners."""
 
     def agrees(solid: Voxels) -> bool:
-        points = {*solid} if of == CENTRES else _corners(solid)
+        points = {*points_of(solid, of)}
         between = {
             (x, y, z)
             for x, y, z in points
@@ -79,9 +79,21 @@ def _corners(solid: Voxels) -> set[Point]:
     return {(x + i, y + j, z + k) for x, y, z in solid for i, j, k in STEPS}
 
 
+def points_of(solid: Voxels, of: Of) -> Voxels:
+    return solid if of == CENTRES else tuple(_corners(solid))
+
+
 def triangles_of_ball(coplanar: Coplanar) -> int:
     """Return the number of triangles of the hull of the ball of diameter 32."""
     return len(hull_of_ball(32, coplanar).polyhedron.triangles.faces)
+
+
+@claim("kovalevsky-schulz.20")
+def voxels_of_ball() -> Check:
+    """Check that a ball of diameter 32 has the printed number of voxels if it is centred on a voxel."""
+    numbers = [ball(32, centre).count for centre in (VOXEL, VERTEX)]
+    check = exhibited(numbers[0] == 17077, f"the ball centred on a voxel has {numbers[0]} voxels")
+    return check.unless(numbers[1] != 17077, f"the ball centred on a corner of voxels, which has {numbers[1]} voxels")
 
 
 @claim("kovalevsky-schulz.21")
