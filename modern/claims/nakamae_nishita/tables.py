@@ -6,7 +6,7 @@ A table has the side of each line of one contour on which each vertex of the oth
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 from random import Random
 
 from modern.claims import algebra
@@ -69,11 +69,17 @@ def pairs(count: int = CASES) -> Iterator[tuple[tuple[Place, ...], tuple[Place, 
 
 
 def inside(p: Place, v: tuple[Place, ...]) -> bool:
-    return all(value(line, (*p, 1)) >= 0 for line in lines_of(v))
+    """Return True if the triangles of a point with the sides of a convex polygon have the area of the polygon."""
+    return sum(abs(_area(p, a, b)) for a, b in pairwise((*v, v[0]))) == abs(
+        sum(_area(v[0], a, b) for a, b in pairwise(v))
+    )
 
 
 def _apart(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
-    return any(all(value(line, p) <= 0 for p in flat(b)) for a, b in ((v, w), (w, v)) for line in lines_of(a))
+    """Return True if no inner points of two polygons coincide: 0 is no inner point of the hull of all differences."""
+    differences = sorted({(q[0] - p[0], q[1] - p[1], 0) for p in v for q in w})
+    ring = [differences[k][:2] for k in exact_hull(differences).polygon]
+    return not all(_area((0, 0), a, b) > 0 for a, b in pairwise((*ring, ring[0])))
 
 
 # A pyramid over an upright pentagon that is seen edge-on along z.
@@ -143,11 +149,17 @@ def correlations(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.21")
 def formula_1() -> Check:
-    """Check that formula (1) is proportional to the distance from a line, and positive to the right of the line."""
+    """Check that formula (1) is proportional to the distance from a line, and positive to the right of the line.
+
+    The program must compute the determinant of the formula.
+    """
 
     def difference(x1: int, y1: int, x: int, y: int, along: int, right: int) -> int:
-        line = line_through((x1, y1, 1), (x1 + x, y1 + y, 1))
-        return value(line, (x1 + along * x + right * y, y1 + along * y - right * x, 1)) - right * (x * x + y * y)
+        x2, y2, u, v = x1 + x, y1 + y, x1 + along * x + right * y, y1 + along * y - right * x
+        determinant = u * (y1 - y2) - v * (x1 - x2) + x1 * y2 - x2 * y1
+        computed = value(line_through((x1, y1, 1), (x2, y2, 1)), (u, v, 1))
+        # Both differences are polynomials, and the result is 0 only if both are.
+        return abs(computed + determinant) + abs(determinant + right * (x * x + y * y))
 
     return identity(difference, (2, 2, 2, 2, 1, 1), "the value is proportional to the distance to the right")
 
@@ -197,8 +209,11 @@ def formula_5() -> Check:
         "of V' were in front of V and another one behind it, the segment between them would meet V, because V is "
         "convex and its contour encloses that of V'. So one vertex decides for all."
     )
-    check = proved(argument, [step.is_valid()], "the value is positive outside the face, negative on its other side")
+    # The corners of this face run clockwise as seen from above.
     face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))
+    signs = height(face, (1, 2, 1, 1)) > 0 > height(face, (1, 2, -1, 1))
+    message = "the value is positive outside the face, negative on its other side"
+    check = proved(argument, [step.is_valid(), signs], message)
     return check.unless(height(face, (1, 2, 0, 1)) == 0, "a vertex in the face, for which the value is 0")
 
 
@@ -227,8 +242,12 @@ def _between(p: Place, q: Place, r: Place) -> bool:
     return side(p, q, r) == 0 and along <= 0
 
 
+def _area(p: Place, q: Place, r: Place) -> int:
+    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+
+
 def side(p: Place, q: Place, r: Place) -> int:
-    return sign((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]))
+    return sign(_area(p, q, r))
 
 
 def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:

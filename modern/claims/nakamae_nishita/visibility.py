@@ -12,7 +12,7 @@ from modern.claims.sampled_sets import CASES, counterexample, counterexample_poi
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
 from modern.geometry.vectors import dot, minus
 from modern.papers.nakamae_nishita.contours import values
-from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, clipped
+from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, as_printed, clipped
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
 from modern.papers.nakamae_nishita.projection import parallel
@@ -56,11 +56,13 @@ def face_seen_edge_on() -> Check:
 
 @claim("nakamae-nishita.16", full=600)
 def hidden_contour_edges(cases: int = 3) -> Check:
-    """Check that the nearer of two boxes hides not only inner edges of the other box but also contour edges."""
+    """Check that the nearer of two boxes also hides contour edges, and edges wholly inside its own contour."""
     drawing = _two_boxes((1, 3, -1))
     check = pieces_against_rays(cases)
     both = _hidden(drawing, INNER) and _hidden(drawing, CONTOUR)
-    return check.unless(both, "the contour edges of the farther box, which are hidden as well")
+    behind = edges_wholly_behind()
+    case = f"contour edges of the farther box, which are hidden, and a box partly behind a wall: {behind.message}"
+    return check.unless(both and not behind.holds, case)
 
 
 def _two_boxes(at: tuple[int, int, int]) -> Drawing:
@@ -130,7 +132,12 @@ def indices(index: int = 0) -> Check:
     expected = {(), (1,), (-1,), (2, -2)}
     message = f"{len(checks)} segments have the index 1 if they enter, -1 if they leave, and 2 and -2 if they do both"
     domain = "segments between 16 points of a grid that pass no corner"
-    return exhausted(domain, [*checks, ways == expected, not index or alone == {1}], message)
+    check = exhausted(domain, [*checks, ways == expected, not index or alone == {1}], message)
+    # The diagonal of the square.
+    ends, contour = ((-2, -2, 0, 1), (6, 6, 0, 1)), [(x, y, 0, 1) for x, y in SQUARE]
+    diagonal = values(lines_of(SQUARE), ends)
+    missed = diagonal and as_printed(diagonal, 0, 1, ends, contour) == CLEAR != clipped(diagonal, 0, 1)
+    return check.unless(missed, "a segment through two corners of a square, for which no d is -4")
 
 
 @claim("nakamae-nishita.35")
@@ -143,10 +150,12 @@ def formula_4() -> Check:
     value_of_4 = algebra.dot([s * c for c in u], [(s - t) * c for c in u])
     signs = {"s": algebra.positive(s), "nearer": algebra.positive(t - s), "u": algebra.positive(algebra.dot(u, u))}
     nearer = algebra.Step("dr < 0 if s < t", signs, algebra.positive(-value_of_4), (algebra.term("s nearer u"),))
+    signs = {**signs, "nearer": algebra.positive(s - t)}
+    farther = algebra.Step("dr > 0 if s > t", signs, algebra.positive(value_of_4), (algebra.term("s nearer u"),))
     crossing = _two_boxes((1, 3, 0)).relations[0]
     argument = "dr = s (s - t) u u, which is negative if P_1 is nearer, and positive if P_2 is nearer."
     decided = (crossing.by, crossing.nearer) == ("(4)", 1)
-    check = proved(argument, [nearer.is_valid(), decided], "the sign of (4) tells the nearer point")
+    check = proved(argument, [nearer.is_valid(), farther.is_valid(), decided], "the sign of (4) tells the nearer point")
     scenes = [_scene("stacked.toml", *without) for without in (("touching",), ())]
     hidden = [_hidden(scene, INNER) + _hidden(scene, CONTOUR) for scene in scenes]
     case = "two boxes that touch: the value is 0, and only a separating plane decides"
@@ -168,7 +177,9 @@ def three_conditions() -> Check:
                 index_patterns.append(tuple(index for _, index in passage.marks))
     possible = {(1,), (-1,), (2, -2)}
     outcomes = [{*index_patterns} == possible, *(pattern in possible for pattern in index_patterns)]
-    check = exhausted("segments between 16 points of a grid", outcomes, "segments enter, leave, or do both")
+    check = exhausted(
+        "segments between 16 points of a grid, and a square", outcomes, "segments enter, leave, or do both"
+    )
     return check.unless(touching, f"segments that only touch a corner ({touching})")
 
 
