@@ -91,8 +91,7 @@ def main(args: argparse.Namespace) -> int:
         kind = (EXACT if all_agree else DIFFERENT) if line.startswith(_OVERALL) else ""
         for part in textwrap.wrap(line, max(40, width)):
             print(_paint(part, kind, colour), file=out)
-    if args.json is not None:
-        write_json(args, {**_document(reports, theorems, stated, findings_of_papers, all_agree), "left_out": left_out})
+    write_json(args, {**_document(reports, theorems, stated, findings_of_papers, all_agree), "left_out": left_out})
     return OK if all_agree else DIFFERS
 
 

@@ -98,7 +98,7 @@ def read_lines(text: str) -> list[tuple[int, str]]:
 
 
 def _forms(lines: list[tuple[int, str]]) -> Iterator[list[tuple[int, str]]]:
-    """Yield the lines as they are, and again without line numbers or columns 73 to 80 if most lines have them."""
+    """Yield the lines as they are, and without line numbers, columns 73 to 80, or both if most lines have them."""
     yield lines
     numbers = [_LINE_NUMBER.match(line) for _, line in lines]
     rising, before, line_before = 0, 0, 0
@@ -106,8 +106,16 @@ def _forms(lines: list[tuple[int, str]]) -> Iterator[list[tuple[int, str]]]:
         value = int(match[1]) if match else 0
         rising += value == 1 or (value > 1 and value - before in (1, line_number - line_before))
         before, line_before = value, line_number
+    yield from _without_identification(lines)
     if rising >= _MOST * len(lines):
-        yield [(n, line[match.end() :] if match else line) for (n, line), match in zip(lines, numbers, strict=True)]
+        pairs = zip(lines, numbers, strict=True)
+        stripped = [(n, line[match.end() :] if match else line) for (n, line), match in pairs]
+        yield stripped
+        yield from _without_identification(stripped)
+
+
+def _without_identification(lines: list[tuple[int, str]]) -> Iterator[list[tuple[int, str]]]:
+    """Yield the lines without columns 73 to 80 if most lines have them."""
     cards = [_IDENTIFICATION.match(line) for _, line in lines]
     if sum(map(bool, cards)) >= _MOST * len(lines):
         yield [(n, card[1] if card else line) for (n, line), card in zip(lines, cards, strict=True)]

@@ -225,7 +225,8 @@ figures are not in the OCR text.
 
 CONTENTS (this folder is the "data" folder of a BagIt bag, RFC 8493. Its files
 have {total / 1e6:.0f} MB, of which the wheels have {wheels / 1e6:.0f} MB. The rights in a folder also hold for its
-folders, unless they are listed. ro-crate-metadata.json has the same list for machines.)
+folders, unless they are listed. ro-crate-metadata.json has the same list
+for machines, with this file.)
 
 {contents}
 

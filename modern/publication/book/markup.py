@@ -90,13 +90,16 @@ def table(
 
     ``widths`` are the longest cell of each column in characters, ``longest`` the longest words.  ``right`` are the
     columns of numbers, which are aligned to the right.  A table that is too wide is split: the columns that name the
-    rows stand in both halves.
+    rows stand in both halves.  Raises ValueError for a table that would need smaller letters than ``_SMALL``.
     """
     rows = list(rows)
     longest = [min(width, _WORD) for width in widths] if longest is None else longest
     size, columns = columns_of(widths, longest)
     naming = next((k for k in range(1, len(head)) if len({tuple(row[:k]) for row in rows}) == len(rows)), 1)
-    if size < _SMALL and len(head) > naming + 1:
+    if size < _SMALL:
+        if len(head) <= naming + 1:
+            name = " | ".join(head)
+            raise ValueError(f"the table {name} needs letters of {size:.1f} pt; the smallest are {_SMALL} pt")
         middle = (naming + len(head) + 1) // 2
         halves = [[*range(naming), *half] for half in (range(naming, middle), range(middle, len(head)))]
         return "".join(

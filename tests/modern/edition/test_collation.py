@@ -80,11 +80,12 @@ def _page(first: int = 40, last: int = 75) -> list[str]:
         (lambda cards: "\n".join(f"{n:>3}: {card}" for n, card in enumerate(cards, 1)), []),
         (lambda cards: "\n\n".join(f"{2 * n - 1:04d}\t{card.strip()}" for n, card in enumerate(cards, 1)), []),
         (lambda cards: "\n".join(f"{card:<72}BUTL{n:04d}" for n, card in enumerate(cards, 1)), []),
+        (lambda cards: "\n".join(f"{n:>3}: {card:<72}BUTL{n:04d}" for n, card in enumerate(cards, 1)), []),
         (lambda cards: "\n".join(cards).translate(str.maketrans("-*=,", "\u2212\u00d7\uff1d\u201a")), []),
         (lambda cards: "\n".join(["94", "Program 3, not coplanar", *cards, "- 94 -"]), [1, 2, 38]),
         (lambda cards: "\n".join(cards + cards), list(range(36, 71))),
     ],
-    ids="crlf cr form-feed tabs shifted numbered numbered-by-line identified typographic running-head twice".split(),
+    ids="crlf cr form-feed tabs shifted numbered numbered-by-line identified both typographic header twice".split(),
 )
 def test_a_page_typed_by_hand_confirms_its_cards_only(
     typed: Callable[[list[str]], str], lines_without_card: list[int]
@@ -141,11 +142,11 @@ def test_another_number_contradicts_and_a_rival_is_supported() -> None:
     lines = [card.text for card in programs.committed("program1").cards]
     n = next(k for k, line in enumerate(lines) if "IF(N-2)102,107,134" in line.replace(" ", ""))
     verdicts = []
-    for number in ("105", "999"):
+    for number in ("105", "999", "10"):
         changed = [*lines[:n], lines[n].replace("107", number), *lines[n + 1 :]]
         reading = next(r for r in collate("\n".join(changed)).cards[n].readings if r.edition == "107")
         verdicts.append((reading.verdict, reading.transcription))
-    assert verdicts == [("supports a rival", "105"), ("contradicts", "999")]
+    assert verdicts == [("supports a rival", "105"), ("contradicts", "999"), ("contradicts", "10")]
 
 
 def test_tokens_cover_every_card() -> None:

@@ -116,6 +116,11 @@ def test_a_table_that_is_too_wide_is_split_and_both_halves_name_the_rows() -> No
     assert all(float(half[1:4]) >= 6.5 for half in halves)
 
 
+def test_a_table_that_would_need_too_small_letters_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"the table a \| b needs letters of 4\.6 pt; the smallest are 6\.5 pt"):
+        table(["a", "b"], [["x", "y"]], (96, 96), (93, 93))
+
+
 def test_pictures_use_the_fonts_of_the_book() -> None:
     text = '<text font-family="Helvetica, Arial, sans-serif">a</text>'
     svg = f'<svg><a href="x">{text}</a><style>.m{{font-family:monospace}}</style></svg>'

@@ -223,3 +223,12 @@ def test_ids_of_a_picture_get_its_key() -> None:
     assert inline(svg, "k", "c") == (
         '<svg class="c" aria-labelledby="t-k"><title id="t-k">x</title><use href="#f-k"/><g id="f-k"/></svg>'
     )
+
+
+def test_cells_may_break_after_a_no_break_space_but_their_attributes_stay() -> None:
+    """A percent sign stays with its number."""
+    wide = "".join(f"<th>{'w' * 30}{n}</th>" for n in range(2))
+    gap, cell = "\N{NO-BREAK SPACE}", "<td><a title='1{0}2'>3{0}4</a></td><td>5{0}%</td>"
+    html = stacked(f"<table><tr>{wide}</tr><tr>{cell.format(gap)}</tr></table>")
+    assert html.count('<wbr class="gap">') == 1
+    assert f"title='1{gap}2'>3{gap}<wbr" in html
