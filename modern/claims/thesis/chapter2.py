@@ -31,7 +31,7 @@ def weights_of_combination() -> Check:
     weights = [(4 - x - y, x, y) for x in range(-3, 8) for y in range(-3, 8)]
     outcomes = [(min(w) >= 0) == all(plane_value(side, (w[1], w[2], 0)) <= 0 for side in sides) for w in weights]
     message = "a combination is in the triangle exactly if no weight is negative"
-    check = exhausted("three weights in quarters from -13/4 to 10/4 with the sum 1", outcomes, message)
+    check = exhausted("three weights in quarters from -10/4 to 10/4 with the sum 1", outcomes, message)
     beyond = any(plane_value(side, (-1, 0, 0)) > 0 for side in sides)
     return check.misprinted(beyond, "weights that are not negative and have the sum 1")
 
@@ -62,18 +62,22 @@ def vertex_formula_with_minus() -> Check:
 @claim("thesis.23", dimension=2, full=400)
 @claim("thesis.200", dimension=3, full=400)
 def vertex_of_hull(dimension: int, cases: int = CASES) -> Check:
-    """Check that a point of a set is a vertex of the hull if and only if it is outside the hull of the other points.
+    """Check that a point of a set is a vertex of the hull if and only if it is between no two points of the hull.
 
-    The counterexample shows why two given points are not enough: a point inside a triangle or tetrahedron is no vertex,
-    but lies between no two of the given points.
+    If it is between two points of the hull, all facets that contain it contain a further given point. So it suffices to
+    try each given point with a point of the hull close by on the other side. The counterexample shows why two given
+    points are not enough: a point inside a triangle or tetrahedron is no vertex, but is between no two given points.
     """
     checks = []
     for sampled in sampled_sets(dimension, cases):
         for k, point in enumerate(sampled.points):
-            rest = exact_hull([p for p in sampled.points if p != point])
-            # The point is a combination of the others if no facet of their hull separates it.
-            held = rest.dimension == dimension and max(plane_value(f.plane, point) for f in rest.facets) <= 0
-            checks.append(held == (k not in sampled.judge.vertices))
+            # The point p + (p - q) / n has the value (1 + 1 / n) p' - q' / n in an equation with the values p' and q'.
+            values = [
+                [10**9 * plane_value(f.plane, point) - plane_value(f.plane, q) for f in sampled.judge.facets]
+                for q in sampled.points
+                if q != point
+            ]
+            checks.append((min(map(max, values)) <= 0) == (k not in sampled.judge.vertices))
     corners = [tuple(4 * (k == axis) for axis in range(3)) for k in (*range(dimension), 3)]
     inner = tuple(int(axis < dimension) for axis in range(3))
     between = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]  # type: ignore[arg-type]

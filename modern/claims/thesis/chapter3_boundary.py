@@ -1,4 +1,4 @@
-"""Checks of the steps of chapter 3 that find boundary points and remove duplicate equations.
+"""Checks of the steps of chapter 3 that project points, find boundary points and remove duplicate equations.
 
 A *used* point is a point that the procedure has added to the hull under construction; it need not be a vertex at the
 end. *Eliminated* points lie inside that hull.
@@ -8,15 +8,11 @@ from collections.abc import Sequence
 from functools import partial
 from random import Random
 
-from modern.claims.evidence import Check, Generator, claim, exhibited, searched
+from modern.claims.evidence import Check, Generator, claim, exhibited, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
-from modern.claims.sampled_sets import (
-    CASES,
-    SETS,
-    Point,
-    plane_value,
-    sampled_sets,
-)
+from modern.claims.sampled_sets import CASES, SETS, Point, plane_value, sampled_sets
+from modern.claims.thesis.identities import coordinate_planes
+from modern.exact_hull import ExactHull
 from modern.geometry.vectors import cross, dot, minus
 
 # A triangle, and a point on one of its sides that the procedure adds to the hull under construction.
@@ -134,3 +130,38 @@ def boundary_points_on_edges(cases: int = 5) -> Check:
 
 def _is_between(x: Point, p: Point, q: Point) -> bool:
     return not any(cross(minus(x, p), minus(q, p))) and dot(minus(x, p), minus(x, q)) < 0
+
+
+def _with_0(point: Point, axis: int) -> Point:
+    x, y, z = (0 if k == axis else number for k, number in enumerate(point))
+    return x, y, z
+
+
+@claim("thesis.274", full=400)
+def hull_of_projection(cases: int = CASES) -> Check:
+    """Check that projections of flat sets keep vertices, boundary points, inside points, and the points of each line.
+
+    The exact hull represents a line of a flat set by the plane through the line perpendicular to the set.
+    """
+    checks = []
+    for sampled in sampled_sets(2, cases):
+        plane = sampled.judge.plane
+        assert plane is not None
+        for axis in (k for k in range(3) if plane[k]):
+            image = [_with_0(point, axis) for point in sampled.points]
+            checks.append(_parts(image, exact_hull(image)) == _parts(sampled.points, sampled.judge))
+    message = "projections keep the vertices, the boundary and inside points, and the points of each line"
+    return searched(SETS[2], cases, checks, f"{sum(checks)} of {len(checks)} {message}")
+
+
+def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
+    lines = {frozenset(k for k, point in enumerate(points) if not plane_value(f.plane, point)) for f in hull.facets}
+    return {*hull.vertices}, {*hull.boundary}, {*hull.inside}, lines
+
+
+@claim("thesis.273")
+def sum_that_ends_with_plus() -> Check:
+    """Check that the printed sum lacks its last term, the product D_0 D_C of the constant terms, which is 0."""
+    *_, last = "A_0A_C + B_0B_C + C_0C_C +".split("+")
+    right = coordinate_planes().check().holds
+    return slip(last.strip(), right, "a sum without the plus, or with D_0 D_C", "D_C is 0 for a coordinate plane")

@@ -6,7 +6,7 @@ The equations are transcribed as printed and compared with independent formulas 
 from collections.abc import Sequence
 from random import Random
 
-from modern.claims.evidence import Check, Generator, claim, exhausted, identity, search, searched
+from modern.claims.evidence import Check, Generator, claim, identity, search, searched
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import (
     BOTH,
@@ -81,15 +81,24 @@ def collinear_points(cases: int = 8) -> Check:
     return search(LINES, ends_and_equations, cases, "the points of all lines have the right ends and equations")
 
 
-@claim("thesis.32", "thesis.270")
-def few_points() -> Check:
-    """Check the hulls of the first 1 to 12 points of the curve (t, t squared, t cubed): all points are vertices."""
-    hulls = [convex_hull([(t, t**2, t**3) for t in range(n)]) for n in range(1, 13)]
-    outcomes = [
-        (hull.status, hull.dimension, len(hull.vertices)) == ("determined", min(n - 1, 3), n)
-        for n, hull in enumerate(hulls, 1)
-    ]
-    return exhausted("the numbers of points from 1 to 12", outcomes, "all points are vertices")
+def _draw_few(random: Random) -> tuple[Point, ...]:
+    lattice = [(x, y, z) for x in range(-1, 2) for y in range(-1, 2) for z in range(-1, 2)]
+    return tuple(random.sample(lattice, random.randint(1, 12)))
+
+
+FEW: Generator[tuple[Point, ...]] = Generator("1 to 12 points, coordinates from -1 to 1", 27, _draw_few)
+
+
+@claim("thesis.32", "thesis.270", full=2_000)
+def few_points(cases: int = 24) -> Check:
+    """Check that the procedure finds the vertices of sets of 1 to 12 points; all of at most two points are vertices."""
+
+    def vertices_are_right(points: tuple[Point, ...]) -> bool:
+        hull = convex_hull(points)
+        vertices = {*hull.vertices}
+        return hull.determined and vertices == {*exact_hull(points).vertices} and len(vertices) >= min(len(points), 2)
+
+    return search(FEW, vertices_are_right, cases, "the procedure finds the vertices of all sets")
 
 
 @claim("thesis.211", full=400)
@@ -109,12 +118,23 @@ def first_two_points(cases: int = CASES) -> Check:
     return searched(BOTH, 2 * cases, checks, message)
 
 
-@claim("thesis.40", "thesis.41", "thesis.43")
-def equation_of_line() -> Check:
-    """Check that equations (3.1), (3.2) and (3.3), one formula for two coordinates each, are 0 only on the line."""
+def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> Line:
+    """Return equation (3.1), (3.2) or (3.3): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
+    return v2 - v1, u1 - u2, (u2 - u1) * v1 + (v1 - v2) * u1
+
+
+def line_of_page_19(xm: int, ym: int, xk: int, yk: int) -> Line:
+    """Return equation (3.5): (yk - ym) x + (xm - xk) y + (xk - xm) ym + (ym - yk) xm = 0."""
+    return yk - ym, xm - xk, (xk - xm) * ym + (ym - yk) * xm
+
+
+@claim("thesis.40", "thesis.41", "thesis.43", page=12)
+@claim("thesis.62", page=19)
+def equation_of_line(page: int) -> Check:
+    """Check that a printed equation, for two coordinates of each point, is 0 exactly on the line through two points."""
 
     def difference(u1: int, v1: int, u: int, v: int, along: int, right: int) -> int:
-        a, b, c = line_as_printed(u1, v1, u1 + u, v1 + v)
+        a, b, c = (line_as_printed if page == 12 else line_of_page_19)(u1, v1, u1 + u, v1 + v)
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
 
     return identity(difference, (2, 2, 2, 2, 1, 1), "the value is proportional to the distance from the line")
@@ -131,21 +151,6 @@ def equation_of_plane() -> Check:
     return identity(difference, (1,) * 9, "(3.4) has the coefficients of the plane through three points")
 
 
-@claim("thesis.62")
-def equation_of_page_19() -> Check:
-    """Check that equation (3.5) is (3.1) with the two points exchanged."""
-
-    def difference(xk: int, yk: int, xm: int, ym: int) -> int:
-        return int(line_of_page_19((xk, yk, 0), (xm, ym, 0)) != line_as_printed(xm, ym, xk, yk))
-
-    return identity(difference, (2, 2, 2, 2), "(3.5) has the coefficients of the line through two points")
-
-
-def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> Line:
-    """Return equation (3.1), (3.2) or (3.3): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
-    return v2 - v1, u1 - u2, (u2 - u1) * v1 + (v1 - v2) * u1
-
-
 def plane_as_printed(i: Point, j: Point, k: Point) -> Plane:
     """Return equation (3.4) as page 15 prints it."""
     (xi, yi, zi), (xj, yj, zj), (xk, yk, zk) = i, j, k
@@ -154,8 +159,3 @@ def plane_as_printed(i: Point, j: Point, k: Point) -> Plane:
     c = xi * yj + xj * yk + yi * xk - yj * xk - xi * yk - xj * yi
     d = xk * yj * zi + yk * zj * xi + xj * yi * zk - xj * yk * zi - yi * zj * xk - xi * yj * zk
     return a, b, c, d
-
-
-def line_of_page_19(k: Point, m: Point) -> Line:
-    """Return equation (3.5) as page 19 prints it."""
-    return k[1] - m[1], m[0] - k[0], (k[0] - m[0]) * m[1] + (m[1] - k[1]) * m[0]

@@ -6,7 +6,19 @@ The equations of the proofs are transcribed as printed.
 from fractions import Fraction
 from itertools import product
 
-from modern.claims.algebra import Point, Polynomial, Step, Term, polynomial, positive, term, variables, zero
+from modern.claims.algebra import (
+    Point,
+    Polynomial,
+    Step,
+    Term,
+    not_negative,
+    point,
+    polynomial,
+    positive,
+    term,
+    variables,
+    zero,
+)
 from modern.claims.evidence import Check, claim, exhibited, proved, refuted, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import (
@@ -20,7 +32,7 @@ from modern.claims.sampled_sets import (
 from modern.claims.thesis import proofs
 from modern.claims.thesis.chapter3_equations import first_two_points
 from modern.claims.thesis.chapter3_steps import third_point
-from modern.claims.thesis.chapter4_examples import theorem_of
+from modern.claims.thesis.chapter4_examples import theorem_of, worked_example, worked_example_checks
 from modern.edition.chapter4 import load_theorems
 
 
@@ -30,7 +42,8 @@ def eight_theorems() -> Check:
     examples = {theorem.id for theorem in load_theorems()}
     proofs_by_name = {name[8:].replace("_", "."): f for name, f in vars(proofs).items() if name.startswith("theorem_")}
     is_complete = examples | {*proofs_by_name} == {f"4.{k}" for k in range(1, 9)}
-    is_valid = all(proof().check().holds for proof in proofs_by_name.values())
+    by_example = [check for theorem in load_theorems() for check in worked_example_checks(theorem).values()]
+    is_valid = all(check.holds for check in (*by_example, *(proof().check() for proof in proofs_by_name.values())))
     return exhibited(is_complete and is_valid, "theorems 4.1 to 4.8 are proved by an example or an argument")
 
 
@@ -54,7 +67,7 @@ def inequalities_without_z() -> Check:
     passed = as_printed > 0 > right and [*map(Fraction, point)] == [*theorem_of("4.2").points[5].at]
     return slip(
         not passed,
-        right < 0,
+        right < 0 and worked_example("4.2", "signs").holds,
         "A x + B y + C z + D",
         f"at point 6: {as_printed} as printed, {right} with the terms in z and D",
     )
@@ -166,7 +179,7 @@ def _values(x: Polynomial, y: Polynomial) -> list[Polynomial]:
     return [a * x + b * y + c for a, b, c in _printed_lines(X1, Y1, Y2)]
 
 
-@claim("thesis.140", "thesis.139")
+@claim("thesis.140")
 def lines_of_figure_3() -> Check:
     """Prove that each printed line of Fig. 3 contains two corners of the triangle and is negative at the third."""
     origin = polynomial(0)
@@ -189,6 +202,29 @@ def outside_of_two_lines() -> Check:
     terms = tuple(Term((name,), polynomial(1)) for name in ("line 2", "line 3"))
     step = Step("x is negative", signs, positive(-x), terms, ("order",))
     return proved("The values of lines 2 and 3 add up to (y_1 - y_2) x", [step.is_valid()], "x is negative")
+
+
+@claim("thesis.142", "thesis.143")
+def outside_of_line_1() -> Check:
+    """Prove that no point is outside both line 1 and another line of the triangle, in the way of lines 2 and 3.
+
+    The corner of both lines is the origin, and no given point is beyond it: P_1 has the largest x, P_2 the smallest.
+    """
+    (x, y), (x2, y2), (x3, y3) = (point(name, 2) for name in ("h", "q", "r"))
+    steps = []
+    for sign in (1, -1):
+        # The triangle P_1 P_2 P_3 is counterclockwise; P_2 P_1 P_3, with the origin at P_2, is clockwise.
+        signs = {
+            "area": positive(sign * (x2 * y3 - x3 * y2)),
+            "line 1": positive(-sign * (x2 * y - x * y2)),
+            "other line": positive(sign * (x3 * y - x * y3)),
+            "end": positive(-sign * x2),
+            "third": not_negative(-sign * x3),
+        }
+        certificate = (Term(("end", "other line"), polynomial(1)), Term(("third", "line 1"), polynomial(1)))
+        steps.append(Step("the point is beyond the corner", signs, positive(sign * x), certificate, ("area",)))
+    argument = "A point outside both lines is beyond their corner, at which x is largest or smallest of all points"
+    return proved(argument, (step.is_valid() for step in steps), "no point is outside both lines")
 
 
 @claim("thesis.243")

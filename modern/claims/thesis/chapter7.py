@@ -1,5 +1,6 @@
 """Checks of chapters 5 and 7: the machine, the data sheet, rejected data, errors and the two modifications."""
 
+import re
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, pairwise
@@ -76,11 +77,14 @@ def program_sizes() -> Check:
 
 @claim("thesis.14")
 def fifty_one_points() -> Check:
-    """Check that the arrays hold 51 points, and that a deck of fewer points overflows the plane table."""
+    """Check that the arrays of coordinates hold 51 points, and that a deck of fewer overflows the plane table."""
     points, _ = exact_points(deck_of("table.deck"))
-    sizes = {entry.size for entry in programs.program("program3").storage.arrays()}
+    arrays = [{entry.name: entry.size for entry in programs.program(name).storage.arrays()} for name in THREE]
     most = entries_of_plane_table()
-    check = exhibited(sizes == {51, PLACES}, "the arrays of program 3 hold 51 points")
+    coordinates = {
+        of_program[axis] for of_program, axes in zip(arrays, ("XYZ", "RST", "XYZ"), strict=True) for axis in axes
+    }
+    check = exhibited(coordinates == {51} and arrays[2]["KK"] == PLACES, "the arrays of the programs hold 51 points")
     message = f"{len(points)} points that need {most} entries of the plane table at once; program 3 has {PLACES}"
     return check.unless(len(points) <= 51 and most > PLACES, message)
 
@@ -134,13 +138,12 @@ def silent_loss() -> Check:
 
 @claim("thesis.65")
 def notation() -> Check:
-    """Check that programs 2 and 3 use the variable names of chapter 3."""
-    names = {entry.name for entry in programs.program("program3").storage.arrays()}
-    text = programs.deck("program3").text() + programs.deck("program2").text()
-    names_of_chapter_3 = ("NETC", "NE", "NV", "MM", "NN", "KK")
+    """Check that programs 2 and 3 use the names of chapter 3; KK is only in program 3, which needs three points."""
+    texts = [programs.deck(name).text() for name in THREE[1:]]
+    names = ("NETC", "NE", "NV", "MM", "NN", "KK")
+    in_both = all(re.search(rf"\b{name}\b", text) for text in texts for name in names[:5])
     return exhibited(
-        {"MM", "NN", "KK"} <= names and all(f"{name}=" in text or name in names for name in names_of_chapter_3),
-        f"the listings use the names {', '.join(names_of_chapter_3)} of chapter 3",
+        in_both and re.search(r"\bKK\(", texts[1]), f"the listings use the names {', '.join(names)} of chapter 3"
     )
 
 
@@ -363,7 +366,10 @@ def data_sheet(part: str) -> Check:
     if part == "columns":
         points, _ = exact_points(deck_of("z_in_39.deck"))
         z = [point[2] for point in points.values()][-1]
-        return slip(Fraction(z) == 1, _column_of_z() == 42, "29 to 42", f"a z of 1 in columns 39 to 52 is read as {z}")
+        deck = data_deck([["3", "12", "1"]], "one")
+        ((*_, in_29),) = exact_points(deck)[0].values()
+        right = len(deck.cards[-1].text.rstrip()) == 42 and Fraction(in_29) == 1
+        return slip(Fraction(z) == 1, right, "29 to 42", f"a z of 1 in columns 39 to 52 is read as {z}")
     if part == "digits":
         text, field = "+.3000000E+01", coordinate_field("3")
         message = f"{text} has {len(text)} characters, and a field has {len(field)} columns"
@@ -371,7 +377,3 @@ def data_sheet(part: str) -> Check:
     numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
     message = f"the sample cards are read as {', '.join(numbers)}"
     return exhibited(all(coordinate_field(value) == field for value, field in numbers.items()), message)
-
-
-def _column_of_z() -> int:
-    return len(data_deck([["3", "12", ".0146"]], "one").cards[-1].text.rstrip())

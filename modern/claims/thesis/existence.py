@@ -138,7 +138,7 @@ def theorem_4_1() -> Check:
     return proved(argument, coplanar_extremes(), "the extremes can be coplanar in all 87 ways to coincide")
 
 
-@claim("thesis.112", "thesis.114")
+@claim("thesis.112")
 def theorem_4_2() -> Check:
     argument = (
         "The surface of Table 1 is a sphere without self-intersection on six extremes, and two faces do not support"

@@ -16,6 +16,7 @@ from modern.claims.algebra import (
     positive,
     term,
     total,
+    turn,
     variables,
     zero,
 )
@@ -113,7 +114,7 @@ def perpendicular_projection() -> Proof:
         "a plane is projected to a line if and only if its coefficient for the omitted coordinate is 0",
         "The coefficient is twice the area of the image of the triangle. Planes are perpendicular if the product of "
         "their normals is 0, and that of a coordinate plane has one component. The rule omits a coordinate whose "
-        "coefficient is not 0.",
+        "coefficient is not 0: x, or y if A is 0, or z if A and B are 0, because then C is not 0.",
         _all_zero("the area is the coefficient", [area - a for area, a in zip(images, normal, strict=True)]),
     )
 
@@ -125,6 +126,24 @@ def projection_along_axis() -> Proof:
         "setting a coordinate to 0 projects a point to a coordinate plane",
         "The way from the foot to the point is perpendicular to every vector of the coordinate plane.",
         _all_zero("the product is 0", [dot(way, across) for way, across in ways]),
+    )
+
+
+def coordinates_of_figure_3() -> Proof:
+    """Prove that a triangle can have P_3 at the origin and the side P_1 P_2 parallel to the y axis."""
+    third, way = point("r", 2), minus(point("q", 2), point("p", 2))
+    moved = {name: (turn(way, u), dot(way, u)) for name in "pqrx" for u in [minus(point(name, 2), third)]}
+    image, original = moved["x"], minus(point("x", 2), third)
+    return Proof(
+        "a rotation puts P_3 at the origin and P_1 P_2 parallel to the y axis",
+        "The new coordinates of a point x, times the distance of P_1 and P_2, are products of the way from P_1 to P_2 "
+        "with the way from P_3 to x. They keep distances, because the sum of the squares of both products is the "
+        "product of the squares of both ways.",
+        (
+            *_all_zero("P_3 is the origin", moved["r"]),
+            *_all_zero("P_1 and P_2 have the same x", [moved["p"][0] - moved["q"][0]]),
+            *_all_zero("distances are kept", [dot(image, image) - dot(way, way) * dot(original, original)]),
+        ),
     )
 
 
@@ -156,6 +175,7 @@ def other_letters() -> Proof:
 @claim("thesis.126", "thesis.277", proof=coordinate_planes)
 @claim("thesis.55", "thesis.56", "thesis.126", "thesis.237", proof=perpendicular_projection)
 @claim("thesis.127", "thesis.198", proof=projection_along_axis)
+@claim("thesis.139", proof=coordinates_of_figure_3)
 @claim("thesis.128", proof=coefficient_c_0)
 @claim("thesis.130", proof=other_letters)
 def proof_of_identity(proof: Callable[[], Proof]) -> Check:
