@@ -43,5 +43,10 @@ def octree_hull(region: Voxels, printed: Printed | None = None) -> OctreeHull:
 @lru_cache(_MOST_HULLS)
 def _octree_hull(shape: tuple[int, ...], voxels: bytes, printed: Printed | None) -> OctreeHull:
     hull = modern.papers.yau_srihari.octree_hull(np.frombuffer(voxels, np.bool_).reshape(shape), printed)
-    hull.filled.flags.writeable = False
+    trees = (hull.lowest, hull.highest, hull.lower.tree, hull.upper.tree)
+    for array in (
+        hull.filled,
+        *(grid for tree in trees for grid in (tree.values, tree.there, tree.marked, tree.sides)),
+    ):
+        array.flags.writeable = False
     return hull

@@ -141,8 +141,9 @@ def theorem_2() -> Proof:
         "Project along the edge, so that p becomes the ray f and all points are on one side of it. The interior "
         "dihedral angle of the plane through u is the angle from f to u, and w is inside of that plane if w turns to "
         "u in the same sense. The two conditions differ by the factor f f, and so the largest angle has all points "
-        "inside, and conversely. The outward normals make the supplement of the angle, so that its smallest value, "
-        "and not its largest, belongs to the next face.",
+        "inside, and conversely. The third corner of p is on one side, or in the plane only if the plane is that of p. "
+        "So the plane supports if and only if no point is on the opposite side. The outward normals make the "
+        "supplement of the angle, so that its smallest value, and not its largest, belongs to the next face.",
         (
             Step(
                 "a point with a smaller angle than the plane is inside",

@@ -6,14 +6,13 @@ from random import Random
 
 import numpy as np
 
-from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, search, searched
+from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, searched
 from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import Point, counterexample_points
 from modern.claims.yau_srihari.envelopes import SOLIDS, array_of, hull_of
 from modern.digital.solids import VERTEX, ball
 from modern.papers.yau_srihari import Printed
 from modern.papers.yau_srihari.convexity import (
-    half_cell_expansion,
     is_digitally_convex,
     is_midpoint_convex,
     is_simple,
@@ -30,32 +29,6 @@ def definitions_differ() -> Check:
     definitions = [(is_midpoint_convex(a), is_digitally_convex(a)) for a in (corner, bend)]
     message = "two voxels with a common corner are convex by 3.2.2 and not by 3.2.3"
     return exhibited(definitions[0] == (True, False) and not definitions[1][1], message)
-
-
-def _draw_small(random: Random) -> tuple[Point, ...]:
-    cells: list[Point] = [(x, y, z) for x in range(2) for y in range(2) for z in range(3)]
-    return tuple(random.sample(cells, random.randint(2, 7)))
-
-
-CONVEX: Generator[tuple[Point, ...]] = Generator(
-    "digitally convex solids in a block of 2 x 2 x 3", 323, _draw_small, lambda s: is_digitally_convex(array_of(s))
-)
-
-
-@claim("yau-srihari.126", full=300)
-def convexity_by_expansion(cases: int = 1) -> Check:
-    """Check that expansions of convex solids are convex, and also that of nine voxels that are not convex."""
-    nine = [(0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 2, 0), (1, 2, 1), (2, 0, 0), (2, 0, 1), (2, 1, 1), (2, 2, 1)]
-    nonconvex = array_of(nine)
-    wider = is_simple(nonconvex) and not is_digitally_convex(nonconvex)
-    wider = wider and is_digitally_convex(half_cell_expansion(nonconvex))
-
-    def expands(voxels: tuple[Point, ...]) -> bool:
-        return is_digitally_convex(half_cell_expansion(array_of(voxels)))
-
-    return search(CONVEX, expands, cases, "convex solids have convex expansions").unless(
-        wider, "nine voxels that are not convex and whose expansion passes the test as well"
-    )
 
 
 @claim("yau-srihari.29")
