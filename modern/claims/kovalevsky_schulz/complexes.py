@@ -168,19 +168,6 @@ def subcomplex(cells: Complex, subset: set[int]) -> Complex:
     return tuple(dimensions[cell] for cell in numbers), frozenset(pairs)
 
 
-@claim("kovalevsky-schulz.136")
-def subsets_are_subcomplexes() -> Check:
-    """Check that every subset of a complex, with the restricted relation, is a complex."""
-    outcomes = [
-        is_complex(subcomplex(cells, {*subset}))
-        for cells in _complexes()
-        for size in range(len(cells[0]) + 1)
-        for subset in combinations(range(len(cells[0])), size)
-    ]
-    domain = "subsets of the cells of complexes with up to 4 cells of dimensions 0 to 3"
-    return exhausted(domain, outcomes, "every subset of a complex determines a subcomplex")
-
-
 def connected(cells: Complex) -> set[tuple[int, int]]:
     """Return the pairs of connected cells: incident, or connected to the same cell (Definition CN)."""
     numbers = range(len(cells[0]))

@@ -41,10 +41,7 @@ def diameter_8() -> Check:
 @claim("kovalevsky-schulz.92", diameter=20)
 @claim("kovalevsky-schulz.93", diameter=22)
 def row_of_table_5(diameter: int) -> Check:
-    """Check that a row of Table 5 has the counts of the half-ball whose centre is a corner of voxels.
-
-    It has those of no half-ball centred on a voxel, nor those of the strict hull if this has fewer vertices.
-    """
+    """Check that a row of Table 5 counts a half-ball centred on a corner of voxels, with points on straight edges."""
     row, cells = _row(diameter), half_ball_cells(diameter)
     hull = straightened(cells)
     agrees = (len(cells.faces), _size(cells)) == (row.faces, row.integers) and row.has_quarter_turns()

@@ -7,7 +7,7 @@ from itertools import product
 from modern.claims.evidence import Check, claim, refuted, search, searched
 from modern.claims.hulls import convex_polyhedron, exact_hull
 from modern.claims.kovalevsky_schulz.polyhedra import hulls
-from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels, local, points_of
+from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels, local, points_of
 from modern.claims.sampled_sets import (
     CASES,
     SETS,
@@ -20,7 +20,7 @@ from modern.claims.sampled_sets import (
 )
 from modern.digital.solids import listed
 from modern.geometry.vectors import dot, minus
-from modern.papers.kovalevsky_schulz import CENTRES, VERTICES, local_corners
+from modern.papers.kovalevsky_schulz import local_corners
 from modern.papers.kovalevsky_schulz.cells import CellList
 
 
@@ -48,17 +48,15 @@ def smaller_polyhedron(vertices: str) -> Check:
 
 @claim("kovalevsky-schulz.151", "kovalevsky-schulz.156", "kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
 def vertices_are_local_corners(cases: int = 4) -> Check:
-    """Check that the polyhedron constructed from local corners is the hull of the voxels, or of their corners.
-
-    All of its vertices must be local corners.
-    """
+    """Check that the polyhedron of the local corners is the hull of the voxels, or of their corners."""
 
     def agrees(solid: Voxels) -> bool:
-        for of in (CENTRES, VERTICES):
-            cells, judge = convex_polyhedron(local_corners(listed(solid), of)), exact_hull(points_of(solid, of))
-            if not (isinstance(cells, CellList) and {*cells.points} <= local(solid, of)):
-                return False
-            if {*cells.planes()} != {facet.plane for facet in judge.facets}:
+        for of in KINDS:
+            cells = convex_polyhedron(local_corners(listed(solid), of))
+            planes = {facet.plane for facet in exact_hull(points_of(solid, of)).facets}
+            if not (
+                isinstance(cells, CellList) and {*cells.planes()} == planes and {*cells.points} <= local(solid, of)
+            ):
                 return False
         return True
 

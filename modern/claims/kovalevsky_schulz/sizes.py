@@ -18,11 +18,8 @@ DIAMETERS = (8, 10, 12, 14, 16, 18, 20, 22)
 @claim("kovalevsky-schulz.78", full=400)
 def formula_5(cases: int = CASES) -> Check:
     """Check that formula (5) is only 6 integers too low, because a triangulation has 2 V - 4 triangles and not 2 V."""
-    excess = []
-    for points, _ in hulls(cases):
-        cells = polyhedron(points)
-        triangles = len(cells.faces)
-        excess.append(3 * len(cells.vertices) + 3 * triangles - triangulation_size(triangles))
+    lists = [polyhedron(points) for points, _ in hulls(cases)]
+    excess = [3 * len(c.vertices) + 3 * len(c.faces) - triangulation_size(len(c.faces)) for c in lists]
     return searched(SETS[3], cases, [e == 6 for e in excess], "hulls of triangles need 6 integers more than (5) gives")
 
 
@@ -75,11 +72,9 @@ def vertices_of_a_face() -> Check:
     means = []
     for bodies in _bodies():
         points, faces = [sum(len(f.vertices) for f in c.faces) for c in bodies], [len(c.faces) for c in bodies]
-        single = [Fraction(p, f) for p, f in zip(points, faces, strict=True)]
-        means.append((Fraction(sum(points), sum(faces)), sum(single) / len(single)))
-    texts = [
-        f"{float(of_faces):.2f} over all faces, {float(of_bodies):.2f} over the bodies" for of_faces, of_bodies in means
-    ]
+        single = sum(map(Fraction, points, faces))
+        means.append((Fraction(sum(points), sum(faces)), single / len(bodies)))
+    texts = [f"{float(first):.2f} over all faces, {float(second):.2f} over the bodies" for first, second in means]
     check = exhibited(all(round(mean) == 5 for mean in means[0]), f"means of points: {texts[0]}")
     return check.unless(all(round(mean) != 5 for mean in means[1]), f"the means of vertices: {texts[1]}")
 

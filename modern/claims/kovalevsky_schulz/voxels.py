@@ -16,6 +16,7 @@ from modern.papers.kovalevsky_schulz.polyhedron import Coplanar
 from modern.papers.kovalevsky_schulz.results import hull_of_ball
 
 Voxels = tuple[Point, ...]
+KINDS: tuple[Of, ...] = (CENTRES, VERTICES)
 STEPS: Voxels = tuple((x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1))
 DIRECTIONS = [step for step in product((-1, 0, 1), repeat=3) if any(step)]
 
@@ -36,7 +37,7 @@ def vertices_among_local_corners(cases: int = 5) -> Check:
     """Check that each vertex of the hull of a set of voxels, or of their corners, is a local corner of the set."""
 
     def among(solid: Voxels) -> bool:
-        sets: tuple[tuple[Voxels, Of], ...] = tuple((points_of(solid, of), of) for of in (CENTRES, VERTICES))
+        sets = ((points_of(solid, of), of) for of in KINDS)
         return all({points[k] for k in exact_hull(points).vertices} <= local(solid, of) for points, of in sets)
 
     return search(SOLIDS, among, cases, "the vertices of the hull of each solid are local corners")

@@ -62,10 +62,8 @@ def _samples(drawing: Drawing) -> Iterator[tuple[bool, list[Fraction]]]:
     for piece in drawing.pieces:
         vertices = drawing.solids[piece.solid].polyhedron.vertices
         share = (piece.first + piece.last) / 2
-        yield (
-            piece.visible,
-            [a + share * (b - a) for a, b in zip(vertices[piece.start], vertices[piece.end], strict=True)],
-        )
+        ends = zip(vertices[piece.start], vertices[piece.end], strict=True)
+        yield piece.visible, [a + share * (b - a) for a, b in ends]
 
 
 @cache

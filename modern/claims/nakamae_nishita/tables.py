@@ -14,7 +14,6 @@ from modern.claims.evidence import Check, Generator, claim, identity, proved, se
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
-from modern.exact_hull import ExactHull
 from modern.geometry.vectors import dot
 from modern.papers.nakamae_nishita.contours import Tables
 from modern.papers.nakamae_nishita.results import contour_tables
@@ -23,11 +22,8 @@ from modern.papers.nakamae_nishita.solids import height, plane_through
 Place = tuple[int, int]
 
 SQUARE: tuple[Place, ...] = ((0, 0), (0, 4), (4, 4), (4, 0))
-
 WITHIN: tuple[Place, ...] = ((1, 1), (1, 3), (3, 3), (3, 1))
-
 ACROSS: tuple[Place, ...] = ((2, 2), (2, 6), (6, 6), (6, 2))
-
 BESIDE: tuple[Place, ...] = ((6, 0), (6, 4), (9, 4), (9, 0))
 AGAINST: tuple[Place, ...] = ((0, 2), (1, 3), (2, 2), (1, 1))
 
@@ -96,7 +92,7 @@ def convex_contour(cases: int = CASES) -> Check:
     checks, straight = [], 0
     for points, judge, (u, v) in (
         *((sampled.points, sampled.judge, (31, 17)) for sampled in sampled_sets(3, 1 + cases)),
-        _roof(),
+        (ROOF, exact_hull(ROOF), (0, 0)),
     ):
         images = [(x + u * z, y + v * z) for x, y, z in points]
         values = [dot(face.plane[:3], (-u, -v, 1)) for face in judge.facets]
@@ -117,10 +113,6 @@ def convex_contour(cases: int = CASES) -> Check:
     message = f"the contours of {len(checks) // 2} hulls turn only clockwise"
     message += "; one is straight at a corner of a face seen edge-on"
     return searched(SETS[3], 1 + cases, [*checks, straight], message)
-
-
-def _roof() -> tuple[tuple[Point, ...], ExactHull, tuple[int, int]]:
-    return ROOF, exact_hull(ROOF), (0, 0)
 
 
 @claim("nakamae-nishita.13", full=25)

@@ -135,15 +135,13 @@ def corrected_step(name: str, cases: int = 2) -> Check:
     return check.unless(not as_printed.holds, f"the step as printed: {as_printed.message}")
 
 
-@claim("yau-srihari.5", full=500)
-def deficiency_of_solid(cases: int = 5) -> Check:
+@claim("yau-srihari.5")
+def deficiency_of_solid() -> Check:
     """Check that removing the convex deficiency from the digital hull gives the solid."""
-
-    def restores(voxels: tuple[Point, ...]) -> bool:
-        array = array_of(voxels)
-        return bool((hull_of(voxels).filled & ~convex_deficiency(array) == array).all())
-
-    return search(SOLIDS, restores, cases, "the digital hull without the convex deficiency is the solid")
+    array, hull = array_of(SOLID), hull_of(SOLID).filled
+    deficiency = convex_deficiency(array)
+    restored = (hull & ~deficiency == array).all() and int(deficiency.sum()) == int(hull.sum()) - len(SOLID)
+    return exhibited(restored, "the digital hull without the convex deficiency is the solid")
 
 
 @claim("yau-srihari.36")
@@ -194,68 +192,42 @@ def floor_and_ceiling() -> Check:
     return slip(as_printed, as_corrected, "the floor and the ceiling", message)
 
 
-def _floor_and_vertices(voxels: tuple[Point, ...]) -> tuple[set[Point], set[Point]]:
-    """Return the points of a solid's floor and the vertices of its lower envelope."""
-    hull = hull_of(voxels)
-    return {(x, y, z) for (x, y), z in hull.floor.items()}, {v for face in hull.lower.faces for v in face.vertices}
-
-
-@claim("yau-srihari.55", full=500)
+@claim("yau-srihari.55", "yau-srihari.56", full=500)
 def supporting_planes(cases: int = 5) -> Check:
-    """Check that each plane that supports the floor from below, or upright, contains a vertex of the lower envelope.
-
-    A plane that supports the envelope from above touches its faces at their vertices.
-    """
+    """Check that each plane that supports the floor, not from above, contains a vertex of the envelope and floor."""
 
     def touch(voxels: tuple[Point, ...]) -> bool:
-        floor, vertices = _floor_and_vertices(voxels)
-        return all(min(dot(n, p) for p in floor) == min(dot(n, v) for v in vertices) for n in NORMALS)
+        hull = hull_of(voxels)
+        floor, vertices = {(*at, z) for at, z in hull.floor.items()}, {v for f in hull.lower.faces for v in f.vertices}
+        return vertices <= floor and all(
+            min(dot(n, p) for p in floor) == min(dot(n, v) for v in vertices) for n in NORMALS
+        )
 
-    return search(SOLIDS, touch, cases, f"{len(NORMALS)} supporting planes of each solid contain an extreme point")
-
-
-@claim("yau-srihari.56", full=500)
-def extreme_points(cases: int = 5) -> Check:
-    """Check that each vertex of the lower envelope is a point of the floor."""
-
-    def among(voxels: tuple[Point, ...]) -> bool:
-        floor, vertices = _floor_and_vertices(voxels)
-        return vertices <= floor
-
-    return search(SOLIDS, among, cases, "all vertices of the lower envelopes are points of the floors")
+    message = f"{len(NORMALS)} supporting planes of each solid contain an extreme point, which is a point of the floor"
+    return search(SOLIDS, touch, cases, message)
 
 
 @claim("yau-srihari.84", full=500)
 def integer_normals(cases: int = 5) -> Check:
-    """Check that normals of starting faces, which are upright, are integer vectors perpendicular to their edges."""
+    """Check that normals of starting faces, which are upright, are integer vectors perpendicular to the edges."""
 
     def are_integers(voxels: tuple[Point, ...]) -> bool:
-        first_steps = [side.steps[0] for side in (hull_of(voxels).lower, hull_of(voxels).upper)]
-        # Normals of faces found later point down.
-        upright = [
-            step for side in (hull_of(voxels).lower, hull_of(voxels).upper) for step in side.steps if not step.normal[2]
-        ]
-        return all(step in upright for step in first_steps) and all(
-            any(step.normal) and all(type(n) is int for n in step.normal) and not dot(step.normal, minus(*step.edge))
-            for step in upright
-        )
+        starts = [envelope.steps[0] for envelope in (hull_of(voxels).lower, hull_of(voxels).upper)]
+        normals = [(step.normal, minus(*step.edge)) for step in starts]
+        return all(any(n) and {*map(type, n)} == {int} and n[2] == dot(n, along) == 0 for n, along in normals)
 
-    return search(SOLIDS, are_integers, cases, "the normals of all starting faces are integers, and horizontal")
+    return search(SOLIDS, are_integers, cases, "the normals of the first starting faces are horizontal integer vectors")
 
 
 @claim("yau-srihari.67", full=500)
 def rule_1(cases: int = 5) -> Check:
-    """Check that two faces with a common edge are on opposite sides of its line, as seen from below."""
+    """Check that a face is on one side of its directed edges, as seen from below, and that no other face has them."""
 
     def are_opposite(voxels: tuple[Point, ...]) -> bool:
-        for face, other in combinations(hull_of(voxels).lower.faces, 2):
-            shared = {*face.vertices} & {*other.vertices}
-            if len(shared) == 2:
-                u, v = shared
-                sides = [{normal_of(u, v, w)[2] > 0 for w in {*f.vertices} - shared} for f in (face, other)]
-                if len(sides[0]) != 1 or sides[1] != {not side for side in sides[0]}:
-                    return False
-        return True
+        faces = hull_of(voxels).lower.faces
+        edges = [(u, v, f) for f in faces for u, v in zip(f.vertices, (*f.vertices[1:], f.vertices[0]), strict=True)]
+        on_one_side = all(normal_of(u, v, w)[2] < 0 for u, v, f in edges for w in {*f.vertices} - {u, v})
+        return on_one_side and len({(u, v) for u, v, _ in edges}) == len(edges)
 
     return search(SOLIDS, are_opposite, cases, "faces with a common edge are on opposite sides of it")
 
@@ -266,15 +238,13 @@ def first_and_last_heights(cases: int = 5) -> Check:
 
     def agree(voxels: tuple[Point, ...]) -> bool:
         hull = hull_of(voxels)
-        floor: dict[tuple[int, int], int] = {}
-        ceiling: dict[tuple[int, int], int] = {}
+        leaves = []
         # The codes of the leaves increase in the order in which sons are visited.
         for (x, y, z), level in zip(hull.solid.corners().tolist(), hull.solid.levels.tolist(), strict=True):
             side = hull.side >> level
-            for place in product(range(x, x + side), range(y, y + side)):
-                floor.setdefault(place, z)
-                ceiling[place] = z + side - 1
-        return (floor, ceiling) == (hull.floor, hull.ceiling)
+            leaves += [(at, z, z + side - 1) for at in product(range(x, x + side), range(y, y + side))]
+        floor = {at: low for at, low, _ in reversed(leaves)}
+        return (floor, {at: high for at, _, high in leaves}) == (hull.floor, hull.ceiling)
 
     return search(SOLIDS, agree, cases, "the first leaf gives the floor of each column, and the last one its ceiling")
 
