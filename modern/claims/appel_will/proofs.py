@@ -4,6 +4,8 @@ from collections.abc import Callable
 
 from modern.claims.algebra import (
     IMPOSSIBLE,
+    Point,
+    Polynomial,
     Proof,
     Step,
     bracket,
@@ -45,12 +47,18 @@ def triangle_area() -> Proof:
     q = tuple(a + b for a, b in zip(p, u, strict=True))
     # A point r at a multiple of the side u, to the left of it.
     r = (p[0] + along * u[0] - height * u[1], p[1] + along * u[1] + height * u[0])
-    determinant = p[0] * (q[1] - r[1]) - p[1] * (q[0] - r[0]) + (q[0] * r[1] - q[1] * r[0])
+
+    def determinant(a: Point, b: Point, c: Point) -> Polynomial:
+        return a[0] * (b[1] - c[1]) - a[1] * (b[0] - c[0]) + (b[0] * c[1] - b[1] * c[0])
+
     return Proof(
         "the determinant is positive counterclockwise, negative clockwise, and 0 for collinear points",
         "The third corner is at a multiple of the first side, to the left of it. The determinant is this multiple "
         "times the square of the side, which is the base times the signed height.",
-        (Step("the determinant is base times height", {}, zero(determinant - height * dot(u, u))),),
+        (
+            Step("the determinant is base times height", {}, zero(determinant(p, q, r) - height * dot(u, u))),
+            Step("the determinant is 0 if the first two corners coincide", {}, zero(determinant(p, p, r))),
+        ),
     )
 
 
@@ -89,7 +97,10 @@ def product_of_lines() -> Proof:
     """Prove that the vector product of two lines is perpendicular to both."""
     u, v = point("u", 3), point("v", 3)
     steps = [Step("the product is perpendicular", {}, zero(dot(cross(u, v), line))) for line in (u, v)]
-    return Proof("the product of two lines of a surface is normal to it", "The lines span the surface.", tuple(steps))
+    square = dot(cross(u, v), cross(u, v)) + dot(u, v) * dot(u, v) - dot(u, u) * dot(v, v)
+    steps.append(Step("its square is that of the lines less that of their dot product", {}, zero(square)))
+    argument = "The lines span the surface. By Lagrange's identity their product is 0 only for parallel lines."
+    return Proof("the product of two lines of a surface is normal to it", argument, tuple(steps))
 
 
 def equal_images() -> Proof:

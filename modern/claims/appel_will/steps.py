@@ -11,7 +11,7 @@ from modern.claims.sampled_sets import Point, counterexample_points
 from modern.papers.appel_will import Method, appel_will, printed
 from modern.papers.appel_will.corners import triple_product
 from modern.papers.appel_will.results import found_solid
-from modern.papers.appel_will.star import as_corrected, as_printed, star_polygon, vorticity
+from modern.papers.appel_will.star import as_corrected, as_printed, on_one_ray, star_polygon, vorticity
 
 # The vectors I, K and L of [512], [723] and [643].
 FIG_18: tuple[tuple[Point, Point, Point], ...] = (
@@ -43,26 +43,31 @@ IMAGES: Generator[tuple[Flat, ...]] = Generator(
 
 @claim("appel-will.131", full=5_000)
 def star_test(cases: int = 20) -> Check:
-    """Check that the star polygon test is right as printed if no two images are in line with the tested point."""
+    """Check that the star polygon test is right as printed if no two images are on one ray from the tested point."""
     general: list[bool] = []
-    in_line: list[bool] = []
+    on_ray: list[bool] = []
     for images in IMAGES.cases(cases):
         right = as_printed(images) != holds_origin(images)
-        (general if all(vorticity(a, b) for a, b in combinations(images, 2)) else in_line).append(right)
+        (on_ray if any(on_one_ray(a, b) for a, b in combinations(images, 2)) else general).append(right)
     check = searched(IMAGES, cases, general, f"right for {len(general)} sets of images")
-    return check.unless(not all(in_line), f"{in_line.count(False)} sets with two images in line with the point")
+    return check.unless(not all(on_ray), f"{on_ray.count(False)} of {len(on_ray)} sets with two images on one ray")
 
 
 @claim("appel-will.55", "appel-will.58", full=5_000)
 def change_of_sense(cases: int = 20) -> Check:
-    """Check that a point is outside the hull if two sides of its star polygon turn differently."""
+    """Check that a change of sense shows a point outside its star polygon, and that it then is outside the hull."""
 
     def is_right(images: tuple[Flat, ...]) -> bool:
         star = star_polygon(images)
-        turns = [vorticity(a, b) for a, b in zip(star, (*star[1:], star[0]), strict=True)]
-        return min(turns) >= 0 or max(turns) <= 0 or not holds_origin(images)
+        sides = [*zip(star, (*star[1:], star[0]), strict=True)]
+        turns = [vorticity(a, b) for a, b in sides]
+        # The point is outside if it is on no side, and a ray from it crosses an even number of sides.
+        crossings = [(a[1] > 0) != (b[1] > 0) and vorticity(a, b) * (b[1] - a[1]) > 0 for a, b in sides]
+        on_side = any(not vorticity(a, b) and not on_one_ray(a, b) for a, b in sides)
+        is_outside = not on_side and sum(crossings) % 2 == 0
+        return (is_outside or min(turns) >= 0 or max(turns) <= 0) and not (is_outside and holds_origin(images))
 
-    return search(IMAGES, is_right, cases, "a change of sense is seen only from outside")
+    return search(IMAGES, is_right, cases, "a change of sense is seen only from outside the star polygon and the hull")
 
 
 @claim("appel-will.119", full=1_000)

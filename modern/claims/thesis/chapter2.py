@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations, permutations
 
+from modern.claims.appel_will.convexity import area
 from modern.claims.evidence import Check, claim, exhausted, searched, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import (
@@ -34,10 +35,6 @@ def weights_of_combination() -> Check:
     check = exhausted("three weights in quarters from -10/4 to 10/4 with the sum 1", outcomes, message)
     beyond = any(plane_value(side, (-1, 0, 0)) > 0 for side in sides)
     return check.misprinted(beyond, "weights that are not negative and have the sum 1")
-
-
-def _area(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
-    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 
 
 @claim("thesis.22")
@@ -178,7 +175,7 @@ def lines_from_pairs(cases: int = CASES) -> Check:
         lines = set()
         flat = [(x, y) for x, y, _ in sampled.points]
         for p, q in combinations(flat, 2):
-            sides = [_area(p, q, r) for r in flat]
+            sides = [area(p, q, r) for r in flat]
             if max(sides) <= 0 or min(sides) >= 0:
                 lines.add(frozenset(k for k, side in enumerate(sides) if not side))
         agreeing += lines == {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}

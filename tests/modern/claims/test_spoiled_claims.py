@@ -16,7 +16,6 @@ import modern.claims.nakamae_nishita.tables as contours
 import modern.claims.thesis.chapter3_stages as stages
 import modern.claims.thesis.chapter3_wording as wording
 from modern.claims.algebra import IMPOSSIBLE, Proof, Step
-from modern.claims.appel_will.surfaces import fig_4
 from modern.claims.evidence import Decision
 from modern.claims.register import decisions
 from modern.claims.sampled_sets import SampledSet, sampled_sets
@@ -35,12 +34,6 @@ def _edges_as_entered(hull: Any) -> Any:
 def _with_idle_stage(sampled: SampledSet) -> SampledSet:
     history = sampled.hull.history
     return replace(sampled, hull=replace(sampled.hull, history=(*history, replace(history[-1], added=()))))
-
-
-def _turned_if_changed(original: Any) -> object:
-    """Turn all surfaces that are not listed as in Fig. 4."""
-    listed = fig_4().surfaces
-    return lambda points, faces: tuple(f if faces == listed else f[::-1] for f in original(points, faces))
 
 
 def _listing_with(old: str, new: str) -> Callable[[Any], object]:
@@ -63,10 +56,9 @@ def _failing_proof() -> Proof:
 
 # Spoilers of the checks that no alteration of a single value refutes.
 BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
-    "appel-will.11": ("_area", lambda _: lambda *corners: 1),
+    "appel-will.11": ("area", lambda _: lambda *corners: 1),
     "appel-will.37": ("combinations", lambda original: lambda items, r: [*original(items, r)][1:]),
     "appel-will.80": ("findings", lambda original: lambda paper: [replace(f, produced=()) for f in original(paper)]),
-    "appel-will.84": ("oriented", _turned_if_changed),
     "kovalevsky-schulz.18": ("local", lambda original: lambda solid, *_: original(solid) if _ else {*solid}),
     "kovalevsky-schulz.96": ("_is_symmetric", lambda _: lambda ring: True),
     "thesis.3": ("programs", _without_code),
