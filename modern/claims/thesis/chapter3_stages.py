@@ -43,7 +43,7 @@ from modern.geometry.vectors import cross, dot, minus
 @claim("thesis.206", "thesis.228", "thesis.99", kind="equations", full=300)
 @claim("thesis.221", "thesis.229", kind="vertices_used", full=300)
 @claim("thesis.222", "thesis.232", kind="vertex_when_added", full=300)
-@claim("thesis.227", "thesis.92", kind="convexity", full=300)
+@claim("thesis.227", "thesis.92", "thesis.266", kind="convexity", full=300)
 @claim("thesis.266", kind="added_tetrahedra", full=300)
 @claim("thesis.241", "thesis.240", kind="added_triangle", full=300)
 @claim("thesis.278", kind="two_new_lines", full=300)

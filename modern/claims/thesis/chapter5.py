@@ -50,14 +50,15 @@ def error_in_program() -> Check:
 
 @claim("thesis.282")
 def message_after_wrong_hull() -> Check:
-    """Check that examples 4 to 6 end with CONVEX HULL HAS BEEN DETERMINED; a run that has lost vertices does so too."""
+    """Check that examples 4 to 6 are complete and end with the message; a run that has lost vertices does so too."""
     punched = run_of("silent.deck").final.result.punched
     punched_vertices, hull_vertices = vertices_of("silent.deck")
     announced = any("CONVEX HULL HAS BEEN DETERMINED" in card for card in punched)
     message = f"success is punched after {len(punched_vertices)} of {len(hull_vertices)} vertices"
     punched_by_examples = [[p.lines for p in prints(k) if p.device == "punch"][-1] for k in (4, 5, 6)]
     endings = ["CONVEX HULL HAS BEEN DETERMINED" in [*filter(str.strip, lines)][-1] for lines in punched_by_examples]
-    check = exhausted("examples 4 to 6 of chapter 6", endings, "the examples end with the message")
+    outcomes = [*endings, printed_hulls().holds]
+    check = exhausted("examples 4 to 6 of chapter 6", outcomes, "the examples are complete and end with the message")
     return check.unless(announced and punched_vertices != hull_vertices, f"four points of five digits: {message}")
 
 
@@ -260,7 +261,7 @@ def total_of_translation() -> Check:
         saved.append((products, products - 6 * len(points)))
     many_points, many_planes = saved
     message = "a curve saves {} products and {} sums; ".format(*many_planes)
-    message += "a tetrahedron with 39 inside points saves {} and {}".format(*many_points)
+    message += "a tetrahedron with 39 inside points costs {} products and {} sums more".format(*(-n for n in many_points))
     return exhibited(max(many_points) < 0 < min(many_planes), message)
 
 
@@ -271,4 +272,7 @@ def points_moved_back() -> Check:
     run = run_hull(data_deck(points, "four"), _translated, Options(core=60_000))
     punched = {*read_hull(run.final.result.punched).vertices}
     original = {tuple(map(Fraction, point)) for point in points}
-    return exhibited(punched == original, f"{len(punched)} vertices are punched with their original coordinates")
+    centre = [sum(axis) / len(original) for axis in zip(*original, strict=True)]
+    without = {tuple(x - c for x, c in zip(point, centre, strict=True)) for point in original}
+    message = f"{len(punched)} vertices are punched with their original coordinates, which differ from the moved ones"
+    return exhibited(punched == original != without, message)

@@ -6,7 +6,7 @@ from functools import cache
 from itertools import combinations, pairwise
 from random import Random
 
-from emulator.language.cards import Deck, deck_from_text
+from emulator.language.cards import Deck, deck_from_lines, deck_from_text
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
 from emulator.objectdeck.extent import code_positions
@@ -29,6 +29,7 @@ THREE = ("program1", "program2", "program3")
 PLACES = 98
 _FOURTH: tuple[Point, ...] = ((-185, 158, -52), (51, -195, -195), (23, -33, 59), (-1517, 1790, 44))
 _THREE: tuple[Point, ...] = ((-220, -492, 405), (-70, -270, -113), (-452, 485, -366))
+_REJECTED: tuple[Point, ...] = (*_THREE, (101, 77, -340), (250, 333, 90))
 
 
 def deck_of(name: str) -> Deck:
@@ -160,12 +161,10 @@ def inside_heading() -> Check:
 
 @claim("thesis.181")
 def eight_digits() -> Check:
-    """Check that a card field holds eight digits and has no room for a ninth."""
-    try:
-        coordinate_field("1.23456789")
-    except ValueError as error:
-        return exhibited(coordinate_field("1.2345678") == "+.12345678E+01", str(error))
-    return exhibited(False, "a ninth digit fits in a card field")
+    """Check that program 1 keeps eight digits of coordinates whose cards have nine."""
+    run = run_hull(deck_from_lines("nine digits", [" 1", 3 * "123456789.E+00"]), programs.program)
+    (vertex,) = read_hull(run.final.result.punched).vertices
+    return exhibited({*vertex} == {123456780}, f"123456789 is punched as {vertex[0]}")
 
 
 def _draw_operands(random: Random) -> tuple[int, int]:
@@ -265,9 +264,11 @@ def fourth_point_off_plane() -> Check:
 
 @claim("thesis.184")
 def programs_rejecting_data() -> Check:
-    """Check which of the three programs can type DATA NOT ACCEPTABLE."""
+    """Check that program 3 rejects a set if three points miss their own plane, and which programs can do so."""
     has = [name for name in THREE if "DATA NOT ACCEPTABLE" in programs.deck(name).text()]
-    check = exhibited({*has} >= {"program2", "program3"}, f"DATA NOT ACCEPTABLE is in {' and '.join(has)}")
+    run = run_hull(data_deck([[*map(str, point)] for point in _REJECTED], "rejected"), programs.program)
+    rejected = _misses(_THREE) and typed(run).endswith("DATA NOT ACCEPTABLE") and run.final.name == "program3"
+    check = exhibited(rejected and {*has} >= {"program2", "program3"}, f"typed: {typed(run)}")
     return check.unless("program1" not in has, "program 1, which has no such test")
 
 
@@ -283,10 +284,9 @@ def vertex_within_interval() -> Check:
 @claim("thesis.186")
 def interval_instead_of_rejection() -> Check:
     """Check that the tolerance e = 10 turns a rejection into the right hull, and e = 10,000,000 into a wrong one."""
-    points = [*_THREE, (101, 77, -340), (250, 333, 90)]
-    whole = [tuple(map(str, point)) for point in points]
+    whole = [tuple(map(str, point)) for point in _REJECTED]
     hulls = [convex_hull(whole, "truncating", epsilon=e, on_refusal="return") for e in (None, "10", "10000000")]
-    judge = exact_hull(points)
+    judge = exact_hull(_REJECTED)
     right = [hull.determined and {*hull.vertices} == {*judge.vertices} for hull in hulls]
     check = exhibited(right[:2] == [False, True], f"without e: {hulls[0].status}; with e = 10: {hulls[1].status}")
     return check.unless(not right[2], f"e = 10,000,000, which leaves {len(hulls[2].vertices)} vertices")
