@@ -163,8 +163,8 @@ def three_planes() -> Proof:
         "The object near the vertex lies in an open half-space. Three planes divide space into eight cones of edges "
         "u or -u, v or -v, w or -w, and the half-space contains u or -u but not both. So the object fills one cone, "
         "say of u, v and w, and [u v w] is positive. Its inward normals at u are w x u and u x v. Their triple product "
-        "with u is the square of u times [u v w], so u is an outside corner, and so are v and w. Two planes make no "
-        "vertex.",
+        "with u is the square of u times [u v w], so u is an outside corner, and so are v and w. Fewer planes, or "
+        "three through one line, make no vertex.",
         (
             Step(
                 "no half-space contains u and -u",
