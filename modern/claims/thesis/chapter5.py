@@ -261,7 +261,9 @@ def total_of_translation() -> Check:
         saved.append((products, products - 6 * len(points)))
     many_points, many_planes = saved
     message = "a curve saves {} products and {} sums; ".format(*many_planes)
-    message += "a tetrahedron with 39 inside points costs {} products and {} sums more".format(*(-n for n in many_points))
+    message += "a tetrahedron with 39 inside points costs {} products and {} sums more".format(
+        *(-n for n in many_points)
+    )
     return exhibited(max(many_points) < 0 < min(many_planes), message)
 
 
