@@ -9,7 +9,7 @@ import csv
 import hashlib
 import io
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import astuple, dataclass, fields
 from functools import cache
 from importlib import import_module
@@ -74,12 +74,36 @@ def _name(decision: Decision) -> str:
 
 
 def sources_of(decision: Decision) -> str:
-    """Return a digest of the code of a check, of what it uses in its module, of the evidence and of the samples."""
-    function = decision.function
-    names = ("modern.claims.evidence", "modern.claims.sampled_sets")
-    text = "".join(code for name in names for code in map(ast.dump, definitions(name).values()))
-    text += "".join(map(ast.dump, _used(definitions(function.__module__), function.__name__)))
+    """Return a digest of the code of a check and of all that it uses in the modules of this package."""
+    start = decision.function.__module__, decision.function.__name__
+    pending, reached, text = [start], {start}, ""
+    while pending:
+        module, name = pending.pop()
+        text += ast.dump(definitions(module)[name])
+        new = sorted(_used(module, name) - reached)
+        reached |= {*new}
+        pending += new
     return hashlib.sha256(f"{decision.full} {text}".encode()).hexdigest()[:12]
+
+
+@cache
+def _used(module: str, name: str) -> Set[tuple[str, str]]:
+    """Return the definitions of this package, as pairs of a module and a name, that a definition uses directly."""
+    used = {node.id for node in ast.walk(definitions(module)[name]) if isinstance(node, ast.Name)}
+    own = {key: (module, key) for key in definitions(module)} | imports(module)
+    return {own[key] for key in used & own.keys()}
+
+
+@cache
+def imports(module: str) -> dict[str, tuple[str, str]]:
+    """Return the names that a module imports from this package, each with its module and its name there."""
+    return {
+        alias.asname or alias.name: (node.module, alias.name)
+        for node in ast.parse(getsource(import_module(module))).body
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("modern.claims.")
+        for alias in node.names
+        if alias.name in definitions(node.module)
+    }
 
 
 @cache
@@ -97,18 +121,6 @@ def definitions(name: str) -> Mapping[str, ast.stmt]:
         own_name = getattr(statement, "name", "")
         definitions |= dict.fromkeys([own_name] if own_name else stored, statement)
     return definitions
-
-
-def _used(definitions: Mapping[str, ast.stmt], name: str) -> Iterator[ast.stmt]:
-    """Yield the definition of a name and the definitions that it uses, directly or indirectly."""
-    names, reached = [name], {name}
-    while names:
-        definition = definitions[names.pop()]
-        yield definition
-        used = {node.id for node in ast.walk(definition) if isinstance(node, ast.Name)}
-        new = sorted((used & definitions.keys()) - reached)
-        reached |= {*new}
-        names += new
 
 
 def run(name: str) -> FullSearch:

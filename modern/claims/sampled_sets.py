@@ -1,7 +1,7 @@
-"""Data that the checks of several documents share: sampled point sets, random triples and counterexamples."""
+"""Data that the checks of several documents share: sampled point sets and counterexamples."""
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cache, partial
 from importlib.resources import files
@@ -164,16 +164,3 @@ def counterexample_points(name: str) -> list[Point]:
     """Return the points with integer coordinates of a CSV file in ``transcripts/counterexamples``."""
     rows, _ = csv_points(counterexample(name), name)
     return [(int(x), int(y), int(z)) for x, y, z in rows]
-
-
-def _draw_triple(random: Random) -> tuple[Point, Point, Point]:
-    p, q, r = (tuple(random.randint(-9, 9) for _ in range(3)) for _ in range(3))
-    return p, q, r  # type: ignore[return-value]
-
-
-TRIPLES = Generator("triples of points with coordinates from -9 to 9", 3, _draw_triple)
-
-
-def random_triples(count: int = 6) -> Iterator[tuple[Point, Point, Point]]:
-    """Return ``count`` triples of random points. Every call returns the same triples."""
-    return TRIPLES.cases(count)

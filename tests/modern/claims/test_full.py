@@ -33,6 +33,11 @@ def test_search_is_outstanding_without_a_result_or_after_a_change() -> None:
     assert name in full.outstanding({})
 
 
+def test_sources_include_definitions_of_other_modules() -> None:
+    used = full._used("modern.claims.thesis.chapter5", "procedure_in_exact_arithmetic")
+    assert ("modern.claims.thesis.chapter7", "vertices_of") in used
+
+
 def test_a_shared_octree_hull_cannot_be_altered() -> None:
     hull = octree_hull(np.ones((2, 2, 2), np.bool_))
     with pytest.raises(ValueError, match="read-only"):
