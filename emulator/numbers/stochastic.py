@@ -38,7 +38,7 @@ _FORM = re.compile(
 _SOURCES = {
     CESTAC: "up or down with probability 1/2 (CESTAC)",
     OPPOSITE: "as the opposite of CESTAC with the same seed",
-    PROPORTIONAL: "up with the probability of the part cut",
+    PROPORTIONAL: "up with a probability equal to the part that is cut off",
 }
 # The guard digits of sums: enough to compare the part that is cut with a draw of eight digits, or with zero.
 _GUARD, _FEW = 9, 2

@@ -190,11 +190,11 @@ def _count_lines(hull: VoxelHull) -> Iterator[str]:
         triangles, shuffled = len(surface.triangulation.faces), ", shuffled" if hull.order == SHUFFLED else ""
         yield f"inserted: {len(hull.inserted)} local corners{shuffled}; {triangles} triangles"
         yield f"merged: {_cells(faces)}"
-        saved = f"{triangulation_size(triangles)} for the triangles by (5), "
+        saved = f"{triangulation_size(triangles)} for the triangles by formula (5), "
     if len(straight.vertices) < len(faces.vertices):
         yield f"with collinear edges merged: {_cells(straight)}"
     by_formula, by_count = cell_list_size(len(faces.vertices), len(faces.faces)), economical_size(faces)
-    yield f"integers to save: {saved}{by_formula} for the cell list by (6), {by_count} counted"
+    yield f"integers to save: {saved}{by_formula} for the cell list by formula (6), {by_count} counted"
 
 
 def _cells(cells: CellList) -> str:

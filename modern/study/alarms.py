@@ -13,10 +13,10 @@ A method raises an *alarm* at a decision if it cannot confirm the target that th
 - ``interval``: the bounds of the number lead to different targets, or to another one.
 - ``double``: arithmetic with twice the digits leads to another target.
 
-A number without significant digits counts as zero, which is the decision of the first three methods; that of ``vote10``
-is the majority.  Chapter 7's e applies to the decisions that its layer changes.  It raises an alarm if the number is
-within e of zero, but not zero, and zero leads to another target.  The least power of ten for which it does so is
-recorded.
+``cadna3``, ``cadna10`` and ``parker10`` take the branch for zero if the number has no significant digit, and ``vote10``
+takes the branch of the majority.  Chapter 7's e applies to the decisions that the layer ``epsilon`` changes.  It raises
+an alarm if the number is within e of zero, but not zero, and zero leads to another target.  The least power of ten e
+that raises an alarm is recorded.
 """
 
 import hashlib
@@ -79,9 +79,9 @@ class _Tally:
 def alarms(sample: Sample, run: HullRun) -> Figures:
     """Count the decisions up to the first wrong one, and the alarms that each method of error analysis raises.
 
-    ``first`` is the statement of the first wrong decision.  For each method M: ``M_false`` counts alarms at right
-    decisions and ``M_spoils`` the right decisions that M would change; ``M_caught`` and ``M_repaired`` are 1 if M
-    raises an alarm at the first wrong decision and if it decides it correctly.
+    ``first`` is the statement of the first wrong decision.  For each method M, ``M_false`` is the number of alarms at
+    right decisions, and ``M_spoils`` is the number of right decisions that M would change.  ``M_caught`` is 1 if M
+    raises an alarm at the first wrong decision, and ``M_repaired`` is 1 if M takes the right branch there.
     """
     tally, counts = _Tally(), Counter[int]()
     seed = int(hashlib.sha256("\n".join(card.text for card in sample.deck.cards).encode("ascii")).hexdigest()[:7], 16)

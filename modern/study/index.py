@@ -29,7 +29,7 @@ JUDGE = ("n", "dimension", "vertices", "planes", "boundary", "inside")
 
 
 class RouteRow(TypedDict):
-    """The answer of one route to one sample, as a part of a row."""
+    """The result of one route for one sample, as a part of a row."""
 
     outcome: str
     detail: str
@@ -37,7 +37,7 @@ class RouteRow(TypedDict):
 
 
 class Row(TypedDict):
-    """A line of a file of rows: a sample, the figures of its exact hull, and the answers by route."""
+    """A line of a file of rows: a sample, the figures of its exact hull, and the results of the routes."""
 
     cell: int
     index: int

@@ -135,12 +135,14 @@ def conclusions(sheets: tuple[Sheets, ...]) -> tuple[str, ...]:
         shares = likely_shares(tuple((s.share, s.rate.value) for s in of_form))
         printed = of_form[-1]
         paragraphs.append(
-            f"Decimals {drawn}: if a third of the coordinates are decimals, as on the data sheet, the programs reject "
-            f"{percent(printed.rate)} of the sets."
-            + f" Two rejections are the most probable number if {needed(printed)} of seventy sets are such sheets"
+            f"For decimals {drawn}: if a third of the coordinates are decimals, as on the data sheet, the programs "
+            f"reject {percent(printed.rate)} of the sets."
+            + f" Two rejections in seventy sets are the most probable number if {needed(printed)} of the seventy sets "
+            "are like this data sheet"
             * bool(printed.refused)
             + (
-                f", or if all seventy have a share of decimals from {shares[0] / 10:.2f} to {shares[1] / 10:.2f} %."
+                ", or if the share of decimals in all seventy sets is from "
+                f"{shares[0] / 10:.2f} to {shares[1] / 10:.2f} %."
                 if shares
                 else "." * bool(printed.refused) + " The share of decimals in all seventy sets that would make two "
                 "rejections most probable cannot be determined."

@@ -1,7 +1,7 @@
 """Measure the rules of restoration: damage programs blindly, restore them by the rules, and count the errors.
 
 The three listings and programs of a folder are damaged by :mod:`modern.edition.damage`, at the rates at which the OCR
-damaged the listings (``as the OCR``).  Because these rates lose few signs, few readings insert one.  Further copies
+damaged the listings (``as the OCR``).  At these rates few signs are lost, so few readings insert a sign.  Further copies
 therefore also lose a tenth of their signs and points (``signs lost``).
 :mod:`modern.edition.restorer` restores the copies in separate processes, which receive the damaged cards and the
 printed results and cannot open the originals.  Each emended card is right or wrong.  The intervals are Clopper and
@@ -117,7 +117,10 @@ def others(folder: Path) -> Group:
 
 
 def damaged_copy(group: Group, damage: str, seed: int) -> list[Job]:
-    """Return a damaged copy of each program.  A comment can lose its C; its words, which no rule restores, stay."""
+    """Return a damaged copy of each program.
+
+    A comment card can lose its C.  The text of a comment is not damaged, because no rule restores it.
+    """
     random = Random(f"{SEED} {group.name} {damage} {seed}")
     texts = [programs.text(name) for name in programs.TEXTS]
     comments = sum(
@@ -240,7 +243,7 @@ def _restored_copies(tasks: Sequence[tuple[str, Group, int]], workers: int) -> I
 def restored_copy(damage: str, group: Group, number: int, restore: Restorer) -> Copy:
     """Damage and restore one copy of a group, and count the cards of each kind.
 
-    An emended card counts as wrong also if it was sound before.
+    If the restorer changes an undamaged card, this card counts as wrong.
     """
     jobs = damaged_copy(group, damage, number)
     kinds: Counter[tuple[str, str, str]] = Counter()

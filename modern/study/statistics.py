@@ -49,7 +49,8 @@ def count(hits: int, of: int, times: int, level: float = LEVEL) -> Interval:
 def mean(values: Iterable[float], level: float = LEVEL, least: float = -inf, most: float = inf) -> Interval:
     """Return the mean of a sample with Student's interval, truncated at the bounds ``least`` and ``most``.
 
-    The values are read once (B. P. Welford, Technometrics 4 (1962) 419-420).  A single value has an infinite interval.
+    ``values`` may be an iterator, because the values are read only once (B. P. Welford, Technometrics 4 (1962)
+    419-420).  A single value has an infinite interval.
     """
     number, average, squares = 0, 0.0, 0.0
     for value in values:

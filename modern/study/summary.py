@@ -42,7 +42,10 @@ class Summary:
         return self.of(cell, route) - self.hits(cell, route)
 
     def sound_from(self, cell: int, route: Callable[[int], str], tried: Sequence[int]) -> int | None:
-        """Return the least of the ascending numbers such that no sample failed at it or at a greater one, or None."""
+        """Return the least number in ``tried`` such that no sample failed at this number or at a greater one, or None.
+
+        ``tried`` is in ascending order.
+        """
         least = None
         for number in reversed(tried):
             if self.failed(cell, route(number)):

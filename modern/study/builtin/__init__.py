@@ -14,8 +14,9 @@ from modern.study.store import Store
 class Study(Protocol):
     """The functions and constants that each module of :mod:`modern.study.builtin` defines.
 
-    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the module says what they count.  plan:
-    makes the plan with the given number of samples.  report: makes the report from the finished rows.
+    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the docstring of the module says what a
+    sample is.  plan: the function that makes the plan with the given number of samples.  report: the function that
+    makes the report from the finished rows.
     """
 
     TITLE: str

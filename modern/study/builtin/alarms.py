@@ -141,7 +141,9 @@ class _Group:
 
 @dataclass
 class _Rows:
-    """All counts: of runs by cell, of first wrong decisions by statement, of digits, and of operations."""
+    """All counts of the report: runs by cell, runs by the statement of their first wrong decision, digits, and
+    operations.
+    """
 
     groups: dict[int, _Group] = field(default_factory=dict)
     places: dict[str, _Group] = field(default_factory=dict)
@@ -218,7 +220,11 @@ def _families(plan: Plan, rows: _Rows) -> Table:
             key = plan.cells[number].key["sets"]
             lines.append(row(key, NAMES.get(name, name), group.wrong, noticed, group.sound, alarmed))
     head = ("sets", "method", "runs with a wrong decision", "noticed", "sound runs", "false alarm")
-    notes = (*INTERVALS, "Each family has the e that notices most of its wrong decisions (the smallest of several).")
+    notes = (
+        *INTERVALS,
+        "The row of chapter 7's e uses, for each family, the e that notices the most wrong decisions; of several such "
+        "e, the smallest.",
+    )
     return Table("families", "Wrong decisions noticed, and false alarms, by family", head, tuple(lines), notes)
 
 
@@ -275,8 +281,8 @@ def _costs(rows: _Rows) -> Table:
     notes = (
         "The table compares the time of the digit arithmetic with that of a plain run: additions take 160 + 80 P, "
         "products 560 + 40 P + 168 P^2, quotients 160 + 740 P + 520 P^2 microseconds with P digits (A26-5706-3). "
-        "Intervals take two operations for each, or more if an interval contains zero. Chapter 7's e takes a "
-        "comparison.",
+        "Intervals take two operations for each operation of a plain run, or more if an interval contains zero. "
+        "Chapter 7's e takes an additional comparison.",
     )
     return Table("cost", "Cost relative to a plain run", ("method", "times a plain run"), lines, notes)
 

@@ -185,8 +185,9 @@ def _conclusions(counts: Summary, cells: Cells) -> tuple[str, ...]:
         "In eight-digit arithmetic the corrected programs found every hull if the coordinates had one of these numbers "
         f"of digits: {listed(without_failure)}. The programs found no hull at all for these numbers of digits: "
         f"{listed(without_hull)}.",
-        f"Failures that are plausible but wrong hulls: {share_of(wrong, failed)}.",
-        f"The least P without a failure is 3d + 1, with which every test for zero is exact, for {len(agree)} of "
-        f"{len(cells)} numbers of digits d. If none of {sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of "
-        "such sets could fail (exact 95 % interval). A proof shows that no set fails with P = 3d + 4 digits.",
+        f"Of the failures, {share_of(wrong, failed)}, are plausible but wrong hulls.",
+        f"For {len(agree)} of {len(cells)} numbers of digits d, the least number of working digits P without a "
+        "failure is 3d + 1, with which every test for zero is exact. If none of "
+        f"{sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of such sets could still fail (exact 95 % "
+        "interval). A proof shows that no set fails with P = 3d + 4 digits.",
     )

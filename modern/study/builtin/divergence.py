@@ -105,9 +105,9 @@ def _main(counts: _Divergences) -> Table:
     head = ("first other decision", "sets", "of all sets", "hull found all the same", "of these sets")
     notes = (
         *INTERVALS,
-        "Statements are named by number: 196+2 is the second after statement 196. A row of cards counts the sets for "
-        "which program 1 punched a plane that, with its eight digits, no longer contains its own points. All "
-        "families have the same number of sets.",
+        "Statements are named by number: 196+2 is the second after statement 196. The row *cards to program3* "
+        "counts the sets for which program 1 punched a plane that, with its eight digits, no longer contains its own "
+        "points. All families have the same number of sets.",
     )
     return Table("table", "The first statement that decides differently", head, tuple(rows), notes)
 
@@ -154,9 +154,9 @@ def _conclusions(plan: Plan, counts: _Divergences) -> tuple[str, ...]:
     saved = sum(counts.with_hull(name) for name in counts.places)
     lost = same - counts.with_hull(NOWHERE)
     return (
-        f"Eight-digit arithmetic made every decision as exact arithmetic does in {share_of(same, everything)}, of the "
-        f"sets. All decisions agreed for all sets of these families: {listed(never)}.",
-        f"Sets with a different decision that still give the right hull: {share_of(saved, everything - same)}. Sets in "
-        f"which all decisions agree, but which fail because of faults of the programs: {share_of(lost, same)}.",
+        f"In {share_of(same, everything)}, of the sets, eight-digit arithmetic made every decision as exact arithmetic "
+        f"does. All decisions agreed for all sets of these families: {listed(never)}.",
+        f"Of the sets with a different decision, {share_of(saved, everything - same)}, still give the right hull. Of "
+        f"the sets in which all decisions agree, {share_of(lost, same)}, fail because of faults of the programs.",
         f"In {counts.undecided} runs, exact arithmetic had to stop before any decision differed.",
     )

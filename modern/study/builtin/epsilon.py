@@ -54,7 +54,9 @@ def ported(power: int) -> str:
 
 
 def scaled(power: int) -> str:
-    """Return the name of the route with an e of 10**power times the largest coefficient A, B or C, in the port."""
+    """Return the name of the route in which the port uses an e of 10**power times the largest coefficient A, B or C of
+    each equation.
+    """
     return f"scaled e = 10^{power}"
 
 
@@ -224,7 +226,8 @@ def _price(plan: Plan, rows: _Rows, store: Store) -> Table:
         lines.append(row(comparison, of, wrong, exact(wrong, of) if of else None))
     notes = (
         *INTERVALS,
-        "The table compares e with the values at which no set of the kind failed. A set counts once.",
+        "An e is too small or too great if it lies below or above all values of e at which no set of the same kind "
+        "failed. A set counts once, even if several such e give a wrong hull.",
     )
     head = ("e, as it is", "sets", "wrong hull", "of these sets")
     return Table(
@@ -245,9 +248,10 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
     same, of = _same_as_port(store)
     return (
         "Chapter 7 counts a value from -e to +e as zero. An absolute e is the same for all equations; a scaled e is "
-        "multiplied by the largest coefficient A, B or C of each equation. Without e, sets of these kinds fail, but "
-        f"with a suitable absolute e none does: {saved[0]}. With a suitable scaled e, no set of these kinds fails: "
-        f"{saved[1]}. Of these kinds, sets lose a vertex even at e = 0: {listed(lost)}.",
+        "multiplied by the largest coefficient A, B or C of each equation. Some sets of the following kinds fail "
+        f"without e, but none fails with a suitable absolute e: {saved[0]}. Some sets of the following kinds fail "
+        f"without e, but none fails with a suitable scaled e: {saved[1]}. Some sets of the following kinds lose a "
+        f"vertex even if e = 0: {listed(lost)}.",
         f"In {same:,} of {of:,} runs, the port has the same outcome as the programs with the same e.",
     )
 

@@ -48,9 +48,11 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Time:
-    """The times of a cell in seconds: means by part and in total, and the longest run; and the number of sets timed.
+    """The times of the sets of a cell in seconds: the mean time of each part of the machine, the mean total time, the
+    longest run, and the number of sets.
 
-    ``model`` and ``longest`` bound the mean total and the longest run by the systematic error of the model.
+    ``model`` holds bounds of the mean total, and ``longest`` holds bounds of the longest run.  Both follow from the
+    systematic error of the timing model.
     """
 
     sets: int
@@ -201,13 +203,13 @@ def _conclusions(plan: Plan, times: dict[int, _Time]) -> tuple[str, ...]:
             share = sum(t.parts["processor"].value for t in there) / sum(t.total.value for t in there)
             shares.append(f"{100 * share:.0f} % at N = {number:.0f}")
     minutes = (
-        f"{name}: {with_interval(_in_minutes(time.total))} minutes, {_by_model(time.model)} by the model"
+        f"{name}, {with_interval(_in_minutes(time.total))} minutes, or {_by_model(time.model)} with the systematic error"
         for name in values(plan, "sets")
         for n, time in _along(plan, times, name)
         if n == largest
     )
     return (
-        f"Mean time for {largest:.0f} points: {listed(minutes)}.",
-        f"The processor took this part of the time, over all kinds of sets: {listed(shares)}. Cards and typing took "
-        "the rest.",
+        f"The mean times for {largest:.0f} points are, by kind of set: {listed(minutes)}.",
+        f"Over all kinds of sets, the processor took these shares of the time: {listed(shares)}. Reader, punch and "
+        "typewriter took the rest.",
     )

@@ -246,25 +246,28 @@ def _conclusions(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...],
     )
     frequent = (f"{outcome} {where}, {share_of(n, as_listed.failed)}" for (outcome, where), n in causes.most_common(3))
     conclusions = [
-        f"Seventy sets like the thesis's have {with_interval(as_listed.mean)} failures with the programs as listed, "
-        f"{_compared_with_two(as_listed.mean)}. Of the groups of seventy, "
-        f"{percent(as_listed.groups(THESIS, THESIS))} have two failures and {percent(as_listed.groups(THESIS))} have "
-        "two or more. "
+        f"On average, seventy sets like those of the thesis have {with_interval(as_listed.mean)} failures with the "
+        f"programs as listed, {_compared_with_two(as_listed.mean)}. Of the groups of seventy sets, "
+        f"{percent(as_listed.groups(THESIS, THESIS))} have exactly two failures and "
+        f"{percent(as_listed.groups(THESIS))} have two or more. "
         f"Two failures in seventy are {_unusual(as_listed.groups(THESIS))}.",
-        f"The most frequent failures of the programs as listed are: {listed(frequent)}. DATA NOT ACCEPTABLE, the "
-        f"message for too few digits, ends {share_of(digits, as_listed.failed)}, of the failures. Plausible but wrong "
-        f"hulls are {share_of(wrong, as_listed.failed)}.",
-        f"With one more card (emendation P3-025), seventy sets have {with_interval(mended.mean)} failures, which is "
-        f"{as_listed.mean.value - mended.mean.value:.2f} fewer.",
-        f"The longest run that gave a hull took {longest:,} statements; runs of {_LIMIT:,} count as endless.",
+        "The most frequent failures of the programs as listed are, with the statements at which they occur and their "
+        f"share of all failures: {listed(frequent)}. Of the failures, {share_of(digits, as_listed.failed)}, end with "
+        f"DATA NOT ACCEPTABLE, the message for too few digits, and {share_of(wrong, as_listed.failed)}, are plausible "
+        "but wrong hulls.",
+        "With one more card, which corrects the removal of the last pair of planes (emendation P3-025), seventy sets "
+        f"have {with_interval(mended.mean)} failures on average, {as_listed.mean.value - mended.mean.value:.2f} fewer "
+        "than with the programs as listed.",
+        f"The longest run that gave a hull executed {longest:,} statements. A run of more than {_LIMIT:,} statements "
+        "counts as endless.",
     ]
     space = tuple(name for name in _names(kinds) if name in _IN_SPACE)
     if space:
         failed = _failed(kinds, space, LISTED)
         share, seventy = exact(*failed), count(*failed, SEVENTY)
         conclusions[2] += (
-            f" Of the sets in space, {percent(share)} fail as listed, and seventy such sets have "
-            f"{with_interval(seventy, 1)} failures."
+            f" Of the sets of points in space, {percent(share)} fail with the programs as listed, so seventy such sets "
+            f"have {with_interval(seventy, 1)} failures on average."
         )
     return tuple(conclusions)
 
@@ -290,11 +293,12 @@ def _comparison(as_listed: _Route, sheets: tuple[refusals.Sheets, ...]) -> str:
     printed = [s for s in sheets if s.share == max(sheet.share for sheet in sheets)]
     needed = " or ".join(refusals.needed(s) for s in printed)
     return (
-        f"Two explanations are possible. One is limits of the machine, as the thesis says: {needed} of seventy sets "
-        "like its data sheet are enough, and the message of a rejection names the cause. But none of the six sets "
-        "that it prints in full has a decimal. The other is faults of the programs: such failures occur even with "
-        f"small integers, and {percent(as_listed.groups(THESIS))} of the groups of seventy have two or more failures "
-        "from this cause alone. But these runs end in ERROR IN PROGRAM, in a loop or in a wrong hull, which the "
-        "author would hardly have attributed to too few digits. The thesis does not say which explanation holds. The "
-        "two failures may also have different causes."
+        "Two explanations of the two failures are possible. The first explanation is limits of the machine, as the "
+        f"thesis says. It is enough if {needed} of the seventy sets are like the data sheet of the thesis, and the "
+        "message of a rejection names the cause. But none of the six sets that the thesis prints in full has a "
+        "decimal. The second explanation is faults of the programs: such failures occur even with small integers, and "
+        f"{percent(as_listed.groups(THESIS))} of the groups of seventy have two or more failures from this cause "
+        "alone. But these runs end in ERROR IN PROGRAM, in a loop or in a wrong hull, which the author would hardly "
+        "have attributed to too few digits. The thesis does not say which explanation holds. The two failures may "
+        "also have different causes."
     )

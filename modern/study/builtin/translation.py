@@ -215,8 +215,8 @@ def _main(plan: Plan, pairs: list[_Pair]) -> Table:
     head = ("sets", "N", "timed", "planes", "additions saved", "products saved", *times)
     notes = (
         "The numbers in parentheses are Student's 95 % intervals of the mean over sets, truncated at 100 %. A "
-        "negative share is a loss. The seconds are processor time with the origin kept. All time includes reader, "
-        "punch and typewriter.",
+        "negative share is a loss. The seconds are processor time with the origin kept. The column *of all "
+        "time saved* includes the time of reader, punch and typewriter.",
         "*By the model* means the lower and upper bound of the mean seconds, if the processor's true time is "
         f"{MODEL[0]} to {MODEL[1]} times the computed one, and the true time of input and output "
         f"{CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} times. Runs of IBM's library of 1962 gave both ranges. Shares "
@@ -259,8 +259,8 @@ def _digits(plan: Plan, counts: Summary) -> Table:
     head = ("sets", "of each", *(f"{what}, {name}" for what in ("least P", "eight digits") for name in (PLAIN, MOVED)))
     notes = (
         "The numbers in parentheses are exact 95 % intervals (Clopper and Pearson). The least P is the number "
-        "of working digits from which on no set failed. The columns of eight digits have the sets whose hull the "
-        "programs find.",
+        "of working digits from which on no set failed. The columns for eight digits give the share of sets "
+        "whose hull the programs find.",
     )
     return Table("digits", "What moving the origin to C costs in digits", head, tuple(rows), notes)
 
@@ -316,9 +316,11 @@ def _time_conclusion(pairs: list[_Pair]) -> str:
     savings = [pair.saved("seconds_processor") for pair in pairs]
     whole = mean((pair.saved_in_all for pair in pairs), most=1.0)
     return (
-        f"Moving the origin saved {_share(whole)} of the total time on average, including cards and typing. For "
+        f"Moving the origin to C, a point inside the hull, saved {_share(whole)} of the total time on average, "
+        "including the time of the card machines and the typewriter. For the "
         f"{len(pairs)} sets timed with and without the move, it saved {100 * min(savings):.1f} % to "
-        f"{100 * max(savings):.1f} % of the processor time. Effect of the move, by planes of the hull per point: "
+        f"{100 * max(savings):.1f} % of the processor time. By the number of planes of the hull per point, the move "
+        "has these effects: "
         f"{listed(f'{_verdict(_saved(here))} ({name})' for name, here in _classes(pairs))}."
     )
 
@@ -337,8 +339,8 @@ def _digit_conclusion(plan: Plan, counts: Summary) -> str:
         plain, moved = counts.share(number, PLAIN), counts.share(number, MOVED)
         verdicts["loses" if plain.low > moved.high else "gains" if moved.low > plain.high else "same"].append(name)
     return (
-        "For these kinds of sets, no failure occurs from some number of digits P on if the origin is kept, but "
-        f"failures occur at every tested P if it is moved: {listed(never)}. With the origin moved, the programs with "
-        f"eight digits find fewer hulls for these kinds: {listed(verdicts['loses'])}. The programs find more for: "
-        f"{listed(verdicts['gains'])}. The difference is not significant for: {listed(verdicts['same'])}."
+        "For these kinds of sets, some number of digits P is enough if the origin is kept, but no tested P is enough "
+        f"if the origin is moved: {listed(never)}. With the origin moved, the programs with eight digits find fewer "
+        f"hulls for these kinds: {listed(verdicts['loses'])}. They find more hulls for these kinds: "
+        f"{listed(verdicts['gains'])}. The difference is not significant for these kinds: {listed(verdicts['same'])}."
     )

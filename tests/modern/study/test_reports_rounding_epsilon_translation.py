@@ -179,10 +179,10 @@ def test_translation_reports_whether_it_saves_time(tmp_path: Path) -> None:
     plan = translation.plan(3, 1963)
     report = report_of("translation", plan, tmp_path / "a", all_right)
     assert "saves time (1 to 1.5)" in report.conclusions[0]
-    assert "Effect of the move" in report.conclusions[0]
+    assert "the move has these effects" in report.conclusions[0]
     assert (
-        "hulls for these kinds: none. The programs find more for: none. The difference is not significant for: numbers"
-        in (report.conclusions[1])
+        "for these kinds: none. They find more hulls for these kinds: none. The difference is not significant for these "
+        "kinds: numbers" in report.conclusions[1]
     )
     # The total time goes from 135 to 125 seconds, of which devices take 35; additions from 100 to 110.
     assert report.tables[0].rows[0][7] == "95 to 110"
@@ -193,8 +193,8 @@ def test_translation_reports_whether_it_saves_time(tmp_path: Path) -> None:
 
     lost = report_of("translation", plan, tmp_path / "b", rejected)
     assert lost.conclusions[0] == "No set gave a hull both ways, so no times can be compared."
-    assert "at every tested P if it is moved: numbers to 9; numbers to 9 about 100;" in lost.conclusions[1]
-    assert lost.conclusions[1].endswith("find more for: none. The difference is not significant for: none.")
+    assert "no tested P is enough if the origin is moved: numbers to 9; numbers to 9 about 100;" in lost.conclusions[1]
+    assert lost.conclusions[1].endswith("these kinds: none. The difference is not significant for these kinds: none.")
     assert all(row[3] == "-" for row in lost.tables[2].rows)
 
 
