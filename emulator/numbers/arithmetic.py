@@ -321,7 +321,7 @@ TRUNCATING = Profile(
 )
 IBM1962 = Profile(
     "ibm1962",
-    "IBM's library of 1962, executed digit by digit in a simulator: products rounded half up, everything else truncated",
+    "IBM's library of 1962, executed digit by digit in a simulator: products rounded half up, the rest truncated",
     rules_of(8, products=1, as_1962=1),
 )
 TRUNCATING1962 = Profile(

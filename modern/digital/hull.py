@@ -233,7 +233,12 @@ def _fill_segment(filled: Truth, first: Grid, last: Grid) -> None:
 
 
 def _fill_polygon(filled: Truth, points: Grid, simplex: list[int]) -> None:
-    """Mark the grid points in the hull of coplanar points, projected along an axis that crosses their plane."""
+    """Fill the convex hull of coplanar points, given as the indices of voxels.
+
+    The points are projected along the axis of the largest component of their plane's normal, and the projection is
+    filled as a polygon.  A position in this polygon is lifted back to the plane, and its voxel is filled if the lifted
+    coordinate is an integer.
+    """
     origin = points[simplex[0]]
     normal = np.cross(points[simplex[1]] - origin, points[simplex[2]] - origin)
     normal //= np.gcd.reduce(normal)

@@ -16,7 +16,9 @@ MISSING, CONFUSABLE, OTHER = 0.9, 0.5, 1.2
 
 
 def distance(a: str, b: str) -> int:
-    """Return the edit distance of two texts (Myers 1999): a column of the dynamic programme is two integers."""
+    """Return the edit distance of two texts by the algorithm of Myers (1999), which stores a column of the dynamic
+    programme in two integers.
+    """
     if not a or not b:
         return len(a) + len(b)
     masks: dict[str, int] = {}
@@ -66,7 +68,8 @@ def _pair_costs() -> Mapping[tuple[str, str], float]:
 def align_characters(card: str, line: str) -> list[tuple[int, int]]:
     """Return the least-cost alignment of a card's text with a line, as steps (index in the card, index in the line).
 
-    An index is -1 for a character that the other side lacks.  A confusable pair costs half a difference.
+    An index is -1 for a character that the other text lacks.  A confusable pair costs half as much as another
+    difference.
     """
     if card == line:
         return [(n, n) for n in range(len(card))]

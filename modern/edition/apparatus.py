@@ -46,10 +46,10 @@ class Change:
     ``line`` is the id of a line: a witness line number ("17") or an inserted card ("P1-031.2").  ``lemma`` replaces the
     fragment ``witness``, which must occur exactly once in the line.  A lemma that contains line ends produces several
     lines.  A line that becomes empty is removed from the text.  With ``after``, the lines of the lemma are inserted
-    after the line instead.  With ``through``, every line from ``line`` to ``through`` is removed.  With ``form``, those
-    lines are kept but arranged as on the coding form.  The number is placed in columns 1 to 5.  The statement begins in
-    column 7, or in column 1 if it would otherwise extend beyond column 72.  With ``dense``, the blanks of the line are
-    removed.
+    after the line instead.  With ``through``, every line from ``line`` to ``through`` is removed.  With ``form``, the
+    lines from ``line`` to ``through`` are kept but arranged as on the coding form.  The number is placed in columns 1
+    to 5.  The statement begins in column 7, or in column 1 if it would otherwise extend beyond column 72.  With
+    ``dense``, the blanks of the line are removed.
     """
 
     line: str

@@ -1,4 +1,5 @@
-"""Single cards as the restorer reads them: their form, their faults, and the texts that one exchange makes of them.
+"""Single cards as the restorer reads them: their form, their errors, and the texts that result from exchanging one pair
+of confusable characters.
 
 The cards have no blanks, except comments and FORMATs.
 """
@@ -59,15 +60,16 @@ def fault(card: str) -> int | None:
 
 
 def progress(card: str) -> int:
-    """Return a score: higher if the first error is further right, lower for each character that no card can have."""
+    """Return a score of a card, which is higher the further right its first error is, and lower for each character that
+    no card can have.
+    """
     return (fault(card) or 0) - 100 * len(_BAD.findall(card))
 
 
 def exchanges(card: str) -> Iterator[tuple[str, Pair]]:
-    """Yield every text that one exchange makes from a card.
+    """Yield every text that results from exchanging one pair of confusable characters on a card.
 
-    If the card has a character that no statement has, only exchanges of the first such
-    character are tried.
+    If the card has a character that no statement can have, only exchanges of the first such character are tried.
     """
     bad = None if card.startswith("C  ") else _BAD.search(card)
     for pair in table():

@@ -118,7 +118,9 @@ def printed_point(text: str) -> Vector:
 
 
 def printed_plane(equation: str) -> Vector:
-    """Return A, B, C, D of ``2x - 5y + 14z = 0``.  A term that is not printed is 0."""
+    """Return A, B, C, D of a printed equation such as ``2x - 5y + 14z = 0``.  A term that is not printed has the
+    coefficient 0.
+    """
     left, right = equation.replace(" ", "").split("=")
     if right != "0":
         raise ValueError(f"{equation}: the right-hand side is not 0")

@@ -49,7 +49,9 @@ class Format:
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """Columns ``first`` to ``last``, counted from 1.  ``word`` marks printed words; numbers are right-aligned."""
+    """The columns ``first`` to ``last`` of a card, counted from 1.  ``word`` is True for printed words; numbers are
+    right-aligned.
+    """
 
     first: int
     last: int

@@ -8,9 +8,10 @@ their rivals.  A reading gets one of four verdicts:
 ``contradicts``       it has another token of the same kind, which the reading of the edition does not explain
 ``unreadable``        it lacks the place, has something that cannot stand there, or both texts explain its characters
 
-A text *explains* characters if the transcription can have misread it so, by pairs of the table of confusables.  A pair
-counts unless the transcription itself shows that it does not make this error: it has at least :data:`ENOUGH` places of
-the character on the page, and none of them is misread so.  An error of another kind counts once it occurs twice.
+A text *explains* characters if the transcription may show these characters because it misread the text by pairs of the
+table of confusables.  A pair is not used if the transcription has the original character of the pair in at least
+:data:`ENOUGH` places and never misreads it in this way.  A misreading that is not in the table is used if it occurs
+at least twice.
 """
 
 import csv
@@ -37,7 +38,8 @@ Verdict = Literal["confirms", "supports a rival", "contradicts", "unreadable"]
 VERDICTS: tuple[Verdict, ...] = ("confirms", "supports a rival", "contradicts", "unreadable")
 _LETTER: Mapping[Verdict, str] = {verdict: verdict[0] for verdict in VERDICTS} | {"contradicts": "x"}
 _VERDICT = {letter: verdict for verdict, letter in _LETTER.items()}
-# If a character was transcribed so often without an error of a kind, the transcription does not make that error.
+# If a character was transcribed this often and never misread in a certain way, the transcription is taken not to make
+# this misreading.
 ENOUGH = 300
 # Errors are counted on cards of which at most this share is misread, because other cards may be misaligned.
 SOUND = 0.25
@@ -175,7 +177,9 @@ def _readings(n: int, aligned: tuple[str, ...] | None, pairs: tuple[Pair, ...]) 
 
 
 def _is_truncated(pieces: Sequence[str], k: int, token: str) -> bool:
-    """Return True if a line begins or ends within the token: a part of it is there, and nothing beyond it."""
+    """Return True if a line begins or ends within the token, so that the line holds only a part of the token and
+    nothing beyond it.
+    """
     ends = k + 1 < len(pieces) and not any(pieces[k + 1 :]) and token.startswith(pieces[k])
     return ends or (k > 0 and not any(pieces[:k]) and token.endswith(pieces[k]))
 
@@ -331,7 +335,9 @@ def registered() -> tuple[Collation, ...]:
 
 
 def verdicts_by_id(row: Row, collations: Iterable[Collation] | None = None) -> dict[str, tuple[Verdict, ...]]:
-    """Return the verdicts of every registered collation on a row, by the id of the collation; none without verdict."""
+    """Return the verdicts of every registered collation on a row, by the id of the collation.  Collations without a
+    verdict are omitted.
+    """
     known = registered() if collations is None else collations
     by_id = {collation.id: row_verdicts(collation, row) for collation in known}
     return {name: verdicts for name, verdicts in by_id.items() if verdicts}

@@ -45,9 +45,11 @@ def uniform(share: float, text: str) -> Rates:
 def damaged(
     text: str, chances: Rates, random: Random, allowed: Callable[[str, int], bool] = lambda text, at: True
 ) -> list[str]:
-    """Damage a text and return what becomes of each of its characters, with any marks inserted after it.
+    """Damage a text, and return for each of its characters the text that replaces it, including any marks inserted
+    after it.
 
-    A pair of several characters is returned at its first character.  ``allowed`` tells which characters may change.
+    If a pair of several characters is exchanged, the replacement stands at the first of them.  ``allowed`` tells which
+    characters may change.
     """
     by_lemma: dict[str, list[Pair]] = {}
     for pair in chances:

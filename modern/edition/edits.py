@@ -1,6 +1,6 @@
 """The smallest edits that turn a reading of the witness into the lemma: words, blanks between words, and moved words.
 
-:mod:`modern.edition.segments` makes a place of each edit.  All indices count characters of the old text.
+:mod:`modern.edition.segments` turns each edit into a place of the text.  All indices count characters of the old text.
 """
 
 import re
@@ -15,7 +15,8 @@ from modern.edition.apparatus import Change
 class Edit:
     """A replacement of the characters ``first`` to ``last`` (exclusive) of a text by ``new``.
 
-    ``moved`` is the number of a displaced piece: the edit that removes it and the edit that inserts it share it.
+    ``moved`` is the number of a displaced piece.  The edit that removes the piece and the edit that inserts it have the
+    same number.
     """
 
     first: int

@@ -95,9 +95,11 @@ def reproduce(
 
 
 def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
-    """Return whether all results are reproduced, and the numbers of exact, reordered and all other results.
+    """Return True if all results are reproduced, otherwise False, and the numbers of exact, reordered and all other
+    results.
 
-    In the state of the examples a result must be exact; in that of the listing it may be in another order.
+    In the state of the examples every result must be exact.  In the state of the listing a result may be in another
+    order.
     """
     kinds = [(report.state, report.verdict.kind) for report in reports]
     exact = sum(kind == EXACT for _, kind in kinds)

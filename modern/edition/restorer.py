@@ -7,8 +7,8 @@ table of confusables, and each exchange needs a ground:
             numbers to which it refers exist, its own number is free, and its names occur elsewhere
 ``print``   with this reading the program reproduces more lines of its printed results than with every other reading.  A
             card that compiles and to which no other rule applies is emended only if all results are then reproduced.
-``forced``  only this reading equals another card (a sibling) with names exchanged; a card that compiles is emended so
-            only if it has 20 characters and two siblings.  The equations of chapter 3 are
+``forced``  only this reading equals another card (a sibling) with names exchanged; a card that compiles is emended in
+            this way only if it has 20 characters and two siblings.  The equations of chapter 3 are
             symmetric in x, y and z, so that their cards are siblings of each other.
 ``sibling`` the same for a reading that inserts a character
 
@@ -212,7 +212,9 @@ def _is_statement(program: _Program, n: int) -> bool:
 
 
 def _unlike_siblings(program: _Program, forms: Counter[str]) -> None:
-    """Emend a card with a name that occurs nowhere else, or for which only another reading has similar cards."""
+    """Emend a card if one of its names occurs nowhere else, or if another reading has similar cards and the present
+    reading has none.
+    """
     uses = Counter(name for card in program.cards for name in names(card))
     for n, card in enumerate(program.cards):
         if "FORMAT" in card or not _is_statement(program, n):

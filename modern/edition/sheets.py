@@ -171,9 +171,10 @@ def _item(
 
 
 def _altered_token(was: str, reads: str, columns: Sequence[int]) -> tuple[int, int, str]:
-    """Return the columns of the token that differs between two readings of a card, and its altered text.
+    """Return the columns of the token that differs between two readings of a card, and the altered text of the token.
 
-    A token is a run of letters and digits without a blank between them on the card; ``columns`` has their columns.
+    A token is a run of letters and digits without a blank between them on the card; ``columns`` has the columns of the
+    characters.
     """
     first = next((n for n, (a, b) in enumerate(zip(was, reads, strict=False)) if a != b), min(len(was), len(reads)))
     least = min(len(was), len(reads)) - first

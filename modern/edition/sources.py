@@ -1,7 +1,7 @@
 """The documents, the excerpts that serve as witnesses, and the line of a document from which each witness line comes.
 
-The data are ``fortran_src/SOURCES.toml``.  The project works from the OCR text of each document.  It contains only
-excerpts of that text.  These are the witnesses.  Each excerpt is recorded with its lines and a hash.
+The data are in ``fortran_src/SOURCES.toml``.  The project works from the OCR text of each document, but contains only
+excerpts of this text, which are the witnesses.  Each excerpt is recorded with its lines and a hash.
 :func:`check_files` verifies the hashes.  :func:`check_against` compares the excerpts with the whole text of a document
 if a user has it.
 """
@@ -158,7 +158,9 @@ def digest(text: str) -> str:
 
 
 def check_files() -> Iterator[tuple[str, bool, str]]:
-    """Yield (file, whether its hash is right, message) for each excerpt and collation, and once for all ``grounds``."""
+    """Yield (file, whether its hash is right, message) for each excerpt, for each collation, and for all files of
+    ``grounds`` together.
+    """
     table = sources()
     for excerpt in table.excerpts:
         same = digest(read(excerpt.file)) == excerpt.sha256

@@ -172,7 +172,9 @@ class _Index:
                 self.postings[gram].append(text)
 
     def candidates(self, line: str) -> list[tuple[str, float]]:
-        """Return the card texts most similar to a folded line, with gains: their length minus two per difference."""
+        """Return the card texts that are most similar to a folded line, with their gains.  A gain is the length of the
+        text minus two for each difference.
+        """
         shared: Counter[str] = Counter()
         for gram in set(_trigrams(line)):
             shared.update(self.postings.get(gram, ()))
@@ -236,7 +238,9 @@ class _Node:
 
 
 def _best_path(lines: Sequence[str], index: _Index) -> list[Span]:
-    """Return the spans of the best path through all lines (see the module)."""
+    """Return the spans of the best path through all lines, by the Viterbi search that the docstring of the module
+    describes.
+    """
     # For each card, the best path that ends with it; before the current line, and before the line before that.
     ends: dict[int, _Node] = {}
     earlier: dict[int, _Node] = {}
@@ -358,7 +362,7 @@ def _join_labels(
 
 
 def _runs(numbers: Sequence[int]) -> Iterator[list[int]]:
-    """Yield runs of at least three numbers with gaps of one or two."""
+    """Yield the runs of at least three numbers in which each number exceeds the previous one by one or two."""
     run: list[int] = []
     for n in (*numbers, 10**9):
         if run and n - run[-1] > 2:

@@ -165,7 +165,7 @@ def _run(variant: Variant, program: Program, known: dict[str, Bench]) -> str:
 
 
 def _begun(name: str) -> list[int]:
-    """Return the card of each executable statement, in the order of Program.statements."""
+    """Return the card on which each executable statement begins, in the order of Program.statements."""
     return [line.place.card for line in programs.program(name).statements]
 
 
@@ -301,7 +301,7 @@ def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int =
 
 
 def by_card(answers: Mapping[str, str]) -> Iterator[tuple[Variant, Counter[str]]]:
-    """Yield, for each card, one of its altered forms, and how many of them each check detects."""
+    """Yield, for each card, one of its variants, and the number of its variants that each check detects."""
     cards: dict[tuple[str, int], tuple[Variant, Counter[str]]] = {}
     for variant in sorted(ordered(), key=lambda v: (v.program, v.card)):
         if variant.key in answers:

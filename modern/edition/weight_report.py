@@ -36,7 +36,9 @@ def _table(rows: Iterator[tuple[str, ...]] | list[tuple[str, ...]]) -> str:
 
 
 def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
-    """Yield a row for each card: its statement, variants by detecting check, formula and number of similar cards."""
+    """Yield a row for each card: its statement, the number of its variants that each check detects, its formula, and
+    the number of similar cards.
+    """
     yield ("program", "card", "place", "statement", *NOTICED, "no change", "formula", "alike")
     for variant, count in by_card(answers):
         numbers = (str(count[name]) for name in (*NOTICED, "no change"))
@@ -46,7 +48,9 @@ def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
 
 
 def unvouched(answers: Mapping[str, str]) -> list[Variant]:
-    """Return one variant of each card that has two or more undetected variants and none that ``CONFIRMING`` detects."""
+    """Return one variant of each card that has two or more undetected variants and no variant that a check of
+    ``CONFIRMING`` detects.
+    """
 
     return [
         variant

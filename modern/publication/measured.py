@@ -44,9 +44,10 @@ class Run:
 
 @cache
 def runs(program: str) -> tuple[Run, ...]:
-    """Return the runs of a built-in program in the printed examples.
+    """Return the runs of a built-in program on the input decks of the printed examples.
 
-    Programs 2 and 3 read the cards that program 1 in the state of the examples punches.
+    Programs 2 and 3 read the cards that ``program1_examples`` (program 1 in the state that produced the printed
+    examples) punches.
     """
     first = program if program.startswith("program1") else "program1_examples"
     return tuple(run for example in EXAMPLES for run in _job(example, first) if run.program == program)

@@ -55,7 +55,7 @@ class Programs:
     single rows of the apparatus, added without the rest of their layer.  arithmetic: the emulator's arithmetic,
     ``truncating``, ``ibm1962``, ``truncating1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, ``float64``,
     ``float32``, ``mp:BITS``, ``exact``, ``stochastic:P:SEED`` or ``stochastic:BITSb:SEED``
-    (:func:`emulator.numbers.numbers`).  epsilon: the e of chapter 7, punched on the first card after N; it requires the layer
+    (:func:`emulator.numbers.numbers`).  epsilon: the e of chapter 7, punched on the first card; it requires the layer
     ``epsilon``.  limit: the number of statements after which a run counts as endless.  core, bounds: as in
     :class:`emulator.machine.result.Options`.  uncut: keep all digits of the numbers that pass from one program to the
     next.  measures: the names of measures to compute (:mod:`modern.study.measures`).

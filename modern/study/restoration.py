@@ -1,8 +1,8 @@
 """Measure the rules of restoration: damage programs blindly, restore them by the rules, and count the errors.
 
 The three listings and programs of a folder are damaged by :mod:`modern.edition.damage`, at the rates at which the OCR
-damaged the listings (``as the OCR``).  At these rates few signs are lost, so few readings insert a sign.  Further copies
-therefore also lose a tenth of their signs and points (``signs lost``).
+damaged the listings (``as the OCR``).  At these rates few signs are lost, so few readings insert a sign.  Further
+copies therefore also lose a tenth of their signs and points (``signs lost``).
 :mod:`modern.edition.restorer` restores the copies in separate processes, which receive the damaged cards and the
 printed results and cannot open the originals.  Each emended card is right or wrong.  The intervals are Clopper and
 Pearson's (:mod:`modern.study.statistics`).

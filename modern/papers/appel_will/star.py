@@ -52,10 +52,10 @@ def as_corrected(images: Sequence[Image]) -> bool:
 
 
 def in_one_pass(images: Sequence[Image]) -> bool:
-    """Apply the same test as :func:`as_corrected` without sorting.
+    """Return the result of :func:`as_corrected` without sorting the images.
 
-    C is outside if all images lie within an angle of less than 180 degrees. ``first`` and ``last`` are the images
-    that bound that angle so far, counterclockwise.
+    C is outside if all images lie within an angle of less than 180 degrees. ``first`` and ``last`` are the images that
+    bound the angle of the images read so far, counterclockwise.
     """
     if not images:
         return True

@@ -46,10 +46,10 @@ def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "recons
 
 
 def _intervals(planes: list[Plane], sizes: list[int]) -> tuple[Places, Places]:
-    """Return, for each (x, y) of the box, the first and the last z inside all planes; first > last if there is none.
+    """Return, for each (x, y) of the box, the first and the last z inside all planes; first > last if no z is inside.
 
     A component of a normal is at most twice the product of two sides of the box, so no term of a plane's value exceeds
-    twice ``MAX_CELLS``, and all values fit 64 bits.
+    twice ``MAX_CELLS``, and all values fit into 64 bits.
     """
     x = np.arange(sizes[0], dtype=np.int64)[:, None]
     y = np.arange(sizes[1], dtype=np.int64)[None, :]

@@ -32,8 +32,8 @@ class Reading:
     """The options with which a file of faces is read.
 
     ``hull`` replaces each component by its hull, ``within`` merges faces within this distance of one plane, and
-    ``points`` accepts a file with points only, as ``hull`` does. ``as_hull`` and ``as_within`` are the spellings of the
-    first two for messages.
+    ``points`` accepts a file with points only, as ``hull`` does. ``as_hull`` and ``as_within`` are the names of the
+    options ``hull`` and ``within`` in messages.
     """
 
     hull: bool = False

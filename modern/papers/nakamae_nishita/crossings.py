@@ -17,10 +17,11 @@ Mark = tuple[Fraction, int]
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """The course of a segment behind one contour: the points where it enters or leaves, with the paper's
+    """The course of a segment behind one contour: the points where the segment enters or leaves, with the paper's
     indices I_0.
 
-    ``enclosed`` is True if the whole segment lies within the contour and so has no intersection.
+    ``enclosed`` is True if the whole segment lies within the contour, so that the segment does not intersect the
+    contour.
     """
 
     marks: tuple[Mark, ...]
@@ -28,7 +29,9 @@ class Passage:
 
     @property
     def order(self) -> int:
-        """The number of contours, 0 or 1, that this crossing adds to those that hide the first end of the segment."""
+        """The order of invisibility that this contour adds at the first end of the segment: 1 if the segment begins
+        behind the contour and leaves it (index -1), otherwise 0.
+        """
         return sum(index == -1 for _, index in self.marks)
 
 

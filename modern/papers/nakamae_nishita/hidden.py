@@ -60,8 +60,9 @@ class Piece:
 class Passages:
     """The course of one segment behind all nearer polyhedra.
 
-    ``solid`` and ``segment`` say which one it is. ``behind`` lists its passage behind each nearer polyhedron by
-    number, ``ghosts`` the parts of it that are ghosts.
+    ``solid`` and ``segment`` are the numbers of the polyhedron and of its segment. ``behind`` lists the passage of the
+    segment behind each nearer polyhedron, with the number of that polyhedron. ``ghosts`` lists the parts of the segment
+    that are ghost lines.
     """
 
     solid: int
@@ -170,7 +171,7 @@ def _relations(
 ) -> Iterator[tuple[Relation, Values, Values]]:
     """Yield the pairs of polyhedra with overlapping contours.
 
-    With each come the values of formula (1) for each contour at the other polyhedron's points.
+    Each pair is yielded with the values of formula (1) for the contour of each polyhedron at the points of the other.
     """
     contours = [item.images[: len(item.contour)] for item in solids]
     # Property 1 of section 3.2 rejects a pair as soon as all points are outside of one segment of a contour.

@@ -103,7 +103,9 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
 def plane_through(p: Homogeneous, q: Homogeneous, r: Homogeneous) -> Plane:
     """Return the plane of formula (5) through three projected points, clockwise from outside, or zeros if collinear.
 
-    They are the cofactors of the first row of the determinant of formula (5) in homogeneous coordinates.
+    The coefficients are the cofactors of the last row of the determinant whose rows are the homogeneous coordinates of
+    the three points and of a variable point.  So the determinant is the value of the plane's equation at the variable
+    point.
     """
     # The 2 x 2 minors of q and r, each of which occurs in two cofactors.
     xy, xz, xw = q[0] * r[1] - q[1] * r[0], q[0] * r[2] - q[2] * r[0], q[0] * r[3] - q[3] * r[0]

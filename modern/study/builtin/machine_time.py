@@ -203,7 +203,8 @@ def _conclusions(plan: Plan, times: dict[int, _Time]) -> tuple[str, ...]:
             share = sum(t.parts["processor"].value for t in there) / sum(t.total.value for t in there)
             shares.append(f"{100 * share:.0f} % at N = {number:.0f}")
     minutes = (
-        f"{name}, {with_interval(_in_minutes(time.total))} minutes, or {_by_model(time.model)} with the systematic error"
+        f"{name}, {with_interval(_in_minutes(time.total))} minutes, or {_by_model(time.model)} with the systematic "
+        "error"
         for name in values(plan, "sets")
         for n, time in _along(plan, times, name)
         if n == largest
