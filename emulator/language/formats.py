@@ -61,7 +61,7 @@ class FormatSpec:
     def charge(self) -> int:
         """The cost of one pass through this FORMAT, added to the count that limits the run.  A statement costs 1.
 
-        It is 0 unless the FORMAT is very long.
+        The cost is 0 unless the FORMAT is very long.
         """
         columns = sum(len(spec.text) for spec in self.specs if isinstance(spec, Literal))
         return len(self.specs) // STEPS + columns // _COLUMNS_A_UNIT

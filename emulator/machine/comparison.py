@@ -43,7 +43,7 @@ class Difference:
 class Decision:
     """A decision (IF, computed GO TO or end of a DO) that has different outcomes in the two runs.
 
-    It holds the statement, the count of its executions, and the value and target of each run.
+    The fields are the statement, the number of its executions so far, and the value and the target in each run.
     """
 
     line: Line

@@ -218,7 +218,9 @@ class Output1962(Output):
 
 @dataclass
 class Input1962(Input):
-    """An input statement in progress that ends as in IBM's library of 1962.  room: the columns of the device."""
+    """An input statement in progress that ends as in IBM's library of 1962.  ``room`` is the number of columns of the
+    device.
+    """
 
     room: int = field(kw_only=True)
     _has_list: bool = False

@@ -51,7 +51,9 @@ class Operator:
         """Tell the operator what the devices did, as a sequence of events in order."""
 
     def attend(self, session: Session) -> Iterator[Action]:
-        """Yield the operator's actions while the machine runs.  Called at the start and after each slice."""
+        """Yield the operator's actions while the machine runs.  The machine calls this method at the start and after
+        each slice.
+        """
         return iter(())
 
     def goal(self, session: Session) -> int:

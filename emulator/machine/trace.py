@@ -12,7 +12,8 @@ from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 class Tracer:
     """A tracer that writes one line for each statement to ``file``.
 
-    The session calls it when a statement *begins*, so that a line is written when the next one begins, or by ``close``.
+    The session calls the tracer when a statement *begins*, so the line of a statement is written when the next one
+    begins, or by ``close``.
     """
 
     def __init__(self, file: TextIO) -> None:

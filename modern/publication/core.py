@@ -46,7 +46,8 @@ class Region:
 class CoreMap:
     """The storage of a program from address 0 up, and the lengths of its arrays as formulas of the number of points.
 
-    ``points`` pairs each size of core with the largest number of points for which the program fits, or 0 for none.
+    ``points`` holds pairs of a size of core and the largest number of points for which the program fits into it, or 0
+    if it never fits.
     """
 
     program: str

@@ -154,7 +154,7 @@ class Desk:
         }
 
     def replay(self, text: str) -> Answer:
-        """Begin to repeat a log with any number of loads.  The answer is that of :meth:`load` for the first."""
+        """Begin to repeat a log with any number of loads.  Return the answer of :meth:`load` for the first load."""
         try:
             log = FromFile("log", text)
         except EmulatorError as error:
@@ -242,9 +242,10 @@ class Desk:
         return {"lines": lines}
 
     def jump(self, statement: int) -> Answer:
-        """Go back to the beginning of a statement of this run, counted from 1, by repeating the run; see :meth:`run`.
+        """Go back to the beginning of a statement of this run, counted from 1, by repeating the run, and return an
+        answer as :meth:`run` does.
 
-        The machine then stands before that statement, and everything after it is undone.  The answer also has
+        The machine then stops before that statement, and everything after it is undone.  The answer also has
         ``undone``: the numbers of lines ``typed`` and cards ``punched`` that remain.  To go forward, the machine steps.
         """
         if statement > len(self._record.times):

@@ -98,7 +98,9 @@ def rest() -> tuple[Row, ...]:
 
 
 def _origins(lines: Sequence[Segments]) -> dict[str, list[Segments]]:
-    """Map the id of each line to its family: a witness line, and the lines that rows inserted after this line."""
+    """Map the id of each line to its family, which consists of a witness line and the lines that rows inserted after
+    it.
+    """
     families: dict[str, list[Segments]] = {}
     family: list[Segments] = []
     for line in lines:

@@ -76,7 +76,7 @@ def figures(docs: Path) -> dict[str, str]:
 
 
 def cells(docs: Path) -> dict[str, Cell]:
-    """Return the figures that are cells of committed tables, by name."""
+    """Return the figures that are cells of committed tables, as a mapping from name to text."""
     rows = _table(docs / "figures.csv")
     return {row["figure"]: Cell(row["table"], tuple(row["row"].split("; ")), row["column"]) for row in rows}
 

@@ -97,7 +97,7 @@ def _normalized(name: str, separator: str) -> str:
 
 
 def _stem(pin: str) -> str:
-    """Return the part of a wheel's file name before the tags, of a pin ``NAME==VERSION``."""
+    """Return the part of a wheel's file name before the tags, for a pin of the form ``NAME==VERSION``."""
     name, _, version = pin.partition("==")
     return f"{_normalized(name, '_')}-{version}"
 

@@ -126,10 +126,10 @@ def test_seventy_calls_two_unusual_only_if_the_whole_interval_is_below_a_twentie
 @pytest.mark.parametrize(
     ("failures", "slabs", "claim"),
     [
-        ([5, 0, 0, 0], 20, "seventy such sets have 17.5 (6.1 to 34.4) failures."),
-        ([0, 0], 131, "seventy such sets have 0.0 (0.0 to 1.9) failures."),
-        ([1, 0], 70, "seventy such sets have 1.0 (0.0 to 5.4) failures."),
-        ([2, 0], 70, "seventy such sets have 2.0 (0.2 to 7.0) failures."),
+        ([5, 0, 0, 0], 20, "seventy such sets have 17.5 (6.1 to 34.4) failures on average."),
+        ([0, 0], 131, "seventy such sets have 0.0 (0.0 to 1.9) failures on average."),
+        ([1, 0], 70, "seventy such sets have 1.0 (0.0 to 5.4) failures on average."),
+        ([2, 0], 70, "seventy such sets have 2.0 (0.2 to 7.0) failures on average."),
     ],
 )
 def test_seventy_reports_the_interval_of_sets_in_space(
@@ -144,12 +144,12 @@ def test_seventy_reports_the_interval_of_sets_in_space(
 
 def test_seventy_reports_the_difference_of_the_means(tmp_path: Path) -> None:
     """3, 4, 3 and 4 failures as listed and one with the card: 3.5 - 1."""
-    assert "which is 2.50 fewer." in seventies(tmp_path, [3, 4, 3, 4], mended=1)
+    assert "2.50 fewer than with the programs as listed." in seventies(tmp_path, [3, 4, 3, 4], mended=1)
 
 
 def test_seventy_counts_failures_of_sets_in_space_with_the_listed_programs(tmp_path: Path) -> None:
     """Both slabs fail as listed and none with the card; .158 is the square root of .025."""
-    assert "Of the sets in space, 100.0 (15.8 to 100.0) % fail as listed" in seventies(tmp_path, [2, 2], slabs=2)
+    assert "Of the sets of points in space, 100.0 (15.8 to 100.0) % fail with" in seventies(tmp_path, [2, 2], slabs=2)
 
 
 # The study divergence.
@@ -193,8 +193,11 @@ def test_divergence_sorts_statements_by_frequency_and_gives_their_shares(twenty:
 
 def test_divergence_separates_faults_of_the_arithmetic_from_faults_of_the_programs(twenty: Report) -> None:
     """3 of 7 sets with a difference are right (.099 to .816); 3 of 13 without one fail (.050 to .538)."""
-    assert "that still give the right hull: 3 of 7, 42.9 (9.9 to 81.6) %." in twenty.conclusions[1]
-    assert "which fail because of faults of the programs: 3 of 13, 23.1 (5.0 to 53.8) %." in twenty.conclusions[1]
+    assert (
+        "Of the sets with a different decision, 3 of 7, 42.9 (9.9 to 81.6) %, still give the right hull."
+        in twenty.conclusions[1]
+    )
+    assert "3 of 13, 23.1 (5.0 to 53.8) %, fail because of faults of the programs." in twenty.conclusions[1]
 
 
 def test_divergence_counts_runs_that_exact_arithmetic_cannot_follow(twenty: Report) -> None:

@@ -117,9 +117,8 @@ def test_digits_report_follows_changed_rows(digits_study: tuple[Plan, Path, Repo
         after = digits.report(plan, store)
         assert digits.least(summary(store), 1) == 21
     assert after.tables[0].rows[1][4] == "21"
-    assert before.conclusions[2].startswith("The least P without a failure is 3d + 1, with which every test for zero")
-    assert "is exact, for 3 of 3 numbers" in before.conclusions[2]
-    assert "is exact, for 2 of 3 numbers" in after.conclusions[2]
+    assert before.conclusions[2].startswith("For 3 of 3 numbers of digits d, the least number of working digits P")
+    assert after.conclusions[2].startswith("For 2 of 3 numbers of digits d, the least number of working digits P")
 
 
 def test_capacity_reports_the_greatest_number_of_entries_of_its_rows(tmp_path: Path) -> None:
@@ -187,16 +186,16 @@ def test_divergence_report_follows_changed_rows(tmp_path: Path) -> None:
     assert report.conclusions[0].endswith("All decisions agreed for all sets of these families: whole, 2 digits.")
     with closing(Store.open(tmp_path / "out", plan)) as store:
         store.query("UPDATE runs SET outcome = 'right'")
-        assert "because of faults of the programs: 0 of 3," in divergence.report(plan, store).conclusions[1]
+        assert "all decisions agree, 0 of 3," in divergence.report(plan, store).conclusions[1]
         store.query("UPDATE runs SET outcome = 'endless' WHERE place = 0")
         once = divergence.report(plan, store).conclusions[1]
-        assert once.startswith("Sets with a different decision that still give the right hull: 2 of 3,")
-        assert "because of faults of the programs: 1 of 3," in once
+        assert once.startswith("Of the sets with a different decision, 2 of 3,")
+        assert "all decisions agree, 1 of 3," in once
         store.query("UPDATE runs SET figures = json_set(figures, '$.diverges', 'program3 116')")
         after = divergence.report(plan, store)
     assert after.tables[0].rows[0][:2] == ("program3 116", "6")
     assert after.conclusions[0].endswith("All decisions agreed for all sets of these families: none.")
-    assert after.conclusions[1].endswith("because of faults of the programs: 0 of 0.")
+    assert after.conclusions[1].endswith("all decisions agree, 0 of 0, fail because of faults of the programs.")
 
 
 def test_cells_are_selected_by_their_keys() -> None:

@@ -90,7 +90,9 @@ def _solid(solid: Solid, number: str) -> str:
 
 
 def within(hull: Assembled) -> tuple[int, int]:
-    """Return the first pair of vertices that the star polygon test finds to be no edge."""
+    """Return the first pair of vertices for which the star polygon test finds that their line is not an edge of the
+    hull.
+    """
     for pair in combinations(hull.vertices, 2):
         images = star(hull, pair).images
         if all(vorticity(a, b) > 0 for a, b in zip(images, (*images[1:], images[0]), strict=True)):
