@@ -24,9 +24,10 @@ class Disagreement:
     """The differences between a computed hull and the exact hull of the same points.  Points are input indices.
 
     ``misfiled`` points have the wrong class, boundary or inside.  ``error`` is the largest error of a coefficient among
-    the matched equations, relative to the largest coefficient of x, y and z (the error of D: to the largest of all
-    four).  ``excluded`` is the largest distance by which an input point is outside of an equation, to about twelve
-    digits.  ``places`` has for each equation of the outcome the index of the exact equation that it matches, or -1.
+    the matched equations.  The error of A, B or C is relative to the largest of these three coefficients, that of D to
+    the largest of all four.  ``excluded`` is the largest distance by which an input point is outside of an equation, to
+    about twelve digits.  ``places`` has for each equation of the outcome the index of the exact equation that it
+    matches, or -1.
     """
 
     missed: frozenset[int]

@@ -1,4 +1,6 @@
-"""Draw a hull and a wrong one for the same points in one picture; shape and brightness distinguish the differences."""
+"""Draw a hull and another, wrong hull of the same points in one picture; shape and brightness distinguish the
+differences.
+"""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -32,7 +34,9 @@ def draw_against(
     width: int | None = None,
     show: Show | None = None,
 ) -> str:
-    """Draw a true hull and the differences of a claimed one.  Return an SVG file; parameters as in ``draw_svg``."""
+    """Draw a true hull and the differences of a claimed hull.  Return an SVG file.  The parameters are those of
+    ``draw_svg``.
+    """
     show = replace(show or Show(), points=True)
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)
     width = width_of(picture, width)

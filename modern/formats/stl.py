@@ -60,7 +60,9 @@ def is_binary(data: bytes) -> bool:
 
 
 def surface_binary(data: bytes, source: str) -> FileMesh:
-    """Return the triangles of a binary STL file as exact decimals.  A point's "line" is a triangle's number."""
+    """Return the triangles of a binary STL file as exact decimals.  In place of the line of a point, return the number
+    of its triangle.
+    """
     indices: dict[Point, int] = {}
     first_triangles: list[int] = []
     faces = []

@@ -58,7 +58,9 @@ class Outcome:
 
 
 def execute(cases: Sequence[tuple[Statement, Sequence[str]]], deck: Sequence[str]) -> list[Outcome]:
-    """Execute statements on the library in ``deck``; with each come its data cards or the lines to be typed."""
+    """Execute statements on the library in ``deck``.  Each statement is given with its data cards or the lines to be
+    typed.
+    """
     keys = [line for statement, cards in cases if statement.verb == "ACCEPT" for line in cards]
     outputs = run_jobs(deck, [_job(statement, cards) for statement, cards in cases], keys)
     return [_outcome(statement, output) for (statement, _), output in zip(cases, outputs, strict=True)]

@@ -166,9 +166,9 @@ def _main(plan: Plan, counts: Summary, tested: Mapping[str, _Pairs], widened: Ma
     notes = (
         "The numbers in parentheses are exact 95 % intervals (Clopper and Pearson).",
         "The columns *sets*, *failed* and *wrong hulls* are those of the exact test. The second column has the "
-        "largest size up to which no set failed. The column *against truncating* counts the sets whose hull is found "
-        "only by this arithmetic / only by truncation, and the last column those whose hull is found at more / at "
-        "fewer widths than by truncation.",
+        "largest size up to which no set failed. The column *against truncating* has two numbers: the sets whose "
+        "hull only this arithmetic finds, and the sets whose hull only truncation finds. The last column has the sets "
+        "whose hull this arithmetic finds at more widths of the interval than truncation, and at fewer widths.",
     )
     return Table("table", "Arithmetics compared, all sets", head, tuple(rows), notes)
 

@@ -220,7 +220,7 @@ def _main(plan: Plan, pairs: list[_Pair]) -> Table:
         "*By the model* means the lower and upper bound of the mean seconds, if the processor's true time is "
         f"{MODEL[0]} to {MODEL[1]} times the computed one, and the true time of input and output "
         f"{CONVERSION_MODEL[0]} to {CONVERSION_MODEL[1]} times. Runs of IBM's library of 1962 gave both ranges. Shares "
-        "are ratios, in which most of this error cancels.",
+        "are ratios, in which most of the systematic error cancels.",
     )
     return Table("table", "What moving the origin to C saves", head, tuple(rows), notes)
 
