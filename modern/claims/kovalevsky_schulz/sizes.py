@@ -72,8 +72,7 @@ def vertices_of_a_face() -> Check:
     means = []
     for bodies in _bodies():
         points, faces = [sum(len(f.vertices) for f in c.faces) for c in bodies], [len(c.faces) for c in bodies]
-        single = sum(map(Fraction, points, faces))
-        means.append((Fraction(sum(points), sum(faces)), single / len(bodies)))
+        means.append((Fraction(sum(points), sum(faces)), sum(map(Fraction, points, faces)) / len(bodies)))
     texts = [f"{float(first):.2f} over all faces, {float(second):.2f} over the bodies" for first, second in means]
     check = exhibited(all(round(mean) == 5 for mean in means[0]), f"means of points: {texts[0]}")
     return check.unless(all(round(mean) != 5 for mean in means[1]), f"the means of vertices: {texts[1]}")

@@ -141,10 +141,7 @@ def correlations(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.21")
 def formula_1() -> Check:
-    """Check that formula (1) is proportional to the distance from a line, and positive to the right of the line.
-
-    The program must compute the determinant of the formula.
-    """
+    """Check that the determinant of formula (1) is proportional to the distance from a line, positive on its right."""
 
     def difference(x1: int, y1: int, x: int, y: int, along: int, right: int) -> int:
         x2, y2, u, v = x1 + x, y1 + y, x1 + along * x + right * y, y1 + along * y - right * x
@@ -269,7 +266,7 @@ def table_properties(number: str, cases: int = CASES) -> Check:
             property_checks, touches = _property(property_number, w, v, [(*row,) for row in lp], met)
             checks += property_checks
             touching |= touches
-    check = searched(POLYGONS, 2 * cases, checks, f"true for {len(checks)} pairs of a polygon and a line")
+    check = searched(POLYGONS, 2 * cases, checks, f"true for {len(checks)} cases")
     return check.unless(touching, "a side without -1 that touches the other polygon, where d is -2 or -1")
 
 

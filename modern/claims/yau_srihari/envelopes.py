@@ -74,14 +74,12 @@ def _placed(voxels: tuple[Point, ...]) -> tuple[Point, ...]:
 
 @cache
 def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
-    """Return True if both envelopes have faces of the exact hull and the filled hull has its digital points.
-
-    The program's fast construction and the paper's steps with searches of the quadtree must both find these faces.
-    """
+    """Return True if both envelopes have faces of the exact hull and the filled hull has its digital points."""
     points, hull = _placed(voxels), hull_of(voxels)
     judge = exact_hull(points)
     for envelope, sign in ((hull.lower, 1), (hull.upper, -1)):
         expected = {frozenset(points[k] for k in f.polygon) for f in judge.facets if sign * f.plane[2] < 0}
+        # The program's fast construction, and the paper's steps with searches of the quadtree, must find these faces.
         for faces in (envelope.faces, [step.face for step in envelope.steps if step.face]):
             if {frozenset((x, y, sign * z) for x, y, z in face.vertices) for face in faces} != expected:
                 return False
