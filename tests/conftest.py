@@ -22,6 +22,11 @@ settings.load_profile("ci" if os.environ.get("CI") else "dev")
 gc.set_threshold(50_000, 20, 50)
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Run the documents first: a worker that starts with one of them at the end would work long after the others."""
+    items.sort(key=lambda item: "test_the_blocks_of_a_document_run" not in item.name)
+
+
 def pytest_collection_finish() -> None:
     """Exclude all objects that exist after the collection from the garbage collector."""
     gc.collect()

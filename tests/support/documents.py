@@ -92,10 +92,6 @@ INPUTS: dict[str, Callable[[Path], object]] = {
     "own.deck": _text(" 6\n" + "".join(f"{x:14}{y:14}{z:14}\n" for x, y, z in _OWN)),
     "my.f": _text((PROGRAMS / "desk.f").read_text(encoding="utf-8")),
     "my.deck": _text("1\n2     2.5\n4     4.\n6\n8\n"),
-    "answers.csv": _text(
-        "item,page,card,question,choices,answer\nreader,,,,,A. Librarian\ndate,,,,,2027-03-31\n"
-        "1-062-1,,,,,A\nQ24,,,,,A\n"
-    ),
     "solid.off": _text(_SOLID),
     "solid.csv": _text("".join(f"{x},{y},{z}\n" for x, y, z in np.argwhere(_ball()))),
     "solid.npy": _array,

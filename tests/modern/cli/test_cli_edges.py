@@ -148,7 +148,7 @@ def test_an_output_that_is_also_an_input_is_rejected_before_the_work(
 
 
 @pytest.mark.parametrize("unbuffered", ["", "1"])
-@pytest.mark.parametrize("words", ["--help", "hull --help", "--version", "hull example1", "diff example1", "hull no 2"])
+@pytest.mark.parametrize("words", ["--help", "hull --help", "--version", "hull example1", "hull no 2"])
 def test_output_to_a_full_device_ends_with_2_and_one_line(words: str, unbuffered: str) -> None:
     if not os.path.exists("/dev/full"):
         pytest.skip("/dev/full does not exist")

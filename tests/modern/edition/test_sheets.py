@@ -99,6 +99,13 @@ def test_a_filled_sheet_changes_the_text_and_the_confidence_without_python(tmp_p
     code, out, err = hull1620("apparatus", "--sheet", str(sheet), "--state", str(state))
     assert (code, err) == (0, ""), out
     assert f"{state}: 1 confirmed, 1 unreadable, 1 changed, 1 answered" in out
+    page = Path(ROOT, "docs", "how-to", "proof-sheet.md").read_text(encoding="utf-8")
+    assert {*re.findall(r"^\S+ +page 66 .*$", page, re.MULTILINE)} < {*out.splitlines()}
+    (answers,) = re.findall(r"^item,.*?(?=^```)", page, re.MULTILINE | re.DOTALL)
+    assert [(reading.item, reading.outcome) for reading in read_sheet("answers.csv", answers)] == [
+        ("1-062-1", "confirmed"),
+        ("Q24", "answered"),
+    ]
     assert "holds  P1-049             page: page 66, read by A. Librarian, has this card" in out
     assert re.search(r"(\d+) of \1 checks hold\n$", out)
     before, after = (Path(folder, "fortran_src", "program1.f").read_text().splitlines() for folder in (ROOT, state))

@@ -78,7 +78,7 @@ def served(folder: Path) -> Iterator[str]:
     server.server_close()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def tab(chromium: Browser, served: str) -> Iterator[Page]:
     """Return the emulator page with the machine on, at full speed."""
     page = chromium.new_page(viewport={"width": 1280, "height": 800})

@@ -51,10 +51,9 @@ def killing(plan: Plan, folder: Path, cluster: Any) -> list[int]:
     return killed
 
 
-def test_killed_worker_does_not_change_the_files(cluster: Any, tmp_path: Path) -> None:
-    run_study(PLAN, tmp_path / "here", workers=1, quiet=True)
+def test_killed_worker_does_not_change_the_files(cluster: Any, finished: Path, tmp_path: Path) -> None:
     assert killing(PLAN, tmp_path / "dask", cluster)
-    assert contents(tmp_path / "dask") == contents(tmp_path / "here")
+    assert contents(tmp_path / "dask") == contents(finished)
 
 
 def test_worker_with_different_versions_is_rejected(
