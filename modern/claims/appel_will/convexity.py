@@ -116,12 +116,10 @@ def deletion_passes(cases: int = 8) -> Check:
     def ends_as_hull(ring: Sequence[Flat]) -> bool:
         return {*_passes(ring)[-1]} == {ring[k] for k in exact_hull([(x, y, 0) for x, y in ring]).vertices}
 
-    check = search(
-        RINGS,
-        lambda ring: any(map(_crosses, _passes(ring))) or ends_as_hull(ring),
-        cases,
-        "each polygon ends as its hull",
-    )
+    def has_property(ring: tuple[Flat, ...]) -> bool:
+        return any(map(_crosses, _passes(ring))) or ends_as_hull(ring)
+
+    check = search(RINGS, has_property, cases, "each polygon ends as its hull")
     case = (
         f"a spiral of {len(SPIRAL)} points, which ends as a polygon of {len(_passes(SPIRAL)[-1])} that crosses itself"
     )

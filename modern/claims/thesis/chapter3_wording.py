@@ -162,20 +162,6 @@ def order_of_elimination() -> Check:
     return exhibited(all(in_order and hulls > 1 for in_order, hulls in sequences), message)
 
 
-@claim("thesis.271")
-def coplanar_extremes() -> Check:
-    """Check that a set in space may have coplanar extreme points, so that the hull of these has no volume."""
-    checks = []
-    for points in EXTREMES_IN_A_PLANE:
-        six, whole = exact_hull(_extreme_points(points)), exact_hull(points)
-        checks.append(six.dimension == 2 and whole.dimension == 3 and _volume(points, whole) > 0)
-    return exhibited(
-        all(checks),
-        f"in {sum(checks)} of {len(checks)} sets the hull of the six extreme points is flat and that of all "
-        "points is not",
-    )
-
-
 @claim("thesis.39", full=400)
 def first_hull_against_extremes(cases: int = 6) -> Check:
     """Compare H_1 with the hull of the six extreme points: volume and number of planes.
