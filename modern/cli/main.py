@@ -27,7 +27,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # Argparse must not read the word after --operator as its value, because the option is complete without one.
     tokens = ["--operator=" if word == "--operator" else word for word in tokens]
     # Most objects of a command live until its end, so searching for garbage after every 700 of them wastes time.
-    gc.set_threshold(100_000)
+    gc.set_threshold(300_000)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             # File names and cards may contain characters that the terminal cannot show.

@@ -83,7 +83,7 @@ def _check_classes(points: Coordinates, hull: ExactHull) -> None:
     require(all(len(pair) == 2 for pair in hull.duplicates), "a duplicate is not a pair of indices")
     for name in ("vertices", "boundary", "inside", "duplicates"):
         members = getattr(hull, name)
-        require(list(members) == sorted(members), f"{name} is not sorted")
+        require(list(members) == sorted(members), "{} is not sorted", name)
     members = [*hull.vertices, *hull.boundary, *hull.inside, *(index for index, _ in hull.duplicates)]
     complete = len(members) == len(points) and set(map(type, members)) == {int} and min(members) >= 0
     complete = complete and max(members) < len(points) and bool(np.bincount(members, minlength=len(points)).all())
@@ -120,12 +120,12 @@ def _check_planes(hull: ExactHull) -> None:
     require(planes == sorted(set(planes)), "the facets are not sorted by plane, or a plane occurs twice")
     for number, facet in enumerate(hull.facets):
         a, b, c, d = facet.plane
-        require(any((a, b, c)), f"facet {number}: the normal is 0")
-        require(math.gcd(a, b, c, d) == 1, f"facet {number}: the plane is not in lowest terms")
+        require(any((a, b, c)), "facet {}: the normal is 0", number)
+        require(math.gcd(a, b, c, d) == 1, "facet {}: the plane is not in lowest terms", number)
         polygon = facet.polygon
-        require(len(set(polygon)) == len(polygon), f"facet {number}: a vertex occurs twice")
-        require(vertices.issuperset(polygon), f"facet {number}: a point of the polygon is not a vertex")
-        require(bool(polygon) and polygon[0] == min(polygon), f"facet {number}: the smallest vertex is not first")
+        require(len(set(polygon)) == len(polygon), "facet {}: a vertex occurs twice", number)
+        require(vertices.issuperset(polygon), "facet {}: a point of the polygon is not a vertex", number)
+        require(bool(polygon) and polygon[0] == min(polygon), "facet {}: the smallest vertex is not first", number)
         for index in polygon:
             x, y, z = hull.scaled[index]
             if a * x + b * y + c * z + d:
@@ -150,13 +150,13 @@ def _check_points(hull: ExactHull) -> Planes:
                 on_facets.add(unique[row])
     for number, (facet_corners, stated) in enumerate(zip(corners, hull.facets, strict=True)):
         require(
-            facet_corners == set(stated.polygon), f"facet {number}: its plane contains other vertices than its polygon"
+            facet_corners == set(stated.polygon), "facet {}: its plane contains other vertices than its polygon", number
         )
     for index in sorted(on_facets.symmetric_difference(hull.boundary)):
         where = "on" if index in on_facets else "not on"
         raise CertificateError(f"point {index} is {where} a facet, which contradicts its class")
     for index, around in normals.items():
-        require(rank(around) == hull.dimension, f"point {index} is called a vertex, but its planes do not determine it")
+        require(rank(around) == hull.dimension, "point {} is called a vertex, but its planes do not determine it", index)
     return planes
 
 
@@ -200,7 +200,7 @@ def _check_polygon(hull: ExactHull) -> int:
     pairs = [(min(p, q), max(p, q)) for p, q in zip(cycle, (*cycle[1:], cycle[0]), strict=True)]
     require(sorted(facet.polygon for facet in hull.facets) == sorted(pairs), "the facets are not the polygon's edges")
     for number, facet in enumerate(hull.facets):
-        require(dot(facet.plane[:3], normal) == 0, f"facet {number} is not at right angles to the polygon's plane")
+        require(dot(facet.plane[:3], normal) == 0, "facet {} is not at right angles to the polygon's plane", number)
     return len(pairs)
 
 
@@ -212,7 +212,9 @@ def _check_segment(hull: ExactHull) -> int:
             along = difference(point, hull.scaled[0])
             require(
                 not any(product(along, end.plane[:3])),
-                f"facet {number} is not at right angles to the line through point {index}",
+                "facet {} is not at right angles to the line through point {}",
+                number,
+                index,
             )
     return 1
 

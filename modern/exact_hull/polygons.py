@@ -28,19 +28,20 @@ def check_convex(
     polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntPoint] | dict[int, IntPoint], name: str
 ) -> None:
     """Check that a polygon, seen from the side of ``normal``, turns left everywhere and goes around once."""
-    require(len(polygon) >= 3, f"{name}: fewer than three vertices")
-    sides = [
-        difference(scaled[end], scaled[start]) for start, end in zip(polygon, (*polygon[1:], polygon[0]), strict=True)
-    ]
-    for before, after, index in zip(sides, sides[1:] + sides[:1], (*polygon[1:], polygon[0]), strict=True):
-        if dot(product(before, after), normal) <= 0:
+    require(len(polygon) >= 3, "{}: fewer than three vertices", name)
+    corners, (a, b, c) = [scaled[index] for index in polygon], normal
+    sides = [(u - x, v - y, w - z) for (x, y, z), (u, v, w) in zip(corners, corners[1:] + corners[:1], strict=True)]
+    ahead = sides[1:] + sides[:1]
+    for (x, y, z), (u, v, w), index in zip(sides, ahead, (*polygon[1:], polygon[0]), strict=True):
+        # The triple product of two sides and the normal, written out because the proof computes it at every vertex.
+        if a * (y * w - z * v) + b * (z * u - x * w) + c * (x * v - y * u) <= 0:
             raise CertificateError(f"{name}: the polygon does not turn left at vertex {index}")
     # Each turn is less than 180 degrees, so no turn can skip half of the directions.  The polygon therefore goes around
     # as often as the direction of its sides enters the half with a positive coordinate on an axis not along the normal.
     axis = 2 if any(normal[:2]) else 1
     upper = [side[axis] > 0 for side in sides]
     entries = sum(after and not before for before, after in zip(upper, upper[1:] + upper[:1], strict=True))
-    require(entries == 1, f"{name}: the polygon goes around {entries} times")
+    require(entries == 1, "{}: the polygon goes around {} times", name, entries)
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,10 +18,10 @@ class CertificateError(Exception):
     """Raised if a result cannot be proved to be the hull of the points.  The message names the check and the place."""
 
 
-def require(condition: bool, message: str) -> None:
-    """Raise CertificateError with the message if the condition is false."""
+def require(condition: bool, message: str, *values: object) -> None:
+    """Raise CertificateError if the condition is false; ``values`` are inserted into the message only then."""
     if not condition:
-        raise CertificateError(message)
+        raise CertificateError(message.format(*values))
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,6 +36,10 @@ class ExactArithmetic(Arithmetic):
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
         return size * self.unit**degree
 
+    @property
+    def one(self) -> int:
+        return 1
+
     def quotient(self, value: Scalar, count: int) -> Scalar:
         return value // count
 

@@ -5,6 +5,7 @@ and an odd one is a 1-cell.  The voxel (x, y, z) is the cell (2 x + 1, 2 y + 1, 
 """
 
 from collections.abc import Iterable, Iterator
+from functools import cache
 from itertools import combinations, combinations_with_replacement, product
 
 import numpy as np
@@ -122,9 +123,10 @@ def incidence_by_coordinates() -> Check:
     outcomes = [len(set(map(tuple, points.values()))) == len(cells)]
     outcomes += [dimension(cell) == sum(low < high for low, high in points[cell]) for cell in cells]
     for e, f in product(cells, repeat=2):
-        pairs = [*zip(points[e], points[f], strict=True)]
-        within = all(p[0] >= q[0] and p[1] <= q[1] for p, q in pairs)
-        around = all(p[0] <= q[0] and p[1] >= q[1] for p, q in pairs)
+        (a, b), (c, d), (g, h) = points[e]
+        (i, j), (k, m), (n, o) = points[f]
+        within = a >= i and b <= j and c >= k and d <= m and g >= n and h <= o
+        around = a <= i and b >= j and c <= k and d >= m and g <= n and h >= o
         outcomes.append((within or around) == (f in near[e]) == (e in near[f]))
     outcomes.append(any(near[f] - near[e] for e in cells for f in near[e] & {*cells}))
     return exhausted("pairs of cells of a block of eight voxels", outcomes, "dimension and incidence are as expected")
@@ -141,6 +143,7 @@ def cells_with_common_coordinates() -> Check:
     return exhausted("voxels of a block of 64", outcomes, "eight cells of all dimensions have the same coordinates")
 
 
+@cache
 def is_complex(cells: Complex) -> bool:
     """Return True if a bounding relation is transitive and only cells of lower dimension bound others (Definition ACC).
 

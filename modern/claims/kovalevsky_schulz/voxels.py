@@ -33,7 +33,7 @@ def local(solid: Voxels, of: Of = CENTRES, neighbours: int = 26) -> set[Point]:
 
 
 @claim("kovalevsky-schulz.11", "kovalevsky-schulz.125", full=2_000)
-def vertices_among_local_corners(cases: int = 5) -> Check:
+def vertices_among_local_corners(cases: int = 3) -> Check:
     """Check that each vertex of the hull of a set of voxels, or of their corners, is a local corner of the set."""
 
     def among(solid: Voxels) -> bool:
@@ -126,7 +126,7 @@ def printed_faces() -> Check:
 
 
 @claim("kovalevsky-schulz.12", full=1_000)
-def corners_against_centres(cases: int = 3) -> Check:
+def corners_against_centres(cases: int = 2) -> Check:
     """Check that the hull of the voxels' corners contains the centres and is the hull of unit cubes about them."""
 
     def agrees(solid: Voxels) -> bool:

@@ -52,7 +52,7 @@ LATTICE_SETS: dict[int, Generator[tuple[Point, ...]]] = {
 
 @claim("thesis.80", "thesis.223", dimension=2, full=400)
 @claim("thesis.102", "thesis.256", dimension=3, full=400)
-def end_of_the_procedure(dimension: int, cases: int = 3) -> Check:
+def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
     """Check that the points left at the end are boundary points, and that superfluous points and planes are removed."""
     outcomes, removed = [], [0, 0, 0]
     for points in (*LATTICE_SETS[dimension].cases(cases), _POINT_ON_A_SIDE if dimension == 2 else _TWO_PLANES):

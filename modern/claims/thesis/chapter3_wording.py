@@ -163,7 +163,7 @@ def order_of_elimination() -> Check:
 
 
 @claim("thesis.39", full=400)
-def first_hull_against_extremes(cases: int = 6) -> Check:
+def first_hull_against_extremes(cases: int = 4) -> Check:
     """Compare H_1 with the hull of the six extreme points: volume and number of planes.
 
     The sets are sampled sets, sets with coplanar extreme points, and a counterexample in which H_1 is larger.

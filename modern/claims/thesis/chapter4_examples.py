@@ -18,9 +18,11 @@ from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
 from modern.edition.chapter4 import Point, Theorem, load_text, load_theorems, theorem_faults
+from modern.exact_hull.certificate import rank
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import data_deck
 from modern.geometry.hull import NOT_ACCEPTABLE
+from modern.geometry.vectors import lowest, minus
 from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
 
@@ -117,10 +119,10 @@ def _six_extremes(theorem: Theorem) -> Check:
     """Check, for each possible value of the lost point P3, that six extreme points are coplanar and others are not."""
     candidates = lost_candidates(theorem)
     off = [_point(theorem, name) for name in theorem.outside_plane]
+    first, *points = (p.at for p in theorem.points)
     nonplanar = 0
     for candidate in candidates:
-        points = [*(p.at for p in theorem.points), candidate]
-        nonplanar += exact_hull([*map(list, points)]).dimension == 3
+        nonplanar += rank(lowest(minus(point, first)) for point in (*points, candidate)) == 3
     return exhibited(
         bool(candidates) and nonplanar == len(candidates) and all(theorem.planes[0].at(point) for point in off),
         f"P3 is lost in the OCR text; the claim holds for each of its {len(candidates)} possible integer values",

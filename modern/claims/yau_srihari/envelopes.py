@@ -114,14 +114,14 @@ def minimum_not_unique() -> Check:
 
 @claim("yau-srihari.48", "yau-srihari.51", "yau-srihari.53", "yau-srihari.54", full=500)
 @claim("yau-srihari.52", "yau-srihari.59", "yau-srihari.103", "yau-srihari.120", full=500)
-def envelopes_against_judge(cases: int = 5) -> Check:
+def envelopes_against_judge(cases: int = 3) -> Check:
     """Check that the envelopes consist of faces of the exact hull and have its digital points between them."""
     message = "the envelopes are the lower and upper faces of the exact hull, with its digital points between them"
     return search(SOLIDS, _envelopes_agree, cases, message)
 
 
 @claim("yau-srihari.49", full=500)
-def digital_hull_by_envelopes(cases: int = 5) -> Check:
+def digital_hull_by_envelopes(cases: int = 3) -> Check:
     """Check that the points between the envelopes are the digital hull, unless they do not form a digital solid."""
     disconnected = disconnected_hull()
     return envelopes_against_judge(cases).unless(not disconnected.holds, f"a path of stairs: {disconnected.message}")

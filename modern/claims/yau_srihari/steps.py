@@ -44,7 +44,7 @@ def simple_with_a_tunnel() -> Check:
 
 
 @claim("yau-srihari.85", full=500)
-def queued_edges_reversed(cases: int = 5) -> Check:
+def queued_edges_reversed(cases: int = 3) -> Check:
     """Check that a face enters an edge into the queue in one direction and removes it in the reverse direction."""
     same, reverse, neither = 0, 0, 0
     for voxels in SOLIDS.cases(cases):
@@ -82,14 +82,14 @@ def _reductions(cases: int) -> Iterator[tuple[set[Place], set[Place], set[Place]
 
 
 @claim("yau-srihari.64", full=1_000)
-def extreme_in_row_and_column(cases: int = 12) -> Check:
+def extreme_in_row_and_column(cases: int = 6) -> Check:
     """Check that the vertices of a floor's lower hull are extreme points of their rows and columns."""
     checks = [vertices <= extreme_in_both for vertices, extreme_in_both, _ in _reductions(cases)]
     return searched(FLOORS, cases, checks, "all extreme points are extreme in their row and column")
 
 
 @claim("yau-srihari.128", full=1_000)
-def row_and_column_steps(cases: int = 12) -> Check:
+def row_and_column_steps(cases: int = 6) -> Check:
     """Check that the reductions by rows and then by columns keep all vertices, though some other points remain too."""
     checks, larger = [], 0
     for vertices, extreme_in_both, after_steps in _reductions(cases):
