@@ -107,7 +107,8 @@ def make(item: Part) -> Iterator[Polyhedron]:
     shape = item.build(item.place)
     figures = tuple(_figure(item.place, shape, corners) for corners in item.figures)
     shape = replace(shape, thing=item.thing, figures=figures)
-    shape = placed(placed(shape, scaled(item.scale), item.place), turned(item.turn), item.place)
+    if item.scale != 1 or item.turn:
+        shape = placed(placed(shape, scaled(item.scale), item.place), turned(item.turn), item.place)
     for place in itertools.product(*map(range, item.count)):
         x, y, z = (start + k * step for start, k, step in zip(item.at, place, item.step, strict=True))
         copy = f", copy {','.join(str(k + 1) for k in place)}" if max(item.count) > 1 else ""

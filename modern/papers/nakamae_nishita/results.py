@@ -14,7 +14,7 @@ from modern.papers.nakamae_nishita.scenes import names, scene
 Place = tuple[int, int]
 _SQUARE: tuple[Place, ...] = ((0, 0), (0, 4), (4, 4), (4, 0))
 _NUMBERS = ("none", "one", "two", "three", "four")
-_OTHER_SIDE = (-34, 37, 41)
+_OTHER_SIDE = (Fraction(-34), Fraction(37), Fraction(41))
 
 
 def produced(_: Lines) -> Lines:
@@ -29,16 +29,16 @@ def produced(_: Lines) -> Lines:
     lines["sense"] = [f"{_contour_sense()} \\times (P_A - P_B)"]
     # Rows (a) and (b) of Table 1 have the same counts, so one scene is drawn from two directions.
     lines["table1-a"] = [_row("a", drawings["columns"])]
-    lines["table1-b"] = [_row("b", drawing("columns", _OTHER_SIDE))]
+    columns = [item.polyhedron for item in drawings["columns"].solids]
+    lines["table1-b"] = [_row("b", draw(columns, parallel(_OTHER_SIDE)))]
     lines["table1-c"] = [_row("c", drawings["cuboids"])]
     return lines
 
 
-def drawing(name: str, eye: Sequence[int] | None = None) -> Drawing:
-    """Draw one of the project's scenes as seen from its own direction or from another one."""
+def drawing(name: str) -> Drawing:
+    """Draw one of the project's scenes as seen from its own direction."""
     file = scene(name)
-    observer = file.sight.observer(file.make) if eye is None else parallel([Fraction(number) for number in eye])
-    return draw(file.make, observer)
+    return draw(file.make, file.sight.observer(file.make))
 
 
 def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
