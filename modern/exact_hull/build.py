@@ -118,7 +118,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
 
     def classified(dimension: int, facets: Sequence[Facet], boundary: Ints) -> ExactHull:
         """Return the hull and the class of each point, not yet proved.  Indices are those of distinct points."""
-        vertices = np.unique(_corners(facets) if len(facets) else [0])
+        vertices = np.flatnonzero(np.bincount(_corners(facets) if len(facets) else [0]))
         inside = np.ones(len(distinct), np.bool_)
         inside[vertices] = False
         inside[boundary] = False

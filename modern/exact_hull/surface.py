@@ -24,6 +24,8 @@ from modern.exact_hull.result import Plane
 
 # The number of signs that are computed one by one faster than by numpy.
 _FEW = 24
+# Planes through points with coordinates below this limit have values below 2**51 at them, which float64 holds exactly.
+_NEAR = 2**15
 
 # Why one triangle for each waiting point is enough: let q see the triangle f, which point p sees and removes, and let m
 # be a point inside f.  The segment q m is outside the old hull up to m, and m is interior to the new hull.  The segment
@@ -43,11 +45,13 @@ class Surface:
 
     def __init__(self, points: Coordinates, simplex: Sequence[int]) -> None:
         self.points = points.all()
-        self.shifts = points.images.shifts
-        self.bound = 0.0 if points.images.are_small else BOUND
+        # Small integers need no images: they and their planes are used as they are, without shifts.
+        near = points.kind == "i" and abs(points.numbers).max() < _NEAR
+        self.shifts = None if near else points.images.shifts
+        self.bound = 0.0 if near or points.images.are_small else BOUND
         self.places = np.ones((len(points), 4))
-        self.places[:, :3] = points.images.places
-        self.rows: list[list[float]] = points.images.places.tolist()
+        self.places[:, :3] = points.numbers if near else points.images.places
+        self.rows: Sequence[Sequence[float]] = self.points if near else points.images.places.tolist()
         self.corners: list[Triangle] = []
         self.neighbours: list[list[int]] = []
         self.planes: list[Plane] = []
@@ -73,12 +77,15 @@ class Surface:
     def _add(self, corners: Triangle, neighbours: list[int]) -> None:
         p, q, r = corners
         plane = plane_through(self.points[p], self.points[q], self.points[r])
-        a, b, c = normal_image(plane, self.shifts)
-        x, y, z = self.rows[p]
+        image: _Image = plane
+        if self.shifts:
+            a, b, c = normal_image(plane, self.shifts)
+            x, y, z = self.rows[p]
+            image = a, b, c, -(a * x + b * y + c * z)
         self.corners.append(corners)
         self.neighbours.append(neighbours)
         self.planes.append(plane)
-        self.images.append((a, b, c, -(a * x + b * y + c * z)))
+        self.images.append(image)
         self.waiting.append([])
         self.alive.append(True)
         self.mark.append(-1)
