@@ -47,7 +47,7 @@ def smaller_polyhedron(vertices: str) -> Check:
 
 
 @claim("kovalevsky-schulz.151", "kovalevsky-schulz.156", "kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
-def vertices_are_local_corners(cases: int = 4) -> Check:
+def vertices_are_local_corners(cases: int = 2) -> Check:
     """Check that the polyhedron of the local corners is the hull of the voxels, or of their corners."""
 
     def agrees(solid: Voxels) -> bool:

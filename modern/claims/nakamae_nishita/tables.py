@@ -278,7 +278,7 @@ def _property(
     ``of_lines`` has the signs of the vertices of w for each line of v, and ``met`` the values of d for the lines of w.
     """
     if number == "1":
-        return [_apart(v, w) or all(1 in line for line in of_lines)], False
+        return [all(1 in line for line in of_lines) or _apart(v, w)], False
     if number == "2":
         return [(not any(-1 in line for line in of_lines)) == all(inside(p, v) for p in w)], False
     if number == "4":

@@ -147,7 +147,7 @@ def order_of_elimination() -> Check:
     sequences = []
     # A set in a plane for program 2, and a set in space for program 3.
     for flat in (True, False):
-        deck = data_deck([[str(k), str(k * k), "0" if flat else str(k**3)] for k in range(-3, 3)], "six")
+        deck = data_deck([[str(k), str(k * k), "0" if flat else str(k**3)] for k in range(-2, 3)], "five")
         steps: list[str] = []
 
         def watch(program: Program, machine: Machine, steps: list[str] = steps) -> None:
