@@ -11,10 +11,10 @@ import sys
 if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
+from modern.cli.main import main
+
 # Python searches for garbage when it exits, unless the objects are frozen; this would take a tenth of a second.
 atexit.register(gc.freeze)
-
-from modern.cli.main import main
 
 if __name__ == "__main__":
     sys.exit(main())

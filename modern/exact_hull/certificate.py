@@ -156,7 +156,9 @@ def _check_points(hull: ExactHull) -> Planes:
         where = "on" if index in on_facets else "not on"
         raise CertificateError(f"point {index} is {where} a facet, which contradicts its class")
     for index, around in normals.items():
-        require(rank(around) == hull.dimension, "point {} is called a vertex, but its planes do not determine it", index)
+        require(
+            rank(around) == hull.dimension, "point {} is called a vertex, but its planes do not determine it", index
+        )
     return planes
 
 
