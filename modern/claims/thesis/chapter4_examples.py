@@ -22,7 +22,7 @@ from modern.exact_hull.certificate import rank
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import data_deck
 from modern.geometry.hull import NOT_ACCEPTABLE
-from modern.geometry.vectors import lowest, minus
+from modern.geometry.vectors import lowest
 from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
 
@@ -122,7 +122,8 @@ def _six_extremes(theorem: Theorem) -> Check:
     first, *points = (p.at for p in theorem.points)
     nonplanar = 0
     for candidate in candidates:
-        nonplanar += rank(lowest(minus(point, first)) for point in (*points, candidate)) == 3
+        arms = [[a - b for a, b in zip(point, first, strict=True)] for point in (*points, candidate)]
+        nonplanar += rank(map(lowest, arms)) == 3
     return exhibited(
         bool(candidates) and nonplanar == len(candidates) and all(theorem.planes[0].at(point) for point in off),
         f"P3 is lost in the OCR text; the claim holds for each of its {len(candidates)} possible integer values",
