@@ -19,6 +19,19 @@ interface Picture {
   points: number[][];
   vertices: number | number[];
   faces: number[][];
+  /** After the comparison with the other hull: vertices that the program lacks or adds, and faces that only this hull has. */
+  missed?: number[];
+  extra?: number[];
+  wrong?: number[];
+}
+
+/** The comparison of a run and its hull with exact arithmetic (modern/publication/verdict.py). */
+interface Verdict {
+  lines: string[];
+  statement?: number;
+  says?: string;
+  hull?: Picture;
+  final?: Picture;
 }
 
 /** The answer to a load. */

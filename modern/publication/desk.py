@@ -17,7 +17,7 @@ from typing import Any
 from emulator.errors import EmulatorError, LowerCaseError
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.compiler import compile_deck
-from emulator.language.objectcode import Line, Program
+from emulator.language.objectcode import Program
 from emulator.language.statements import capitals
 from emulator.machine.console import Cards, command, done
 from emulator.machine.machine import run_with_operator
@@ -25,7 +25,7 @@ from emulator.machine.operator import PUNCHED, FromFile, Load, Logged, Operator
 from emulator.machine.result import DEFAULT_CORE, DEFAULT_LIMIT, Event, Options
 from emulator.machine.session import Action, Halt, Session
 from emulator.machine.timing import measure
-from emulator.machine.words import action_line, halt_line, notes, place_of
+from emulator.machine.words import action_line, halt_line, notes
 from emulator.numbers import numbers
 from modern.edition import programs
 from modern.publication import panel
@@ -265,30 +265,12 @@ class Desk:
         return answer | {"events": [], "undone": {"typed": len(session.result().typed), "punched": len(self._stacker)}}
 
     def decide(self) -> Answer:
-        """Find the first decision of the loaded run on which exact arithmetic takes another branch.
-
-        The answer has ``lines``: the statement with the value and the target in both arithmetics.  ``statement`` is
-        its number in the run.  ``hull`` is the true hull of the points of the first stage.
-        """
-        from emulator.machine.divergence import diverge  # not at the top: mpmath would delay the page
+        """Compare the loaded run with exact arithmetic; see :func:`modern.publication.verdict.verdict`."""
+        from modern.publication.verdict import verdict  # not at the top: mpmath would delay the page
 
         if (loaded := self._loaded) is None:
             return {"lines": [_EMPTY]}
-        try:
-            comparison = diverge(
-                loaded.program, loaded.deck, loaded.options.numbers, numbers("exact"), loaded.options, values=False
-            )
-        except EmulatorError as error:
-            return {"lines": [str(error)]}
-        decision = comparison.first_decision
-        hull = {"hull": panel.true_picture(self._record.stages)} if self._record.stages else {}
-        if decision is None:
-            same = comparison.apart or "exact arithmetic takes every decision of this run in the same way"
-            return hull | {"lines": [same]}
-        lines = [f"{place_of(decision.line)}: {decision.line.text}"]
-        for name, value, target in zip(("eight digits", "exact"), decision.values, decision.targets, strict=True):
-            lines.append(f"{name}: {value}, goes to {place_of(target) if target else 'the end'}")
-        return hull | {"lines": lines, "statement": self._execution(decision.line, decision.time)}
+        return verdict(loaded.program, loaded.deck, loaded.options)
 
     def field(self, address: int) -> Answer:
         """Return the field at an address of core storage (:func:`modern.publication.panel.field_at`)."""
@@ -315,20 +297,6 @@ class Desk:
         self._logged = Logged(self._visitor, self._log, loaded.deck_name)
         self._happened, self._stacker = [], []
         return session
-
-    def _execution(self, line: Line, time: int) -> int:
-        """Return the number in the run of an execution of a statement."""
-        loaded, passed, statement = self._loaded, 0, 0
-        assert loaded is not None
-
-        def count(begun: Line, session: Session) -> None:
-            nonlocal passed, statement
-            statement += passed < time
-            passed += begun.index == line.index
-
-        session = Session(loaded.program, loaded.deck, loaded.options, tracer=count)
-        run_with_operator(session, Operator())
-        return statement
 
     def _refused(self, message: str) -> Answer:
         self._session = self._loaded = None

@@ -4,9 +4,8 @@ All numbers come from the variables of the running program.  The page draws them
 """
 
 from array import array
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import Any
 
 from emulator.errors import CompileError, EmulatorError
@@ -30,6 +29,8 @@ _FLAT = {1: ("T", "R", "S"), 2: ("R", "T", "S"), 3: ("R", "S", "T")}
 _DEFINING = ("MM", "NN", "KK")
 # The first statement at which the state is kept, to recognise a run that never ends; the number doubles each time.
 _KEPT = 1024
+# The operations that assign a value to a variable.
+_STORES = (op.FMFAC, op.FMFIX, op.TRANSMIT)
 # For program 2 and program 3: the statements that begin a data set, a stage of the hull, and the output.
 _STAGES = {"R": (100, 106, 170), "KK": (100, 103, 174)}
 
@@ -44,17 +45,25 @@ def stage_labels(program: Program) -> tuple[int, int, int]:
     return 0, 0, 0
 
 
-def picture(session: Session) -> dict[str, Any]:
+def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) -> dict[str, Any]:
     """Return ``points``, the number of ``vertices`` among the first of them, and ``faces`` as indices of points.
 
-    These are the variables X, Y, Z (R, S, T in program 2), NV, and MM, NN, KK up to NE.  The result is empty for a
-    program without such variables.
+    These are the variables X, Y, Z (R, S, T in program 2), NV, and MM, NN, KK up to NE, at present or in an earlier
+    ``state`` of values and kinds.  The result is empty for a program without such variables.
     """
     storage = session.program.storage
+    values, kinds = state or (session.state.values, session.state.kinds)
+
+    def number(field: int) -> float | None:
+        """Return the contents of a field as a float for drawing, or None if it is undefined."""
+        value, kind = values[field], kinds[field]
+        if kind == UNDEFINED:
+            return None
+        return float(value) if kind == FIXED_POINT else float(session.options.numbers.traced(value))
 
     def whole(name: str) -> int:
         fields = storage.fields_of(name)
-        value = number(session, fields.start) if fields else None
+        value = number(fields.start) if fields else None
         return int(value) if value is not None else 0
 
     names = _SPACE if storage.fields_of("X") else _FLAT.get(whole("KPROJ"), ())
@@ -62,25 +71,17 @@ def picture(session: Session) -> dict[str, Any]:
     if not axes or not all(axes):
         return {}
     count = min(whole("N"), *map(len, axes))
-    rows = [[number(session, axis[n]) for axis in axes] for n in range(count)]
+    rows = [[number(axis[n]) for axis in axes] for n in range(count)]
     points = [row for row in rows if None not in row]
     tables = [table for name in _DEFINING if len(table := storage.fields_of(name)) > 1]
     faces: list[list[int]] = []
     if len(tables) > 1 and stage_labels(session.program)[0]:
         for k in range(min(whole("NE"), *map(len, tables))):
-            corners = [number(session, table[k]) for table in tables]
+            corners = [number(table[k]) for table in tables]
             # A table that is being filled or shifted may hold an entry without three points.
             if all(corner is not None and 1 <= corner <= len(points) for corner in corners):
                 faces.append([int(corner or 0) - 1 for corner in corners])
     return {"points": points, "vertices": whole("NV") if faces else 0, "faces": faces}
-
-
-def number(session: Session, field: int) -> float | None:
-    """Return the contents of a field as a float for drawing, or None if it is undefined."""
-    value, kind = session.state.values[field], session.state.kinds[field]
-    if kind == UNDEFINED:
-        return None
-    return float(value) if kind == FIXED_POINT else float(session.options.numbers.traced(value))
 
 
 def core(program: Program, size: int) -> dict[str, Any]:
@@ -157,9 +158,7 @@ def touched(program: Program) -> list[list[list[str]]]:
         if instruction.operation > op.ITEM or not 0 <= instruction.address < program.storage.fields:
             continue
         entry = program.storage.entry_of(instruction.address)
-        writes = instruction.operation in (op.FMFAC, op.FMFIX, op.TRANSMIT) or (
-            instruction.operation == op.ITEM and reading
-        )
+        writes = instruction.operation in _STORES or (instruction.operation == op.ITEM and reading)
         if entry.kind in ("variable", "array"):
             names[program.statements[statement].place.card - 1][0 if writes else 1][entry.name] = None
     return [[list(written), list(read)] for written, read in names]
@@ -191,12 +190,16 @@ class Record:
     _is_final: bool = False
     _is_new: bool = True
     repeats: int = 0
+    # The statements between two assignments to coordinates, and the state before the first of these assignments.
+    _torn: frozenset[int] = frozenset()
+    _whole: tuple[list[Any], list[Any]] | None = None
     _switches: list[int] = field(default_factory=list)
     # By statement: the numbers of its executions at which the state was kept, and the states.
     _states: dict[int, list[tuple[int, tuple[Any, ...]]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._labels = stage_labels(self.program) if self.program else (0, 0, 0)
+        self._torn = _torn(self.program) if self.program else frozenset()
 
     def __call__(self, line: Line, session: Session) -> None:
         if session.last is not None:
@@ -204,6 +207,8 @@ class Record:
                 self.writers[address] = session.last.place.card, len(self.times)
                 self._fields.add(address)
         self.times.append(session.state.work)
+        if line.index + 1 in self._torn and line.index not in self._torn:
+            self._whole = list(session.state.values), list(session.state.kinds)
         self._recognise(line, session)
         if line.label and line.label in self._labels:
             begins, _, ends = self._labels
@@ -239,8 +244,25 @@ class Record:
         return fields
 
     def picture(self, session: Session) -> dict[str, Any]:
-        """Return the picture of the present variables, or of the last stage if the hull is complete."""
-        return self.stages[-1] if self._is_final else picture(session)
+        """Return the picture of the present variables, or of the last stage if the hull is complete.
+
+        While a program moves a point, one coordinate after the other, the picture is that of the state before.
+        """
+        if self._is_final:
+            return self.stages[-1]
+        return picture(session, self._whole if session.here.index in self._torn else None)
+
+
+def _torn(program: Program) -> frozenset[int]:
+    """Return the statements that assign a coordinate directly after a statement that assigns one."""
+    coordinates = {*_SPACE, *_FLAT[1]}
+    moves = set()
+    for instruction, statement in zip(program.code, program.statement_numbers, strict=True):
+        if instruction.operation in _STORES and 0 <= instruction.address < program.storage.fields:
+            entry = program.storage.entry_of(instruction.address)
+            if entry.kind == "array" and entry.name in coordinates:
+                moves.add(statement)
+    return frozenset(statement for statement in moves if statement - 1 in moves)
 
 
 def _determining(session: Session) -> tuple[Any, ...]:
@@ -248,13 +270,3 @@ def _determining(session: Session) -> tuple[Any, ...]:
     state = session.state
     registers = (state.fac, state.fixed, state.last_card, session.devices.position)
     return list(state.values), list(state.kinds), *registers
-
-
-def true_picture(stages: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """Return the true hull of the points of the first stage, in exact arithmetic, as a picture."""
-    from modern.publication.parting import scaled, true_hull  # not at the top: it would delay the page
-
-    points = stages[0]["points"]
-    faces = true_hull(scaled([(Fraction(str(x)), Fraction(str(y)), Fraction(str(z))) for x, y, z in points]))[1]
-    vertices = sorted({n for face in faces for n in face})
-    return {"points": points, "vertices": vertices, "faces": [list(face) for face in faces]}

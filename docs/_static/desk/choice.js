@@ -18,7 +18,9 @@ const deskChoice = (() => {
   function option(what, name, title, kind = "") {
     const select = SELECTS[what];
     if (kind) kinds.set(`${what} ${name}`, kind);
-    if (![...select.options].some((element) => element.value === name)) select.add(new Option(title, name));
+    const offered = [...select.options].find((element) => element.value === name);
+    if (!offered) select.add(new Option(title, name));
+    else if (title !== name) offered.text = title;
   }
 
   /** Return a choice: a built-in name, or the name and the cards. @param {What} what @returns {string | [string, string]} */
@@ -39,6 +41,34 @@ const deskChoice = (() => {
     own[what].set(name, text);
     option(what, name, title, name.replace(/\.\w+$/, ""));
     SELECTS[what].value = name;
+  }
+
+  /** Choose a built-in program and a deck. @param {string} program @param {string} deck */
+  function pick(program, deck) {
+    option("programs", program, program);
+    option("decks", deck, deck);
+    [SELECTS.programs.value, SELECTS.decks.value] = [program, deck];
+  }
+
+  /** Return a name that no cards have. @param {What} what @param {string} [stem] */
+  function unused(what, stem = "mine") {
+    const name = (/** @type {number} */ n) => `${stem}${n > 1 ? n : ""}.${what === "programs" ? "f" : "deck"}`;
+    let n = 1;
+    while (own[what].has(name(n))) n += 1;
+    return name(n);
+  }
+
+  /**
+   * Choose cards from the keypunch. The period programs are not overwritten; their changed cards get another name.
+   * @param {What} what
+   * @param {string} name
+   * @param {string} text
+   * @param {boolean} isNew Choose a deck that fits a new program.
+   */
+  function keep(what, name, text, isNew) {
+    const isSample = name in data.period && data.period[name] !== text;
+    add(what, isSample ? unused(what, name.replace(/\.\w+$/, "")) : name, text);
+    if (isNew && what === "programs") fit();
   }
 
   /** Read a file of the visitor as a program or a deck. @param {string} name @param {string} text */
@@ -85,19 +115,19 @@ const deskChoice = (() => {
   /** Return the part of an address that makes the same choice. */
   const link = () => deskLink.write({ ...request(), speed: String(deskPage.pace()), stop: where.value, next: false });
 
-  /** Return the visitor's program that is chosen, or an empty new one. @returns {[string, string]} */
-  function ownProgram() {
-    const name = SELECTS.programs.value;
-    const cards = own.programs.get(name);
-    return cards === undefined ? ["mine.f", ""] : [name, cards];
+  /** Return the chosen cards to edit, a period program under another name, or null. @param {What} what @returns {[string, string] | null} */
+  function editable(what) {
+    const name = SELECTS[what].value;
+    const cards = own[what].get(name);
+    if (cards === undefined) return null;
+    return [name in data.period ? unused(what, name.replace(/\.\w+$/, "")) : name, cards];
   }
 
   for (const [name, text] of Object.entries(data.period)) add(name.endsWith(".f") ? "programs" : "decks", name, text, `${name}, in the style of the period`);
   option("decks", "", "no deck");
   option("programs", "program1_examples", "program 1 in the state that produced the examples", "points");
   option("decks", "example5", "example 5 of chapter 6", "points");
-  SELECTS.programs.value = "program1_examples";
-  SELECTS.decks.value = "example5";
+  pick("program1_examples", "example5");
   SELECTS.programs.addEventListener("change", fit);
-  return { offer, add, take, choosePunched, set, request, names, link, ownProgram };
+  return { offer, pick, take, choosePunched, set, request, names, link, keep, editable, unused };
 })();

@@ -6,21 +6,36 @@ const deskTape = (() => {
   const { at, data } = deskPage;
   const button = at("replay", HTMLButtonElement);
   let timer = 0;
+  let isChosen = false; // the selectors name the program and the deck of the recorded run
 
-  function end() {
+  /** Choose the program and the deck of the recorded run, so that the whole desk shows the same run. */
+  function choose() {
+    deskChoice.pick("program3", "example5/punched");
+    isChosen = true;
+  }
+
+  /** Leave the choice to the visitor. */
+  function release() {
     clearTimeout(timer);
+    isChosen = false;
+  }
+
+  /** End the recorded run; without a choice of the visitor, program 1 with example 5 is next. */
+  function end() {
+    if (isChosen) deskChoice.pick("program1_examples", "example5");
+    release();
     button.hidden = true;
   }
 
   function play() {
     end();
+    choose();
     deskShow.lay(data.recorded.load);
     let n = 0;
     const next = () => {
       deskShow.render(data.recorded.frames[n]);
       n += 1;
       if (n < data.recorded.frames.length) timer = window.setTimeout(next, 1000 / data.pace);
-      else end();
     };
     next();
   }
@@ -29,6 +44,7 @@ const deskTape = (() => {
   function still() {
     const { load, frames } = data.recorded;
     const last = frames[frames.length - 1];
+    choose();
     deskShow.lay(load);
     deskShow.render({ ...last, picture: frames.findLast(({ picture }) => picture)?.picture });
     offer();
@@ -36,7 +52,7 @@ const deskTape = (() => {
 
   const offer = () => void (button.hidden = false);
   button.addEventListener("click", play);
-  return { play, still, end, offer };
+  return { play, still, end, release, offer };
 })();
 
 (() => {
@@ -83,12 +99,15 @@ const deskTape = (() => {
   });
   const punch = keypunch.open({
     check: async (text) => (deskRun.isOn ? deskRun.ask("check", text) : []),
-    use(what, name, text) {
-      deskChoice.add(what, name, text);
+    editable: deskChoice.editable,
+    unused: deskChoice.unused,
+    use(...cards) {
+      deskTape.release();
+      deskChoice.keep(...cards);
       deskRun.load();
     },
   });
-  clicked("punch-open", () => punch.show("programs", ...deskChoice.ownProgram(), deskShow.loaded?.formats ?? []));
+  clicked("punch-open", () => punch.show(deskShow.loaded?.formats ?? []));
 
   // ---- The parts of the desk
 
@@ -201,20 +220,29 @@ const deskTape = (() => {
     }
     if (moment) await deskRun.open(moment);
     else if (deskRun.wish) await deskRun.load(deskRun.wish === "START");
-    else say(damage || "The machine is on. Press START to run example 5, or choose a program.");
+    else if (damage) say(damage);
+    else if (!deskRun.isBusy) await deskRun.load();
+  }
+
+  /** Open the moment that the address of the page names. */
+  async function follow() {
+    const named = await linked();
+    if (damage) say(damage);
+    else if (named && deskRun.isOn) deskRun.open(named);
+    else if (named) {
+      deskTape.release();
+      deskChoice.set(named);
+    }
   }
 
   // These links need no second start of the emulator.
   for (const link of all(".m-try a"))
     link.addEventListener("click", (event) => {
       event.preventDefault();
+      const before = location.hash;
       location.hash = link.getAttribute("href")?.split("?")[1] ?? "";
+      if (location.hash === before) follow();
     });
-  addEventListener("hashchange", async () => {
-    const named = await linked();
-    if (damage) say(damage);
-    else if (named && deskRun.isOn) deskRun.open(named);
-    else if (named) deskChoice.set(named);
-  });
+  addEventListener("hashchange", follow);
   begin();
 })();

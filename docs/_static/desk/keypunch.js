@@ -4,7 +4,9 @@
 /**
  * @typedef {object} Punching
  * @property {(text: string) => Promise<[number, number, string][]>} check Return the messages of the compiler.
- * @property {(what: "programs" | "decks", name: string, text: string) => void} use Put the cards into the machine.
+ * @property {(what: What, name: string, text: string, isNew: boolean) => void} use Put the cards into the machine.
+ * @property {(what: What) => [string, string] | null} editable Return the name and the cards of the visitor's choice.
+ * @property {(what: What) => string} unused Return a name for new cards.
  */
 
 const keypunch = (() => {
@@ -50,6 +52,9 @@ const keypunch = (() => {
     /** @type {[string, Field[]][]} */
     let formats = [];
     let late = 0;
+    let isNew = false;
+    /** The cards that are being written, for each kind. @type {Map<What, [string, string, boolean]>} */
+    const drafts = new Map();
 
     function rule() {
       const isProgram = at("what").value === "programs";
@@ -73,16 +78,35 @@ const keypunch = (() => {
       at("state").textContent = messages.length ? `${messages.length} ${messages.length > 1 ? "errors" : "error"}` : "No errors.";
     }
 
-    /** @param {"programs" | "decks"} what @param {string} name @param {string} text @param {[string, Field[]][]} forms */
-    function show(what, name, text, forms) {
-      at("what").value = what;
+    /** Put cards on the sheet. @param {string} name @param {string} text @param {boolean} areNew */
+    function fill(name, text, areNew) {
       at("name").value = name;
-      at("text").value = text || SAMPLE[what];
+      at("text").value = text;
+      isNew = areNew;
+      rule();
+      check();
+    }
+
+    /** Begin new cards with an example. */
+    const begin = () => fill(punching.unused(at("what").value), SAMPLE[/** @type {What} */ (at("what").value)], true);
+
+    /** Continue with the cards of the chosen kind, with the visitor's choice, or with new cards. */
+    function change() {
+      const draft = drafts.get(at("what").value);
+      const cards = punching.editable(at("what").value);
+      if (draft) fill(...draft);
+      else if (cards) fill(...cards, false);
+      else begin();
+    }
+
+    /** @param {[string, Field[]][]} forms */
+    function show(forms) {
       formats = forms;
       at("format").replaceChildren(...formats.map(([title], n) => new Option(title, String(n))));
-      rule();
+      drafts.clear();
+      at("what").value = "programs";
+      change();
       dialog.showModal();
-      check();
     }
 
     at("text").addEventListener("input", () => {
@@ -94,14 +118,19 @@ const keypunch = (() => {
       at("ruler").scrollLeft = at("text").scrollLeft;
     });
     at("what").addEventListener("change", () => {
-      at("name").value = at("name").value.replace(/(\.\w+)?$/, at("what").value === "programs" ? ".f" : ".deck");
-      rule();
-      check();
+      const before = at("what").value === "programs" ? "decks" : "programs";
+      drafts.set(before, [at("name").value, at("text").value, isNew]);
+      change();
+    });
+    at("new").addEventListener("click", () => {
+      begin();
+      at("text").focus();
     });
     at("format").addEventListener("change", rule);
     at("close").addEventListener("click", () => dialog.close());
     at("use").addEventListener("click", () => {
-      punching.use(at("what").value, at("name").value.trim() || "mine", at("text").value);
+      const name = at("name").value.trim().replace(/\s+/g, "-") || punching.unused(at("what").value);
+      punching.use(at("what").value, name, at("text").value, isNew);
       dialog.close();
     });
     return { show };

@@ -56,6 +56,16 @@ const deskPage = (() => {
     if (element instanceof HTMLElement) list.scrollTop = element.offsetTop - list.clientHeight / 2 + element.offsetHeight / 2;
   }
 
+  // A list that was hidden, or becomes smaller, shows its last row or its highlighted one again.
+  const resized = new ResizeObserver((entries) => {
+    for (const { target } of entries) {
+      const list = /** @type {HTMLElement} */ (target);
+      if (["desk-paper", "desk-stacker"].includes(list.id)) list.scrollTop = list.scrollHeight;
+      else centre(list, list.querySelector("[aria-current]") ?? undefined);
+    }
+  });
+  for (const id of ["paper", "stacker", "listing", "hopper"]) resized.observe(at(id, HTMLElement));
+
   /** Add rows to the end of a list or of the paper, and show the last ones. @param {HTMLElement} list @param {Element[]} rows */
   function extend(list, rows) {
     list.append(...rows);
@@ -102,9 +112,17 @@ const deskPage = (() => {
     at("read", HTMLElement).textContent = list.children.length ? `${count} of ${counted(list.children.length)}` : "empty";
   }
 
-  /** Turn the lamps on that name something that just happened. @param {Set<string>} names */
-  function lamps(names) {
-    for (const lamp of all("[data-lamp]")) lamp.classList.toggle("is-on", names.has(lamp.dataset.lamp ?? ""));
+  let settling = 0;
+
+  /**
+   * Turn the lamps on that name the state of the machine, and for a moment those of the devices that it has just used.
+   * @param {string[]} names
+   * @param {string[]} [devices]
+   */
+  function lamps(names, devices = []) {
+    clearTimeout(settling);
+    for (const lamp of all("[data-lamp]")) lamp.classList.toggle("is-on", [...names, ...devices].includes(lamp.dataset.lamp ?? ""));
+    if (devices.length) settling = window.setTimeout(() => lamps(names), 600);
   }
 
   /** Sound the devices, each for the time that it takes at the present speed. @param {Record<"type" | "read" | "punch", string[]>} texts */
@@ -116,5 +134,5 @@ const deskPage = (() => {
     if (punch.length) deskSound.strike("punch", punch.length, seconds);
   }
 
-  return { desk, at, all, data, STILL, speeds, pace, moves, switches, turn, say, enter, row, centre, paper, slide, stack, read, lamps, sound };
+  return { desk, at, all, data, STILL, speeds, pace, moves, switches, turn, say, enter, row, centre, paper, counted, slide, stack, read, lamps, sound };
 })();

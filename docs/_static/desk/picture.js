@@ -68,7 +68,8 @@ const hullPicture = (() => {
           if (behind[n] !== hidden) return;
           const place2 = face.map((p) => `${p[0].toFixed(1)},${p[1].toFixed(1)}`).join(" ");
           const added = old.size && !old.has(named[n]) ? " is-new" : "";
-          mark("polygon", { points: place2, class: `m-face${hidden ? " is-behind" : ""}${added}` });
+          const wrong = shown.wrong?.includes(n) ? " is-wrong" : "";
+          mark("polygon", { points: place2, class: `m-face${hidden ? " is-behind" : ""}${added}${wrong}` });
         });
       old = new Set(named);
       const held = new Set(points.map(String));
@@ -77,6 +78,8 @@ const hullPicture = (() => {
         const n = points.findIndex((other) => String(other) === name);
         const kind = !held.has(name) ? "is-gone" : isVertex(n) ? "is-vertex" : "";
         mark("circle", { cx: x.toFixed(1), cy: y.toFixed(1), r: kind === "is-vertex" ? 3.4 : 2.4, class: `m-point ${kind}` });
+        if (shown.missed?.includes(n)) mark("circle", { cx: x.toFixed(1), cy: y.toFixed(1), r: 7, class: "m-mark" });
+        if (shown.extra?.includes(n)) mark("path", { d: `M${x - 6} ${y - 6}l12 12m0-12l-12 12`, class: "m-mark" });
       }
     }
 
@@ -87,6 +90,9 @@ const hullPicture = (() => {
       for (const point of picture.points) all.set(String(point), point);
       draw();
     }
+
+    /** Return whether the program has deleted a point that it had read. */
+    const deleted = () => all.size > new Set(shown.points.map(String)).size;
 
     function clear() {
       all = new Map();
@@ -107,7 +113,7 @@ const hullPicture = (() => {
       [turn, tilt] = [turn + event.movementX / 80, tilt + event.movementY / 80];
       draw();
     });
-    return { show, clear, draw };
+    return { show, clear, draw, deleted };
   }
 
   return { make };

@@ -19,6 +19,7 @@ const deskRun = (() => {
   let looked = 0;
   let loads = 0; // counts loads, so that an earlier one does not act on the machine of a later one
   let late = 0;
+  let isStarting = false; // START was pressed during a load
 
   const clock = (/** @type {Frame} */ { time }) => `${time} on a 1620`;
 
@@ -72,7 +73,7 @@ const deskRun = (() => {
     if (!(await begin("load", deskChoice.request()))) return;
     const own = loads;
     if (stop) await act(`BREAK ${stop}`);
-    if (start && own === loads) await act("START");
+    if ((start || isStarting) && own === loads) await act("START");
   }
 
   /**
@@ -81,7 +82,7 @@ const deskRun = (() => {
    */
   async function begin(name, ...parameters) {
     const own = ++loads;
-    isChanged = false;
+    isChanged = isStarting = false;
     isLoading = true;
     deskPage.enter("loading");
     say("Compiling …");
@@ -138,13 +139,15 @@ const deskRun = (() => {
   function press(words) {
     const isIdle = !running && !waits;
     const isOther = isChanged && !running && deskShow.statement <= 1;
-    if (words === "START" && (!machine || isIdle || isOther)) load(true);
+    if (words === "START" && isLoading && !isChanged) isStarting = true;
+    else if (words === "START" && (!machine || isIdle || isOther)) load(true);
     else if (machine) act(words);
   }
 
   /** Say what to do after another program or deck has been chosen. */
   function change() {
     isChanged = true;
+    deskTape.release();
     const isHeld = (running || waits) && deskShow.statement > 1;
     say(`${deskChoice.names()}. Press ${isHeld ? "Load: it replaces the program in the machine" : "START"}.`);
   }
@@ -199,7 +202,9 @@ const deskRun = (() => {
     paper(frame.messages ?? [], "note");
     const trouble = frame.messages?.findLast((text) => text.startsWith("hull1620:"));
     const isHull = (frame.stages ?? 0) > 0 && !frame.next;
-    say(`${trouble ? `The run has stopped: ${trouble.slice(10)}` : "The run has ended."} ${clock(frame)}.${isHull ? " Is the hull right? Press “Compare with exact arithmetic”." : ""}`);
+    const verdict = deskShow.verdict || (isHull ? "Is the hull right? Press “Compare with exact arithmetic” below the points." : "");
+    say(`${trouble ? `The run has stopped: ${trouble.slice(10)}` : "The run has ended."} ${clock(frame)}. ${verdict}`);
+    if (isHull) view("picture");
     if (frame.queued) return void begin("next_load");
     if (!frame.next) return;
     deskChoice.choosePunched(frame.next);
@@ -228,13 +233,14 @@ const deskRun = (() => {
   async function decide() {
     if (!machine || !deskShow.loaded) return say("Load a program first.");
     say("Exact arithmetic runs the same program …");
-    const { lines, statement, hull } = await ask("decide");
+    /** @type {Verdict} */
+    const answer = await ask("decide");
+    const { lines, statement, says } = answer;
     paper(lines, "note");
-    if (hull) deskShow.compare(hull);
-    if (!statement) return say(`${lines[0]}.`);
+    deskShow.compare(answer, desk.dataset.state === "ended");
+    if (!statement) return say(`${lines[0][0].toUpperCase()}${lines[0].slice(1)}. ${says ?? ""}`);
     await jump(statement);
-    if (hull) at("caption", HTMLElement).textContent = "Left: the hull in the machine. Right: the true hull.";
-    say(`The first decision that exact arithmetic takes otherwise: ${lines.join("; ")}. Press START to watch it.`);
+    say(`The first decision that exact arithmetic takes otherwise: ${lines.join("; ")}. Press START to see its effect on the hull.`);
   }
 
   /** Show the field at an address, with the digits as the 1620 held them. @param {number} digit */

@@ -21,6 +21,8 @@ const deskShow = (() => {
   let fields = [];
   /** @type {Picture[]} */
   let stages = [];
+  /** The comparison with exact arithmetic, if the visitor has asked for it. @type {Verdict | null} */
+  let verdict = null;
   let statement = 0;
   let card = 0;
 
@@ -59,6 +61,7 @@ const deskShow = (() => {
   /** Empty the desk for a new load. @param {Load | null} load */
   function lay(load) {
     loaded = load;
+    verdict = null;
     [typed, punched, card, stages, fields] = [[], [], 0, [], []];
     for (const id of ["listing", "hopper", "stacker", "paper", "about", "variables"]) at(id, HTMLElement).replaceChildren();
     delete about.dataset.title;
@@ -74,9 +77,18 @@ const deskShow = (() => {
     picture.clear();
     truth.clear();
     deskPage.read(0);
+    count(0);
     if (!load) return;
     core.load(load.core);
-    paper([`${load.program} in core storage, ${load.deck.length} cards in the hopper`], "note");
+    paper([`${load.program} in core storage, ${deskPage.counted(load.deck.length)} in the hopper`], "note");
+  }
+
+  /** Show the number of the present statement in the run. @param {number} number */
+  function count(number) {
+    statement = number;
+    at("statements", HTMLElement).textContent = `of ${statement}`;
+    const jump = at("statement", HTMLInputElement);
+    if (document.activeElement !== jump) jump.value = String(statement || 1);
   }
 
   /** Show one slice of a run. @param {Frame} frame */
@@ -100,30 +112,29 @@ const deskShow = (() => {
     for (const element of all("#desk-listing .has-break")) element.classList.remove("has-break");
     for (const number of breaks) listing.children[number - 1]?.classList.add("has-break");
     core.touch(frame.wrote ?? [], loaded?.touched?.[frame.card - 1]?.[1] ?? []);
-    if (frame.picture?.points) {
+    if (frame.picture?.points?.length) {
       picture.show(frame.picture);
       const { points, vertices, faces } = frame.picture;
       const hull = faces.length ? `Hull ${frame.stages}: ${faces.length} equations through ${vertices} vertices. ` : "";
-      caption.textContent = `${hull}${points.length} points in the machine. Rings are points that the program has deleted.`;
+      const deleted = picture.deleted() ? " Rings are points that the program has deleted." : "";
+      caption.textContent = `${hull}${points.length} points in the machine.${deleted}`;
     }
+    if (verdict) contrast(frame.ended);
     [at("fac", HTMLElement).textContent, at("fixed", HTMLElement).textContent] = frame.registers ?? ["", ""];
-    statement = frame.statement ?? 0;
-    at("statements", HTMLElement).textContent = `of ${statement}`;
-    const jump = at("statement", HTMLInputElement);
-    if (document.activeElement !== jump) jump.value = String(statement || 1);
-    const busy = new Set(["power", ...Object.entries(events).filter(([, lines]) => lines.length).map(([device]) => device)]);
-    if (frame.waits) busy.add("wait");
-    else if (!frame.ended) busy.add("run");
-    if (frame.messages?.some((text) => text.startsWith("hull1620:"))) busy.add("check");
-    deskPage.lamps(busy);
+    count(frame.statement ?? 0);
+    const lamps = ["power"];
+    if (frame.waits) lamps.push("wait");
+    else if (!frame.ended) lamps.push("run");
+    if (frame.messages?.some((text) => text.startsWith("hull1620:"))) lamps.push("check");
+    deskPage.lamps(lamps, Object.entries(events).filter(([, lines]) => lines.length).map(([device]) => device));
   }
 
   /** Show the load of a refused program: nothing is in the machine. @param {string[]} messages */
   function refuse(messages) {
     lay(null);
     deskPage.enter("refused");
-    deskPage.lamps(new Set(["power", "check"]));
-    say(`Refused: ${messages[0]}. Nothing is loaded. Correct the cards or choose others, and press Load.`);
+    deskPage.lamps(["power", "check"]);
+    say(`Refused: ${messages[0]}. Nothing is loaded. Correct the cards at the Keypunch, or choose others and press Load.`);
     paper(messages, "note");
   }
 
@@ -161,10 +172,25 @@ const deskShow = (() => {
     caption.textContent = `Hull ${number} of ${stages.length}: ${stages[number - 1].faces.length} equations.`;
   }
 
-  /** Show the true hull to the right of the hull in the machine. @param {Picture} hull */
-  function compare(hull) {
+  /** Show the true hull next to the hull of the program, with their differences. @param {boolean} isFinal */
+  function contrast(isFinal) {
+    const { hull, final } = verdict ?? {};
+    if (!hull) return;
     truth.show(hull);
     at("true", SVGSVGElement).toggleAttribute("hidden", false);
+    const isPunched = isFinal && final;
+    if (isPunched) picture.show(final);
+    const legend = [`Left: the hull ${isPunched ? "on the punched cards" : "in the machine"}. Right: the true hull.`];
+    if (hull.missed?.length) legend.push("Blue ring: a vertex that the program does not punch.");
+    if (hull.extra?.length) legend.push("Blue cross: a point that it wrongly punches as a vertex.");
+    if (hull.wrong?.length || final?.wrong?.length) legend.push("Blue: a face that only one of the hulls has.");
+    caption.textContent = legend.join(" ");
+  }
+
+  /** Keep the comparison with exact arithmetic until the next load, and show its hulls. @param {Verdict} answer @param {boolean} isFinal */
+  function compare(answer, isFinal) {
+    verdict = answer;
+    contrast(isFinal);
   }
 
   /** Return the line to type, with its numbers in the columns of the FORMAT. */
@@ -175,6 +201,7 @@ const deskShow = (() => {
   return {
     core, lay, render, refuse, undo, expect, offerStages, compare, aligned,
     get loaded() { return loaded; },
+    get verdict() { return verdict?.says ?? ""; },
     get statement() { return statement; },
     get typed() { return typed; },
     get punched() { return punched; },

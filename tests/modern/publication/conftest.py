@@ -87,7 +87,10 @@ def tab(chromium: Browser, served: str) -> Iterator[Page]:
     page.goto(f"{served}/console.html")
     assert page.inner_text("#desk-listing li:nth-child(1)") == "C     CONVEX HULL-PROGRAM 3-NOT COPLANAR"
     page.wait_for_function("parseInt(document.getElementById('desk-read').textContent) > 2", timeout=editions.LONG)
-    page.wait_for_selector("#desk[data-state=on]", timeout=4 * editions.LONG)
+    assert [page.input_value(f"#desk-{name}") for name in ("program", "deck")] == ["program3", "example5/punched"]
+    page.wait_for_selector("#desk[data-state=waits]", timeout=4 * editions.LONG)
+    assert page.input_value("#desk-program") == "program1_examples"
+    assert page.inner_text("#desk-listing li:nth-child(1)") == "C     CONVEX HULL-PROGRAM 1"
     page.check("[name=desk-speed][value='0']")
     yield page
     assert errors == []

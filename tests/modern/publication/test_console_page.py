@@ -6,81 +6,19 @@ skipped with a message.
 
 from __future__ import annotations
 
-import itertools
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
 from modern.edition.chapter6 import prints
-from modern.publication.console import SOURCE
-from modern.publication.desk import Desk
-from tests.modern.publication.test_site_layout import problems
-from tests.support.desks import Pair, played
+from tests.support.console import cards, fit, load, needs_pyodide, paper, press, state
 from tests.support.editions import LONG
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
-pytestmark = pytest.mark.skipif(
-    not (SOURCE / "node_modules" / "pyodide").is_dir(),
-    reason="pyodide is missing (npm ci --ignore-scripts --prefix docs/console)",
-)
-
-
-def state(page: Page, *states: str) -> str:
-    """Wait until the machine is in one of the states, and return it with the message of the page."""
-    page.wait_for_selector(", ".join(f"#desk[data-state={name}]" for name in states), timeout=LONG)
-    return page.inner_text("#desk-state")
-
-
-def give(page: Page, name: str, text: str) -> None:
-    page.set_input_files("#desk-files", [{"name": name, "mimeType": "text/plain", "buffer": text.encode("ascii")}])
-
-
-def load(page: Page, program: str, deck: str | None = None) -> str:
-    """Choose a program and a deck, load them, and return the message of the page."""
-    page.select_option("#desk-program", program)
-    if deck is not None:
-        page.select_option("#desk-deck", deck)
-    page.click("#desk-load")
-    return state(page, "waits", "refused")
-
-
-def press(page: Page, key: str = "START") -> str:
-    """Press a key and return the message when the machine halts or ends."""
-    page.evaluate("document.getElementById('desk').dataset.state = 'pressed'")
-    page.click(f"[data-words={key}]")
-    # START on an idle machine first loads the program, which waits for a moment.
-    page.wait_for_function(
-        """() => ["waits", "ended"].includes(document.getElementById("desk").dataset.state)
-          && !document.getElementById("desk-state").textContent.endsWith("is loaded. Press START.")""",
-        timeout=LONG,
-    )
-    return page.inner_text("#desk-state")
-
-
-def cards(page: Page) -> list[str]:
-    texts: list[str] = page.eval_on_selector_all("#desk-stacker li", "all => all.map(one => one.textContent.trimEnd())")
-    return texts
-
-
-def paper(page: Page) -> list[str]:
-    lines: list[str] = page.eval_on_selector_all(
-        "#desk-paper .desk-typed", "all => all.map(one => one.textContent.trimEnd())"
-    )
-    return lines
-
-
-def fit(page: Page) -> None:
-    """Check the layout of the desk in its present state, in a wide and a narrow window and in both themes."""
-    for width, theme in itertools.product((360, 1280), ("dark", "light")):
-        page.set_viewport_size({"width": width, "height": 800})
-        page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
-        # Lists and paper may be empty here.
-        messages = [message for message in problems(page) if not message.startswith("empty")]
-        assert messages == [], f"{width} pixels, {theme}"
-        assert page.evaluate("document.documentElement.scrollWidth") == width
+pytestmark = needs_pyodide
 
 
 def reach(page: Page, selector: str) -> None:
@@ -125,6 +63,10 @@ def test_the_keyboard_alone_loads_starts_stops_and_steps(tab: Page) -> None:
 def test_the_first_decision_that_exact_arithmetic_takes_otherwise_is_shown(tab: Page) -> None:
     load(tab, "program1", "counterexamples/silent")
     press(tab)
+    tab.click("#desk-decide")
+    tab.wait_for_function(
+        "/run program 3 with the punched cards/.test(document.getElementById('desk-state').textContent)", timeout=LONG
+    )
     tab.evaluate("document.getElementById('desk').dataset.state = 'pressed'")
     tab.click("#desk-next")
     state(tab, "ended")
@@ -135,7 +77,15 @@ def test_the_first_decision_that_exact_arithmetic_takes_otherwise_is_shown(tab: 
     )
     assert tab.inner_text("#desk-card") == "card 185"
     assert tab.is_visible("#desk-true")
-    assert tab.inner_text("#desk-caption") == "Left: the hull in the machine. Right: the true hull."
+    assert tab.inner_text("#desk-caption").startswith("Left: the hull in the machine. Right: the true hull.")
+    fit(tab)
+    assert "Card 185 decided wrongly" in (message := press(tab))
+    assert message.endswith("Differences: 3 missing vertices.")
+    left, right = "Left: the hull on the punched cards.", "Right: the true hull."
+    legend = f"{left} {right} Blue ring: a vertex that the program does not punch."
+    assert tab.inner_text("#desk-caption") == legend
+    assert [tab.locator(f"#desk-{part} .m-mark").count() for part in ("picture", "true")] == [3, 3]
+    assert [tab.locator(f"#desk-{part} .is-vertex").count() for part in ("picture", "true")] == [1, 4]
     fit(tab)
 
 
@@ -149,6 +99,7 @@ def test_example_5_runs_from_the_first_deck_to_the_last_card_and_goes_back(tab: 
     state(tab, "ended")
     final = cards(tab)
     assert final == printed[3, "punch"]
+    tab.wait_for_function("document.querySelectorAll('#desk [data-lamp].is-on').length === 1")
     assert tab.inner_text("#desk-caption").startswith("Hull 3: 6 equations through 5 vertices.")
     tab.fill("#desk-statement", "400")
     tab.click("#desk-jump button")
@@ -176,6 +127,10 @@ def test_tic_tac_toe_is_won_by_typing_the_number_of_a_square(tab: Page) -> None:
     press(tab)
     for move in "1974":
         tab.wait_for_selector("#desk-ruler:not([hidden])")
+        tab.wait_for_function(
+            "(({ scrollTop, clientHeight, scrollHeight }) => scrollTop + clientHeight > scrollHeight - 2)"
+            "(document.getElementById('desk-paper'))"
+        )
         tab.fill("#desk-line", move)
         assert f"I2 in columns 1 to 2\n         1         2\n12345678901234567890\nI2                  \n {move}" in (
             tab.inner_text("#desk-ruler")
@@ -185,170 +140,35 @@ def test_tic_tac_toe_is_won_by_typing_the_number_of_a_square(tab: Page) -> None:
         state(tab, "waits")
     tab.wait_for_function("document.getElementById('desk-paper').textContent.includes('YOU WIN')")
     fit(tab)
-
-
-def test_a_refused_load_empties_the_machine(tab: Page) -> None:
-    load(tab, "program1", "example1")
-    give(tab, "bad.f", "      I=\n      END\n")
-    tab.wait_for_function("document.getElementById('desk-program').value === 'bad.f'")
-    message = load(tab, "bad.f")
-    assert message.startswith("Refused: bad.f: card 1, column 8: error: the statement ends too soon")
-    assert tab.locator("#desk-listing li").count() == 0
-    fit(tab)
-    tab.click("[data-words=ATTN]")
-    tab.wait_for_function("document.getElementById('desk-paper').textContent.includes('nothing is loaded')")
-    assert tab.inner_text("#desk-state") == message
-    tab.select_option("#desk-program", "stats.f")
-    assert press(tab).startswith("The run has ended.")
-
-
-def test_a_slice_that_fails_is_reported_and_start_loads_again(tab: Page) -> None:
-    load(tab, "stats.f")
-    tab.evaluate("deskRun.ask('pace', 'fast')")
-    assert press(tab).startswith("The emulator reports: TypeError")
-    tab.evaluate("deskRun.ask('pace', 0)")
-    assert press(tab).startswith("The run has ended.")
-
-
-def test_an_earlier_load_does_not_press_start_on_a_later_one(tab: Page) -> None:
-    load(tab, "stats.f")
-    tab.evaluate("Promise.all([deskRun.load(true, '131'), deskRun.load()])")
-    assert state(tab, "waits") == "stats.f is loaded. Press START."
-    log = tab.evaluate("deskRun.ask('log')").rpartition("LOAD")[2]
-    assert "START" not in log
-    assert "BREAK" not in log
-
-
-def test_start_loads_again_after_a_load_that_fails(tab: Page) -> None:
-    load(tab, "stats.f")
-    tab.evaluate("deskChoice.took = deskChoice.request; deskChoice.request = () => ({})")
-    tab.click("#desk-load")
-    assert state(tab, "ended") == "The emulator reports: KeyError: 'program'"
-    assert tab.locator("#desk-listing li").count() == 0
-    tab.evaluate("deskChoice.request = deskChoice.took")
-    assert press(tab).startswith("The run has ended.")
-
-
-def test_a_load_or_a_key_ends_the_repetition_of_a_log(tab: Page) -> None:
-    # START waits for a halt of a program that has none.
-    cards = "CARDS count.f\nCARD       X=0.\nCARD     1 X=X+1.\nCARD       GO TO 1\nCARD       END\n"
-    log = cards + 2 * "LOAD count.f\nSTART\n"
-    tab.select_option("#desk-program", "stats.f")
-    tab.evaluate("log => Promise.all([deskRun.replay(log), deskRun.load()])", log)
-    assert state(tab, "waits") == "stats.f is loaded. Press START."
-    assert press(tab).startswith("The run has ended.")
-    assert tab.evaluate("deskRun.ask('log')").rpartition("LOAD ")[2].startswith("stats.f")
-    give(tab, "session.operator", log)
-    state(tab, "runs")
-    tab.click("[data-words=ATTN]")
-    assert "stopped (attention) before" in state(tab, "waits")
-    assert press(tab, "STOP").startswith("The run has stopped")
-    assert "the rest of the log is not repeated" in tab.inner_text("#desk-paper")
-    assert "START" not in tab.evaluate("deskRun.ask('log')").rpartition("LOAD ")[2]
-
-
-def test_a_slow_compilation_restarts_the_emulator_and_a_failing_one_does_not(tab: Page) -> None:
+    assert tab.is_visible(".m-try a")
     tab.evaluate(
-        """async () => {
-          const { setTimeout } = window;
-          window.setTimeout = (action, time) => setTimeout(action, time / 20);
-          const { request } = deskChoice;
-          deskChoice.request = () => ({});
-          await deskRun.load();
-          await new Promise((done) => setTimeout(done, 700));
-          if (!deskRun.isOn) throw new Error("the emulator was restarted after a load that failed");
-          Object.assign(deskChoice, { request });
-          window.setTimeout = (action) => setTimeout(action, 0);
-          deskRun.load();
-          await new Promise((done) => setTimeout(done, 20));
-          Object.assign(window, { setTimeout });
-        }"""
+        "deskPage.speeds[0].checked = true;"
+        "deskPage.paper(['A TYPED LINE'], 'typed');"
+        "deskPage.paper(['a note'], 'note');"
     )
-    tab.wait_for_function("!deskRun.isOn")
-    tab.wait_for_function(
-        "/stopped after 10 seconds/.test(document.getElementById('desk-state').textContent)", timeout=LONG
-    )
-    tab.select_option("#desk-program", "stats.f")
-    tab.evaluate("document.getElementById('desk').dataset.state = 'pressed'")
-    tab.click("[data-words=START]")
-    tab.wait_for_selector("#desk[data-state=ended]", timeout=4 * LONG)
-    assert cards(tab)[-1].strip() == "R = -1.00000"
+    assert tab.inner_text("#desk-paper").rstrip().split("\n")[-2:] == ["A TYPED LINE", "a note"]
+    tab.check("[name=desk-speed][value='0']")
 
 
 def test_the_keypunch_shows_errors_next_to_their_cards_and_loads_three_cards(tab: Page) -> None:
-    tab.select_option("#desk-program", "program1")
+    tab.select_option("#desk-program", "tictac.f")
     tab.click("#desk-punch-open")
+    assert tab.input_value("#punch-name") == "tictac2.f", "the sample is not overwritten"
+    assert "TIC-TAC-TOE" in tab.input_value("#punch-text")
+    tab.click("#punch-new")
+    assert tab.input_value("#punch-name") == "mine.f"
+    assert tab.input_value("#punch-text").count("\n") == 3
     tab.fill("#punch-text", "      TYPE 5\n    5 FORMAT(2HHI\n      END\n")
     tab.wait_for_function("document.querySelector('#punch-messages li:nth-child(2)')?.textContent")
     fit(tab)
     tab.fill("#punch-text", "      TYPE 5\n    5 FORMAT(2HHI)\n      END\n")
     tab.wait_for_function("document.getElementById('punch-state').textContent === 'No errors.'")
     tab.click("#punch-use")
+    state(tab, "waits")
+    assert [tab.input_value(f"#desk-{name}") for name in ("program", "deck")] == ["mine.f", ""]
     load(tab, "mine.f", "")
     press(tab)
     assert paper(tab) == ["HI"]
-
-
-def test_a_link_opens_a_moment_and_a_log_of_several_loads_is_repeated(tab: Page) -> None:
-    address = "#program=program3&deck=example5/punched&speed=0&stop=125"
-    tab.evaluate("document.getElementById('desk').dataset.state = 'linked'")
-    tab.evaluate("hash => { location.hash = hash; }", address)
-    tab.wait_for_function("document.getElementById('desk-state').textContent.includes('statement 125')", timeout=LONG)
-    desk = Desk()
-    sessions = [played(desk, Pair(p, p, d)) for p, d in (("program1_examples", "example4"), ("program2", "PUNCHED"))]
-    tab.evaluate("document.getElementById('desk').dataset.state = 'replaying'")
-    give(tab, "session.operator", desk.log())
-    tab.wait_for_function("document.querySelectorAll('#desk-stacker li').length > 40", timeout=LONG)
-    state(tab, "ended")
-    assert cards(tab) == [card.rstrip() for card in sessions[1].punched]
-
-
-def test_a_long_run_can_be_stopped(tab: Page) -> None:
-    give(tab, "loop.f", "      X=0.\n    1 X=X+1.\n      GO TO 1\n      END\n")
-    tab.wait_for_function("document.getElementById('desk-program').value === 'loop.f'")
-    load(tab, "loop.f", "")
-    tab.click("[data-words=START]")
-    state(tab, "runs")
-    fit(tab)
-    tab.click("[data-words=ATTN]")
-    assert "stopped (attention) before" in state(tab, "waits")
-    message = press(tab, "STOP")
-    assert message.startswith("The run has stopped")
-    tab.click("[data-words=ATTN]")
-    tab.wait_for_function("document.getElementById('desk-paper').textContent.includes('the run has ended: press Load')")
-    assert tab.inner_text("#desk-state") == message
-
-
-def test_an_endless_run_is_recognised_and_a_chosen_program_starts_without_a_load(tab: Page) -> None:
-    give(tab, "loop.f", "    1 GO TO 1\n      END\n")
-    tab.wait_for_function("document.getElementById('desk-state').textContent.startsWith('loop.f with')")
-    assert press(tab).startswith("Without an action of yours, this run never ends: it repeats the same st")
-    press(tab, "STOP")
-    tab.select_option("#desk-program", "stats.f")
-    assert tab.inner_text("#desk-state") == "stats.f with stats.deck. Press START."
-    assert press(tab).startswith("The run has ended.")
-    assert cards(tab)[-1].strip() == "R = -1.00000"
-
-
-def test_a_damaged_link_is_reported_and_a_link_opened_while_the_emulator_loads_is_followed(
-    chromium: Browser, served: str
-) -> None:
-    page = chromium.new_page()
-    page.goto(f"{served}/console.html#program=mine.f&program-cards=!!!")
-    page.wait_for_selector("#desk[data-state=on]", timeout=4 * LONG)
-    damaged = (
-        "document.getElementById('desk-state').textContent === 'The cards in the address of the page are damaged.'"
-    )
-    page.wait_for_function(damaged)
-    page.goto("about:blank")
-    page.goto(f"{served}/console.html#program=stats.f&deck=stats.deck")
-    page.evaluate("location.hash = 'program=program3&deck=example5/punched&speed=0&stop=125'")
-    page.wait_for_function(
-        "document.getElementById('desk-state').textContent.includes('statement 125')", timeout=4 * LONG
-    )
-    page.evaluate("location.hash = 'program=mine.f&program-cards=!!!'")
-    page.wait_for_function(damaged)
-    page.close()
 
 
 def test_the_desk_runs_example_6_from_a_folder_without_a_server(chromium: Browser, folder: Path) -> None:

@@ -13,11 +13,17 @@ import pytest
 
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Line
+from emulator.machine.machine import run_with_operator
+from emulator.machine.operator import Operator
+from emulator.machine.result import Options
 from emulator.machine.session import Session
+from modern.edition import programs
 from modern.formats.deck import data_deck
 from modern.port import convex_hull
-from modern.publication import panel
+from modern.publication import panel, verdict
 from modern.publication.console import packages
+from modern.publication.decks import named_deck
 from modern.publication.desk import Answer, Desk
 from tests.support.commands import call
 from tests.support.desks import PAIRS, Pair, played
@@ -234,7 +240,52 @@ def test_the_first_decision_that_exact_arithmetic_takes_otherwise() -> None:
     answer = desk.decide()
     assert answer["lines"][0] == "card 185: IF (EZ) 170, 167, 170"
     assert desk.jump(answer["statement"])["stands"].endswith("before card 185: IF (EZ) 170, 167, 170")
-    assert len(answer["hull"]["vertices"]) == 4, "the programs lose three of the four vertices"
+    assert len(answer["hull"]["vertices"]) == 4
+    assert answer["final"]["vertices"] == [0], "the programs lose three of the four vertices"
+    assert answer["hull"]["missed"] == answer["final"]["missed"] == [1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    ("deck", "says"),
+    [
+        ("example4", "The hull of the points on these cards is right: the true hull has 5 vertices and 5 sides."),
+        ("example5", "The hull of the points on these cards is right: the true hull has 5 vertices and 6 faces."),
+        ("counterexamples/between", "Differences: 1 missing vertex, 1 extra vertex."),
+        ("counterexamples/cube", "The program punched no complete hull; the true hull has 8 vertices and 6 faces."),
+    ],
+)
+def test_the_verdict_names_the_differences_of_the_hulls(deck: str, says: str) -> None:
+    desk = Desk()
+    played(desk, Pair("one", "program1", deck))
+    second = desk.decide()["says"]
+    number = second.removeprefix("To see whether the hull is right, run program ")[0]
+    played(desk, Pair("two", f"program{number}", "PUNCHED"))
+    assert desk.decide()["says"].endswith(says)
+
+
+def test_a_wrong_equation_and_a_missing_face_are_marked() -> None:
+    points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0], [1.0, 1.0, 1.0]]
+    stage = {"points": points, "vertices": 4, "faces": [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]], "final": True}
+    result = Session(compile_deck(deck_from_text("one.f", "      STOP\n      END\n")), Deck("no deck", ())).result()
+    hulls, says = verdict._hulls([stage], result)
+    assert says.endswith("Differences: 5 missing vertices, 3 missing faces, 1 wrong equation.")
+    assert hulls["final"]["wrong"] == [3]
+    assert [set(hulls["hull"]["faces"][n]) for n in hulls["hull"]["wrong"]] == [{1, 2, 4}, {1, 3, 4}, {2, 3, 4}]
+
+
+def test_the_picture_never_shows_a_point_whose_coordinates_are_being_moved() -> None:
+    program, deck = programs.program("program3"), named_deck("example5/punched")
+    points = {tuple(map(float, re.findall(r"-?\.\d+E[+-]\d\d", card.text))) for card in deck.cards}
+    record, torn = panel.Record(program), set()
+
+    def trace(line: Line, session: Session) -> None:
+        record(line, session)
+        assert {tuple(point) for point in record.picture(session).get("points", ())} <= points, line.place.card
+        if not {tuple(point) for point in panel.picture(session)["points"]} <= points:
+            torn.add(line.place.card)
+
+    run_with_operator(Session(program, deck, Options(hopper="any"), tracer=trace), Operator())
+    assert {36, 37} <= torn
 
 
 def test_core_storage_holds_the_digits_and_their_writer() -> None:
