@@ -49,7 +49,7 @@ const hullPicture = (() => {
       const { points, faces } = shown;
       const isVertex = (/** @type {number} */ n) =>
         Array.isArray(shown.vertices) ? shown.vertices.includes(n) : n < shown.vertices;
-      const corners = points.filter((_, n) => isVertex(n)).map(place);
+      const corners = faces.flat().map((n) => place(points[n]));
       const centre = [0, 1, 2].map((k) => corners.reduce((sum, p) => sum + p[k], 0) / (corners.length || 1));
       const named = faces.map((face) => face.map((n) => points[n].join(" ")).sort().join(";"));
       const flat = faces.map((face) => face.map((n) => place(points[n])));

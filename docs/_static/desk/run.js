@@ -189,6 +189,7 @@ const deskRun = (() => {
     else if (waits && frame.statement === 1) say(`${program} is loaded. Press START.`);
     else if (waits) say(`${frame.stands}. Press START to continue, or step. ${clock(frame)}.`);
     else say(`Running, ${clock(frame)}.`);
+    line.placeholder = waits === "typed" ? "" : "? for help";
     at("asks", HTMLElement).textContent = waits === "typed" ? "Line" : "Console";
     if (waits === "typed" && became) {
       view("paper");
