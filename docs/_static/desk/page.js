@@ -76,7 +76,7 @@ const deskPage = (() => {
   /** Add lines to the typewriter's paper. @param {string[]} lines @param {"typed" | "note"} kind @param {boolean} [isNew] */
   function paper(lines, kind, isNew = true) {
     const rows = lines.map((line) => {
-      const element = Object.assign(document.createElement("span"), { className: `desk-${kind}`, textContent: `${line}\n` });
+      const element = Object.assign(document.createElement("span"), { className: `desk-${kind}`, textContent: line });
       const seconds = line.length / 10 / pace();
       if (isNew && kind === "typed" && moves() && seconds > 0.08) {
         element.style.animation = `m-type ${seconds}s steps(${Math.max(line.length, 1)})`;
