@@ -52,18 +52,10 @@ def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) 
     ``state`` of values and kinds.  The result is empty for a program without such variables.
     """
     storage = session.program.storage
-    values, kinds = state or (session.state.values, session.state.kinds)
-
-    def number(field: int) -> float | None:
-        """Return the contents of a field as a float for drawing, or None if it is undefined."""
-        value, kind = values[field], kinds[field]
-        if kind == UNDEFINED:
-            return None
-        return float(value) if kind == FIXED_POINT else float(session.options.numbers.traced(value))
 
     def whole(name: str) -> int:
         fields = storage.fields_of(name)
-        value = number(fields.start) if fields else None
+        value = number(session, fields.start, state) if fields else None
         return int(value) if value is not None else 0
 
     names = _SPACE if storage.fields_of("X") else _FLAT.get(whole("KPROJ"), ())
@@ -71,17 +63,26 @@ def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) 
     if not axes or not all(axes):
         return {}
     count = min(whole("N"), *map(len, axes))
-    rows = [[number(axis[n]) for axis in axes] for n in range(count)]
+    rows = [[number(session, axis[n], state) for axis in axes] for n in range(count)]
     points = [row for row in rows if None not in row]
     tables = [table for name in _DEFINING if len(table := storage.fields_of(name)) > 1]
     faces: list[list[int]] = []
     if len(tables) > 1 and stage_labels(session.program)[0]:
         for k in range(min(whole("NE"), *map(len, tables))):
-            corners = [number(table[k]) for table in tables]
+            corners = [number(session, table[k], state) for table in tables]
             # A table that is being filled or shifted may hold an entry without three points.
             if all(corner is not None and 1 <= corner <= len(points) for corner in corners):
                 faces.append([int(corner or 0) - 1 for corner in corners])
     return {"points": points, "vertices": whole("NV") if faces else 0, "faces": faces}
+
+
+def number(session: Session, field: int, state: tuple[list[Any], list[Any]] | None = None) -> float | None:
+    """Return the contents of a field as a float for drawing, or None if it is undefined."""
+    values, kinds = state or (session.state.values, session.state.kinds)
+    value, kind = values[field], kinds[field]
+    if kind == UNDEFINED:
+        return None
+    return float(value) if kind == FIXED_POINT else float(session.options.numbers.traced(value))
 
 
 def core(program: Program, size: int) -> dict[str, Any]:
