@@ -29,9 +29,7 @@ T1, T2 = "temporary 0", "temporary 1"
         ("R=-A*B+C*D", ["TOFAC A", "FMP B", f"FMFAC {T1}", "TOFAC C", "FMP D", f"FSB {T1}", "FMFAC R"]),
         (
             "R=(A+B)-(C-D*E)*A",
-            [
-                *("TOFAC A", "FAD B", f"FMFAC {T1}", "TOFAC D", "FMP E", "FSB C", "FMP A", f"FAD {T1}", "FMFAC R"),
-            ],
+            [*("TOFAC A", "FAD B", f"FMFAC {T1}", "TOFAC D", "FMP E", "FSB C", "FMP A", f"FAD {T1}", "FMFAC R")],
         ),
         ("R=A-SQRT(B-C*D)", ["TOFAC C", "FMP D", "FSBR B", "FUNCTION", "FSBR A", "FMFAC R"]),
         ("I=A-B*C", ["TOFAC B", "FMP C", "FSB A", "FIX", "RSGX", "FMFIX I"]),
@@ -85,7 +83,7 @@ def test_temporaries_are_those_of_the_deck_of_1962() -> None:
         *("temporary 3", "J2", "constant 10", "temporary 4"),
     ]
     assert [word for word in code("M=16*(K1-1)+4*(J3-1)+J2-10*J3", "END") if "temporary" in word] == [
-        *("FMFIX temporary 1", "XAD temporary 1", "FMFIX temporary 3", "XSBR temporary 3"),
+        *("FMFIX temporary 1", "XAD temporary 1", "FMFIX temporary 3", "XSBR temporary 3")
     ]
 
 

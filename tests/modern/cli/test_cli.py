@@ -50,9 +50,7 @@ BAD_DECKS = [
 def test_an_invalid_deck_is_rejected(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
     Path("bad.deck").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, "hull", "bad.deck")
-    assert code == 2
-    assert out == ""
-    assert err.count("\n") == 1
+    assert (code, out, err.count("\n")) == (2, "", 1)
     assert err.startswith("hull1620: bad.deck")
     assert words in err
 
@@ -78,8 +76,7 @@ def test_an_invalid_program_is_rejected(
 ) -> None:
     Path("bad.f").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, command, "bad.f")
-    assert (code, out) == (2, "")
-    assert err.count("\n") == 1
+    assert (code, out, err.count("\n")) == (2, "", 1)
     assert words in err
 
 
@@ -114,9 +111,7 @@ MISUSE = [
 def test_misuse(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str) -> None:
     before = sorted(os.listdir())
     code, out, err = call(capsys, *arguments)
-    assert code == 2
-    assert out == ""
-    assert err.count("\n") == 1
+    assert (code, out, err.count("\n")) == (2, "", 1)
     assert words in err
     assert sorted(os.listdir()) == before
 
@@ -165,14 +160,6 @@ def test_an_empty_hopper_at_a_later_read_ends_a_run(room: Path, capsys: pytest.C
     code, out, err = call(capsys, "hull", "short.deck")
     assert (code, out) == (2, "")
     assert "short.deck: card 2, column 1: the deck ends after 1 of 3 points" in err
-
-
-def test_an_empty_hopper_within_a_list_is_an_error(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("list.f").write_text("      READ 1,I,J\n    1 FORMAT(I4)\n      END\n", encoding="utf-8")
-    Path("short.deck").write_text("   3\n", encoding="utf-8")
-    code, out, err = call(capsys, "run", "list.f", "short.deck")
-    assert (code, out) == (2, "")
-    assert "short.deck: card 1, column 1: the deck ends in the middle of a data set" in err
 
 
 def test_an_invalid_field_ends_a_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -266,10 +266,7 @@ def test_a_sample_of_a_plan_file_has_a_name(own: Path, capsys: pytest.CaptureFix
     ("words", "size"),
     [
         *((f"{command} /dev/zero", 16) for command in ("check", "run", "listing", "tei --read")),
-        *(
-            ("study zero.toml", 16),
-            ("hidden-line zero.toml", 16),
-        ),
+        *(("study zero.toml", 16), ("hidden-line zero.toml", 16)),
         *((f"{command} /dev/zero", 2) for command in ("hull", "diff", "cards", "appel-will", "hidden-line")),
         *((f"{command} /dev/zero", 3) for command in ("voxel-hull", "octree-hull --shape 2,2,2")),
     ],

@@ -7,22 +7,11 @@ import random
 import pytest
 
 from modern.exact_hull import ExactHull, exact_hull
+from tests.support.visibility import cross, dot, minus
 
 Point = tuple[int, int, int]
 Plane = tuple[int, ...]
 Summary = tuple[int, set[int], set[int], set[int], dict[Plane, tuple[int, ...]]]
-
-
-def cross(u, v):
-    return (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-
-
-def dot(u, v):
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-
-
-def sub(p, q):
-    return (p[0] - q[0], p[1] - q[1], p[2] - q[2])
 
 
 def reduced(normal, point) -> Plane:
@@ -39,11 +28,11 @@ def outline(members: list[int], points: list[Point], normal) -> list[int]:
     """The corners of coplanar points: a is followed by b if all others are left of a-b or between a and b."""
     following = {}
     for a, b in itertools.permutations(members, 2):
-        along = sub(points[b], points[a])
+        along = minus(points[b], points[a])
         # The points to the left of a-b have a positive product with this vector.
         leftward = cross(normal, along)
         for c in members:
-            offset = sub(points[c], points[a])
+            offset = minus(points[c], points[a])
             side = dot(leftward, offset)
             if side < 0 or (side == 0 and not 0 <= dot(offset, along) <= dot(along, along)):
                 break
@@ -65,26 +54,26 @@ def brute(points: list[Point]) -> Summary:
     triples = [
         (a, normal)
         for a, b, c in itertools.combinations(sorted(everyone), 3)
-        if any(normal := cross(sub(points[b], points[a]), sub(points[c], points[a])))
+        if any(normal := cross(minus(points[b], points[a]), minus(points[c], points[a])))
     ]
     if not triples:
         low, high = min(
             itertools.permutations(everyone, 2),
-            key=lambda pair: (-dot(d := sub(points[pair[0]], points[pair[1]]), d), points[pair[0]]),
+            key=lambda pair: (-dot(d := minus(points[pair[0]], points[pair[1]]), d), points[pair[0]]),
         )
-        along = sub(points[high], points[low])
-        facets = {reduced(along, points[high]): (high,), reduced(sub((0, 0, 0), along), points[low]): (low,)}
+        along = minus(points[high], points[low])
+        facets = {reduced(along, points[high]): (high,), reduced(minus((0, 0, 0), along), points[low]): (low,)}
         return 1, {low, high}, set(), everyone - {low, high}, facets
     start, normal = triples[0]
-    if all(dot(normal, sub(point, points[start])) == 0 for point in points):
+    if all(dot(normal, minus(point, points[start])) == 0 for point in points):
         plane = reduced(normal, points[start])
         normal = max(plane[:3], tuple(-number for number in plane[:3]))
         cycle = outline(sorted(everyone), points, normal)
         facets, edge_points = {}, set()
         for a, b in zip(cycle, cycle[1:] + cycle[:1], strict=True):
-            outward = cross(sub(points[b], points[a]), normal)
+            outward = cross(minus(points[b], points[a]), normal)
             facets[reduced(outward, points[a])] = (min(a, b), max(a, b))
-            edge_points |= {p for p in everyone if dot(outward, sub(points[p], points[a])) == 0}
+            edge_points |= {p for p in everyone if dot(outward, minus(points[p], points[a])) == 0}
         return 2, set(cycle), edge_points - set(cycle), everyone - edge_points, facets
     facets, outer = {}, set()
     for start, normal in triples:

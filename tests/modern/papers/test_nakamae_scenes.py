@@ -124,10 +124,7 @@ BOX = HEAD + "'cuboid'\nsize = [1, 1, 1]\n"
         (BOX + "name = 3", "s: part 1: name: expected a string"),
         (HEAD + "'column'\nsides = 5\nheight = 2", "s: part 1: base: a column needs either a base, or"),
         (HEAD + "'column'\nsides = 5\nradius = 1", "s: part 1: height: a column needs either a height, or"),
-        (
-            HEAD + "'polyhedron'\nvertices = [[0, 0, 0]]\nfaces = [[0]]",
-            "faces: expected vertex numbers from 1 to 1",
-        ),
+        (HEAD + "'polyhedron'\nvertices = [[0, 0, 0]]\nfaces = [[0]]", "faces: expected vertex numbers from 1 to 1"),
         ("view = 3\n" + BOX, "s: view: expected a table"),
         ("[view]\nprojection = 'flat'\n" + BOX, "'flat' is neither parallel nor"),
         ("[view]\neye = [0, 0, 0]\n" + BOX, "view: eye: expected a direction of view other than 0,0,0"),
