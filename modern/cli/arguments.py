@@ -54,7 +54,8 @@ def _hull(parser: ArgumentParser) -> None:
     )
     add(parser, {"--uncut": uncut})
     epsilon_argument(parser, "punch", "on the first card, after N, and apply the layer epsilon, which reads it")
-    add(parser, {"--explain": "say where exact arithmetic disagrees, and why there is no hull"})
+    explain = "explain why there is no hull, and report the first branch that exact arithmetic takes differently"
+    add(parser, {"--explain": explain})
     result_arguments(parser)
 
 
@@ -83,7 +84,7 @@ def _digits(parser: ArgumentParser) -> None:
     add(parser, {"--seed S": "give the runs the seeds S, S + 1, ... (default: 1)"}, type=int)
     modes = {
         "--proportional": "round up with a probability proportional to the rounded-off part, instead of 1/2",
-        "--majority": "follow the branch that most runs would take, instead of that of the mean",
+        "--majority": "follow the branch that most runs would take, instead of the branch for their mean",
         "--independent": "estimate the printed numbers from runs that each follow their own branches",
     }
     add(parser, modes)
@@ -160,10 +161,14 @@ def _apparatus(parser: ArgumentParser) -> None:
         "the originals, and count the errors by class of certainty; copies already in FOLDER are kept"
     )
     add(parser, {"--restore FOLDER": restore}, type=Folder)
-    runs = "with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards; with --restore: damage its programs too"
+    runs = (
+        "with --weigh: also run each data deck FOLDER/SAMPLE/deck.cards; with --restore: also damage the programs in "
+        "FOLDER"
+    )
     add(parser, {"--runs FOLDER": runs})
     text = (
-        "write a proof sheet for each page to FOLDER: what only a reader of the page can decide, as HTML, CSV and PDF"
+        "write a proof sheet for each page to FOLDER, as HTML, CSV and PDF, with the questions that only a reader of "
+        "the page can answer"
     )
     add(parser, {"--sheets FOLDER": text}, type=Folder)
     text = "read filled sheets: write a changed copy of the edition to the folder of --state, and check it"

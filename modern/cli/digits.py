@@ -203,7 +203,7 @@ def _decisions(
     sentences = [f"{divergence.arithmetics[1]}: {counted(divergence.tested, 'decision')} compared, none differs"]
     if first is not None:
         sentences = [
-            f"first decision that {divergence.arithmetics[1]} takes otherwise: {_place(first.line)}, execution "
+            f"first decision that {divergence.arithmetics[1]} takes differently: {_place(first.line)}, execution "
             f"{first.time}: {first.values[0]} instead of {first.values[1]}"
         ]
     if divergence.apart:

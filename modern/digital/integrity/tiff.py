@@ -40,7 +40,7 @@ def check_tiff(path: str) -> tuple[int, ...]:
             reader.check_page(page, f"{path}: page {number}")
         images = _images(first)
         if images not in (0, 1, len(pages)):
-            raise VolumeError(f"{path}: expected the {images} pages of its description, found {len(pages)}")
+            raise VolumeError(f"{path}: expected {images} pages, as its description states, found {len(pages)}")
     sizes = (_one(first, _WIDTH, path), _one(first, _HEIGHT, path), len(pages))
     check_sizes(path, sizes)
     return sizes

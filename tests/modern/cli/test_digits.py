@@ -69,7 +69,8 @@ def test_unknown_and_disputed_decisions_are_reported(program: Path, capsys: pyte
     Path("third.f").write_text(text, encoding="utf-8")
     assert main(["digits", "third.f", "--runs", "20", "--independent"]) == 1
     report = " ".join(capsys.readouterr().out.split())
-    assert "first decision that exact takes otherwise: card 3, IF(B)10,20,20, execution 1: -1E-7 instead of 0" in report
+    decision = "card 3, IF(B)10,20,20, execution 1: -1E-7 instead of 0"
+    assert f"first decision that exact takes differently: {decision}" in report
     assert "stochastic runs: 1 decision on floating-point numbers, 1 disputed" in report
     assert "intervals of 8 digits: third.f: card 3: the sign of [-1E-8, 1E-7] is unknown" in report
 

@@ -366,7 +366,7 @@ def test_a_tiff_stack_that_imagej_stores_as_one_page_is_rejected() -> None:
     entries.sort(key=lambda entry: int.from_bytes(entry[:2], "little"))
     directory = struct.pack("<H", count + 1) + b"".join(entries) + bytes(4)
     data = data[:4] + struct.pack("<I", len(data)) + data[8:] + directory + text
-    assert rejection(saved("a.tif", data)) == "expected the 6 pages of its description, found 1"
+    assert rejection(saved("a.tif", data)) == "expected 6 pages, as its description states, found 1"
 
 
 @needs_itk
