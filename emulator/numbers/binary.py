@@ -177,7 +177,7 @@ class FloatNumbers(Numbers):
         return shown[:-2] if shown.endswith(".0") else shown
 
     def _shortest(self, value: float) -> str:
-        """Return the shortest decimal that reads back as the same number."""
+        """Return the shortest decimal that reads back as the same binary number."""
         if not self._single or value - value != 0:
             return repr(value)
         # The search always ends, because 17 digits are enough.

@@ -26,7 +26,7 @@ LEADING, MANTISSA, EXPONENT = range(3)
 def low_digit(code: int) -> int:
     """Return the digit that IBM's library reads from a character inside a number, or -1 if it rejects the character.
 
-    It uses the low digit of every character whose code is below that of the minus sign: a blank, $, ) and *.
+    The library uses the low digit of every character whose code is below that of the minus sign: a blank, $, ) and *.
     """
     if DIGIT <= code <= DIGIT + 9:
         return code - DIGIT
@@ -203,7 +203,11 @@ def write_floating(
 
 
 def write_fixed(columns: MutableSequence[int], at: int, width: int, size: int, negative: bool) -> int:
-    """Write an integer into a field of w columns: its last four digits, or w - 1 if w < 5, after one for the sign."""
+    """Write an integer into a field of w columns.
+
+    The first column is reserved for the sign.  The field shows the last four digits of the integer, or the last w - 1
+    digits if w < 5.
+    """
     end = at + width
     for k in range(at, end):
         columns[k] = BLANK

@@ -75,7 +75,9 @@ class Addresses:
         return text + call + address(self.units(variable))
 
     def _steps(self, part: Subscript) -> list[tuple[str, int]]:
-        """Return the code that computes a subscript, in steps; with each comes the position of a number to subtract."""
+        """Return the code that computes a subscript, in steps.  Each step has the position of the number that the step
+        subtracts.
+        """
         steps = []
         if part.v2 >= 0:
             code = self._product(part.v2, part.rows * part.c2)

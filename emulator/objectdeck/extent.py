@@ -21,7 +21,7 @@ _INFERRED = {op.IF: 32, op.STOP: 8}
 class Extent:
     """The numbers of core positions that data and object program need.
 
-    ``inferred`` is the number of positions in ``code`` whose need no document confirms.
+    ``inferred`` is the number of positions in ``code`` that no document confirms.
     """
 
     data: int

@@ -103,8 +103,8 @@ def digital_hull(
         True for compiled code (numba, the extra ``fast``), False for plain Python, None for the faster one. The result
         is the same.
     spacing, origin, directions
-        The position of an array's voxels, as in :func:`modern.digital.world.world_of`. It affects the hull's ``world``
-        and ``volume`` but not its voxels.
+        The position of an array's voxels, as in :func:`modern.digital.world.world_of`. The position affects the hull's
+        ``world`` and ``volume`` but not its voxels.
 
     Raises
     ------

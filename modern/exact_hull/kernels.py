@@ -77,8 +77,8 @@ def surface(places: NDArray[np.float64], exact: bool) -> Surface:
 
 
 class Room(NamedTuple):
-    """Temporary arrays for the insertion of a point.  They are allocated once, because numba compiles faster
-    that way.
+    """Temporary arrays for the insertion of a point.  The arrays are allocated once, because numba compiles functions
+    faster if they allocate nothing.
 
     ``near`` is a triangle in whose plane each point lay when it was compared last, or -1.  ``visible`` and ``fresh``
     are the visible and the new triangles of a step.  ``heads`` has the first point in the list of each visible

@@ -230,7 +230,7 @@ class _Growing:
     def _tried_against_own(self, points: Ints, remover: Ints, starts: Ints, counts: Ints) -> tuple[Ints, Ints, Floats]:
         """Compare each point only with the new triangles that replaced the triangle at which it waited.
 
-        These are ``counts`` triangles from ``starts`` on. The result is that of ``_tried_against_all``.
+        The new triangles are ``counts`` triangles from ``starts`` on. The result is that of ``_tried_against_all``.
         """
         # Make one row for each pair of a point and a new triangle of the point that removed its triangle.
         pairs = counts[remover]

@@ -103,7 +103,9 @@ class Faces:
 
 
 class Historian:
-    """A recorder of the construction.  It is called for each hull H_j; ``stages`` returns the records."""
+    """A recorder of the construction.  The procedure calls the recorder for each hull H_j, and ``stages`` returns the
+    records.
+    """
 
     def __init__(self, points: PointTable) -> None:
         self.points = points
@@ -127,7 +129,7 @@ def _stage(
 
 
 def point_texts(arithmetic: Arithmetic, coordinates: Vector) -> Sequence[tuple[str, str, str]]:
-    """Return the coordinates of all points as text.  Those of floats are converted on access."""
+    """Return the coordinates of all points as text.  The coordinates of floats are converted on access."""
 
     def member(index: int) -> tuple[str, str, str]:
         x, y, z = texts(arithmetic, list(coordinates[:, index]), (1, 1, 1))

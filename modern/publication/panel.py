@@ -48,8 +48,8 @@ def stage_labels(program: Program) -> tuple[int, int, int]:
 def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) -> dict[str, Any]:
     """Return ``points``, the number of ``vertices`` among the first of them, and ``faces`` as indices of points.
 
-    These are the variables X, Y, Z (R, S, T in program 2), NV, and MM, NN, KK up to NE, at present or in an earlier
-    ``state`` of values and kinds.  The result is empty for a program without such variables.
+    The points and faces come from the variables X, Y, Z (R, S, T in program 2), NV, and MM, NN, KK up to NE, at present
+    or in an earlier ``state`` of values and kinds.  The result is empty for a program without such variables.
     """
     storage = session.program.storage
 
@@ -223,7 +223,9 @@ class Record:
             self.stages.append(picture(session) | {"final": self._is_final})
 
     def _recognise(self, line: Line, session: Session) -> None:
-        """Compare the state with those kept before the same statement; the same state leads to the same run again."""
+        """Compare the state of the run with the states that were kept before the same statement.  A run that returns to
+        an earlier state repeats itself.
+        """
         count, state, numbers = len(self.times), session.state, session.options.numbers
         if session.switches != self._switches:
             self._switches = list(session.switches)

@@ -127,7 +127,8 @@ def reordered(answer: Answer, reference: Answer) -> Answer:
 def position(program: Program, line: Line) -> str:
     """Return the position of a statement in the notation of the apparatus, such as ``132+3``.
 
-    This is its number, ``147``, or the statements since the last number, ``132+3``, or since the beginning, ``+3``.
+    A statement with a number has the position ``147``.  Other statements are counted from the last number, ``132+3``,
+    or from the beginning of the program, ``+3``.
     """
     for distance, earlier in enumerate(reversed(program.statements[: line.index + 1])):
         if earlier.label:

@@ -167,8 +167,8 @@ def _copy(line: str) -> Copy:
 def measure(folder: Path, groups: Sequence[Group], rounds: int, workers: int = 1) -> list[Copy]:
     """Damage and restore the copies of the rounds, and return them.
 
-    They are kept in ``folder/copies.jsonl``, and copies already in this file are not restored again.  Raise FileError
-    if the file holds copies of other programs or of other rules, or cannot be written.
+    The copies are kept in ``folder/copies.jsonl``, and copies already in this file are not restored again.  Raise
+    FileError if the file holds copies of other programs or of other rules, or cannot be written.
     """
     head = json.dumps({"originals": _digest(groups), "rules": rules(), "kinds": KINDS})
     path = folder / COPIES

@@ -64,7 +64,9 @@ class HullRun:
 
 
 class Refusals:
-    """A detector of typed messages with which a program rejects its data.  It is given the events of a run."""
+    """A detector of typed messages with which a program rejects its data.  The events of the run are passed to
+    :meth:`see`.
+    """
 
     def __init__(self) -> None:
         self._last = self._stopped = ""

@@ -2,9 +2,9 @@
 points.
 
 The line itself projects to a point C. The test (section "Polygon star test") receives the other points' images relative
-to C as pairs of integers, none of them at C. It returns True if C is outside their star polygon, a corner of the hull
-of the images and C. The edge whose image is C is then convex. Only the sense of rotation of the images about C matters,
-so they may be known up to an affine map.
+to C as pairs of integers, none of them at C. The test returns True if C is outside the star polygon of these images,
+that is, if C is a corner of the hull of the images and C. The edge whose image is C is then convex. Only the sense of
+rotation of the images about C matters, so they may be known up to an affine map.
 """
 
 from collections.abc import Callable, Iterable, Sequence

@@ -1,9 +1,9 @@
 """Two other ways to treat a new point in the plane of a face (section 2, Figs. 7, 8), which the paper tried and
 abandoned.
 
-Both concern a new point P in the plane of a face. *Quadrangles* (Fig. 7): the face counts as
-invisible. All of its edges to visible faces, together with P, form one new coplanar face instead of a triangle for each
-edge, and the two faces are merged. *Extended* (Fig. 8): the face itself is extended to P by a hull in its plane.
+Let P be a new point in the plane of a face.  *Quadrangles* (Fig. 7): the face counts as invisible. All of its edges to
+visible faces, together with P, form one new coplanar face instead of a triangle for each edge, and the two faces are
+merged. *Extended* (Fig. 8): the face itself is extended to P by a hull in its plane.
 
 There is one face for each plane, stored as the cycle of its vertices without those in line with two others. All
 arithmetic is in integers.

@@ -116,8 +116,8 @@ class Tables:
     def crossing_number(self, i: int, j: int) -> int:
         """Return d of the paper's formula (3), which tells how segment i of V and segment j of V' meet.
 
-        It is -4 if they intersect, -2 if a vertex lies on a segment, -1 if a vertex lies on a vertex, and 0 otherwise,
-        also if they overlap in a line.
+        d is -4 if the segments intersect, -2 if a vertex lies on a segment, -1 if a vertex lies on a vertex, and 0
+        otherwise, also if the segments overlap in a line.
         """
         after_i, after_j = (i + 1) % len(self.pl[0]), (j + 1) % len(self.pl)
         # Both differences are 2 in absolute value if each segment has its ends on opposite sides of the other.

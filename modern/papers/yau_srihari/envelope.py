@@ -64,7 +64,8 @@ def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
 def over_edges(corners: list[Place], points: Grid, whole: bool) -> list[tuple[Point, Point]]:
     """List the envelope's edges above the border of the plane hull H(A), counterclockwise.
 
-    They are all edges of the lower chains or, with ``whole``, a single edge above each edge of H(A), as printed.
+    The result has all edges of the lower chains above the border or, with ``whole``, a single edge above each edge of
+    H(A), as printed.
     """
     edges: list[tuple[Point, Point]] = []
     for start, end in zip(corners, corners[1:] + corners[:1], strict=True):

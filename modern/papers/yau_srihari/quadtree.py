@@ -168,11 +168,10 @@ def graph_side(tree: Quadtree, above: bool) -> Octree:
 
 
 def _stacks(filled: Grid, above: bool) -> Iterator[tuple[int, Grid, Grid, Grid]]:
-    """Yield the full cubes, level by level, that fill the lowest (or if ``above`` the highest) voxels of all
-    columns.
+    """Yield the full cubes, level by level, that fill the lowest (or if ``above`` the highest) voxels of all columns.
 
-    The number of full cubes over a square is determined by its shortest column. The cubes inside full cubes of the
-    next larger size are not leaves. They are the lowest ones, two for each larger cube.
+    The number of full cubes over a square is determined by its shortest column. The cubes inside full cubes of the next
+    larger size are not leaves. These inner cubes are the lowest cubes over the square, two for each larger cube.
     """
     size = len(filled)
     for level in range(size.bit_length() - 1, -1, -1):
