@@ -2,7 +2,7 @@
 "use strict";
 (() => {
   const MOST = 8;
-  const list = document.getElementById("places");
+  const list = /** @type {HTMLElement} */ (document.getElementById("places"));
   const query = (new URLSearchParams(location.search).get("q") ?? "").toLowerCase();
   // The reader may write “statement 147 of program 3”, “variable KELEQ” or “row P1-039”.
   const words = query.replace(/program (\d)/, "program$1").split(/\s+/)
@@ -10,7 +10,7 @@
   const program = words.find((word) => /^program\d/.test(word));
   const rest = words.filter((word) => word !== program).join(" ");
   if (!rest) return;
-  const rank = ([name, address, description]) => {
+  const rank = (/** @type {[string, string, string]} */ [name, address, description]) => {
     const text = name.toLowerCase();
     if (program && !address.startsWith(`${program}.`)) return 9;
     if (text === rest || `${text}s` === rest || text === `${rest}s`) return 0;
@@ -18,7 +18,7 @@
     const whole = `${text} ${description.toLowerCase()}`.split(/[^\w+-]+/);
     return rest.split(" ").every((word) => whole.includes(word)) ? 2 : 9;
   };
-  const matches = window.hull1620Places.map((place) => [rank(place), place]).filter(([order]) => order < 9);
+  const matches = window.hull1620Places.map((place) => /** @type {const} */ ([rank(place), place])).filter(([order]) => order < 9);
   matches.sort((a, b) => a[0] - b[0]); // the order of the list decides between equal ranks
   for (const [, [name, address, description]] of matches.slice(0, MOST)) {
     const item = document.createElement("li");

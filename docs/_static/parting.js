@@ -1,13 +1,20 @@
 // Compare the programs of 1963 with exact arithmetic: enter or drag points, draw both hulls (modern/publication/parting.py).
 "use strict";
 (() => {
+  /** @typedef {{vertices: number[], faces: number[][]}} Hull */
+  /** The answer of modern/publication/parting.py. @typedef {{refused?: string, points: string[][], true: Hull & {text: string}, found: Hull, says: string[], reason: string[], part: string}} Answer */
+
+  /** @param {string} id @returns {any} */
   const at = (id) => document.getElementById(`parting-${id}`);
   const { bytes } = hull1620;
   const sets = JSON.parse(at("sets-data").textContent);
+  /** @type {SVGSVGElement} */
   const picture = at("picture");
   const SVG = "http://www.w3.org/2000/svg";
   const LATEST = 60000; // the largest time for a set in milliseconds
+  /** @type {Answer | null} */
   let answer = JSON.parse(at("first").textContent);
+  /** @type {Machine | null} */
   let machine = null;
   let busy = false;
   let turn = 0.5;
@@ -23,12 +30,14 @@
     if (machine) go();
   });
 
+  /** @returns {number[][]} */
   const typed = () =>
-    at("points").value.split("\n").map((line) => line.trim().split(/[\s,;]+/).map(Number))
-      .filter((point) => point.length === 3 && point.every(Number.isFinite));
-  const level = (points) => new Set(points.map((point) => point[2])).size < 2;
+    at("points").value.split("\n").map((/** @type {string} */ line) => line.trim().split(/[\s,;]+/).map(Number))
+      .filter((/** @type {number[]} */ point) => point.length === 3 && point.every(Number.isFinite));
+  const level = (/** @type {number[][]} */ points) => new Set(points.map((point) => point[2])).size < 2;
 
   // The position of a point in the picture: a plane is seen from above, a solid from the chosen direction.
+  /** @param {number[][]} points */
   function frame(points) {
     const flat = level(points);
     const size = Math.max(1, ...points.flat().map(Math.abs));
@@ -37,7 +46,7 @@
     const middle = [0, 1, 2].map((k) => points.reduce((sum, point) => sum + point[k], 0) / Math.max(points.length, 1));
     const reach = flat ? size : Math.max(1, ...points.map((p) => Math.hypot(...p.map((x, k) => x - middle[k]))));
     const scale = 100 / reach;
-    const place = ([x, y, z]) => {
+    const place = (/** @type {number[]} */ [x, y, z]) => {
       if (flat) return [x * scale, -y * scale];
       [x, y, z] = [x - middle[0], y - middle[1], z - middle[2]];
       const [a, b] = [x * cosine - y * sine, x * sine + y * cosine];
@@ -46,6 +55,7 @@
     return { flat, scale, place };
   }
 
+  /** @param {string} name @param {Record<string, any>} attributes @param {string} [text] */
   function mark(name, attributes, text) {
     const one = document.createElementNS(SVG, name);
     for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, value);
@@ -60,28 +70,29 @@
     const at2 = points.map(place);
     picture.replaceChildren();
     mark("title", {}, "The points, the true hull and the hull of the programs of 1963");
-    const same = answer && answer.points && answer.points.length === points.length;
-    const loop = (face) => face.map((n) => at2[n].map((x) => x.toFixed(2)).join(",")).join(" ");
+    const same = answer?.points?.length === points.length ? answer : null;
+    const loop = (/** @type {number[]} */ face) => face.map((n) => at2[n].map((x) => x.toFixed(2)).join(",")).join(" ");
     if (same) {
-      for (const face of answer.true.faces) mark("polygon", { points: loop(face), class: "parting-true" });
-      for (const face of answer.found.faces) mark("polygon", { points: loop(face), class: "parting-found" });
+      for (const face of same.true.faces) mark("polygon", { points: loop(face), class: "parting-true" });
+      for (const face of same.found.faces) mark("polygon", { points: loop(face), class: "parting-found" });
     }
     at2.forEach(([x, y], n) => {
       const dot = mark("circle", { cx: x, cy: y, r: 2.6, class: "parting-point", "data-n": n });
       dot.append(Object.assign(document.createElementNS(SVG, "title"), { textContent: `point ${n + 1}: ${points[n]}` }));
       if (!same) return;
-      const is = answer.true.vertices.includes(n);
-      const said = answer.found.vertices.includes(n);
-      if (is && !said && answer.found.vertices.length) mark("circle", { cx: x, cy: y, r: 6, class: "parting-missed" });
+      const is = same.true.vertices.includes(n);
+      const said = same.found.vertices.includes(n);
+      if (is && !said && same.found.vertices.length) mark("circle", { cx: x, cy: y, r: 6, class: "parting-missed" });
       if (said && !is) mark("path", { d: `M${x - 5} ${y - 5}l10 10m0-10l-10 10`, class: "parting-extra" });
       mark("text", { x: x + 4, y: y - 4 }, String(n + 1));
     });
   }
 
   function tell() {
+    if (!answer) return;
     const box = at("answer");
     box.replaceChildren();
-    const lines = (title, texts) => {
+    const lines = (/** @type {string} */ title, /** @type {string[]} */ texts) => {
       if (!texts.length) return;
       box.append(Object.assign(document.createElement("h2"), { textContent: title }));
       for (const text of texts) box.append(Object.assign(document.createElement("p"), { textContent: text }));
@@ -98,12 +109,12 @@
       machine = await hull1620.connect((loaded) => (at("progress").value = loaded), () => {});
     } catch (error) {
       at("begin").hidden = at("begin").disabled = false;
-      at("says").textContent = `Loading failed: ${error.message}`;
+      at("says").textContent = `Loading failed: ${/** @type {Error} */ (error).message}`;
       return;
     } finally {
       at("progress").hidden = true;
     }
-    document.getElementById("parting").dataset.state = "on";
+    /** @type {HTMLElement} */ (document.getElementById("parting")).dataset.state = "on";
     at("begin").hidden = true;
     go();
   }
@@ -114,7 +125,7 @@
     at("go").disabled = true;
     at("says").textContent = "The programs are running …";
     const late = setTimeout(() => {
-      machine.stop();
+      machine?.stop();
       machine = null;
       busy = false;
       at("says").textContent = "The run was stopped after a minute.";
@@ -138,7 +149,7 @@
     at("says").textContent = "Loading …";
     connect();
   });
-  at("form").addEventListener("submit", (event) => {
+  at("form").addEventListener("submit", (/** @type {Event} */ event) => {
     event.preventDefault();
     go();
   });
@@ -146,20 +157,22 @@
     answer = null;
     draw();
   });
-  for (const button of document.querySelectorAll("#parting [data-turn], #parting [data-tilt]"))
+  for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("#parting [data-turn], #parting [data-tilt]")))
     button.addEventListener("click", () => {
       turn += 0.3 * Number(button.dataset.turn ?? 0);
       tilt += 0.2 * Number(button.dataset.tilt ?? 0);
       draw();
     });
 
+  /** @param {PointerEvent} event */
   function pointer(event) {
-    const spot = new DOMPoint(event.clientX, event.clientY).matrixTransform(picture.getScreenCTM().inverse());
+    const spot = new DOMPoint(event.clientX, event.clientY).matrixTransform(picture.getScreenCTM()?.inverse());
     return [spot.x, spot.y];
   }
+  /** @type {number[] | null} */
   let last = null;
   picture.addEventListener("pointerdown", (event) => {
-    held = Number(event.target.dataset?.n ?? -1);
+    held = Number(/** @type {SVGElement} */ (event.target).dataset?.n ?? -1);
     last = pointer(event);
     picture.setPointerCapture(event.pointerId);
   });

@@ -2,6 +2,7 @@
 (function () {
   "use strict";
 
+  /** @param {string} label @param {() => void} act */
   function button(label, act) {
     var made = document.createElement("button");
     made.type = "button";
@@ -10,9 +11,12 @@
     return made;
   }
 
+  /** @param {Element} list */
   function stepper(list) {
+    /** @type {HTMLElement[]} */
     var stages = Array.prototype.slice.call(list.children), shown = 0;
     var bar = document.createElement("p"), state = document.createElement("output");
+    /** @param {number} number */
     function show(number) {
       shown = Math.max(0, Math.min(stages.length - 1, number));
       stages.forEach(function (stage, at) { stage.hidden = at !== shown; });
@@ -29,16 +33,17 @@
     show(0);
   }
 
+  /** @param {HTMLElement} box */
   function slider(box) {
-    var rows = JSON.parse(box.dataset.rows), label = document.createElement("label");
+    var rows = JSON.parse(box.dataset.rows || ""), label = document.createElement("label");
     var input = document.createElement("input"), result = document.createElement("output");
     input.type = "range";
-    input.min = 0;
-    input.max = rows.length - 1;
-    input.value = 60;
+    input.min = "0";
+    input.max = String(rows.length - 1);
+    input.value = "60";
     label.append("x of the first point ", input);
     function show() {
-      var row = rows[input.value], values = row.slice(3), zero = values.every(function (value) { return value === "0"; });
+      var row = rows[Number(input.value)], values = row.slice(3), zero = values.every(function (/** @type {string} */ value) { return value === "0"; });
       input.setAttribute("aria-valuetext", row[0]);
       result.innerHTML = "";
       [["x", row[0]], ["D, exactly", row[1]], ["D in eight digits", row[2]], ["the plane at its own points", values.join(", ")]]
@@ -60,5 +65,5 @@
   }
 
   document.querySelectorAll("ol.stepper").forEach(stepper);
-  document.querySelectorAll("div.slider").forEach(slider);
+  /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("div.slider")).forEach(slider);
 })();

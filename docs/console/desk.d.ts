@@ -4,6 +4,8 @@ interface Window {
   hull1620Bytes?: number;
   hull1620Version?: string;
   hull1620Local?: { worker: string; machine: string };
+  /** The name, the address and the description of each place that the search knows. */
+  hull1620Places: [string, string, string][];
 }
 
 /** The programs and the decks: an offer is its name, its title and the kind of points that it holds. */
