@@ -34,11 +34,11 @@ Hull = dict[str, Any]
 def verdict(program: Program, deck: Deck, options: Options) -> dict[str, Any]:
     """Compare a run with exact arithmetic, and its hull with the true hull.
 
-    The answer has ``lines``: the first decision that exact arithmetic takes otherwise, with the value and the target in
-    both arithmetics, or the reason why there is none.  ``statement`` is its number in the run.  ``says`` is a sentence
-    about the result.  ``hull`` is the true hull of the points of the first stage, and ``final`` the hull on the cards.
-    In both, ``missed`` and ``extra`` are the points that only the true hull or only the program has as vertices, and
-    ``wrong`` lists the numbers of the faces that the other hull does not have.
+    The answer has ``lines``: the first decision that exact arithmetic would take differently, with the value and the
+    target in both arithmetics, or the reason why there is none.  ``statement`` is its number in the run.  ``says`` is a
+    sentence about the result.  ``hull`` is the true hull of the points of the first stage, and ``final`` the hull on
+    the cards.  In both, ``missed`` and ``extra`` are the points that only the true hull or only the program has as
+    vertices, and ``wrong`` lists the numbers of the faces that the other hull does not have.
     """
     record = panel.Record(program)
     executed: list[int] = []
