@@ -91,8 +91,11 @@ class Chart:
     pages: tuple[Page, ...]
 
 
-def chart(flow: Flow, height: int = 1100) -> Chart:
-    """Lay out a flow on pages of at most ``height`` pixels; a taller box gets a separate page."""
+def chart(flow: Flow, height: int = 860) -> Chart:
+    """Lay out a flow on pages of at most ``height`` pixels; a taller box gets a separate page.
+
+    The default fits on a sheet of paper with letters of 6.7 points.
+    """
     return Chart(flow, tuple(_page(flow, first, last) for first, last in _breaks(flow, height)))
 
 

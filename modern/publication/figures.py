@@ -21,6 +21,7 @@ from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES
 from modern.edition.reproduce import reproduce
 from modern.publication.building import citation
+from modern.study.report import raised
 from modern.study.restoration import CLASSES, read_restoration, summary
 
 _PLACE = re.compile(r"\{\{\s*([a-z][\w.-]*)\s*\}\}")
@@ -92,7 +93,7 @@ def read_cell(docs: Path, cell: Cell) -> str:
 
 def _formatted(value: str) -> str:
     # An integer of five or more digits gets commas, like the other figures.
-    return f"{int(value):,}" if value.isdigit() and len(value) > 4 else value
+    return f"{int(value):,}" if value.isdigit() and len(value) > 4 else raised(value)
 
 
 def _table(path: Path) -> list[dict[str, str]]:

@@ -81,8 +81,12 @@ Place = str | float
 def typeset(text: str) -> str:
     """Return text with typographic characters: 10⁻³ for ``10^-3`` or ``1E-3``, and a minus sign before a number."""
     text = re.sub(r"(?<![\w.])(\d+\.?\d*)E([+-]?\d+)\b", _power, text)
-    text = re.sub(r"(?<=\w)\^([+-]?\d+|[dk]\b)", lambda match: match[1].translate(_RAISED), text)
-    return re.sub(r"(?<![\w.)-])-(?=\.?\d)", "\N{MINUS SIGN}", text)
+    return re.sub(r"(?<![\w.)-])-(?=\.?\d)", "\N{MINUS SIGN}", raised(text))
+
+
+def raised(text: str) -> str:
+    """Return text with powers as superscripts: n² for ``n^2``."""
+    return re.sub(r"(?<=\w)\^([+-]?\d+|[dk]\b)", lambda match: match[1].translate(_RAISED), text)
 
 
 def _power(match: re.Match[str]) -> str:

@@ -24,7 +24,7 @@
     known.set(element, result);
     return result;
   };
-  const boxes = [];
+  const boxes = [], letters = [];
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   const range = document.createRange();
   for (let node = walker.nextNode(); node; node = walker.nextNode()) {
@@ -33,6 +33,9 @@
     if (!parent.checkVisibility({ checkOpacity: true, checkVisibilityCSS: true })) continue;
     const area = surroundings(parent);
     range.selectNodeContents(node);
+    // The digits that are printed on a card are small.
+    const scale = parent instanceof SVGElement ? Math.hypot(parent.getScreenCTM().a, parent.getScreenCTM().b) : 1;
+    if (!parent.closest(".punched")) letters.push({ size: parseFloat(getComputedStyle(parent).fontSize) * scale * 0.75, node });
     for (const { left, right, top, bottom } of range.getClientRects()) {
       if (right - left < 2) continue;
       if (right <= area.left || left >= area.right || bottom <= area.top || top >= area.bottom) {
@@ -66,6 +69,13 @@
   for (const table of document.querySelectorAll(".wide, .table-wrapper"))
     if (table.scrollWidth > table.clientWidth + 1) problems.push(`scrolls sideways: “${shown(table.textContent)}”`);
   if (document.documentElement.scrollWidth > document.documentElement.clientWidth + 1) problems.push("beyond the window: the page scrolls sideways");
+  // The triangle of a summary is no text: a summary beside a card must not be higher than the card.
+  for (const summary of document.querySelectorAll(".card > .about > summary"))
+    if (summary.getBoundingClientRect().bottom > summary.closest(".card").getBoundingClientRect().bottom + 6 && !summary.parentElement.open)
+      problems.push(`overlap: “${shown(summary.textContent)}” and the next card`);
+  if (matchMedia("print").matches)
+    for (const { size, node } of letters)
+      if (size < 6.4) problems.push(`letters of ${size.toFixed(1)} points: “${shown(node.data)}”`);
   for (const control of document.querySelectorAll("article :is(select, textarea, input)"))
     if (control.checkVisibility() && control.getBoundingClientRect().right > control.closest("form, p, div").getBoundingClientRect().right + 1)
       problems.push(`beyond its column: “${control.id}”`);

@@ -24,12 +24,15 @@ from modern.publication.commentary import Gloss, commentary
 from modern.publication.examples import TITLES, VERDICTS, example, homes
 from modern.publication.facing import Card, Facing, facing
 from modern.publication.flow import flow
+from modern.study.report import raised
 
 _SENTENCE = re.compile(r"(?<=\.) (?=[A-Z])")
 # The longest reading in a note, in characters.
 _LONGEST = 120
 # Points for each pixel of a picture.
 _PIXEL = 0.6
+# The height of a sheet of a flow chart that fits below a heading, and the size of a pixel, in millimetres.
+_SHEET, _MILLIMETRES = 220, 25.4 / 96
 _FONTS = re.compile(r"font-family(=|:)\s*(\"[^\"]*\"|[^;\"}]*)")
 _SHORT = {"holds": "holds", "holds with a condition": "with a condition", "does not hold": "does not hold"}
 
@@ -155,21 +158,22 @@ def _ground(row: Row) -> str:
 
 
 def charts(save: SavePicture) -> Iterator[str]:
-    """Yield the flow charts of all programs, one page for each sheet."""
-    yield "#pagebreak(weak: true)\n\n"
+    """Yield the flow charts of the listings, each sheet on a page and almost in its natural size."""
+    variants = [name for name in programs.NAMES if programs.built_in(name).text != name]
+    yield say(f"The site also shows the flow chart of {', '.join(variants)}.") + "\n\n"
     for name in programs.NAMES:
+        if name in variants:
+            continue
         drawn = chart(flow(programs.program(name)))
-        sheets: list[str] = []
+        yield "#pagebreak(weak: true)\n\n"
         for number in range(1, len(drawn.pages) + 1):
             title = f"Flow chart of {name}, sheet {number} of {len(drawn.pages)}"
             if number == 1:
                 yield heading(f"Flow chart of {name}", 2, label("chart", name))
             file = save(f"chart-{name}-{number}", chart_svg(drawn, number))
-            picture = f"#picture({string(file)}, {string(title)}, height: 210mm)"
-            sheets.append(f"[#[{picture}] <{label('chart', name, str(number))}>]")
-        for number in range(0, len(sheets), 2):
-            yield f"#grid(columns: (1fr, 1fr), column-gutter: 4mm, {', '.join(sheets[number : number + 2])})\n"
-            yield "#pagebreak(weak: true)\n\n"
+            height = min(_SHEET, drawn.pages[number - 1].height * _MILLIMETRES)
+            picture = f"#picture({string(file)}, {string(title)}, height: {height:.0f}mm)"
+            yield f"#[{picture}] <{label('chart', name, str(number))}>\n#pagebreak(weak: true)\n\n"
 
 
 def examples(save: SavePicture) -> Iterator[str]:
@@ -238,4 +242,4 @@ def _statement(judgement: Judged) -> list[str]:
     reason = f"as {row.same.partition('.')[2]}" if row.same else row.why
     why = say(f": {reason}") if reason else ""
     number = row.id.partition(".")[2]
-    return [f"#[{say(number)}] <{label('row', row.id)}>", say(row.page), say(row.says), verdict + why]
+    return [f"#[{say(number)}] <{label('row', row.id)}>", say(row.page), say(raised(row.says)), verdict + why]

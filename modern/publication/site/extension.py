@@ -249,6 +249,17 @@ class AccessibleTranslator(HTML5Translator):
         finally:  # Sphinx raises SkipNode after it has written a highlighted block
             self.body[-1] = self.body[-1].replace("<pre>", '<pre tabindex="0">', 1)
 
+    def visit_image(self, node: nodes.Element) -> None:
+        """Link a picture to its file, which a phone can enlarge; the style inverts a picture without dark colours."""
+        file = Path(self.builder.srcdir) / node["uri"]
+        if file.suffix == ".svg" and "prefers-color-scheme" not in file.read_text(encoding="utf-8"):
+            node["classes"].append("drawing")
+        start = len(self.body)
+        super().visit_image(node)
+        if not isinstance(node.parent, nodes.reference):
+            self.body.insert(start, f'<a href="{node["uri"]}">')
+            self.body.append("</a>")
+
     def visit_entry(self, node: nodes.Element) -> None:
         """Close an empty heading cell as the data cell that :meth:`starttag` began."""
         super().visit_entry(node)

@@ -95,6 +95,8 @@ _CELL = re.compile(r"<(t[dh])\b([^>]*)>(.*?)</\1>", re.DOTALL)
 _TAG = re.compile(r"<[^>]+>")
 # A no-break space in the text of a cell, but not in an attribute of a tag.
 _NO_BREAK = re.compile("\N{NO-BREAK SPACE}(?!%)(?![^<>]*>)")
+# What separates words; a no-break space does not.
+_WORD = re.compile(r"[ \n]+")
 # The letters that fit side by side into a window of 360 pixels.
 _NARROW = 40
 
@@ -110,7 +112,7 @@ def stacked(html: str) -> str:
         rows = [[_TAG.sub("", cell[2]).strip() for cell in _CELL.findall(row)] for row in _ROW.findall(match[2])]
         # A column is at least as wide as its longest word, and cells are two letters apart.
         longest = (
-            max((len(word) for cell in column for word in cell.split()), default=0) + 2
+            max((len(word) for cell in column for word in _WORD.split(cell)), default=0) + 2
             for column in zip(*rows, strict=False)
         )
         if sum(longest) <= _NARROW or len(rows) < 2:
@@ -124,13 +126,18 @@ def stacked(html: str) -> str:
     return _TABLE.sub(labelled, html)
 
 
+def _gap(space: re.Match[str]) -> str:
+    """Return a no-break space of an interval with a place for a line break, which the style sheet may enable."""
+    return f'{space[0]}<wbr class="{"gap" if space.string.startswith("(", space.end()) else "gap inner"}">'
+
+
 def _with_labels(row: str, labels: list[str]) -> str:
     names = iter(labels)
 
     def cell(match: re.Match[str]) -> str:
         name, attributes, inner = match.groups()
-        label, inner = next(names, ""), _NO_BREAK.sub(r'\g<0><wbr class="gap">', inner)
-        attributes += f' data-label="{label}"' if label and inner else ""
+        label, inner = next(names, ""), _NO_BREAK.sub(_gap, inner)
+        attributes += f' data-label="{label}"' if label and inner not in ("", "<p></p>") else ""
         return f"<{name}{attributes}>{inner}</{name}>"
 
     return _CELL.sub(cell, row)

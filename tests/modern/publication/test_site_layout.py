@@ -19,7 +19,7 @@ CHECK = (ROOT / "tests" / "support" / "layout.js").read_text(encoding="utf-8").p
 KINDS = (
     *("index.html", "program2.html", "chart2.html", "example4.html", "errors.html", "get.html", "parting.html"),
     *("reference/storage.html", "statements/yau-srihari.html", "papers/appel_will.html", "explanation/studies.html"),
-    *("console.html", "search.html", "article.html"),
+    *("console.html", "search.html", "article.html", "studies/alarms/report.html"),
 )
 """One page of each kind; with ``HULL1620_PAGES=all``, the check reads all pages."""
 Theme = Literal["light", "dark"]
@@ -27,6 +27,8 @@ WINDOWS: tuple[tuple[int, Theme, bool], ...] = (
     *((360, "light", False), (768, "dark", False), (1280, "light", False)),
     *((1280, "dark", True), (360, "dark", True)),
 )
+PAPER = 673
+"""The width of a printed A4 page without its margins, in pixels."""
 """The widths and themes of the check; True opens everything that the reader can open."""
 PICTURES = (("example2.html", ".print-cards"), ("program3.html", "[id='147']"), ("index.html", "h1"))
 REFERENCES = DATA / "site"
@@ -50,6 +52,10 @@ def test_no_text_overlaps_or_is_clipped(chromium: Browser, site: Path) -> None:
                 tab.set_viewport_size({"width": width, "height": 800})
                 tab.emulate_media(color_scheme=theme)
                 messages += [f"{name}, {width} pixels, {theme}: {problem}" for problem in problems(tab, is_open)]
+            tab.set_viewport_size({"width": PAPER, "height": 800})
+            tab.emulate_media(media="print", color_scheme="light")
+            messages += [f"{name}, print: {problem}" for problem in problems(tab)]
+            tab.emulate_media(media="null")
     assert messages == []
 
 

@@ -8,6 +8,7 @@ from modern.claims.register import COLUMNS, DOCUMENTS, UNTESTABLE, USED, Judged,
 from modern.claims.sampled_sets import counterexample
 from modern.publication.site.made import Made, Part, Target, one_of, slug
 from modern.publication.site.markup import definitions, details, element, escape, preformatted, run_link, text
+from modern.study.report import raised
 
 # The sign and the CSS class of each column of the counts.
 SIGNS = dict(zip(COLUMNS, ("\u2713", "(\u2713)", "\u2717", "\u2248", "=", "\u2013", "\u2191"), strict=True))
@@ -65,7 +66,7 @@ def _statement(judgement: Judged) -> str:
         cls="facts",
     )
     body = details("evidence", facts) if facts else ""
-    inner = element("div", head, cls="statement-head") + text("p", row.says) + body
+    inner = element("div", head, cls="statement-head") + text("p", raised(row.says)) + body
     return element("li", inner, id=row.id, cls=_CLASSES[name])
 
 
