@@ -220,8 +220,8 @@ def _pictures(number: int, save: SavePicture) -> Iterator[str]:
         stages = frames(hull, None, *FRAME)
     except ExportError:
         return
-    file = save(f"stages-{number}", strip(stages, columns=4))
-    title, width = f"The construction of example {number}, H1 to Hf", 25 * min(4, len(stages))
+    file = save(f"stages-{number}", strip(stages, columns=3))
+    title, width = f"The construction of example {number}, H1 to Hf", 33 * min(3, len(stages))
     yield f"#picture({string(file)}, {string(title)}, width: {width}%)\n\n"
 
 
