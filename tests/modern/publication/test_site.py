@@ -230,5 +230,5 @@ def test_cells_may_break_after_a_no_break_space_but_their_attributes_stay() -> N
     wide = "".join(f"<th>{'w' * 30}{n}</th>" for n in range(2))
     gap, cell = "\N{NO-BREAK SPACE}", "<td><a title='1{0}2'>3{0}4</a></td><td>5{0}%</td>"
     html = stacked(f"<table><tr>{wide}</tr><tr>{cell.format(gap)}</tr></table>")
-    assert html.count('<wbr class="gap">') == 1
+    assert html.count('<wbr class="gap inner">') == 1
     assert f"title='1{gap}2'>3{gap}<wbr" in html
