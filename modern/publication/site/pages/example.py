@@ -102,7 +102,8 @@ def _pictures(number: int) -> Iterator[Section]:
         return
     steps = "".join(text("li", "; ".join(filter(None, stage.caption))) for stage in stages)
     caption = "The hulls H1 to Hf, each with the vertex that was added, all from the same direction."
-    construction = figure(strip(stages), f"stages{number}", caption, "drawing construction") + element("ol", steps, cls="stages")
+    construction = figure(strip(stages), f"stages{number}", caption, "drawing construction")
+    construction += element("ol", steps, cls="stages")
     yield Section("The construction", "construction", html=construction)
 
 
