@@ -186,8 +186,8 @@ class Hull:
     def neighbors(self) -> Indices:
         """The neighbours of each of ``simplices``, shape (m, 3), as in scipy's ConvexHull.
 
-        Entry k of a row is the row of the triangle on the other side of the edge opposite corner k.  It is -1 if no
-        triangle is there, which happens only at the sides of a polygon.
+        Entry k of row i is the index, in ``simplices``, of the triangle that shares with triangle i the edge opposite
+        its corner k.  The entry is -1 if there is no such triangle.  This happens only at the boundary of a flat hull.
 
         Raises
         ------

@@ -24,7 +24,10 @@ State = tuple[int, int, int]
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return the sum of the accumulator (FAC) and a number.  In some profiles, the sum of two zeros is +0."""
+    """Return the sum of the accumulator (FAC) and a number.
+
+    The sum of two zeros is +0, or with ``rules.as_1962`` the zero in FAC with its sign.
+    """
     # IBM's subroutine tests for zero operands first: x + 0 is x unchanged, 0 + x is x, and profiles differ in 0 + 0.
     if mb == 0:
         if ma == 0 and not rules.as_1962:

@@ -232,7 +232,10 @@ class _Generator:
         return compare + to_zero + d.BRANCH_INDICATOR + positive + d.HIGH + d.BRANCH + negative
 
     def _select(self, instruction: Instruction) -> str:
-        """Return the code of a computed GO TO.  Its table has four digits for each target, in reverse order."""
+        """Return the code of a computed GO TO, followed by its table of addresses, the last target first.
+
+        An entry is the first four digits of a target's address.  The fifth digit is always 0.
+        """
         targets = self._targets(instruction.second)
         selector = address(self.addresses.units(instruction.address))
         branch = self.at + 60

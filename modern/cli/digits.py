@@ -122,7 +122,7 @@ def _truth(reference: Numbers, divergence: Divergence) -> Numbers:
 
 
 def _numbers(result: Result, truth: Numbers, reference: Result | None, runs: Sampling | Independent) -> Table:
-    """Return the printed numbers with their true and estimated digits, and which of them to believe."""
+    """Return a table of the printed numbers with their true and estimated digits, and how many digits to believe."""
     studied, exact = records_of(result), records_of(reference) if reference else []
     same = shape_of(studied) == shape_of(exact)
     estimates = {}

@@ -75,7 +75,9 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
         raise VolumeError(f"{source}: line {line}: sizes: expected {dimension} positive integers, found {quoted(text)}")
     sizes = tuple(int(word) for word in values)
     if math.prod(sizes) > MAX_CELLS:
-        raise VolumeError(f"{source}: line {line}: expected at most {MAX_CELLS} voxels")
+        raise VolumeError(
+            f"{source}: line {line}: sizes: expected at most {MAX_CELLS} voxels, found {math.prod(sizes)}"
+        )
     line, encoding = fields["encoding"]
     if encoding.lower() not in (_RAW, *_PACKED):
         raise VolumeError(f"{source}: line {line}: encoding: expected raw or gzip, found {quoted(encoding)}")

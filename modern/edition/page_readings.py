@@ -75,7 +75,9 @@ def _answered(place: str, page: str, entry: Item | Question, answer: str, reader
         return result
     if choice is None and not answer.startswith("="):
         letters = ", ".join(choice.letter for choice in entry.choices)
-        raise FileError(f"{place}: expected {letters}, {UNREADABLE} or = and the text of the page, found {answer!r}")
+        raise FileError(
+            f"{place}: expected {letters}, {UNREADABLE}, or = followed by the text of the page, found {answer!r}"
+        )
     if isinstance(entry, Question):
         settled = " ".join(entry.rows) if choice == entry.choices[0] else ""
         return replace(result, outcome="answered", answer=choice.token if choice else answer[1:], rows=settled)
@@ -89,7 +91,9 @@ def _answered(place: str, page: str, entry: Item | Question, answer: str, reader
         rows = (row for row in line.rows if not any(change.form for change in text.row(row).changes))
         return replace(result, outcome="confirmed", card=entry.text, rows=" ".join(rows))
     if choice and not card:
-        raise FileError(f"{place}: a card that the page lacks cannot be removed by a sheet; write to the maintainers")
+        raise FileError(
+            f"{place}: the page does not have this card, but a proof sheet cannot remove it; write to the maintainers"
+        )
     try:
         deck_from_lines(place, [card])
     except EmulatorError as error:

@@ -2,7 +2,9 @@
 
 A data set is a card with N, the number of points, in columns 1-2, followed by N cards with x, y, z in columns 1-14,
 15-28, 29-42 (thesis p. 58-59; its data sheet gives columns 29 to 52 to z, but the FORMAT reads 29 to 42).  A deck may
-hold several data sets.  With the layer ``epsilon`` the card with N also holds e in columns 3-16 (OPEN-QUESTIONS 28).
+hold several data sets.  In a deck for programs that were changed to use a
+tolerance e (the layer ``epsilon`` of the edition), the first card also holds e in columns 3-16, after N
+(OPEN-QUESTIONS 28).
 """
 
 from collections.abc import Iterable, Sequence

@@ -254,7 +254,7 @@ def _loop(surface: Mesh, group: Sequence[int], within: Fraction) -> tuple[int, .
         if len(loop) > len(following):
             break
     if not loop or len(loop) != len(border):
-        raise CoplanarError(f"within {distance_text(within)} a joined face would not be one simple polygon")
+        raise CoplanarError(f"{distance_text(within)} is too large: a joined face would not be one simple polygon")
     return tuple(loop)
 
 
@@ -274,7 +274,8 @@ def _check_convex(
             off = dot(cross(along, minus(corners[between % len(corners)], p)), normal)
             if Fraction(off * off, length * scale * scale) > within * within:
                 raise CoplanarError(
-                    f"within {distance_text(within)} a joined face would not be convex, even within that distance"
+                    f"{distance_text(within)} is too large: a corner of a joined face lies more than this distance"
+                    " inside the convex hull of the face"
                 )
 
 

@@ -70,10 +70,11 @@ def _job(example: int, first: str) -> tuple[Run, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Weight:
-    """The numbers of altered readings of a card, by the check of :data:`DETECTED_BY` that detects them first.
+    """The number of variants of a card that each check detects.
 
-    Readings that leave the object code unchanged are not counted.  ``formula`` names the formula of chapter 3 that the
-    card computes.
+    A variant is the card with one token altered, as an OCR program or a typist might have altered it.  ``detected`` has
+    one count for each check in :data:`DETECTED_BY`; a variant is counted only at the first check that detects it, and
+    not at all if the object code stays the same.  ``formula`` names the formula of chapter 3 that the card computes.
     """
 
     detected: tuple[int, ...]

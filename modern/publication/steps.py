@@ -1,7 +1,7 @@
-"""The steps of the papers' methods as objects in space: hidden lines, cells of a ball, octants of a hull.
+"""Intermediate results of three papers as objects in space: hidden lines, cells of a ball, octants of a hull.
 
-The objects have no size or colour; ``site/pages/papers.py`` draws them.  The steps of Appel and Will are the tables of
-:mod:`modern.papers.appel_will`.
+The objects have no size or colour; ``site/pages/papers.py`` draws them.  For the fourth paper, Appel and Will, that
+module draws the convex edges and loops that :mod:`modern.papers.appel_will` returns.
 """
 
 from collections.abc import Iterable, Iterator

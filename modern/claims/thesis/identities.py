@@ -208,7 +208,10 @@ def _v(x: Point, i: Point) -> Polynomial:
 
 @claim("thesis.50")
 def display_of_page_14() -> Check:
-    """Check that the formula for V on page 14, with the index 1 of the OCR text, is not 0 on the line."""
+    """Check that the formula for V on page 14 is wrong in the OCR text, which has the index 1.
+
+    V is then not 0 on the line.
+    """
     names = ("p", "q", "x")
     at = dict(zip(names, counterexample_points("v_as_our_text.csv"), strict=True))
     values = {f"{name}_{axis}": c for name in names for axis, c in zip("xyz", at[name], strict=True)}
@@ -218,7 +221,10 @@ def display_of_page_14() -> Check:
 
 @claim("thesis.287")
 def display_of_page_41() -> Check:
-    """Check that the formula for V on page 41, with the index 1 of the OCR text for every i, is 0 at every point."""
+    """Check that the formula for V on page 41 is wrong in the OCR text, which has the index 1 in place of every i.
+
+    V is then 0 at every point.
+    """
     is_wrong = not _v(P, P).terms
     return theorem_4_3().check().misprinted(is_wrong, "i for 1 in the differences from the point i")
 

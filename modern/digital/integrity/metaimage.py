@@ -108,7 +108,7 @@ def _fields(head: bytes, path: str) -> tuple[dict[str, str], int]:
         fields[name] = text
         if name == _DATA:
             if not line.endswith(b"\n") and len(text.split()) != 1:
-                raise VolumeError(f"{path}: line {number}: the header has no end")
+                raise VolumeError(f"{path}: line {number}: the last field of the header does not end with a newline")
             return fields, position
     raise VolumeError(f"{path}: the header is truncated: it has no field {_DATA}")
 

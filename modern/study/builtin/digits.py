@@ -186,8 +186,9 @@ def _conclusions(counts: Summary, cells: Cells) -> tuple[str, ...]:
         f"of digits: {listed(without_failure)}. The programs found no hull at all for these numbers of digits: "
         f"{listed(without_hull)}.",
         f"Of the failures, {share_of(wrong, failed)}, are plausible but wrong hulls.",
-        f"For {len(agree)} of {len(cells)} numbers of digits d, the least number of working digits P without a "
-        "failure is 3d + 1, with which every test for zero is exact. If none of "
+        f"The coordinates had d digits, and the arithmetic P digits. For {len(agree)} of the {len(cells)} values of d "
+        "that were tried, the smallest P at which no set failed was 3d + 1. With 3d + 1 digits, every test for zero is "
+        "exact. If none of "
         f"{sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of such sets could still fail (exact 95 % "
         "interval). A proof shows that no set fails with P = 3d + 4 digits.",
     )

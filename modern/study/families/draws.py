@@ -79,7 +79,7 @@ def whole_range(value: Count, name: str) -> tuple[int, int]:
     ends = (value, value) if isinstance(value, int) else value
     if not isinstance(ends, list | tuple) or len(ends) != 2 or not all(isinstance(end, int) for end in ends):
         raise FamilyError(
-            f"{name}: expected an integer, or the least and the greatest as [4, 20], found {quoted(value)}"
+            f"{name}: expected an integer, or a range of two integers such as [4, 20], found {quoted(value)}"
         )
     return ends[0], ends[1]
 

@@ -50,7 +50,9 @@ def thesis(
     if unknown or not weights or min(weights.values()) < 0 or not any(weights.values()):
         raise FamilyError(f"kinds: expected {', '.join((*KINDS, SHEET))}, each with a weight of 0 or more")
     if not isinstance(decimals, int) or not 0 <= decimals <= 1000:
-        raise FamilyError(f"decimals: expected a number of coordinates in 1,000, from 0 to 1000, found {decimals}")
+        raise FamilyError(
+            f"decimals: expected how many of 1,000 coordinates have decimals, from 0 to 1000, found {decimals}"
+        )
     if form not in FORMS:
         raise FamilyError(f"form: expected {' or '.join(FORMS)}, found {quoted(form)}")
     pick = draw.whole(1, sum(weights.values()))

@@ -144,7 +144,11 @@ CROOKED = [(8, 1, -9), (-7, 7, 0), (3, -6, 7), (-6, 4, 5), (-9, 9, -3), (-3, 2, 
         (dodecahedron(), 5, "all points lie within 5 of the plane of the largest face"),
         (dodecahedron(), 2, "within 2 the 36 faces would become 2; a solid has at least four"),
         (BARE, 6, "within 6 the 8 faces would become 3; a solid has at least four"),
-        (CROOKED, "3/2", "within 1.5 a joined face would not be convex, even within that distance"),
+        (
+            CROOKED,
+            "3/2",
+            "1.5 is too large: a corner of a joined face lies more than this distance inside the convex hull",
+        ),
         (OCTAHEDRON, -1, "the distance within which faces are coplanar must be >= 0, not -1"),
         (OCTAHEDRON, "wide", "the distance within which faces are coplanar: 'wide' is not a decimal number"),
         (OCTAHEDRON, math.inf, "the distance within which faces are coplanar: inf is not finite"),
@@ -169,7 +173,9 @@ def test_a_joined_face_with_a_hole_is_rejected() -> None:
         m = (k + 1) % 4
         faces += [(k, m, 4 + m, 4 + k), (4 + k, 4 + m, 8 + m, 8 + k), (8 + k, 8 + m, 12 + m, 12 + k)]
     pit = Mesh(3, tuple((str(x), str(y), str(z)) for x, y, z in points), tuple(faces))
-    with pytest.raises(coplanar.CoplanarError, match=r"^within 1 a joined face would not be one simple polygon$"):
+    with pytest.raises(
+        coplanar.CoplanarError, match=r"^1 is too large: a joined face would not be one simple polygon$"
+    ):
         coplanar.join(pit, Fraction(1))
     opened = Mesh(3, pit.points, pit.faces[1:])
     with pytest.raises(coplanar.CoplanarError, match=r"^the faces do not form a closed surface$"):
