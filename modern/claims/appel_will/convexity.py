@@ -164,17 +164,26 @@ def _simple(ring: Sequence[Flat]) -> bool:
     return len({*ring}) == len(ring) and not _crosses(ring) and not turned and is_counterclockwise
 
 
-@claim("appel-will.15")
-def jarvis_start_as_printed() -> Check:
-    """Check that the point that the paper takes first in Jarvis's method may lie inside the hull.
+@claim("appel-will.15", full=400)
+def start_of_jarvis(cases: int = CASES) -> Check:
+    """Check that the first point of Jarvis's method is on the hull if the origin is below the set, and only then.
 
     The angle runs from 0 to 360 degrees about an origin outside the set.
     """
+    checks = []
+    for sampled in sampled_sets(2, cases):
+        below = (0, min(y for _, y, _ in sampled.points) - 1)
+        checks.append(_smallest_angle(below, sampled.points) not in sampled.judge.inside)
+    check = searched(SETS[2], cases, checks, f"the first point of {len(checks)} sets is on the hull")
     origin, *points = counterexample_points("jarvis.csv")
+    first = _smallest_angle(origin[:2], points)
+    is_inside = first in exact_hull(points).inside and 0 in exact_hull([origin, *points]).vertices
+    return check.unless(is_inside, f"the origin {origin[:2]}, from which {points[first][:2]} inside the hull is first")
+
+
+def _smallest_angle(origin: Flat, points: Sequence[Point]) -> int:
     angles = [math.atan2(y - origin[1], x - origin[0]) % (2 * math.pi) for x, y, _ in points]
-    first = angles.index(min(angles))
-    inside = first not in exact_hull(points).vertices and 0 in exact_hull([origin, *points]).vertices
-    return refuted(inside, f"{points[first][:2]} is taken first and lies inside the hull")
+    return angles.index(min(angles))
 
 
 @claim("appel-will.28", number="2", full=400)
@@ -269,7 +278,7 @@ def holds_origin(images: Iterable[Flat]) -> bool:
     return len(flat) not in exact_hull([*flat, (0, 0, 0)]).vertices
 
 
-@claim("appel-will.40", "appel-will.47", "appel-will.48", "appel-will.93", "yau-srihari.12", full=200)
+@claim("appel-will.40", "appel-will.47", "appel-will.48", "appel-will.93", full=200)
 def edge_by_star_test(cases: int = 1) -> Check:
     """Check that a pair is an edge exactly if its image is outside the hull of the others and by the star test."""
     checks = []
@@ -284,6 +293,17 @@ def edge_by_star_test(cases: int = 1) -> Check:
     return searched(
         SETS[3], cases, checks, f"right for {len(checks)} pairs of points with no other point on their line"
     )
+
+
+@claim("yau-srihari.12", full=200)
+def edge_by_image(cases: int = 1) -> Check:
+    """Check the test of a pair by its image, and that it rejects an edge with a third point on its line."""
+    points = [(0, 0, 0), (2, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)]
+    pair = (0, 2)
+    # A third point on the line has the image of the pair, so that this image is in the hull of the other images.
+    is_rejected = len(project(points, pair, range(len(points))).line) > 2
+    case = f"{points[1]}, which has the image of the edge from {points[0]} to {points[2]} of a tetrahedron"
+    return edge_by_star_test(cases).unless(is_rejected and pair in exact_hull(points).edges(), case)
 
 
 @claim("appel-will.54", "appel-will.142", full=200)
@@ -308,7 +328,7 @@ def star_as_captioned() -> Check:
 @claim("appel-will.108", step="step10")
 def step_as_printed(step: str) -> Check:
     """Check that a step of the loop algorithm, as the appendix prints it, fails on its counterexample."""
-    name = {"step5": "fig14.csv", "step7": "fig23.csv", "step9": "pentagon.csv", "step10": "fig14.csv"}[step]
+    name = {"step5": "fig14.csv", "step7": "fig23.csv", "step9": "prism.csv", "step10": "fig14.csv"}[step]
     points = counterexample_points(name)
     also = ("step3",) if step == "step9" else ()
     as_printed_hull, corrected = (

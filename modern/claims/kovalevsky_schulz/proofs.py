@@ -25,13 +25,23 @@ from modern.geometry import vectors
 
 def lemma_lz() -> Proof:
     """Prove that if an inequality cuts off a nonempty part of a finite set, this part contains a vertex of the hull."""
+    h_c, h_v = variables("H_c H_v")
     return Proof(
         "a part of a finite set that a linear inequality cuts off contains a point that is no combination of others",
         "The part is not empty, so it contains all points with the largest value of the linear function H. Among them "
         "take those with the largest x, then the largest y, and then the largest z: one point c. If c is a "
         "combination of points of the set with positive weights, all of them have the H of c. Then they have its x, y "
         "and z, and so they are c. More than two points are combined one after the other.",
-        (largest_value(), combination_satisfies()[0]),
+        (
+            Step(
+                "a point v that is not cut off has a smaller value of H",
+                {"c": not_negative(h_c), "v": positive(-h_v)},
+                positive(h_c - h_v),
+                (term("c"), term("v")),
+            ),
+            largest_value(),
+            combination_satisfies()[0],
+        ),
     )
 
 

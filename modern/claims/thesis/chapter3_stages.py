@@ -43,7 +43,7 @@ from modern.geometry.vectors import cross, dot, minus
 @claim("thesis.206", "thesis.228", "thesis.99", kind="equations", full=300)
 @claim("thesis.221", "thesis.229", kind="vertices_used", full=300)
 @claim("thesis.222", "thesis.232", kind="vertex_when_added", full=300)
-@claim("thesis.227", "thesis.92", "thesis.266", kind="convexity", full=300)
+@claim("thesis.92", "thesis.266", kind="convexity", full=300)
 @claim("thesis.266", kind="added_tetrahedra", full=300)
 @claim("thesis.241", "thesis.240", kind="added_triangle", full=300)
 @claim("thesis.278", kind="two_new_lines", full=300)
@@ -84,6 +84,15 @@ def replaced_plane(cases: int = CASES) -> Check:
     ]
     message = f"a point that is outside several planes ({len(several)} steps), all of which are replaced"
     return stage_property("replaced_plane", cases).unless(any(several), message)
+
+
+@claim("thesis.227", full=300)
+def one_of_several_planes(cases: int = CASES) -> Check:
+    """Check that a body in which one of several visible planes is replaced is not convex, and that there are some."""
+    sets = sampled_sets(3, cases)
+    several = sum(record.outside > 1 for sampled in sets for _, _, record, _ in _steps(sampled))
+    outcomes = [several > 0, *(right for sampled in sets for right in _convexity(sampled))]
+    return searched(SETS[3], cases, outcomes, f"no convex body in {several} steps with several visible planes")
 
 
 @claim("thesis.226")

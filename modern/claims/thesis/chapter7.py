@@ -237,7 +237,7 @@ def errors_on_any_computer() -> Check:
     x, y, _ = map(float, thirds[1])
     calculated = _misses(_THREE) and Fraction(x * y) != Fraction(x) * Fraction(y)
     check = exhibited(calculated and all(as_floats), "eight digits and 53 bits truncate or round numbers and products")
-    return check.unless(not _misses(_THREE, "exact"), "exact arithmetic, in which three points satisfy their own plane")
+    return check.unless(not _misses(_THREE, "exact"), "exact arithmetic, in which three points with rational coordinates satisfy their own plane")
 
 
 def _coefficients(points: tuple[Point, ...], name: str) -> list[Fraction]:
