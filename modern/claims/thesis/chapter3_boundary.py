@@ -10,6 +10,7 @@ from random import Random
 
 from modern.claims.evidence import Check, Generator, claim, exhibited, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
+from modern.claims.register import statements_of
 from modern.claims.sampled_sets import CASES, SETS, Point, plane_value, sampled_sets
 from modern.claims.thesis.identities import coordinate_planes
 from modern.exact_hull import ExactHull
@@ -162,6 +163,7 @@ def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
 @claim("thesis.273")
 def sum_that_ends_with_plus() -> Check:
     """Check that the printed sum lacks its last term, the product D_0 D_C of the constant terms, which is 0."""
-    *_, last = "A_0A_C + B_0B_C + C_0C_C +".split("+")
+    (row,) = (row for row in statements_of("thesis") if row.id == "thesis.273")
+    *_, last = row.words.partition(r"\neq")[0].split("+")
     right = coordinate_planes().check().holds
     return slip(last.strip(), right, "a sum without the plus, or with D_0 D_C", "D_C is 0 for a coordinate plane")

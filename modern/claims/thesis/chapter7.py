@@ -4,13 +4,12 @@ import re
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, pairwise
-from random import Random
 
 from emulator.language.cards import Deck, deck_from_lines, deck_from_text
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
 from emulator.objectdeck.extent import code_positions
-from modern.claims.evidence import Check, Generator, claim, exhibited, identity, refuted, search, searched, slip
+from modern.claims.evidence import Check, claim, exhibited, identity, refuted, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_through, plane_value, sampled_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
@@ -167,36 +166,6 @@ def eight_digits() -> Check:
     return exhibited({*vertex} == {123456780}, f"123456789 is punched as {vertex[0]}")
 
 
-def _draw_operands(random: Random) -> tuple[int, int]:
-    return random.randint(1, 10 ** random.randint(1, 8) - 1), random.randint(1, 99_999_999)
-
-
-OPERANDS: Generator[tuple[int, int]] = Generator("pairs of integers of up to eight digits", 8, _draw_operands)
-
-
-@claim("thesis.158", full=5_000)
-def eight_digits_truncated(cases: int = 20) -> Check:
-    """Check that products and quotients of eight-digit numbers have the first eight digits of the exact result."""
-
-    def is_truncated(pair: tuple[int, int]) -> bool:
-        a, b = pair
-        arithmetic, ((x,), (y,), _) = take([(str(a), str(b), "0")], "truncating")
-        product = Fraction(arithmetic.exact(x * y, 2)), Fraction(a * b)
-        quotient = Fraction(arithmetic.exact(arithmetic.quotient(x, b), 1)), Fraction(a, b)
-        # A truncated result is smaller by less than one unit of its last digit and has at most eight digits.
-        return all(
-            computed <= exact < computed * (1 + Fraction(1, 10**7)) and _digits(computed) <= 8
-            for computed, exact in (product, quotient)
-        )
-
-    return search(OPERANDS, is_truncated, cases, "all products and quotients have the first eight digits")
-
-
-def _digits(number: Fraction) -> int:
-    """Return the number of significant digits of a decimal fraction."""
-    return len(str((number * 10**20).numerator).rstrip("0"))
-
-
 @claim("thesis.249")
 def two_kinds_of_error() -> Check:
     """Check that eight-digit arithmetic truncates coordinates and also the coefficients of a plane."""
@@ -237,7 +206,8 @@ def errors_on_any_computer() -> Check:
     x, y, _ = map(float, thirds[1])
     calculated = _misses(_THREE) and Fraction(x * y) != Fraction(x) * Fraction(y)
     check = exhibited(calculated and all(as_floats), "eight digits and 53 bits truncate or round numbers and products")
-    return check.unless(not _misses(_THREE, "exact"), "exact arithmetic, in which three points with rational coordinates satisfy their own plane")
+    case = "exact arithmetic, in which three points with rational coordinates satisfy their own plane"
+    return check.unless(not _misses(_THREE, "exact"), case)
 
 
 def _coefficients(points: tuple[Point, ...], name: str) -> list[Fraction]:
