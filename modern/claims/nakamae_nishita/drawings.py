@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from itertools import combinations
+from itertools import combinations, product
 from random import Random
 
 from modern.claims.evidence import Check, Generator, claim, search, searched
@@ -12,7 +12,8 @@ from modern.claims.nakamae_nishita.tables import side
 from modern.claims.sampled_sets import CASES, SETS, sampled_sets
 from modern.drawing.visible import sign
 from modern.geometry.vectors import dot
-from modern.papers.nakamae_nishita.hidden import Drawing, draw
+from modern.papers.nakamae_nishita.hidden import Drawing, Piece, Relation, draw
+from modern.papers.nakamae_nishita.nearness import BY_CROSSING
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
@@ -48,22 +49,28 @@ def _polyhedra(boxes: tuple[Box, ...], thing: str = "") -> list[Polyhedron]:
     return made
 
 
+def _inside(point: list[Fraction], box: Box) -> tuple[Fraction, Fraction]:
+    """Return where the line from a point towards the eye enters and leaves a box; it misses it if first >= last."""
+    ranges = [sorted(((a - p) / s, (b - p) / s)) for p, a, b, s in zip(point, *box, EYE, strict=True)]
+    return max(first for first, _ in ranges), min(last for _, last in ranges)
+
+
 def _behind(point: list[Fraction], box: Box) -> bool:
     """Return True if the ray from a point towards the eye runs through the interior of a box."""
-    first, last = Fraction(0), None
-    for p, low, high, step in zip(point, *box, EYE, strict=True):
-        near, far = sorted(((low - p) / step, (high - p) / step))
-        first, last = max(first, near), far if last is None else min(last, far)
-    return last is not None and first < last
+    first, last = _inside(point, box)
+    return first < last and last > 0
 
 
-def _samples(drawing: Drawing) -> Iterator[tuple[bool, list[Fraction]]]:
+def point_of(drawing: Drawing, piece: Piece, share: Fraction) -> list[Fraction]:
+    """Return the point in space at a fraction of the edge to which a piece belongs."""
+    vertices = drawing.solids[piece.solid].polyhedron.vertices
+    return [a + share * (b - a) for a, b in zip(vertices[piece.start], vertices[piece.end], strict=True)]
+
+
+def samples(drawing: Drawing) -> Iterator[tuple[bool, list[Fraction]]]:
     """Yield, for each piece of an edge in a drawing, whether it is visible, and its midpoint in space."""
     for piece in drawing.pieces:
-        vertices = drawing.solids[piece.solid].polyhedron.vertices
-        share = (piece.first + piece.last) / 2
-        ends = zip(vertices[piece.start], vertices[piece.end], strict=True)
-        yield piece.visible, [a + share * (b - a) for a, b in ends]
+        yield piece.visible, point_of(drawing, piece, (piece.first + piece.last) / 2)
 
 
 @cache
@@ -74,7 +81,7 @@ def _drawn(boxes: tuple[Box, ...]) -> Drawing:
 @cache
 def _agrees(boxes: tuple[Box, ...]) -> bool:
     drawing = _drawn(boxes)
-    return all(visible != any(_behind(at, box) for box in boxes) for visible, at in _samples(drawing))
+    return all(visible != any(_behind(at, box) for box in boxes) for visible, at in samples(drawing))
 
 
 @claim("nakamae-nishita.11", "nakamae-nishita.49", "appel-will.151", full=600)
@@ -92,12 +99,35 @@ def unrelated_polyhedra(cases: int = 3) -> Check:
         related = {(r.v, r.w) for r in drawing.relations}
         return not any(
             _behind(at, box)
-            for piece, (_, at) in zip(drawing.pieces, _samples(drawing), strict=True)
+            for piece, (_, at) in zip(drawing.pieces, samples(drawing), strict=True)
             for other, box in enumerate(boxes)
             if other != piece.solid and not {(other, piece.solid), (piece.solid, other)} & related
         )
 
     return search(SCENES, hide_nothing, cases, "boxes whose contours do not overlap hide nothing of each other")
+
+
+def order_on_lines_of_sight(cases: int) -> Check:
+    """Check that on every line of sight through two boxes their order is that at the intersection of their images.
+
+    The lines of sight pass through the points of the nearer and the farther box whose coordinates are integers.
+    """
+
+    def have_one_order(boxes: tuple[Box, ...]) -> bool:
+        relations = [relation for relation in _drawn(boxes).relations if relation.by == BY_CROSSING]
+        return all(relation.nearer == order for relation in relations for order in _orders(boxes, relation))
+
+    return search(SCENES, have_one_order, cases, "the order of two boxes is the same on all their lines of sight")
+
+
+def _orders(boxes: tuple[Box, ...], relation: Relation) -> Iterator[int]:
+    """Yield, for each sampled line of sight through V and V', 1 if V is nearer, -1 if V' is, and 0 if they mix."""
+    pair = boxes[relation.v], boxes[relation.w]
+    for low, high in pair:
+        for point in product(*(range(a, b + 1) for a, b in zip(low, high, strict=True))):
+            (first_v, last_v), (first_w, last_w) = (_inside([*map(Fraction, point)], box) for box in pair)
+            if first_v < last_v and first_w < last_w:
+                yield (first_v >= last_w) - (first_w >= last_v)
 
 
 # The sizes of a box, and the place where it is divided along x.

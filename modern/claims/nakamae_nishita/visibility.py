@@ -6,7 +6,7 @@ from itertools import combinations, permutations, product
 
 from modern.claims import algebra
 from modern.claims.evidence import Check, claim, exhausted, exhibited, proved, refuted, searched, slip
-from modern.claims.nakamae_nishita.drawings import pieces_against_rays
+from modern.claims.nakamae_nishita.drawings import order_on_lines_of_sight, pieces_against_rays, point_of, samples
 from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, crosses, inside, lines_of, pairs, side, tables_of
 from modern.claims.sampled_sets import CASES, counterexample, counterexample_points
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
@@ -156,10 +156,22 @@ def formula_4() -> Check:
     argument = "dr = s (s - t) u u, which is negative if P_1 is nearer, and positive if P_2 is nearer."
     decided = (crossing.by, crossing.nearer) == ("(4)", 1)
     check = proved(argument, [nearer.is_valid(), farther.is_valid(), decided], "the sign of (4) tells the nearer point")
+    case = "two boxes that touch: the value is 0, and only a separating plane decides"
+    return check.unless(_undecided_if_touching(), case)
+
+
+def _undecided_if_touching() -> bool:
+    """Return True if formula (4) decides nothing for two boxes that touch, and misses the hidden parts of an edge."""
     scenes = [_scene("stacked.toml", *without) for without in (("touching",), ())]
     hidden = [_hidden(scene, INNER) + _hidden(scene, CONTOUR) for scene in scenes]
-    case = "two boxes that touch: the value is 0, and only a separating plane decides"
-    return check.unless(scenes[1].relations[0].by == "plane" and hidden[0] < hidden[1], case)
+    return [scene.relations[0].nearer != 0 for scene in scenes] == [False, True] and hidden[0] < hidden[1]
+
+
+@claim("nakamae-nishita.36", full=600)
+def nearer_polyhedron(cases: int = 3) -> Check:
+    """Check that the polyhedron with the nearer point at an intersection is the nearer one on all lines of sight."""
+    check = order_on_lines_of_sight(cases)
+    return check.unless(_undecided_if_touching(), "two boxes that touch at the intersection: formula (4) is 0")
 
 
 @claim("nakamae-nishita.42")
@@ -261,7 +273,7 @@ def table_by_formula_4() -> Check:
 
 @claim("nakamae-nishita.61")
 def nearer_contour_inside() -> Check:
-    """Check that a box in front of a frustum hides sides of its top without intersecting them."""
+    """Check that a box in front of a frustum hides the upper parts of its walls' edges, and all sides of its top."""
     corners = [(x, y, z) for z, low, high in ((0, 0, 8), (2, 3, 5)) for x, y in _ring(low, high)]
     walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
     frustum = Polyhedron(
@@ -275,8 +287,16 @@ def nearer_contour_inside() -> Check:
         passage for edge_passages in drawing.passages if edge_passages.solid == 0 for _, passage in edge_passages.behind
     ]
     whole, met = passages.count(ENCLOSED), sum(bool(passage.marks) for passage in passages)
-    message = f"{met} inner edges of the frustum meet the contour of the box"
-    check = exhibited(met and _hidden(drawing, INNER) > 0, message)
+    # A point of the frustum is hidden if its image is inside the square contour of the box, from 2 to 6 in x and y.
+    pieces = [(piece, at) for piece, (_, at) in zip(drawing.pieces, samples(drawing), strict=True) if piece.solid == 0]
+    correct = [piece.visible != (max(abs(x - 4), abs(y - 4)) < 2) for piece, (x, y, _) in pieces]
+    divided = [piece for piece, _ in pieces if piece.last - piece.first < 1]
+    marks = [point_of(drawing, piece, end) for piece in divided for end in (piece.first, piece.last) if 0 < end < 1]
+    correct += [max(abs(x - 4), abs(y - 4)) == 2 for x, y, _ in marks]
+    ends = sorted((*sorted((piece.start, piece.end)), piece.visible) for piece in divided)
+    correct.append(ends == [(k, k + 4, visible) for k in range(4) for visible in (False, True)])
+    message = f"{met} inner edges of the frustum are divided where they meet the contour of the box"
+    check = exhibited(met == 4 and all(correct), message)
     without = whole and _hidden(drawing, CONTOUR) == 0
     return check.unless(without, f"{whole} other inner edges, which are hidden without meeting it")
 

@@ -100,7 +100,7 @@ def third_new_plane() -> Check:
     """Check that the three new planes of a step contain different pairs of the points MM, NN and KK."""
     outcomes = [ok for sampled in sampled_sets(3, CASES) for ok in _replaced_facet(sampled)]
     pairs = [*combinations(("MM", "NN", "KK"), 2)]
-    printed = [("MM", "NN"), ("MM", "KK"), ("MM", "KK")]
+    printed = [("MM", "NN"), ("MM", "KK"), ("MM", "KK"), ("MM", "KK")]
     message = f"the new planes contain {', '.join(map(' and '.join, pairs))}: {len(outcomes)} cases"
     return slip({*printed} == {*pairs}, all(outcomes) and outcomes, "NN and KK", message)
 

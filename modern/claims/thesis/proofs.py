@@ -46,10 +46,11 @@ def theorem_4_3() -> Proof:
     d_k, d_j, v_k, v_j, dd = variables("d_k^2 d_j^2 V_k V_j D^2")
     # Page 42: the direction cosines times e D are the differences of the coordinates.
     cosines, (e, d) = point("lambda", 3), variables("e D")
-    scaled = [e * d * cosine - a for cosine, a in zip(cosines, u, strict=True)]
+    scaled, norm = [e * d * cosine - a for cosine, a in zip(cosines, u, strict=True)], dot(cosines, cosines)
     return Proof(
         "V_k >= V_j implies that the point k is at least as far from the line as the point j",
-        "D^2 is positive because the points differ in a coordinate. The square of the distance of x from any point of "
+        "D^2 is positive because the points differ in a coordinate. e^2 is 1 and D^2 is the sum of the squares of the "
+        "differences, so the squares of the cosines have the sum 1. The square of the distance of x from any point of "
         "the line, times D^2, is at least V, and equals V at the foot of the perpendicular. So d^2 D^2 is V, and "
         "dividing by D^2 keeps the order.",
         (
@@ -59,9 +60,15 @@ def theorem_4_3() -> Proof:
             ),
             Step(
                 "the squares of the direction cosines have the sum 1",
-                {axis: zero(value) for axis, value in zip("xyz", scaled, strict=True)},
-                zero(e * e * d * d * dot(cosines, cosines) - square),
-                tuple(term(axis, value + 2 * a) for axis, value, a in zip("xyz", scaled, u, strict=True)),
+                {axis: zero(value) for axis, value in zip("xyz", scaled, strict=True)}
+                | {"e": zero(e * e - 1), "D": zero(d * d - square), "distinct": positive(square)},
+                zero(norm - 1),
+                (
+                    *(term(axis, value + 2 * a) for axis, value, a in zip("xyz", scaled, u, strict=True)),
+                    term("e", -d * d * norm),
+                    term("D", -1 * norm),
+                ),
+                ("distinct",),
             ),
             Step(
                 "the square of no distance is less than V / D^2",

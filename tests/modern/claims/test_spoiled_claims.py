@@ -21,6 +21,7 @@ from modern.claims.register import decisions
 from modern.claims.sampled_sets import SampledSet, sampled_sets
 from modern.geometry.hull import Hull
 from modern.papers.nakamae_nishita.contours import Tables
+from modern.papers.nakamae_nishita.hidden import Drawing
 from tests.modern.claims.spoilers import is_noticed, verdict
 from tests.support.caches import cleared
 
@@ -46,6 +47,12 @@ def _listing_with(old: str, new: str) -> Callable[[Any], object]:
     return lambda original: SimpleNamespace(deck=partial(deck, original), program=original.program)
 
 
+def _divided_visible(drawing: Drawing) -> Drawing:
+    """Make the pieces of all divided edges visible."""
+    pieces = (replace(p, visible=p.visible or p.last - p.first < 1) for p in drawing.pieces)
+    return replace(drawing, pieces=tuple(pieces))
+
+
 def _without_code(original: Any) -> object:
     return SimpleNamespace(deck=original.deck, program=lambda _: SimpleNamespace(code=(), statements=()))
 
@@ -61,6 +68,7 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "appel-will.80": ("findings", lambda original: lambda paper: [replace(f, produced=()) for f in original(paper)]),
     "kovalevsky-schulz.18": ("local", lambda original: lambda solid, *_: original(solid) if _ else {*solid}),
     "kovalevsky-schulz.96": ("_is_symmetric", lambda _: lambda ring: True),
+    "nakamae-nishita.61": ("draw", lambda original: lambda *made, **named: _divided_visible(original(*made, **named))),
     "thesis.3": ("programs", _without_code),
     "thesis.65": ("programs", _listing_with("NETC", "NTC")),
     "thesis.129": ("_c_0", lambda original: lambda *points: original(*points) + 1),
@@ -73,6 +81,7 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "thesis.208": ("programs", _without_code),
     "thesis.219": ("programs", _listing_with("NETC=1", "NETC=2")),
     "thesis.242": ("_distance_squared", lambda _: lambda x, p, q: Fraction((3 * abs(x[0]) - 2 * x[1] + 5) ** 2, 13)),
+    "thesis.261": ("programs", _listing_with("POINTS THAT ARE NOT VERTICES", "")),
     "thesis.262": ("programs", _listing_with("INSIDE PLANES", "PLANES")),
     "thesis.263": ("programs", _listing_with("INSID=2", "INSID=1")),
     "thesis.269": ("sampled_sets", lambda original: lambda *size: [*map(_with_idle_stage, original(*size))]),
