@@ -45,12 +45,12 @@ def theorem_4_3() -> Proof:
     foot = along - t * square
     d_k, d_j, v_k, v_j, dd = variables("d_k^2 d_j^2 V_k V_j D^2")
     # Page 42: the direction cosines times e D are the differences of the coordinates.
-    cosines, (e, d) = point("lambda", 3), variables("e D")
-    scaled, norm = [e * d * cosine - a for cosine, a in zip(cosines, u, strict=True)], dot(cosines, cosines)
+    cosines, (d,) = point("lambda", 3), variables("D")
+    scaled = {e: [e * d * cosine - a for cosine, a in zip(cosines, u, strict=True)] for e in (1, -1)}
     return Proof(
         "V_k >= V_j implies that the point k is at least as far from the line as the point j",
-        "D^2 is positive because the points differ in a coordinate. e^2 is 1 and D^2 is the sum of the squares of the "
-        "differences, so the squares of the cosines have the sum 1. The square of the distance of x from any point of "
+        "D^2 is positive because the points differ in a coordinate. e is 1 or -1 and D^2 is the sum of the squares of "
+        "the differences, so the squares of the cosines have the sum 1. The square of the distance of x from any point of "
         "the line, times D^2, is at least V, and equals V at the foot of the perpendicular. So d^2 D^2 is V, and "
         "dividing by D^2 keeps the order.",
         (
@@ -58,17 +58,19 @@ def theorem_4_3() -> Proof:
                 Step("D^2 > 0", {"differ": positive(a * a)}, positive(square), _sum("differ", (b, c)))
                 for a, b, c in ((ux, uy, uz), (uy, uz, ux), (uz, ux, uy))
             ),
-            Step(
-                "the squares of the direction cosines have the sum 1",
-                {axis: zero(value) for axis, value in zip("xyz", scaled, strict=True)}
-                | {"e": zero(e * e - 1), "D": zero(d * d - square), "distinct": positive(square)},
-                zero(norm - 1),
-                (
-                    *(term(axis, value + 2 * a) for axis, value, a in zip("xyz", scaled, u, strict=True)),
-                    term("e", -d * d * norm),
-                    term("D", -1 * norm),
-                ),
-                ("distinct",),
+            *(
+                Step(
+                    f"the squares of the direction cosines have the sum 1 if e is {e}",
+                    {axis: zero(value) for axis, value in zip("xyz", values, strict=True)}
+                    | {"D": zero(d * d - square), "distinct": positive(square)},
+                    zero(dot(cosines, cosines) - 1),
+                    (
+                        *(term(axis, value + 2 * a) for axis, value, a in zip("xyz", values, u, strict=True)),
+                        term("D", -1 * dot(cosines, cosines)),
+                    ),
+                    ("distinct",),
+                )
+                for e, values in scaled.items()
             ),
             Step(
                 "the square of no distance is less than V / D^2",
