@@ -50,8 +50,8 @@ def theorem_4_3() -> Proof:
     return Proof(
         "V_k >= V_j implies that the point k is at least as far from the line as the point j",
         "D^2 is positive because the points differ in a coordinate. e is 1 or -1 and D^2 is the sum of the squares of "
-        "the differences, so the squares of the cosines have the sum 1. The square of the distance of x from any point of "
-        "the line, times D^2, is at least V, and equals V at the foot of the perpendicular. So d^2 D^2 is V, and "
+        "the differences, so the squares of the cosines have the sum 1. The square of the distance of x from any point "
+        "of the line, times D^2, is at least V, and equals V at the foot of the perpendicular. So d^2 D^2 is V, and "
         "dividing by D^2 keeps the order.",
         (
             *(
