@@ -72,8 +72,8 @@ def test_parentheses_may_be_nested_sixty_deep() -> None:
         ("nested loops in a list", "three"),
         ("nested groups in a FORMAT", "two, within its own parentheses"),
         ("fields of a FORMAT, with repetitions expanded", "2,000"),
-        ("width of X and H", f"{MAX_LITERAL} (p. 37, 41); a larger width is a warning"),
-        ("a record", f"{MAX_RECORD} characters (p. 43, 56); a longer one is a warning"),
+        ("width of X and H", f"{MAX_LITERAL} (p. 37, 41); a larger width causes a warning"),
+        ("a record", f"{MAX_RECORD} characters (p. 43, 56); a longer record causes a warning"),
         ("data", "5,988 numbers in 60,000 positions"),
     ],
 )

@@ -182,7 +182,7 @@ HEADER = nrrd(STEPS.astype("u1"), "uchar")
         (HEADER.replace(b"dimension: 3", b"dimension: x"), "line 4: dimension: 'x' is not an integer"),
         (HEADER.replace(b"sizes: 2 3 4", b"sizes: 2 3"), "line 5: sizes: expected 3 positive integers"),
         (HEADER.replace(b"sizes: 2 3 4", b"sizes: 2 0 4"), "line 5: sizes: expected 3 positive integers"),
-        (HEADER.replace(b"sizes: 2 3 4", b"sizes: 99999 99999 99999"), "line 5: expected at most"),
+        (HEADER.replace(b"sizes: 2 3 4", b"sizes: 99999 99999 99999"), "line 5: sizes: expected at most"),
         (HEADER.replace(b"type: uchar", b"type: block"), "line 3: type: 'block' is not supported"),
         (HEADER.replace(b"type: uchar", b"type: short"), "the header has no field 'endian'"),
         (HEADER.replace(b"type: uchar", b"type: int\nendian: odd"), "line 4: endian: expected little or big"),
