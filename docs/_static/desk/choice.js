@@ -43,10 +43,10 @@ const deskChoice = (() => {
     SELECTS[what].value = name;
   }
 
-  /** Choose a built-in program and a deck. @param {string} program @param {string} deck */
-  function pick(program, deck) {
-    option("programs", program, program);
-    option("decks", deck, deck);
+  /** Choose a built-in program and a deck. @param {string} program @param {string} deck @param {string[]} [titles] */
+  function pick(program, deck, titles = [program, deck]) {
+    option("programs", program, titles[0]);
+    option("decks", deck, titles[1]);
     [SELECTS.programs.value, SELECTS.decks.value] = [program, deck];
   }
 

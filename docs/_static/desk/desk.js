@@ -10,7 +10,7 @@ const deskTape = (() => {
 
   /** Choose the program and the deck of the recorded run, so that the whole desk shows the same run. */
   function choose() {
-    deskChoice.pick("program3", "example5/punched");
+    deskChoice.pick("program3", "example5/punched", ["program 3", "example 5, punched by program 1"]);
     isChosen = true;
   }
 

@@ -230,7 +230,7 @@ const deskRun = (() => {
     deskShow.core.draw();
   }
 
-  /** Show the first decision that exact arithmetic takes otherwise. */
+  /** Show the first decision that is different in exact arithmetic. */
   async function decide() {
     if (!machine || !deskShow.loaded) return say("Load a program first.");
     say("Exact arithmetic runs the same program …");
@@ -241,7 +241,7 @@ const deskRun = (() => {
     deskShow.compare(answer, desk.dataset.state === "ended");
     if (!statement) return say(`${lines[0][0].toUpperCase()}${lines[0].slice(1)}. ${says ?? ""}`);
     await jump(statement);
-    say(`The first decision that exact arithmetic takes otherwise: ${lines.join("; ")}. Press START to see its effect on the hull.`);
+    say(`The first decision that is different in exact arithmetic: ${lines.join("; ")}. Press START to see its effect on the hull.`);
   }
 
   /** Show the field at an address, with the digits as the 1620 held them. @param {number} digit */
