@@ -81,7 +81,7 @@ def test_a_package_that_no_contract_names_is_reported(empty_project: Path, packa
     assert "extra" in report
 
 
-def test_an_import_cycle_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_import_cycle_is_reported(tmp_path: Path, monkeypatch) -> None:
     package = tmp_path / "cyclic"
     package.mkdir()
     for name, line in {"__init__": "", "a": "from cyclic.b import x", "b": "import cyclic.c", "c": ""}.items():

@@ -35,7 +35,7 @@ def name(path: Path) -> str:
 
 
 @pytest.mark.parametrize("path", documents.DOCUMENTS, ids=name)
-def test_the_blocks_of_a_document_run(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_blocks_of_a_document_run(path: Path, tmp_path: Path, monkeypatch) -> None:
     documents.prepare_folder(tmp_path)
     monkeypatch.chdir(tmp_path)
     ran, skipped = documents.run(path)
@@ -95,7 +95,7 @@ def test_the_glossary_is_sorted_and_defines_each_term_once() -> None:
         ("```python\nassert False, 'here'\n```", "here"),
     ],
 )
-def test_a_failing_block_is_reported(block: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failing_block_is_reported(block: str, message: str, tmp_path: Path, monkeypatch) -> None:
     documents.prepare_folder(tmp_path)
     monkeypatch.chdir(tmp_path)
     page = tmp_path / "page.md"
@@ -118,9 +118,7 @@ def test_anchors_are_those_of_forge_and_site(tmp_path: Path) -> None:
     assert documents.linked_headings(page) == [(page, "here"), (tmp_path / "x.md", "one-two")]
 
 
-def test_blocks_share_a_folder_and_a_skipped_block_does_not_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_blocks_share_a_folder_and_a_skipped_block_does_not_run(tmp_path: Path, monkeypatch) -> None:
     documents.prepare_folder(tmp_path)
     monkeypatch.chdir(tmp_path)
     page = tmp_path / "page.md"

@@ -86,9 +86,7 @@ def run(toy: Path) -> int:
     return main(["--sample", "9", "--jobs", "1"], toy, toy / "tests" / "mutants")
 
 
-def test_a_change_that_matters_is_killed_and_one_that_does_not_survives(
-    toy: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_change_that_matters_is_killed_and_one_that_does_not_survives(toy: Path, capsys) -> None:
     assert run(toy) == 0
     with (toy / "build" / "mutants" / "toy.csv").open(encoding="utf-8", newline="") as file:
         assert [(row["line"], row["outcome"]) for row in csv.DictReader(file)] == [("2", KILLED), ("6", SURVIVED)]
@@ -114,15 +112,13 @@ def test_a_change_that_matters_is_killed_and_one_that_does_not_survives(
         ("tests/test_toy.py", "def test_nothing():\n    assert True\n", "toy: its tests never load toy.py\n"),
     ],
 )
-def test_tests_that_fail_or_do_not_load_the_area_judge_nothing(
-    toy: Path, file: str, text: str, message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_tests_that_fail_or_do_not_load_the_area_judge_nothing(toy, file, text, message, capsys) -> None:
     (toy / file).write_text(text, encoding="utf-8")
     assert run(toy) == 2
     assert capsys.readouterr().err.startswith(message)
 
 
-def test_an_endless_loop_is_stopped(toy: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+def test_an_endless_loop_is_stopped(toy: Path, tmp_path_factory) -> None:
     copy = copy_tree(toy, tmp_path_factory.mktemp("copy"))
     (copy / "order.json").write_text('{"seconds": {}}', encoding="utf-8")
     (mutant,) = (m for m in mutants("toy.py", TOY) if m.operator == "core/ReplaceBreakWithContinue")

@@ -21,9 +21,7 @@ from emulator.files import read_bytes, read_text, write_text, writing, writing_b
         ("x" * 5000, "x" * 5000 + ": file name too long"),
     ],
 )
-def test_unreadable_file_gives_a_one_line_error(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, message: str
-) -> None:
+def test_unreadable_file_gives_a_one_line_error(tmp_path: Path, monkeypatch, name: str, message: str) -> None:
     monkeypatch.chdir(tmp_path)
     for read in (read_bytes, read_text):
         with pytest.raises(FileError) as caught:
@@ -58,7 +56,7 @@ def test_byte_order_mark_is_removed(tmp_path: Path) -> None:
     assert read_text(str(tmp_path / "a")) == "1,2\r\n"
 
 
-def test_write_text(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_write_text(tmp_path: Path, capsys) -> None:
     path = tmp_path / "out.cards"
     write_text(str(path), "A\n")
     write_text(str(path), "B\n")

@@ -27,11 +27,11 @@ def ticking(step: float) -> Iterator[float]:
         now += step
 
 
-def test_progress_is_a_bar_on_a_terminal_and_lines_in_a_file(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_progress_is_a_bar_on_a_terminal_and_lines_in_a_file(monkeypatch) -> None:
     for columns in (100, 40, 20):
         monkeypatch.setenv("COLUMNS", str(columns))
         clock, file = ticking(1.0), Terminal()
-        progress = Progress(100, 20, file, clock=lambda clock=clock: next(clock))  # type: ignore[misc]
+        progress = Progress(100, 20, file, clock=lambda clock=clock: next(clock))
         progress.add(10)
         progress.add(70)
         progress.close()
@@ -92,9 +92,7 @@ def test_each_arithmetic_that_cannot_be_compiled_is_reported_once() -> None:
     assert "supports 9" in lines[0]
 
 
-def test_a_study_reports_that_the_interpreter_runs(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_study_reports_that_the_interpreter_runs(tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.setattr("modern.study.run.why_plain", lambda options: "no compiled engine here")
     run_study(PLAN, tmp_path / "loud", workers=1)
     assert capsys.readouterr().err.count("no compiled engine here\n") == 1

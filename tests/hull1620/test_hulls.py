@@ -131,7 +131,7 @@ def test_a_refusal_has_the_incomplete_result() -> None:
             getattr(returned, what)
     assert hull1620.convex_hull(DOUBLES, "float64", epsilon=1e-9).determined
     with pytest.raises(ValueError, match="on_refusal"):
-        hull1620.convex_hull(CUBE, on_refusal="ignore")  # type: ignore[arg-type]
+        hull1620.convex_hull(CUBE, on_refusal="ignore")
 
 
 def test_an_epsilon_that_merges_too_many_faces_is_refused_and_every_determined_hull_has_a_volume() -> None:
@@ -289,7 +289,7 @@ def test_a_program_of_the_thesis_is_loaded_by_its_name() -> None:
 @pytest.mark.parametrize(
     "call", [lambda: hull1620.convex_hull(CUBE, fast=True), lambda: hull1620.exact_hull(CUBE, fast=True)]
 )
-def test_fast_without_numba_is_an_error_for_every_input(call: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_fast_without_numba_is_an_error_for_every_input(call: Any, monkeypatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
     with pytest.raises(hull1620.EmulatorError, match=r"needs numba: pip install 'hull1620\[fast\]'"):
         call()

@@ -1,7 +1,5 @@
 """The command line called in this process, as the tests of commands do it."""
 
-import pytest
-
 from modern.cli.main import main
 
 DECK = " 4\n" + "".join(
@@ -17,7 +15,7 @@ PROGRAM = "    1 READ 2,X\n      PUNCH 2,X\n      GO TO 1\n    2 FORMAT (E14.8)\
 """A good data deck, and a program that copies cards."""
 
 
-def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+def call(capsys, *arguments: str) -> tuple[int, str, str]:
     """Exit code, standard output and standard error of one command; what was put out before does not count."""
     capsys.readouterr()
     try:

@@ -35,7 +35,7 @@ class ComparedMachine(Machine):
         if runner is not None:
             (run,) = runner.runs([packed(self.deck)])
             if run is not None:
-                core = list(zip(runner.core.mantissas.tolist(), runner.core.exponents.tolist(), strict=True))  # type: ignore[attr-defined]
+                core = list(zip(runner.core.mantissas.tolist(), runner.core.exponents.tolist(), strict=True))
                 assert core == [pair(self, address) for address in range(self.program.storage.length)]
         assert run_batch(self.program, [self.deck], self.options) == (result,)
         return result
@@ -113,7 +113,7 @@ def machine(
 
 def run(*lines: str, **setting: object) -> Result:
     """Compile ``lines``, run them, and return the result.  The settings are those of :func:`machine`."""
-    return machine(*lines, **setting).run()  # type: ignore[arg-type]
+    return machine(*lines, **setting).run()
 
 
 def until(session: Session, statements: int, operator: Operator | None = None) -> Ending | None:

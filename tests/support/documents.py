@@ -240,7 +240,7 @@ def _run_command(command: str) -> tuple[int, str]:
             code = main(arguments[1:])
         except SystemExit as error:
             code = int(error.code or 0)
-    return code, output.buffer.getvalue().decode()  # type: ignore[attr-defined]
+    return code, output.buffer.getvalue().decode()
 
 
 def _run_in_shell(command: str) -> tuple[int, str]:

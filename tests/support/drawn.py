@@ -63,5 +63,5 @@ class Picture:
 
 
 def draw(points: Sequence[Sequence[object]], eye: Sequence[int] | None = None) -> tuple[Hull, Picture]:
-    hull = convex_hull(points)  # type: ignore[arg-type]
+    hull = convex_hull(points)
     return hull, Picture(draw_svg(hull, eye))

@@ -11,7 +11,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from tests.support.commands import call
 
@@ -110,13 +109,7 @@ _MUTATIONS = (_flip, _byte, _cut, _beheaded, _without, _twice, _piece, _word, _n
 
 
 def codes_of(
-    name: str,
-    path: str,
-    make: Make,
-    words: Sequence[str],
-    folder: Path,
-    capsys: pytest.CaptureFixture[str],
-    files: int = FILES,
+    name: str, path: str, make: Make, words: Sequence[str], folder: Path, capsys, files: int = FILES
 ) -> set[int]:
     """Return the exit codes of a command for damaged files, in ``folder``, which is the current one.
 

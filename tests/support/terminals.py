@@ -47,7 +47,7 @@ class Person:
             env={**os.environ, "PYTHONPATH": str(ROOT), "TERM": term},
             start_new_session=True,
             pass_fds=(slave,),
-            **streams,  # type: ignore[arg-type]
+            **streams,
         )
         self._slave = slave
         self.output = ""

@@ -41,7 +41,7 @@ def test_no_other_device_file_is_committed() -> None:
 
 
 @pytest.mark.parametrize("entry", [d for d in CHAPTER.layout.devices if d.layer == "layout"], ids=lambda d: str(d.file))
-def test_cards_have_the_characters_of_the_print(entry) -> None:  # type: ignore[no-untyped-def]
+def test_cards_have_the_characters_of_the_print(entry) -> None:
     """Compare the committed file with the built lines, without the card reader."""
     committed = chapter6_folder().joinpath(*entry.file.split("/")).read_text(encoding="ascii")
     printed = "".join(line.text for line in chapter6_cards.printed_lines(CHAPTER, entry))
@@ -184,7 +184,7 @@ def test_unknown_device_is_one_clear_line() -> None:
         chapter6_cards.card_images(CHAPTER, 7, 1, "punch")
 
 
-def test_the_command_line_checks_and_rejects_wrong_options(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_line_checks_and_rejects_wrong_options(capsys) -> None:
     assert main(["--check"]) == 0
     assert capsys.readouterr().out == ""
     assert main(["--run"]) == 2

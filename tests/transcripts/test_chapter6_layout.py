@@ -63,7 +63,7 @@ def test_listed_format_is_on_its_page() -> None:
 def with_card(card_id: str, **changes: object) -> Chapter:
     """The chapter with one card of the layout changed wherever it is used."""
     layout = CHAPTER.layout
-    new = {c.id: dataclasses.replace(c, **changes) if c.id == card_id else c for c in layout.cards}  # type: ignore[arg-type]
+    new = {c.id: dataclasses.replace(c, **changes) if c.id == card_id else c for c in layout.cards}
     devices = tuple(
         dataclasses.replace(d, cards=tuple((new[c.id], role) for c, role in d.cards)) for d in layout.devices
     )

@@ -77,9 +77,7 @@ def test_random_programs_agree_in_every_profile(cards: list[str], data: list[lis
 
 @settings(max_examples=25)
 @given(programs(ALL_FUNCTIONS, powers=True), st.lists(DATA, min_size=1, max_size=3), OPTIONS)
-def test_random_programs_with_library_functions_agree(
-    cards: list[str], data: list[list[str]], options: Options
-) -> None:
+def test_random_programs_with_library_functions_agree(cards, data, options) -> None:
     random_program = compiled_program(cards)
     if random_program is not None:
         with within(60):
@@ -232,7 +230,7 @@ def test_more_decks_than_a_block_agree() -> None:
     assert count_compiled(COPY, *texts) == len(texts)
 
 
-def test_a_log_grows_and_a_deck_that_exceeds_it_runs_in_the_interpreter(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_log_grows_and_a_deck_that_exceeds_it_runs_in_the_interpreter(monkeypatch) -> None:
     monkeypatch.setattr(runner, "LOG_ROOM", 64)
     monkeypatch.setattr(runner, "MOST_LOG_ROOM", 1 << 10)
     lines = ["READ 1,N", "DO 5 I=1,N", "5 PUNCH 2,I", "1 FORMAT(I4)", "2 FORMAT(5X,I5)", "END"]

@@ -39,7 +39,7 @@ def test_ten_digits_run_in_the_interpreter() -> None:
     assert notes == ["truncating:10 has 10 digits; the compiled engine supports 9: using the interpreter instead"]
 
 
-def test_without_numba_the_interpreter_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_numba_the_interpreter_runs(monkeypatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
     monkeypatch.setattr(runner, "run_decks", runner.run_decks.__wrapped__)
     notes: list[str] = []
@@ -50,7 +50,7 @@ def test_without_numba_the_interpreter_runs(monkeypatch: pytest.MonkeyPatch) -> 
     assert note.endswith(": using the interpreter instead")
 
 
-def note_without_engine(monkeypatch: pytest.MonkeyPatch) -> str:
+def note_without_engine(monkeypatch) -> str:
     """Return the note if numba cannot be used, after checking the result."""
     monkeypatch.setattr(runner, "run_decks", runner.run_decks.__wrapped__)
     notes: list[str] = []
@@ -62,7 +62,7 @@ def note_without_engine(monkeypatch: pytest.MonkeyPatch) -> str:
     return note
 
 
-def test_a_disabled_numba_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_disabled_numba_is_reported(monkeypatch) -> None:
     """With NUMBA_DISABLE_JIT, Python would compute with NumPy's eight-bit codes, whose sums overflow."""
     numba = pytest.importorskip("numba")
     monkeypatch.setattr(numba.config, "DISABLE_JIT", 1)
@@ -98,7 +98,7 @@ SUM = "def twice(x):\n    return 2 * x\n\n\ndef entry(x):\n    return twice(x) +
 
 
 @pytest.fixture
-def cache_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def cache_folder(tmp_path: Path, monkeypatch) -> Path:
     """The folder of numba's cache."""
     pytest.importorskip("numba")
     monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path / "cache_folder"))
@@ -163,9 +163,7 @@ def test_damaged_code_is_compiled_again(tmp_path: Path, cache_folder: Path, patt
     assert from_cache(after) == 1
 
 
-def test_without_a_cache_folder_code_is_compiled_for_this_process(
-    tmp_path: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_a_cache_folder_code_is_compiled_for_this_process(tmp_path, cache_folder, monkeypatch) -> None:
     def refuse(*given: object, **named: object) -> None:
         raise PermissionError("no place here")
 
@@ -186,9 +184,7 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_compiling_is_reported_on_a_terminal_but_loading_is_not(
-    tmp_path: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_compiling_is_reported_on_a_terminal_but_loading_is_not(tmp_path, cache_folder, monkeypatch) -> None:
     for file, written in ((Terminal(), True), (Terminal(), False), (io.StringIO(), False)):
         monkeypatch.setattr(sys, "stderr", file)
         imported(tmp_path).ready(5)
@@ -197,9 +193,7 @@ def test_compiling_is_reported_on_a_terminal_but_loading_is_not(
         assert (line, wiped) in (("", ""), ("compiling entry, once: some seconds", " " * len(line) + "\r"))
 
 
-def test_functions_below_an_entry_are_compiled_only_with_it(
-    tmp_path: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_functions_below_an_entry_are_compiled_only_with_it(tmp_path: Path, cache_folder: Path, monkeypatch) -> None:
     """Without the compiler pass numba compiles each function separately, with the same results."""
     pytest.importorskip("numba")
     from numba.core.codegen import JitEngine

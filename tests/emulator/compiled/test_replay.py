@@ -125,7 +125,7 @@ def test_samples_surround_the_exact_value_and_are_the_same_for_the_same_seed(tap
     assert list(repetitions(tape, DIGITS, seeds[:2])) == list(repetitions(tape, DIGITS, seeds[:2]))
 
 
-def test_samples_are_those_of_the_interpreter_without_numba(tape: Tape, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_samples_are_those_of_the_interpreter_without_numba(tape: Tape, monkeypatch) -> None:
     seeds = [rules_of_stochastic(seed) for seed in (1, 2)]
     compile_repetitions()
     compiled = list(repetitions(tape, DIGITS, seeds))
@@ -134,7 +134,7 @@ def test_samples_are_those_of_the_interpreter_without_numba(tape: Tape, monkeypa
 
 
 def rules_of_stochastic(seed: int) -> Rules:
-    rules: Rules = numbers(f"stochastic:8:{seed}").profile.rules  # type: ignore[attr-defined]
+    rules: Rules = numbers(f"stochastic:8:{seed}").profile.rules
     return rules
 
 

@@ -151,13 +151,13 @@ def test_invalid_deck_file_is_rejected(tmp_path: Path, content: bytes, words: st
 
 
 @pytest.mark.parametrize("name", ["missing.deck", ".", "a\0b", "x" * 5000])
-def test_missing_deck_file_gives_a_one_line_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+def test_missing_deck_file_gives_a_one_line_error(tmp_path: Path, monkeypatch, name: str) -> None:
     monkeypatch.chdir(tmp_path)
     with pytest.raises(FileError) as caught:
         read_deck(name)
     assert "\n" not in str(caught.value)
 
 
-def test_read_deck_from_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_read_deck_from_standard_input(monkeypatch) -> None:
     monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"A\n"), encoding="utf-8"))
     assert read_deck("-") == deck_from_lines("standard input", ["A"])

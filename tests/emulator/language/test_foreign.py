@@ -145,9 +145,7 @@ def test_cards_around_a_subprogram_are_checked() -> None:
         (["", "C     END"], 0, []),
     ],
 )
-def test_data_and_control_cards_after_the_program_are_distinguished(
-    after: list[str], first: int, messages: list[str]
-) -> None:
+def test_data_and_control_cards_after_the_program_are_distinguished(after, first, messages) -> None:
     parsed = parse(source("READ 90,X", F, "END", *after))
     assert [card.number for card in parsed.data[:1]] == [first] * bool(first)
     assert [d.message.partition(":")[0].partition(";")[0] for d in parsed.diagnostics] == messages

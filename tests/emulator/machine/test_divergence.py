@@ -212,9 +212,7 @@ def test_an_arithmetic_does_not_differ_from_itself(cards: list[str], data: list[
 
 @settings(max_examples=30)
 @given(programs(), DATA, NAMES, NAMES)
-def test_differences_do_not_depend_on_the_choice_of_reference(
-    cards: list[str], data: list[str], studied: str, reference: str
-) -> None:
+def test_differences_do_not_depend_on_the_choice_of_reference(cards, data, studied, reference) -> None:
     """Without values the first decision is the same."""
     divergence, exchanged = (
         divergence_or_none(cards, data, studied, reference),
@@ -255,9 +253,7 @@ def traced_statements(made: Program, data: list[str], name: str) -> list[Line]:
 
 @settings(max_examples=40)
 @given(programs(), DATA, NAMES, NAMES)
-def test_the_first_decision_is_where_two_traces_first_differ(
-    cards: list[str], data: list[str], studied: str, reference: str
-) -> None:
+def test_the_first_decision_is_where_two_traces_first_differ(cards, data, studied, reference) -> None:
     divergence = divergence_or_none(cards, data, studied, reference)
     if divergence is None:
         return

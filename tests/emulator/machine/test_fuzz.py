@@ -60,9 +60,7 @@ def checked_ending(machine: Machine, result: Result, options: Options) -> str:
 
 @settings(max_examples=80)
 @given(st.one_of(programs(), programs(ALL_FUNCTIONS, powers=True), spoilt_programs()), DATA, OPTIONS, KEYS)
-def test_random_and_corrupted_programs_end_with_a_result_or_an_error(
-    cards: list[str], data: list[str], options: Options, keys: list[str]
-) -> None:
+def test_random_and_corrupted_programs_end_with_a_result_or_an_error(cards, data, options, keys) -> None:
     exercise(cards, data, replace(options, limit=2_000), keys)
 
 

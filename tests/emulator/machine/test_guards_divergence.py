@@ -48,9 +48,7 @@ READ = ["READ 1,A,B", "C=A-B", "1 FORMAT(2F8.5)"]
     ],
     ids=lambda value: "-".join(value) if isinstance(value, tuple) else "",
 )
-def test_the_loss_of_three_digits_does_not_depend_on_the_reference(
-    names: tuple[str, str], losses: dict[int, float]
-) -> None:
+def test_the_loss_of_three_digits_does_not_depend_on_the_reference(names, losses) -> None:
     """.33369 and .33302 are .333 in three digits.
 
     .00069/.33369 and .00069/.333 are both 2.07E-3, whose logarithm is -2.68, so that .3 of three digits are lost. The

@@ -255,7 +255,7 @@ def test_a_typed_line_may_only_hold_characters_of_the_card_code(line: str, lines
 def test_an_undefined_operand_ends_the_run(statement: str) -> None:
     result = run("X=1.", statement, "END")
     assert result.ending.kind == "undefined"
-    name = re.search("[BL]", statement)[0]  # type: ignore[index]
+    name = re.search("[BL]", statement)[0]
     assert result.ending.message == f"deck.f: card 2: {name} is undefined but is used in a calculation, in {statement}"
 
 

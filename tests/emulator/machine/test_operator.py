@@ -16,12 +16,12 @@ WAITING = ["K=0", "1 K=K+1", "IF(SENSE SWITCH 2)2,1", "2 PAUSE", "TYPE 90,K", "9
 
 
 def answered(lines: list[str], text: str, **setting: object) -> Result:
-    return machine(*lines, **setting).run(FromFile("o.txt", text))  # type: ignore[arg-type]
+    return machine(*lines, **setting).run(FromFile("o.txt", text))
 
 
 def logged(lines: list[str], text: str, **setting: object) -> tuple[Result, str]:
     log = io.StringIO()
-    result = machine(*lines, **setting).run(Logged(FromFile("o.txt", text), log))  # type: ignore[arg-type]
+    result = machine(*lines, **setting).run(Logged(FromFile("o.txt", text), log))
     return result, log.getvalue()
 
 

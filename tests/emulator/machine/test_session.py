@@ -19,7 +19,7 @@ ENDLESS = ["K=0", "1 K=K+1", "PUNCH 90,K", "TYPE 90,K", "GO TO 1", "90 FORMAT(I5
 
 
 def session(*lines: str, data: Sequence[str] = (), **setting: object) -> Session:
-    return Session(program(*lines), deck_from_lines("data.cards", data), Options(), **setting)  # type: ignore[arg-type]
+    return Session(program(*lines), deck_from_lines("data.cards", data), Options(), **setting)
 
 
 def texts(events: Sequence[Event]) -> list[str]:

@@ -18,7 +18,7 @@ def traced(*lines: str, data: tuple[str, ...] = (), limit: int = 1000, arithmeti
 
 def values(*lines: str, **setting: object) -> list[str]:
     """Return the value at the end of each line of the trace."""
-    return [line[52:].strip() for line in traced(*lines, **setting)[1:]]  # type: ignore[arg-type]
+    return [line[52:].strip() for line in traced(*lines, **setting)[1:]]
 
 
 def test_a_trace_shows_stored_and_tested_values() -> None:

@@ -66,9 +66,7 @@ COSTLY = [
 
 
 @pytest.mark.parametrize(("arithmetic", "statement", "least", "most"), COSTLY)
-def test_costly_operations_count_in_proportion_to_their_time(
-    arithmetic: str, statement: str, least: int, most: int
-) -> None:
+def test_costly_operations_count_in_proportion_to_their_time(arithmetic, statement, least, most) -> None:
     """The count excludes the plain unit of each statement. It is an estimate, made before the operation is done."""
     lines = ["A=1.0000123", *[statement[k : k + 66] for k in range(0, len(statement), 66)]]
     lines[2:] = ["     1" + line for line in lines[2:]]
@@ -77,7 +75,7 @@ def test_costly_operations_count_in_proportion_to_their_time(
 
 
 @pytest.mark.parametrize("statement", ["B=EXP(A)", "B=A**A"])
-def test_an_operation_far_beyond_the_limit_is_not_done(statement: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_operation_far_beyond_the_limit_is_not_done(statement: str, monkeypatch) -> None:
     """The message names the statement and a remedy."""
     for name in ("function", "power"):
         monkeypatch.setattr(MultiprecisionNumbers, name, None)

@@ -75,7 +75,7 @@ def expected(columns: str, decimals: int, digits: int) -> tuple[int, int, bool] 
 def test_floating_fields(columns: str, decimals: int, rules: tuple[int, ...]) -> None:
     want = expected(columns, decimals, rules.digits)
     try:
-        number_read = read_floating(Field("E", max(1, len(columns)), decimals), columns, rules)  # type: ignore[arg-type]
+        number_read = read_floating(Field("E", max(1, len(columns)), decimals), columns, rules)
     except FieldError:
         assert want is None
         return
@@ -107,7 +107,7 @@ def test_written_fields(data: st.DataObject, rules: tuple[int, ...], width: int,
     mantissa = data.draw(st.sampled_from([size, -size]))
     minus = "-" if mantissa < 0 else ""
     value = Decimal(size).scaleb(exponent - rules.digits)
-    text, overflowed = write_floating(Field("F", width, decimals), mantissa, exponent, rules)  # type: ignore[arg-type]
+    text, overflowed = write_floating(Field("F", width, decimals), mantissa, exponent, rules)
     cut = f"{int(value.scaleb(decimals)):0{decimals + 1}d}"
     whole = cut[: len(cut) - decimals].lstrip("0")
     expected = f"{minus}{whole}.{cut[len(cut) - decimals :]}"
@@ -116,7 +116,7 @@ def test_written_fields(data: st.DataObject, rules: tuple[int, ...], width: int,
     eight = str(size).ljust(8, "0")[:8]
     by_e = f"{minus}.{eight}E{exponent:+03d}".rjust(14)
     assert text == (by_e if overflowed else expected.rjust(width))
-    text, overflowed = write_floating(Field("E", width, decimals), mantissa, exponent, rules)  # type: ignore[arg-type]
+    text, overflowed = write_floating(Field("E", width, decimals), mantissa, exponent, rules)
     count = 8 if width >= 14 else width - 6
     whole_digits = count - decimals
     if count < 1 or whole_digits < 0 or exponent - whole_digits < -99:

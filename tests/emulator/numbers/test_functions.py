@@ -9,16 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from emulator.numbers.accumulator import whole_power
-from emulator.numbers.arithmetic import (
-    IBM1962,
-    TRUNCATING,
-    TRUNCATING1962,
-    ZERO,
-    Profile,
-    from_integer,
-    multiply,
-    profile,
-)
+from emulator.numbers.arithmetic import IBM1962, TRUNCATING, TRUNCATING1962, ZERO, from_integer, multiply, profile
 from emulator.numbers.functions import Value, _exact_power, decimal_chain, function, integer_power, power
 from tests.support.deckwork import machine, number
 
@@ -103,9 +94,7 @@ def test_known_values_are_truncated_to_eight_digits(statement: str, expected: st
         ("EXP", (-(10**7), 99), 0, ZERO, "F5"),
     ],
 )
-def test_invalid_arguments_give_the_error_codes(
-    name: str, argument: tuple[int, int], mantissa: int, exponent: int, code: str
-) -> None:
+def test_invalid_arguments_give_the_error_codes(name, argument, mantissa, exponent, code) -> None:
     """GOTRAN's table F1 to F5 (C26-5594 p. 28); ln 2.7182818 = .99999998..."""
     assert function(name, *argument, RULES) == Value(mantissa, exponent, code)
 
@@ -149,9 +138,7 @@ def test_ibm1962_computes_integer_powers_by_multiplication(mantissa: int, expone
 @example((99999999, 0), False, 9999, IBM1962)
 @example((97999999, 0), True, 9999, IBM1962)
 @example((10300000, 1), True, 8000, TRUNCATING1962)
-def test_long_chains_of_products_equal_products_of_integers(
-    base: tuple[int, int], minus: bool, count: int, arithmetic: Profile
-) -> None:
+def test_long_chains_of_products_equal_products_of_integers(base, minus, count, arithmetic) -> None:
     mantissa, exponent = base
     case = (-mantissa if minus else mantissa, exponent, count, arithmetic.rules)
     assert decimal_chain(*case) == whole_power(*case)

@@ -44,9 +44,7 @@ OPERATIONS: dict[str, Callable[[Numbers, float, float], float]] = {
         ("/", 2.0, inf, 0.0),
     ],
 )
-def test_infinite_operand_does_not_overflow(
-    name: str, operation: str, first: float, second: float, result: float
-) -> None:
+def test_infinite_operand_does_not_overflow(name, operation, first, second, result) -> None:
     """A Trap would type the error code a second time for a single overflow."""
     assert OPERATIONS[operation](numbers(name), first, second) == result
 

@@ -33,9 +33,7 @@ DECIMALS = st.tuples(st.integers(-9999, 9999), st.integers(-4, 2))
     st.lists(DECIMALS, min_size=2, max_size=5),
     st.lists(st.tuples(st.sampled_from(OPERATIONS), st.integers(0, 99), st.integers(0, 99)), max_size=12),
 )
-def test_exact_number_lies_within_the_bound(
-    name: str, decimals: list[tuple[int, int]], steps: list[tuple[str, int, int]]
-) -> None:
+def test_exact_number_lies_within_the_bound(name, decimals, steps) -> None:
     """For any formula of sums, products and quotients.  A bound of zero means an exact number."""
     system = shadowed(name)
     held: list[Shadowed] = [system.decimal(*decimal) for decimal in decimals]

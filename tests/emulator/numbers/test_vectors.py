@@ -61,7 +61,7 @@ def test_any_number_of_digits(engines: MakeMachine, vector: Vector) -> None:
 
 @pytest.mark.parametrize("vector", load("do"))
 def test_do(engines: MakeMachine, vector: Vector) -> None:
-    label = re.match(r"DO *(\d+) *I *=", vector.operation)[1]  # type: ignore[index]
+    label = re.match(r"DO *(\d+) *I *=", vector.operation)[1]
     lines = ["K=0", *vector.setup, vector.operation, f"{label} K=K+1", "PUNCH 99,K,I", "99 FORMAT(I3,I4)", "END"]
     cards = started(engines, vector, lines).run().punched
     assert [numbers_on(card).split() for card in cards] == [vector.result.split()]

@@ -35,7 +35,7 @@ def exported(source: Deck, data: Sequence[str], compiler: Compiler) -> Job:
 
 def on_one_line(card: str) -> str:
     """Return the number and the statement of a card of the listing, where a number may touch its statement."""
-    number, statement = re.fullmatch(r" *(\d*) *(.*?) *", card[:72]).groups()  # type: ignore[union-attr]
+    number, statement = re.fullmatch(r" *(\d*) *(.*?) *", card[:72]).groups()
     return f"{number}:{statement}"
 
 
@@ -152,9 +152,7 @@ def check(*words: str, folder: Path) -> tuple[int, str]:
         ("VERTICES", "", "other", 1),
     ],
 )
-def test_check_names_the_class_of_a_difference(
-    tmp_path: Path, expected: str, punched: str, kind: str, code: int
-) -> None:
+def test_check_names_the_class_of_a_difference(tmp_path, expected, punched, kind, code) -> None:
     (tmp_path / "a").write_text(f"SAME\n{expected}\n", encoding="ascii")
     (tmp_path / "b").write_text(f"SAME\n{punched}\n", encoding="ascii")
     status, report = check("compare", "a", "b", folder=tmp_path)

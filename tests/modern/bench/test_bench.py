@@ -21,7 +21,7 @@ GFORTRAN = shutil.which("gfortran")
 needs_compiler = pytest.mark.skipif(GFORTRAN is None, reason="no gfortran")
 
 
-def test_missing_compilers_are_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_compilers_are_reported(monkeypatch) -> None:
     monkeypatch.setenv("PATH", os.devnull)
     monkeypatch.delenv("FC", raising=False)
     with pytest.raises(native.NoCompiler, match="no Fortran compiler is installed"):
@@ -57,10 +57,10 @@ def test_differences_are_classified(card: str, kind: str) -> None:
     assert agreement.first.startswith("deck 2 has '1 ")
 
 
-def test_works_are_timed_in_turn(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_works_are_timed_in_turn(monkeypatch) -> None:
     monkeypatch.setattr("modern.bench.timing.RUNS", 2)
     order: list[str] = []
-    figures = side_by_side({name: lambda name=name: order.append(name) for name in "ab"})  # type: ignore[misc]
+    figures = side_by_side({name: lambda name=name: order.append(name) for name in "ab"})
     assert order == ["a", "b"] * 3
     assert [(figure.what, len(figure.seconds)) for figure in figures] == [("a", 2), ("b", 2)]
 
@@ -80,9 +80,7 @@ def test_table_has_times_and_ratios() -> None:
     assert json.loads(json.dumps(document(bench)))["engines"][1]["seconds_a_deck"] == 0.00025
 
 
-def test_command_measures_without_compiler_and_numba(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_command_measures_without_compiler_and_numba(tmp_path: Path, capsys, monkeypatch) -> None:
     """The remaining engines are measured, and one line each reports what is missing."""
     monkeypatch.setenv("PATH", os.devnull)
     monkeypatch.delenv("FC", raising=False)
@@ -109,9 +107,7 @@ def test_command_measures_without_compiler_and_numba(
         ("false", "^false.* cannot compile the translated program: no reason given"),
     ],
 )
-def test_commands_that_are_not_compilers_are_reported(
-    command: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_commands_that_are_not_compilers_are_reported(command: str, message: str, tmp_path: Path, monkeypatch) -> None:
     monkeypatch.setenv("FC", command)
     with pytest.raises(native.NoCompiler, match=message) as caught:
         native.built(programs.deck(PROGRAM, LAYERS), native.compiler(), tmp_path)
@@ -119,7 +115,7 @@ def test_commands_that_are_not_compilers_are_reported(
 
 
 @needs_compiler
-def test_all_engines_are_measured(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_all_engines_are_measured(tmp_path: Path, monkeypatch) -> None:
     pytest.importorskip("numba")
     monkeypatch.setattr("modern.bench.measure._starts", lambda text, folder, say: ())
     bench = measure(3)
@@ -137,9 +133,7 @@ def test_all_engines_are_measured(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         (["--json", "."], "is a directory"),
     ],
 )
-def test_invalid_arguments_are_reported_in_one_line(
-    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_invalid_arguments_are_reported_in_one_line(arguments: list[str], message: str, capsys) -> None:
     assert main(["bench", *arguments]) == 2
     err = capsys.readouterr().err
     assert message in err

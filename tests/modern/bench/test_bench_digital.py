@@ -11,15 +11,15 @@ from modern.papers.kovalevsky_schulz import voxel_hull
 
 
 @pytest.fixture(autouse=True)
-def one_run(monkeypatch: pytest.MonkeyPatch) -> None:
+def one_run(monkeypatch) -> None:
     monkeypatch.setattr("modern.bench.timing.RUNS", 1)
 
 
-def without_scikit_image(monkeypatch: pytest.MonkeyPatch) -> None:
+def without_scikit_image(monkeypatch) -> None:
     monkeypatch.setattr(digital, "find_spec", lambda name: None)
 
 
-def test_table_compares_the_octree_hull_with_the_digital_hull(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_table_compares_the_octree_hull_with_the_digital_hull(monkeypatch) -> None:
     without_scikit_image(monkeypatch)
     table = digital.table(ball(7), slow=True)
     assert table.points == "ball:7:voxel, 179 voxels"
@@ -35,7 +35,7 @@ def test_scikit_image_agrees_with_the_digital_hull() -> None:
 
 
 @pytest.mark.parametrize("name", ["octree_hull", "voxel_hull", "by_scikit_image"])
-def test_table_reports_a_different_hull(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_table_reports_a_different_hull(name: str, monkeypatch) -> None:
     right = digital.octree_hull
     wrong = {
         "octree_hull": lambda volume: replace(right(volume), filled=~right(volume).filled),

@@ -15,7 +15,7 @@ from modern.bench.timing import Curve
 POINTS = np.array([(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)])
 
 
-def test_tables_work_without_peers(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tables_work_without_peers(monkeypatch) -> None:
     """Each missing peer has one line, and the project's rows are measured alone."""
     monkeypatch.setenv("CXX", "nothere")
     monkeypatch.setitem(sys.modules, "scipy.spatial", None)
@@ -30,7 +30,7 @@ def test_tables_work_without_peers(monkeypatch: pytest.MonkeyPatch) -> None:
     assert table.lines()[0].split() == ["eight", "points", "seconds"]
 
 
-def test_every_table_measures_judge_or_port_and_peers(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_table_measures_judge_or_port_and_peers(monkeypatch) -> None:
     pytest.importorskip("scipy")
     monkeypatch.setattr(hulls, "RUNS", 1)
     monkeypatch.setattr(hulls, "find_spec", lambda name: None)
@@ -68,7 +68,7 @@ def test_linear_algebra_uses_one_thread() -> None:
     assert process.stdout == "1 False\n"
 
 
-def test_failed_study_ends_the_timing_with_its_message(capfd: pytest.CaptureFixture[str]) -> None:
+def test_failed_study_ends_the_timing_with_its_message(capfd) -> None:
     with pytest.raises(SystemExit, match="no-study: the study failed with exit code 2"):
         studies.first_rows("no-study")
     assert "no-study" in capfd.readouterr().err

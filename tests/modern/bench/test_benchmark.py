@@ -104,9 +104,7 @@ def texts() -> dict[str, str]:
     return benchmark(6)
 
 
-def test_benchmark_is_reproducible_and_complete(
-    texts: dict[str, str], tmp_path_factory: pytest.TempPathFactory
-) -> None:
+def test_benchmark_is_reproducible_and_complete(texts: dict[str, str], tmp_path_factory) -> None:
     verdicts = json.loads(texts["verdicts.json"])
     assert len(verdicts) == 21
     for verdict in verdicts:
@@ -145,12 +143,12 @@ def test_verdicts_agree_with_the_exact_value(texts: dict[str, str]) -> None:
         (["thesis", "--to", "c"], "thesis is a document; its formulas can only be written with --to fpcore"),
     ],
 )
-def test_wrong_arguments_are_reported(arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_arguments_are_reported(arguments: list[str], message: str, capsys) -> None:
     assert main(["translate", *arguments]) == 2
     assert message in capsys.readouterr().err
 
 
-def test_command_writes_each_language(capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_writes_each_language(capsys) -> None:
     for program, language, first in (
         ("program1", "c", "/* program1.f, translated"),
         ("program1", "fortran", "! program1.f, translated"),

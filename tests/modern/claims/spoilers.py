@@ -36,7 +36,7 @@ def alterations(value: Any, depth: int = 4) -> Iterator[object]:
     if isinstance(value, bool | np.bool_):
         yield not value
     elif isinstance(value, Number):
-        yield from (value + 1, -value)  # type: ignore[operator]
+        yield from (value + 1, -value)
     elif isinstance(value, np.ndarray):
         yield from (value[:-1], ~value if value.dtype == np.bool_ else -value)
     elif is_dataclass(value) and not isinstance(value, type):
@@ -47,7 +47,7 @@ def alterations(value: Any, depth: int = 4) -> Iterator[object]:
         first = next(iter(value), None) if depth else None
         yield from ({**value, first: altered} for altered in alterations(value.get(first), depth - 1))
     elif isinstance(value, Set):
-        yield from (type(value)([*value][:-1]), type(value)())  # type: ignore[call-arg]
+        yield from (type(value)([*value][:-1]), type(value)())
     elif isinstance(value, str):
         yield f"{value}?"
     elif isinstance(value, tuple | list):

@@ -44,7 +44,7 @@ def test_a_shared_octree_hull_cannot_be_altered() -> None:
         hull.filled[:] = False
 
 
-def test_run_records_a_refuted_check(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_run_records_a_refuted_check(monkeypatch) -> None:
     name, (decision, ids) = next(iter(full.searches().items()))
     monkeypatch.setattr(full, "searches", lambda: {name: (replace(decision, full=1), ids)})
     result = full.run(name)

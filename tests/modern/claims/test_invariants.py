@@ -45,9 +45,7 @@ def _checks(statement: str) -> list[Check]:
         ("fig23-map", "8 8", "8 7", "appel-will.115"),
     ],
 )
-def test_an_altered_print_violates_an_invariant(
-    monkeypatch: pytest.MonkeyPatch, result: str, old: str, new: str, statement: str
-) -> None:
+def test_an_altered_print_violates_an_invariant(monkeypatch, result: str, old: str, new: str, statement: str) -> None:
     def altered(line: str) -> str:
         # Cells are separated by tabs; the alteration is written with spaces.
         return line.replace(old, new).replace(old.replace(" ", "\t"), new.replace(" ", "\t"))
@@ -62,20 +60,20 @@ def test_an_altered_print_violates_an_invariant(
     assert [check.holds for check in _checks(statement)] == [False]
 
 
-def test_enough_corners_for_the_printed_triangles_refute_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_enough_corners_for_the_printed_triangles_refute_nothing(monkeypatch) -> None:
     assert [check.holds for check in _checks("kovalevsky-schulz.22")] == [False]
     monkeypatch.setattr(invariants, "_numbers_of_ball", lambda: [17077, 776, 704, 1404, 266])
     assert [check.holds for check in _checks("kovalevsky-schulz.22")] == [True]
 
 
-def test_table_of_theorem_4_8_needs_all_planes(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_table_of_theorem_4_8_needs_all_planes(monkeypatch) -> None:
     without_a_plane = tuple(replace(theorem, planes=theorem.planes[:-1]) for theorem in load_theorems())
     monkeypatch.setattr(invariants, "load_theorems", lambda: without_a_plane)
     assert [check.holds for check in _checks("thesis.150")] == [False]
 
 
 @pytest.mark.parametrize("statement", ["thesis.175", "thesis.176", "thesis.177"])
-def test_examples_of_chapter_6_need_their_incidences(monkeypatch: pytest.MonkeyPatch, statement: str) -> None:
+def test_examples_of_chapter_6_need_their_incidences(monkeypatch, statement: str) -> None:
     read = invariants.read_hull
     monkeypatch.setattr(invariants, "read_hull", lambda cards: replace(read(cards), satisfied=()))
     assert [check.holds for check in _checks(statement)] == [False]

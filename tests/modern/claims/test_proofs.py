@@ -59,7 +59,7 @@ def test_theorems_that_something_exists_have_exact_instances() -> None:
     assert all(existence.outside_several_planes())
 
 
-def test_instances_are_checked(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_instances_are_checked(monkeypatch) -> None:
     # In a smaller cube the planes no longer contain points for every way to coincide.
     monkeypatch.setattr(existence, "SIDE", 2)
     assert not all(existence.coplanar_extremes())

@@ -120,9 +120,7 @@ def test_every_counterexample_is_named_in_a_row() -> None:
 
 
 @pytest.mark.parametrize("run", sorted({row.run for row in ROWS if row.run}))
-def test_commands_that_show_counterexamples_run(
-    run: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_commands_that_show_counterexamples_run(run: str, capsys, monkeypatch) -> None:
     monkeypatch.chdir(ROOT)
     program, *arguments = shlex.split(run)
     assert program == "hull1620"
@@ -130,7 +128,7 @@ def test_commands_that_show_counterexamples_run(
     assert capsys.readouterr().out
 
 
-def test_wrong_verdict_is_reported(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_wrong_verdict_is_reported(capsys, monkeypatch) -> None:
     results = Judgements()
     checked = [row for row in statements_of("thesis") if row.id in decisions() and row.verdict not in SLIPS]
     for row in checked[::12]:
@@ -192,7 +190,7 @@ def test_counts_separate_repetitions_and_slips() -> None:
     assert numbers["slip"] == sum(row.verdict in SLIPS and not row.same for row in ROWS)
 
 
-def test_reproduce_accepts_documents_theorems_and_statements(capsys: pytest.CaptureFixture[str]) -> None:
+def test_reproduce_accepts_documents_theorems_and_statements(capsys) -> None:
     assert main(["reproduce", "nakamae-nishita"]) == 0
     out = capsys.readouterr().out
     assert out.count("\n  nakamae-nishita.") == len(statements_of("nakamae-nishita"))

@@ -106,7 +106,7 @@ def test_check_notices_an_alteration(decision: Decision) -> None:
 
 
 @pytest.mark.parametrize("statement", BY_HAND)
-def test_check_notices_a_spoiler(statement: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_check_notices_a_spoiler(statement: str, monkeypatch) -> None:
     (decision,) = decisions()[statement]
     module, (attribute, spoiler) = import_module(decision.function.__module__), BY_HAND[statement]
     expected = verdict(decision.function(**dict(decision.subject)))
@@ -146,7 +146,7 @@ PROPERTIES: dict[str, Callable[[Hull], Hull]] = {
 
 
 @pytest.mark.parametrize("name", stages._PROPERTIES)
-def test_stage_property_fails_for_an_altered_construction(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_stage_property_fails_for_an_altered_construction(name: str, monkeypatch) -> None:
     if name not in PROPERTIES:
         assert is_noticed(Decision("", stages.stage_property, (("kind", name),)))
         return
@@ -157,7 +157,7 @@ def test_stage_property_fails_for_an_altered_construction(name: str, monkeypatch
 
 
 @pytest.mark.parametrize("diameter", [8, 10])
-def test_memory_condition_names_the_right_diameters(diameter: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_memory_condition_names_the_right_diameters(diameter: int, monkeypatch) -> None:
     """The claim changes if a cell list is as large as Marching Cubes, or if triangles take less at other diameters."""
     rows = sizes._table_5()
     k = sizes.DIAMETERS.index(diameter)
@@ -171,7 +171,7 @@ def test_memory_condition_names_the_right_diameters(diameter: int, monkeypatch: 
 
 
 @pytest.mark.parametrize(("number", "wrong"), [(-2, -1), (-1, 0), (0, -1), (-4, -2)])
-def test_wrong_crossing_number_fails(number: int, wrong: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_wrong_crossing_number_fails(number: int, wrong: int, monkeypatch) -> None:
     original = Tables.crossing_number
 
     def spoiled(tables: Tables, i: int, j: int) -> int:

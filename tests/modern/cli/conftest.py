@@ -8,7 +8,7 @@ from tests.support.commands import DECK, PROGRAM
 
 
 @pytest.fixture
-def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def room(tmp_path: Path, monkeypatch) -> Path:
     """Change to a folder that holds only a valid deck and a valid program."""
     monkeypatch.chdir(tmp_path)
     Path("good.deck").write_text(DECK, encoding="utf-8")

@@ -47,7 +47,7 @@ BAD_DECKS = [
 
 
 @pytest.mark.parametrize(("text", "words"), [b[1:] for b in BAD_DECKS], ids=[b[0] for b in BAD_DECKS])
-def test_an_invalid_deck_is_rejected(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
+def test_an_invalid_deck_is_rejected(room: Path, capsys, text: str, words: str) -> None:
     Path("bad.deck").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, "hull", "bad.deck")
     assert (code, out, err.count("\n")) == (2, "", 1)
@@ -71,9 +71,7 @@ BAD_SOURCES = [
 
 @pytest.mark.parametrize(("text", "words"), [b[1:] for b in BAD_SOURCES], ids=[b[0] for b in BAD_SOURCES])
 @pytest.mark.parametrize("command", ["run", "compile", "map"])
-def test_an_invalid_program_is_rejected(
-    room: Path, capsys: pytest.CaptureFixture[str], command: str, text: str, words: str
-) -> None:
+def test_an_invalid_program_is_rejected(room: Path, capsys, command: str, text: str, words: str) -> None:
     Path("bad.f").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, command, "bad.f")
     assert (code, out, err.count("\n")) == (2, "", 1)
@@ -108,7 +106,7 @@ MISUSE = [
 
 
 @pytest.mark.parametrize(("arguments", "words"), MISUSE, ids=[" ".join(m[0]) or "nothing" for m in MISUSE])
-def test_misuse(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str) -> None:
+def test_misuse(room: Path, capsys, arguments: list[str], words: str) -> None:
     before = sorted(os.listdir())
     code, out, err = call(capsys, *arguments)
     assert (code, out, err.count("\n")) == (2, "", 1)
@@ -116,21 +114,21 @@ def test_misuse(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[
     assert sorted(os.listdir()) == before
 
 
-def test_hull_writes_cards_to_stdout_and_typed_lines_to_stderr(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_hull_writes_cards_to_stdout_and_typed_lines_to_stderr(room: Path, capsys) -> None:
     code, out, err = call(capsys, "hull", "good.deck")
     assert code == 0
     assert "CONVEX HULL HAS BEEN DETERMINED" in out
     assert err == "POINTS ARE NOT COPLANAR\n"
 
 
-def test_a_profile_fits_a_narrow_terminal(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_profile_fits_a_narrow_terminal(room: Path, capsys) -> None:
     code, _, err = call(capsys, "hull", "good.deck", "--profile")
     assert code == 0
     assert "time on a 1620 Model 1" in err
     assert all(len(line) <= 80 for line in err.splitlines())
 
 
-def test_line_ends_and_blank_fields_are_accepted(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_line_ends_and_blank_fields_are_accepted(room: Path, capsys) -> None:
     Path("crlf.deck").write_bytes(DECK.replace("\n", "\r\n").rstrip().encode())
     assert call(capsys, "hull", "crlf.deck")[0] == 0
     Path("blank.deck").write_text(DECK.replace("+.00000000E+00", " " * 14), encoding="utf-8")
@@ -139,13 +137,13 @@ def test_line_ends_and_blank_fields_are_accepted(room: Path, capsys: pytest.Capt
     assert "warning: blank.deck: card 2, column 1: x: a blank field is read as zero" in err
 
 
-def test_a_repeated_point_is_noted(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_repeated_point_is_noted(room: Path, capsys) -> None:
     Path("twice.deck").write_text(DECK.replace(" 4", " 5") + "1.0           -.0           .0\n", encoding="utf-8")
     _, _, err = call(capsys, "hull", "twice.deck")
     assert "warning: twice.deck: card 6, column 1: the same point as on card 3" in err
 
 
-def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys) -> None:
     assert call(capsys, "run", "good.f", "x.deck") == (
         0,
         " .20000000E+01\n .30000000E+01\n",
@@ -153,7 +151,7 @@ def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys: pytest.Captur
     )
 
 
-def test_an_empty_hopper_at_a_later_read_ends_a_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_empty_hopper_at_a_later_read_ends_a_run(room: Path, capsys) -> None:
     """Any READ of ``run`` may find the hopper empty. ``hull`` requires complete data sets."""
     Path("short.deck").write_text(" 3\n" + GOOD_POINT + "\n", encoding="utf-8")
     assert call(capsys, "run", "program1", "short.deck")[:2] == (0, "")
@@ -162,7 +160,7 @@ def test_an_empty_hopper_at_a_later_read_ends_a_run(room: Path, capsys: pytest.C
     assert "short.deck: card 2, column 1: the deck ends after 1 of 3 points" in err
 
 
-def test_an_invalid_field_ends_a_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_field_ends_a_run(room: Path, capsys) -> None:
     Path("bad.deck").write_text("2.\nABC\n", encoding="utf-8")
     assert call(capsys, "run", "good.f", "bad.deck")[::2] == (
         2,
@@ -171,14 +169,14 @@ def test_an_invalid_field_ends_a_run(room: Path, capsys: pytest.CaptureFixture[s
 
 
 @pytest.mark.parametrize(("run", "typed"), [("04_cube8", "ERROR IN PROGRAM"), ("18_dec3_n6", "DATA NOT ACCEPTABLE")])
-def test_a_refusal_gives_exit_code_1(capsys: pytest.CaptureFixture[str], run: str, typed: str) -> None:
+def test_a_refusal_gives_exit_code_1(capsys, run: str, typed: str) -> None:
     deck = MACHINE_RUNS / run / "deck.cards"
     code, _, err = call(capsys, "hull", str(deck))
     assert code == 1
     assert typed in err
 
 
-def test_with_switch_1_a_run_continues_after_data_not_acceptable(capsys: pytest.CaptureFixture[str]) -> None:
+def test_with_switch_1_a_run_continues_after_data_not_acceptable(capsys) -> None:
     """KNOWN-FAULTS 10."""
     deck = MACHINE_RUNS / "18_dec3_n6" / "deck.cards"
     off = call(capsys, "hull", str(deck))
@@ -187,7 +185,7 @@ def test_with_switch_1_a_run_continues_after_data_not_acceptable(capsys: pytest.
     assert on[2].count("DATA NOT ACCEPTABLE") > 1
 
 
-def test_statement_limit_keeps_the_cards_punched_so_far(capsys: pytest.CaptureFixture[str]) -> None:
+def test_statement_limit_keeps_the_cards_punched_so_far(capsys) -> None:
     deck = MACHINE_RUNS / "39_prism_n10" / "deck.cards"
     code, out, err = call(capsys, "hull", str(deck), "--limit", "100000")
     assert code == 1
@@ -195,7 +193,7 @@ def test_statement_limit_keeps_the_cards_punched_so_far(capsys: pytest.CaptureFi
     assert "CONVEX HULL" in out
 
 
-def test_reproduce_as_json(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_reproduce_as_json(room: Path, capsys) -> None:
     code, _, _ = call(capsys, "reproduce", "3", "--json", "v.json")
     document = json.loads(Path("v.json").read_text(encoding="utf-8"))
     assert code == 0
@@ -205,7 +203,7 @@ def test_reproduce_as_json(room: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert json.loads(out) == document
 
 
-def test_reproduce_without_a_terminal_has_no_colour(capsys: pytest.CaptureFixture[str]) -> None:
+def test_reproduce_without_a_terminal_has_no_colour(capsys) -> None:
     code, out, _ = call(capsys, "reproduce", "5")
     assert code == 0
     assert "\x1b" not in out
@@ -213,9 +211,7 @@ def test_reproduce_without_a_terminal_has_no_colour(capsys: pytest.CaptureFixtur
     assert "Every printed result is reproduced." in out
 
 
-def test_reproduce_shows_the_cards_that_differ(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_reproduce_shows_the_cards_that_differ(monkeypatch, capsys) -> None:
     from modern.edition import programs, reproduce
 
     other = programs.deck("program1_examples").text().replace("E(LL)=2.", "E(LL)=5.")
@@ -234,7 +230,7 @@ def test_reproduce_shows_the_cards_that_differ(
     assert "NOT every printed result is reproduced." in out
 
 
-def test_check_names_card_and_column(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_names_card_and_column(room: Path, capsys) -> None:
     Path("bad.f").write_text("      A=B+\n      GO TO 3\n      END\n", encoding="utf-8")
     code, out, err = call(capsys, "check", "bad.f")
     assert (code, err) == (2, "")
@@ -244,7 +240,7 @@ def test_check_names_card_and_column(room: Path, capsys: pytest.CaptureFixture[s
     assert call(capsys, "check", "program3")[0] == 0
 
 
-def test_map_and_compile_print_tables(capsys: pytest.CaptureFixture[str]) -> None:
+def test_map_and_compile_print_tables(capsys) -> None:
     code, out, _ = call(capsys, "map", "program3")
     assert code == 0
     assert "X(51)" in out
@@ -254,14 +250,14 @@ def test_map_and_compile_print_tables(capsys: pytest.CaptureFixture[str]) -> Non
     assert "RSGN" in out
 
 
-def test_apparatus_lists_rows(capsys: pytest.CaptureFixture[str]) -> None:
+def test_apparatus_lists_rows(capsys) -> None:
     code, out, _ = call(capsys, "apparatus", "--program", "1", "--layer", "lacuna")
     assert code == 0
     assert out.splitlines()[-1] == "2 rows"
     assert "INN=0" in out
 
 
-def test_points_become_cards_and_cards_points(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_points_become_cards_and_cards_points(room: Path, capsys) -> None:
     Path("p.csv").write_text("x,y,z\n1,-2.5,3e-2\n\n0,.125,-0\n", encoding="utf-8")
     code, out, err = call(capsys, "cards", "p.csv")
     assert (code, err) == (0, "")
@@ -282,9 +278,7 @@ CSV_FAULTS = [
 
 
 @pytest.mark.parametrize(("text", "words"), CSV_FAULTS)
-def test_cards_rejects_points_that_no_card_holds(
-    room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str
-) -> None:
+def test_cards_rejects_points_that_no_card_holds(room: Path, capsys, text: str, words: str) -> None:
     Path("p.csv").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, "cards", "p.csv", "-o", "p.deck")
     assert (code, out) == (2, "")
@@ -292,7 +286,7 @@ def test_cards_rejects_points_that_no_card_holds(
     assert not Path("p.deck").exists()
 
 
-def test_cards_truncates_on_request(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_cards_truncates_on_request(room: Path, capsys) -> None:
     Path("p.csv").write_text("1,2,-1234.56789\n", encoding="utf-8")
     assert "-.12345678E+04" in call(capsys, "cards", "p.csv", "--truncate")[1]
 

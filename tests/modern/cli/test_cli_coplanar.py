@@ -11,13 +11,13 @@ SAID = "36 faces are joined into 12 within 1e-9; a vertex lies at most "
 
 
 @pytest.fixture(autouse=True)
-def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def room(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("d.csv").write_text("".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in dodecahedron()), encoding="utf-8")
     Path("flat.csv").write_text("0,0,0\n1,0,0\n0,1,0\n", encoding="utf-8")
 
 
-def test_export_and_draw_read_twelve_faces_and_note_it(capsys: pytest.CaptureFixture[str]) -> None:
+def test_export_and_draw_read_twelve_faces_and_note_it(capsys) -> None:
     code, out, err = call(capsys, "export", "d.csv", "--format", "off")
     assert (code, out.splitlines()[1].split()[:2], err) == (0, ["20", "36"], "")
     code, out, err = call(capsys, "export", "d.csv", "--format", "off", "--coplanar-within", "1e-9")
@@ -30,7 +30,7 @@ def test_export_and_draw_read_twelve_faces_and_note_it(capsys: pytest.CaptureFix
     assert SAID in err
 
 
-def test_flat_input_and_faces_that_are_not_joined_are_noted(capsys: pytest.CaptureFixture[str]) -> None:
+def test_flat_input_and_faces_that_are_not_joined_are_noted(capsys) -> None:
     code, _, err = call(capsys, "export", "flat.csv", "--format", "off", "--coplanar-within", "1")
     assert (code, err) == (0, "note: flat.csv: the points lie in one plane: there are no faces to join\n")
     code, _, err = call(capsys, "export", "d.csv", "--format", "off", "--coplanar-within", "0")
@@ -54,9 +54,7 @@ def test_flat_input_and_faces_that_are_not_joined_are_noted(capsys: pytest.Captu
         ),
     ],
 )
-def test_rejections_are_one_line_and_leave_no_file(
-    arguments: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_rejections_are_one_line_and_leave_no_file(arguments: tuple[str, ...], message: str, capsys) -> None:
     code, out, err = call(capsys, *arguments)
     assert (code, out, err.count("\n")) == (2, "", 1), err
     assert message in err

@@ -18,7 +18,7 @@ def card(x: float, y: float, z: float) -> str:
 
 
 @pytest.fixture
-def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def room(tmp_path: Path, monkeypatch) -> Path:
     """Change to a folder that holds only data decks for program 1 and for program 2."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
@@ -32,7 +32,7 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_square_of_nine_digits_changes_a_decision(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_square_of_nine_digits_changes_a_decision(room: Path, capsys) -> None:
     """14.875 squared has nine digits. Truncated to eight, its root is too small, and a wrong vertex is chosen."""
     code, out, err = call(capsys, "diverge", "program2", "side.cards")
     assert (code, err) == (1, "")
@@ -43,14 +43,14 @@ def test_a_square_of_nine_digits_changes_a_decision(room: Path, capsys: pytest.C
     assert "digits lost, of 8.0, up to that decision" in lines
 
 
-def test_binary_numbers_decide_correctly(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_binary_numbers_decide_correctly(room: Path, capsys) -> None:
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--arithmetic", "float64")
     assert code == 0
     assert "none differs" in out
     assert "digits lost, of 16.0\n" in out
 
 
-def test_only_the_first_decision_is_reported_on_request(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_only_the_first_decision_is_reported_on_request(room: Path, capsys) -> None:
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--first")
     assert code == 1
     assert "compared, 1 differs" in out
@@ -58,7 +58,7 @@ def test_only_the_first_decision_is_reported_on_request(room: Path, capsys: pyte
     assert "digits lost" not in out
 
 
-def test_the_comparison_is_written_as_json(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_comparison_is_written_as_json(room: Path, capsys) -> None:
     assert call(capsys, "diverge", "program2", "side.cards", "--json", "d.json")[0] == 1
     found = json.loads(Path("d.json").read_text(encoding="utf-8"))
     first = found["decisions"]["first"]
@@ -69,23 +69,21 @@ def test_the_comparison_is_written_as_json(room: Path, capsys: pytest.CaptureFix
     assert [ending["kind"] for ending in found["endings"]] == ["hopper", "hopper"]
 
 
-def test_layers_are_compared(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_layers_are_compared(room: Path, capsys) -> None:
     """The corrected cards do not use the roots."""
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--layers", "corrected")
     assert code == 0
     assert "none differs" in out
 
 
-def test_the_comparison_fits_a_narrow_terminal(
-    room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_comparison_fits_a_narrow_terminal(room: Path, capsys, monkeypatch) -> None:
     monkeypatch.setenv("COLUMNS", "40")
     _, out, _ = call(capsys, "diverge", "program2", "side.cards")
     assert all(len(line) <= 40 for line in out.splitlines())
     assert "card 174," in out
 
 
-def test_values_that_exact_numbers_cannot_hold_are_reported(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_values_that_exact_numbers_cannot_hold_are_reported(room: Path, capsys) -> None:
     words = "sine.f: card 2: exact arithmetic cannot hold SIN of 1, in 7 B=SIN(A)"
     code, out, err = call(capsys, "diverge", "sine.f", "any.deck")
     assert code == 1
@@ -95,20 +93,20 @@ def test_values_that_exact_numbers_cannot_hold_are_reported(room: Path, capsys: 
     assert (code, out, err) == (1, "", f"hull1620: {words}\n")
 
 
-def test_equal_runs_are_reported_as_equal(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_equal_runs_are_reported_as_equal(room: Path, capsys) -> None:
     code, out, _ = call(capsys, "diverge", "sum.f", "any.deck")
     assert code == 0
     assert "values: 2 compared, none differs" in out
 
 
-def test_a_limit_is_reported_as_a_limit(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_limit_is_reported_as_a_limit(room: Path, capsys) -> None:
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--limit", "10")
     assert code == 1
     assert "decisions: 1 compared, none differs" in out
     assert "comparison ended: both runs were stopped after 10 statements" in out
 
 
-def test_exact_numbers_lose_no_digits(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_exact_numbers_lose_no_digits(room: Path, capsys) -> None:
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--arithmetic", "exact")
     assert code == 0
     assert "digits lost" not in out
@@ -139,7 +137,7 @@ MISUSE = [
 
 
 @pytest.mark.parametrize(("arguments", "words"), MISUSE, ids=[" ".join(m[0]) for m in MISUSE])
-def test_misuse(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str) -> None:
+def test_misuse(room: Path, capsys, arguments: list[str], words: str) -> None:
     before = sorted(os.listdir())
     code, out, err = call(capsys, *arguments)
     assert (code, out) == (2, "")
@@ -149,7 +147,7 @@ def test_misuse(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[
 
 
 @pytest.mark.parametrize("name", ["float64", "float32", "mp:90", "exact"])
-def test_run_and_hull_accept_other_arithmetics(room: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+def test_run_and_hull_accept_other_arithmetics(room: Path, capsys, name: str) -> None:
     code, out, err = call(capsys, "hull", "side.deck", "--arithmetic", name, "--trace", "t", "--profile")
     assert code == 0
     assert "CONVEX HULL HAS BEEN DETERMINED" in out
@@ -160,7 +158,7 @@ def test_run_and_hull_accept_other_arithmetics(room: Path, capsys: pytest.Captur
     assert "X(1) = -6" in Path("t").read_text(encoding="utf-8")
 
 
-def test_uncut_numbers_accompany_the_cards_between_the_programs(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_uncut_numbers_accompany_the_cards_between_the_programs(room: Path, capsys) -> None:
     """Planes of more than eight digits are rejected if the cards truncate them, and accepted otherwise."""
     code, _, err = call(capsys, "hull", "four.deck", "--arithmetic", "exact")
     assert code == 1
@@ -171,7 +169,7 @@ def test_uncut_numbers_accompany_the_cards_between_the_programs(room: Path, caps
     assert err == "POINTS ARE NOT COPLANAR\n"
 
 
-def test_all_digits_of_a_field_are_read(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_all_digits_of_a_field_are_read(room: Path, capsys) -> None:
     Path("long.deck").write_text(" 1\n" + ".1234567890123" + card(0, 1, 2)[14:], encoding="utf-8")
     assert "after the first 8 are dropped" in call(capsys, "hull", "long.deck")[2]
     code, _, err = call(capsys, "hull", "long.deck", "--arithmetic", "float64")

@@ -76,9 +76,7 @@ def own(room: Path) -> Path:
         "appel-will example5 -o -",
     ],
 )
-def test_data_alone_go_to_standard_output_and_the_report_to_standard_error(
-    words: str, own: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_data_alone_go_to_standard_output_and_the_report_to_standard_error(words: str, own: Path, capsys) -> None:
     code, out, err = call(capsys, *words.split())
     assert code in (0, 1)
     assert err
@@ -111,9 +109,7 @@ def test_data_alone_go_to_standard_output_and_the_report_to_standard_error(
         *((words, ("good.f/file", "/proc/file")) for words in ("study mine.toml --out", "tei --all")),
     ],
 )
-def test_an_unwritable_output_is_reported_before_the_work(
-    words: str, paths: tuple[str, ...], own: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_unwritable_output_is_reported_before_the_work(words, paths, own, capsys, monkeypatch) -> None:
     monkeypatch.setattr("modern.cli.main.importlib.import_module", lambda name: pytest.fail(f"{name} was imported"))
     for path in paths:
         code, out, err = call(capsys, *words.split(), path)
@@ -137,9 +133,7 @@ def test_an_unwritable_output_is_reported_before_the_work(
         "diff both --json both",
     ],
 )
-def test_an_output_that_is_also_an_input_is_rejected_before_the_work(
-    words: str, room: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_output_that_is_also_an_input_is_rejected_before_the_work(words: str, room: Path, capsys) -> None:
     (room / "both").write_text("kept", encoding="ascii")
     (room / "link").symlink_to("both")
     message = f"{words.split()[-1]}: this output is also an input, which would be overwritten; choose another name\n"
@@ -161,7 +155,7 @@ def test_output_to_a_full_device_ends_with_2_and_one_line(words: str, unbuffered
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_an_unknown_option_names_the_help_of_its_command(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_option_names_the_help_of_its_command(name: str, capsys) -> None:
     code, out, err = call(capsys, name, "x", "--widht", "3")
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert err.startswith(f"hull1620 {name}: ")
@@ -183,7 +177,7 @@ def test_an_unknown_option_names_the_help_of_its_command(name: str, capsys: pyte
         *("hidden-line long.toml", "diff long.json", "diff long.npy", "octree-hull long.csv", "diff long.off"),
     ],
 )
-def test_a_long_text_of_the_input_is_shortened(words: str, own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_long_text_of_the_input_is_shortened(words: str, own: Path, capsys) -> None:
     texts = {"csv": f"{LONG},0,0\n", "deck": f"{LONG}\n", "f": f"      A={LONG}\n", "toml": f"samples = {LONG}\n"}
     texts |= {"json": f"[[{LONG}, 0, 0]]", "off": f"OFF\n{LONG} 1 1\n"}
     for ending, text in texts.items():
@@ -195,9 +189,7 @@ def test_a_long_text_of_the_input_is_shortened(words: str, own: Path, capsys: py
 
 
 @pytest.mark.parametrize("ending", [".png", ".PDF"])
-def test_draw_writes_png_and_pdf(
-    ending: str, room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_draw_writes_png_and_pdf(ending: str, room: Path, capsys, monkeypatch) -> None:
     pytest.importorskip("typst")
     for name in ("a", "b"):
         assert call(capsys, "draw", "example5", "--title", "Hull", "-o", name + ending) == (0, "", "")
@@ -227,7 +219,7 @@ def test_draw_writes_png_and_pdf(
         ("hull yours.toml/3", "yours.toml: no such file or directory"),
     ],
 )
-def test_bad_input_is_one_line(words: str, message: str, own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_bad_input_is_one_line(words: str, message: str, own: Path, capsys) -> None:
     if "device" in words:
         pytest.importorskip("SimpleITK")
     (own / "many.toml").write_text(PLAN.format("samples = 'many'\n"), encoding="ascii")
@@ -248,15 +240,13 @@ def test_bad_input_is_one_line(words: str, message: str, own: Path, capsys: pyte
         ("hidden-line faces.json", "note: faces.json: the faces of a JSON file are not read"),
     ],
 )
-def test_data_that_are_left_out_or_lie_elsewhere_are_noted(
-    words: str, note: str, own: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_data_that_are_left_out_or_lie_elsewhere_are_noted(words: str, note: str, own: Path, capsys) -> None:
     if words.endswith("mhd"):
         pytest.importorskip("SimpleITK")
     assert note.format(own) in call(capsys, *words.split())[2]
 
 
-def test_a_sample_of_a_plan_file_has_a_name(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_sample_of_a_plan_file_has_a_name(own: Path, capsys) -> None:
     first, again, different = (call(capsys, "cards", f"mine.toml/{k}") for k in ("1", "0/1", "2"))
     assert first == again != different
     assert first[1].startswith(" 5\n")
@@ -271,9 +261,7 @@ def test_a_sample_of_a_plan_file_has_a_name(own: Path, capsys: pytest.CaptureFix
         *((f"{command} /dev/zero", 3) for command in ("voxel-hull", "octree-hull --shape 2,2,2")),
     ],
 )
-def test_a_device_without_an_end_is_read_up_to_the_limit_of_its_kind(
-    words: str, size: int, own: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_device_without_an_end_is_read_up_to_the_limit_of_its_kind(words, size, own, capsys, monkeypatch) -> None:
     assert (files.TEXT_LIMIT, files.POINTS_LIMIT, files.VOLUME_LIMIT) == (16 << 20, 256 << 20, 1024 << 20)
     monkeypatch.setattr("modern.cli.shared.inputs.POINTS_LIMIT", 2 << 20)
     monkeypatch.setattr("modern.digital.volumes.VOLUME_LIMIT", 3 << 20)
@@ -282,7 +270,7 @@ def test_a_device_without_an_end_is_read_up_to_the_limit_of_its_kind(
     assert call(capsys, *words.split()) == (2, "", f"hull1620: {words.split()[-1]}: {most}\n")
 
 
-def test_a_pipe_with_an_end_is_read_to_its_end(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_pipe_with_an_end_is_read_to_its_end(own: Path, capsys) -> None:
     os.mkfifo("pipe")
     writer = threading.Thread(target=lambda: Path("pipe").write_bytes(Path("good.deck").read_bytes()))
     writer.start()

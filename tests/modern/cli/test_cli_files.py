@@ -33,7 +33,7 @@ SOURCE_DECKS = {"check", "compile", "diverge", "export-job", "hull", "map", "run
 
 
 @pytest.fixture(autouse=True)
-def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def room(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("good.deck").write_text(" 1\n", encoding="utf-8")
     Path("folder").mkdir()
@@ -44,7 +44,7 @@ def reader(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 
 
-def refused(capsys: pytest.CaptureFixture[str], command: str, path: str) -> str:
+def refused(capsys, command: str, path: str) -> str:
     """Return the single line in which a command rejects a file."""
     code, out, err = call(capsys, command, path, *READERS[command])
     assert (code, out, err.count("\n")) == (2, "", 1), err
@@ -62,16 +62,12 @@ class Folder(io.RawIOBase):
         raise IsADirectoryError(21, "Is a directory")
 
 
-def test_closed_standard_input_is_reported(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, reader: str
-) -> None:
+def test_closed_standard_input_is_reported(capsys, monkeypatch, reader: str) -> None:
     monkeypatch.setattr("sys.stdin", None)
     assert refused(capsys, reader, "-") == "standard input is closed"
 
 
-def test_unreadable_standard_input_is_reported(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, reader: str
-) -> None:
+def test_unreadable_standard_input_is_reported(capsys, monkeypatch, reader: str) -> None:
     monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BufferedReader(Folder()), encoding="utf-8"))
     assert refused(capsys, reader, "-") == "standard input: is a directory"
 
@@ -85,15 +81,13 @@ def test_unreadable_standard_input_is_reported(
         ("a\0b", "'a\\x00b': not a file name"),
     ],
 )
-def test_unreadable_files_are_reported(
-    capsys: pytest.CaptureFixture[str], reader: str, path: str, message: str
-) -> None:
+def test_unreadable_files_are_reported(capsys, reader: str, path: str, message: str) -> None:
     if path == "folder" and reader in ("octree-hull", "voxel-hull"):
         message += " without a DICOM file; expected a file, or a folder with a DICOM series"
     assert refused(capsys, reader, path) == message
 
 
-def test_bytes_that_are_not_text_are_reported(capsys: pytest.CaptureFixture[str], reader: str) -> None:
+def test_bytes_that_are_not_text_are_reported(capsys, reader: str) -> None:
     Path("bytes").write_bytes(b"1,2,3\n4,\xff\n")
     message = refused(capsys, reader, "bytes")
     if reader in SOURCE_DECKS:
@@ -106,7 +100,7 @@ def test_bytes_that_are_not_text_are_reported(capsys: pytest.CaptureFixture[str]
 
 @pytest.mark.parametrize("path", ["missing.toml", "folder.toml", "bytes.toml"])
 @pytest.mark.parametrize("command", ["study", "hidden-line"])
-def test_invalid_plans_and_scenes_are_reported(capsys: pytest.CaptureFixture[str], command: str, path: str) -> None:
+def test_invalid_plans_and_scenes_are_reported(capsys, command: str, path: str) -> None:
     Path("folder.toml").mkdir()
     Path("bytes.toml").write_bytes(b"a\n\xff")
     code, out, err = call(capsys, command, path)
@@ -119,9 +113,7 @@ def test_invalid_plans_and_scenes_are_reported(capsys: pytest.CaptureFixture[str
     assert err == f"hull1620: {path}: {reasons[path.removesuffix('.toml')]}\n"
 
 
-def test_points_beyond_doubles_are_one_line_in_diff(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_points_beyond_doubles_are_one_line_in_diff(tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     Path("far.csv").write_text("0,0,0\n1e400,0,0\n0,1e400,0\n0,0,1e400\n", encoding="utf-8")
     code, _, err = call(capsys, "diff", "far.csv")

@@ -18,16 +18,14 @@ CHAPTER6 = ROOT / "transcripts" / "chapter6"
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch) -> Path:
     (tmp_path / "points.csv").write_text(CSV, encoding="ascii")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
 
 @pytest.mark.parametrize("number", range(1, 7))
-def test_an_example_can_be_named_wherever_a_deck_is_accepted(
-    number: int, folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_example_can_be_named_wherever_a_deck_is_accepted(number: int, folder: Path, capsys) -> None:
     path = str(CHAPTER6 / f"example{number}" / "program1.deck")
     for words in (["run", "program1"], ["hull", "--programs", "examples"], ["diverge", "program1"], ["diff"]):
         by_path, by_name = call(capsys, *words, path), call(capsys, *words, f"example{number}")
@@ -37,7 +35,7 @@ def test_an_example_can_be_named_wherever_a_deck_is_accepted(
         assert name_less.split() == path_less.split()
 
 
-def test_examples_are_also_points(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_examples_are_also_points(folder: Path, capsys) -> None:
     code, out, _ = call(capsys, "export", "example5", "--format", "off")
     assert (code, out.splitlines()[0]) == (0, "OFF")
     for words in (["draw", "-o", "a.svg"], ["hidden-line", "-o", "b.svg"], ["appel-will", "-o", "c.off"]):
@@ -48,7 +46,7 @@ def test_examples_are_also_points(folder: Path, capsys: pytest.CaptureFixture[st
     )
 
 
-def test_a_figure_and_a_set_of_a_study_have_names(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_figure_and_a_set_of_a_study_have_names(folder: Path, capsys) -> None:
     code, out, _ = call(capsys, "appel-will", "appel-will/fig18", "--inside-corners", "concave")
     assert (code, out.splitlines()[0]) == (0, "appel-will/fig18: 12 points, 8 surfaces")
     assert call(capsys, "hull", "appel-will/fig18", "--layers", "corrected", "--core", "60000")[0] == 0
@@ -64,22 +62,18 @@ def test_a_figure_and_a_set_of_a_study_have_names(folder: Path, capsys: pytest.C
 
 
 @pytest.mark.parametrize("name", ["example7", "example", "appel-will/fig99", "sixty/1", "seventy"])
-def test_an_unknown_example_is_reported_as_a_missing_file(
-    name: str, folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_unknown_example_is_reported_as_a_missing_file(name: str, folder: Path, capsys) -> None:
     code, _, err = call(capsys, "draw", name, "-o", "a.svg")
     assert (code, err) == (2, f"hull1620: {name}: no such file or directory\n")
 
 
-def test_a_file_takes_precedence_over_an_example_of_its_name(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_file_takes_precedence_over_an_example_of_its_name(folder: Path, capsys) -> None:
     (folder / "example5").write_text(CSV, encoding="ascii")
     assert call(capsys, "diff", "example5")[1].startswith("example5: 5 points\n")
 
 
 @pytest.mark.parametrize("command", [["hull"], ["diverge", "program1"], ["diverge", "program1_examples"]])
-def test_points_instead_of_a_deck_name_the_command_that_makes_one(
-    command: list[str], folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_points_instead_of_a_deck_name_the_command_that_makes_one(command: list[str], folder: Path, capsys) -> None:
     np.save(folder / "points.npy", np.eye(3))
     for name, kind in (("points.csv", "a list"), ("points.npy", "NPY")):
         code, _, err = call(capsys, *command, name)
@@ -88,9 +82,7 @@ def test_points_instead_of_a_deck_name_the_command_that_makes_one(
         assert f"hull1620 cards {name} -o points.deck makes a deck of it" in err
 
 
-def test_the_message_about_too_many_digits_names_a_valid_remedy(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_message_about_too_many_digits_names_a_valid_remedy(folder: Path, capsys) -> None:
     (folder / "long.csv").write_text("0.123456789,0,0\n1,0,0\n0,1,0\n0,0,1\n", encoding="ascii")
     assert "hull1620 cards --truncate" in call(capsys, "diff", "long.csv")[1]
     code, _, err = call(capsys, "cards", "long.csv", "-o", "long.deck")
@@ -102,14 +94,14 @@ def test_the_message_about_too_many_digits_names_a_valid_remedy(
     assert "not run" not in call(capsys, "diff", "long.deck")[1]
 
 
-def test_an_overlap_names_a_sufficient_core(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_overlap_names_a_sufficient_core(folder: Path, capsys) -> None:
     code, _, err = call(capsys, "hull", "example5", "--layers", "corrected")
     assert code == 2
     assert "OVERLAP" in err
     assert err.endswith("; --core 60000 is large enough\n")
 
 
-def test_a_raw_volume_needs_a_shape(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_raw_volume_needs_a_shape(folder: Path, capsys) -> None:
     (folder / "a.raw").write_bytes(bytes(100) + b"\x01" * 25)
     for command in ("voxel-hull", "octree-hull"):
         code, _, err = call(capsys, command, "a.raw")
@@ -119,7 +111,7 @@ def test_a_raw_volume_needs_a_shape(folder: Path, capsys: pytest.CaptureFixture[
 
 
 @pytest.mark.parametrize("diameter", ["1290", "100000", "999999999"])
-def test_the_message_about_a_large_ball_names_the_limit(diameter: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_message_about_a_large_ball_names_the_limit(diameter: str, capsys) -> None:
     code, _, err = call(capsys, "voxel-hull", f"ball:{diameter}")
     assert (code, "expected a diameter of at most 1289" in err) == (2, True)
 
@@ -135,9 +127,7 @@ def test_the_message_about_a_large_ball_names_the_limit(diameter: str, capsys: p
         (["octree-hull", "ball:3", "-o", "a.svg"], ".nrrd or .npy or .off or .obj or .ply or .stl"),
     ],
 )
-def test_an_unsupported_extension_of_an_output_is_rejected(
-    words: list[str], endings: str, folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_unsupported_extension_of_an_output_is_rejected(words, endings, folder, capsys) -> None:
     code, _, err = call(capsys, *words)
     assert (code, err.count("\n")) == (2, 1)
     assert (
@@ -170,16 +160,14 @@ def test_the_layers_are_listed() -> None:
     assert [layer for layer in every if layer not in str(layers.help)] == []
 
 
-def test_punched_accepts_an_example_by_name(capsys: pytest.CaptureFixture[str]) -> None:
+def test_punched_accepts_an_example_by_name(capsys) -> None:
     code, out, err = call(capsys, "punched", "example1")
     assert (code, err) == (0, "")
     assert "<title>example1: 4 cards</title>" in out
 
 
 @pytest.mark.parametrize("command", [["run"], ["diverge"], ["listing"]])
-def test_a_list_of_points_instead_of_a_deck_is_rejected_with_a_remedy(
-    command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_list_of_points_instead_of_a_deck_is_rejected_with_a_remedy(command, tmp_path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     Path("mine.csv").write_text("76,-18,-21\n1,2,3\n4,5,7\n", encoding="utf-8")
     code, out, err = call(capsys, *command, "program1", "mine.csv")
@@ -194,9 +182,7 @@ def test_a_list_of_points_instead_of_a_deck_is_rejected_with_a_remedy(
 
 
 @pytest.mark.parametrize("command", [["flowchart", "program1"], ["punched", "program1"]])
-def test_a_picture_needs_the_extension_of_a_picture(
-    command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_picture_needs_the_extension_of_a_picture(command: list[str], tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     code, out, err = call(capsys, *command, "-o", "x.txt")
     assert (code, out) == (2, "")

@@ -20,7 +20,7 @@ MINE = ["      A=1.", "      DO 5 I=1,3", "    5 A=A/3.", "      PUNCH 9,A", "  
 
 
 @pytest.fixture
-def mine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def mine(tmp_path: Path, monkeypatch) -> Path:
     """Change to a folder with a program and a deck that the program does not read."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "my.f").write_text("\n".join(MINE) + "\n")
@@ -32,7 +32,7 @@ def columns(line: str) -> tuple[str, str, str, str, str]:
     return line[:5].strip(), line[5:14].strip(), line[14:21].strip(), line[21:27].strip(), line[29:]
 
 
-def test_a_listing_without_a_deck_has_cards_and_warnings(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_listing_without_a_deck_has_cards_and_warnings(mine: Path, capsys) -> None:
     reads = [*MINE[:3], "      READ 9,A", *MINE[4:]]
     (mine / "reads.f").write_text("\n".join(reads) + "\n")
     code, out, err = call(capsys, "listing", "reads.f")
@@ -49,7 +49,7 @@ def test_a_listing_without_a_deck_has_cards_and_warnings(mine: Path, capsys: pyt
     assert call(capsys, "check", "bad.f")[1].splitlines()[0].endswith(lines[3].partition("error: ")[2])
 
 
-def test_a_listing_with_a_deck_has_counts_times_and_digits(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_listing_with_a_deck_has_counts_times_and_digits(mine: Path, capsys) -> None:
     code, out, err = call(capsys, "listing", "my.f", "one.deck")
     assert (code, err) == (0, "")
     lines = out.splitlines()
@@ -64,7 +64,7 @@ def test_a_listing_with_a_deck_has_counts_times_and_digits(mine: Path, capsys: p
 
 
 @pytest.mark.parametrize(("name", "deck"), [("program2", "example4"), ("program3", "example5")])
-def test_the_figures_agree_with_profile_and_diverge(capsys: pytest.CaptureFixture[str], name: str, deck: str) -> None:
+def test_the_figures_agree_with_profile_and_diverge(capsys, name: str, deck: str) -> None:
     path = str(EXAMPLES / deck / "program1.punch")
     code, out, _ = call(capsys, "listing", name, path)
     assert code == 0
@@ -92,7 +92,7 @@ def test_shares_attribute_time_to_each_statement() -> None:
     assert sum(found) == pytest.approx(measure(made, result).processor_time.seconds)
 
 
-def test_a_program_with_accept_is_listed_with_an_operator_file(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_program_with_accept_is_listed_with_an_operator_file(mine: Path, capsys) -> None:
     (mine / "ask.f").write_text("    5 ACCEPT 9,A\n      IF(A)5,6,5\n    6 STOP\n    9 FORMAT(E14.8)\n      END\n")
     (mine / "lines").write_text("ENTER 1.5\nENTER 0.0\n")
     code, out, err = call(capsys, "listing", "ask.f", "one.deck", "--operator=lines", "-o", "list.txt")
@@ -105,7 +105,7 @@ def test_a_program_with_accept_is_listed_with_an_operator_file(mine: Path, capsy
     assert (code, out, err.count("\n")) == (2, "", 1)
 
 
-def test_against_none_and_a_run_that_ends_early(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_against_none_and_a_run_that_ends_early(mine: Path, capsys) -> None:
     (mine / "loop.f").write_text("    1 X=X1\n      GO TO 1\n      END\n")
     code, out, err = call(capsys, "listing", "loop.f", "one.deck", "--against", "none", "--limit", "101")
     assert code == 1
@@ -114,13 +114,13 @@ def test_against_none_and_a_run_that_ends_early(mine: Path, capsys: pytest.Captu
     assert "digits" not in out
 
 
-def test_the_listing_of_a_built_in_program_is_its_compiled_text(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_listing_of_a_built_in_program_is_its_compiled_text(capsys) -> None:
     lines = call(capsys, "listing", "program1")[1].splitlines()[1:]
     assert [line[7:] for line in lines] == [card.text for card in programs.deck("program1").cards]
     assert compile_deck(deck_from_lines("again", [line[7:] for line in lines])).statements
 
 
-def test_a_deck_may_be_an_example_by_name(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_deck_may_be_an_example_by_name(capsys) -> None:
     named = call(capsys, "listing", "program1", "example4", "--against", "none")
     assert named == call(
         capsys, "listing", "program1", str(EXAMPLES / "example4" / "program1.deck"), "--against", "none"

@@ -69,9 +69,7 @@ def test_a_game_is_played_to_its_end(folder: Path) -> None:
     ]
 
 
-def test_a_log_replays_to_the_same_bytes(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_log_replays_to_the_same_bytes(folder: Path, capsys, monkeypatch) -> None:
     """A log with a switch, a breakpoint, invalid lines and STOP gives the same cards, typed lines and log."""
     with Person(folder, "run", "tictac.f", "tictac.deck", "--operator", "--punch", "cards", "--log", "log") as person:
         person.sees("stopped (attention) before card 9")
@@ -100,9 +98,7 @@ def test_a_log_replays_to_the_same_bytes(
     assert [line.strip() for line in person.output.splitlines() if line.strip() in typed] == typed
 
 
-def test_example_4_is_stepped_a_switch_flipped_and_resumed(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_example_4_is_stepped_a_switch_flipped_and_resumed(folder: Path, capsys, monkeypatch) -> None:
     """Both programs halt before their first statement. Program 2 tests the switch when it rejects its data."""
     monkeypatch.chdir(folder)
     deck = str(EXAMPLE4 / "program1.deck")
@@ -134,9 +130,7 @@ def test_example_4_is_stepped_a_switch_flipped_and_resumed(
     assert (folder / "log2").read_text() == (folder / "log").read_text()
 
 
-def test_switch_1_flipped_at_a_breakpoint_lets_program_2_continue(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_switch_1_flipped_at_a_breakpoint_lets_program_2_continue(folder: Path, capsys, monkeypatch) -> None:
     """After DATA NOT ACCEPTABLE it stops, or continues with the same data if the switch is on (KNOWN-FAULTS 10)."""
     monkeypatch.chdir(folder)
     (folder / "refused.deck").write_text(REFUSED)
@@ -325,7 +319,7 @@ def test_the_operator_is_not_asked_without_a_deck_or_on_request(folder: Path, mo
         assert "no typed line is left for ACCEPT" in person.output
 
 
-def test_the_option_without_a_terminal_is_an_error(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+def test_the_option_without_a_terminal_is_an_error(capsys, folder: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "modern.cli.main", "run", str(folder / "ask.f"), "--operator"],
         cwd=ROOT,
@@ -339,9 +333,7 @@ def test_the_option_without_a_terminal_is_an_error(capsys: pytest.CaptureFixture
     assert done.stderr.count("\n") == 1
 
 
-def test_an_invalid_operator_file_is_reported_in_one_line(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_invalid_operator_file_is_reported_in_one_line(folder: Path, capsys, monkeypatch) -> None:
     monkeypatch.chdir(folder)
     (folder / "bad").write_text("ENTER  1\n\nSWITCH ONE ON\n")
     arguments = ("run", "tictac.f", "tictac.deck")
@@ -356,16 +348,14 @@ def test_an_invalid_operator_file_is_reported_in_one_line(
     assert call(capsys, *arguments, "--operator=none.txt")[2] == "hull1620: none.txt: no such file or directory\n"
 
 
-def test_unused_lines_are_noted(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_unused_lines_are_noted(folder: Path, capsys, monkeypatch) -> None:
     monkeypatch.chdir(folder)
     (folder / "more").write_text("ENTER    0   1\nSTART\n")
     code, _, err = call(capsys, "run", "ask.f", "--operator=more")
     assert (code, err) == (0, "   1   0\nnote: more: the run did not use line 2 and later lines\n")
 
 
-def test_slow_needs_a_terminal(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_slow_needs_a_terminal(folder: Path, capsys) -> None:
     code, out, err = call(capsys, "run", str(folder / "loop.f"), "--slow", "--operator=none")
     assert (code, out) == (2, "")
     assert err == "hull1620: --slow needs an operator at the terminal; add --operator\n"
@@ -390,9 +380,7 @@ def test_cards_appear_as_they_are_punched_and_files_only_complete(folder: Path) 
 
 
 @pytest.mark.parametrize(("source", "asks"), [(ASK, True), (LOOP, False), ("      PAUSE\n      END\n", True)])
-def test_only_a_program_with_accept_or_pause_has_questions(
-    source: str, asks: bool, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_only_a_program_with_accept_or_pause_has_questions(source: str, asks: bool, folder: Path, monkeypatch) -> None:
     monkeypatch.setattr(operators, "is_terminal", lambda stream: True)
     arguments = Namespace(deck=str(folder / "ask.f"))
     assert operators._has_questions(arguments, compile_deck(deck_from_text("p.f", source))) is asks

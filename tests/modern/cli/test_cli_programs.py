@@ -20,7 +20,7 @@ SOURCE = "      READ 6,I\n      J=I*I\n      PUNCH 6,J\n      STOP\n    6 FORMAT
 
 
 @pytest.fixture(autouse=True)
-def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def room(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("large.f").write_text(SOURCE, encoding="utf-8")
     Path("small.f").write_text("C  Squares\n" + SOURCE.lower(), encoding="utf-8")
@@ -43,14 +43,12 @@ CALLS = {
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_that_accepts_a_program_is_listed(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_command_that_accepts_a_program_is_listed(command: str, capsys) -> None:
     assert ("PROGRAM.f" in call(capsys, command, "--help")[1].split("options:")[0]) == (command in CALLS)
 
 
 @pytest.mark.parametrize("command", CALLS)
-def test_lower_case_is_reported_once_with_the_option_that_reads_it(
-    command: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_lower_case_is_reported_once_with_the_option_that_reads_it(command: str, capsys) -> None:
     code, out, err = call(capsys, command, "small.f", *CALLS[command])
     assert (code, out) == (2, "")
     assert err == (
@@ -60,7 +58,7 @@ def test_lower_case_is_reported_once_with_the_option_that_reads_it(
 
 
 @pytest.mark.parametrize("command", CALLS)
-def test_upcase_converts_a_program_to_capitals(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_upcase_converts_a_program_to_capitals(command: str, capsys) -> None:
     """The output is the same, except that the comment may be in lower case."""
     Path("large.f").write_text("C  Squares\n" + SOURCE, encoding="utf-8")
     expected = call(capsys, command, "large.f", *CALLS[command])
@@ -69,14 +67,14 @@ def test_upcase_converts_a_program_to_capitals(command: str, capsys: pytest.Capt
     assert (code, out.replace("small.f", "large.f"), err) == expected
 
 
-def test_a_period_program_in_lower_case_runs(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_period_program_in_lower_case_runs(capsys) -> None:
     code, out, err = call(capsys, "run", str(PERIOD / "pi.f"), str(PERIOD / "pi.deck"), "--upcase")
     assert (code, err.count("\n")) == (0, 1)
     assert "the run ended after 2 cards, because the hopper was empty" in err
     assert [line[-9:] for line in out.splitlines()] == ["3.1405970", "3.1415928"]
 
 
-def test_a_period_program_runs_with_its_operator_file(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_period_program_runs_with_its_operator_file(capsys) -> None:
     operator = f"--operator={PERIOD / 'job.operator'}"
     code, out, err = call(capsys, "run", str(PERIOD / "job.f"), str(PERIOD / "job.deck"), operator)
     assert (code, len(out.splitlines())) == (0, 2)
@@ -84,7 +82,7 @@ def test_a_period_program_runs_with_its_operator_file(capsys: pytest.CaptureFixt
     assert "PAUSE" not in err
 
 
-def test_a_deck_of_data_is_never_read_as_capitals(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_deck_of_data_is_never_read_as_capitals(capsys) -> None:
     Path("one.deck").write_text("1.e0\n", encoding="utf-8")
     code, out, err = call(capsys, "run", "small.f", "one.deck", "--upcase")
     assert (code, out) == (2, "")
@@ -123,7 +121,7 @@ def test_every_error_number_is_explained() -> None:
 
 
 @pytest.mark.parametrize("number", explanations())
-def test_an_error_is_explained_in_eighty_columns(number: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_error_is_explained_in_eighty_columns(number: str, capsys) -> None:
     code, out, err = call(capsys, "check", "--explain", number.lower())
     assert (code, err) == (0, "")
     found = explanations()[number]
@@ -134,7 +132,7 @@ def test_an_error_is_explained_in_eighty_columns(number: str, capsys: pytest.Cap
     assert all(" ".join(text.split()) in words for text in (found.meaning, found.remedy, found.source))
 
 
-def test_all_errors_are_explained_at_once(capsys: pytest.CaptureFixture[str]) -> None:
+def test_all_errors_are_explained_at_once(capsys) -> None:
     code, out, _ = call(capsys, "check", "--explain", "all")
     assert code == 0
     assert re.findall(r"^error (\w+):", out, re.M) == list(explanations())
@@ -149,9 +147,7 @@ def test_all_errors_are_explained_at_once(capsys: pytest.CaptureFixture[str]) ->
         ((), "check: expected a program, or --explain with an error number"),
     ],
 )
-def test_an_unknown_error_number_is_rejected(
-    arguments: tuple[str, ...], words: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_unknown_error_number_is_rejected(arguments: tuple[str, ...], words: str, capsys) -> None:
     code, out, err = call(capsys, "check", *arguments)
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert err.startswith(f"hull1620: {words}")
@@ -160,9 +156,7 @@ def test_an_unknown_error_number_is_rejected(
 LARGE = "      DIMENSION X(3900)\n      X(1)=1.\n      STOP\n      END\n"
 
 
-def test_check_and_map_report_a_program_that_does_not_fit_and_a_sufficient_core(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_check_and_map_report_a_program_that_does_not_fit_and_a_sufficient_core(capsys) -> None:
     """The data take 3,900 fields of ten positions. The subroutines take 8,300 of 40,000, the functions' names 120."""
     Path("wide.f").write_text(LARGE, encoding="utf-8")
     code, out, err = call(capsys, "check", "wide.f")
@@ -185,7 +179,7 @@ def test_check_and_map_report_a_program_that_does_not_fit_and_a_sufficient_core(
     assert call(capsys, "check", "wide.f")[1].endswith("has 31580 for them\n")
 
 
-def test_check_rejects_what_run_rejects(capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_rejects_what_run_rejects(capsys) -> None:
     Path("wide.f").write_text(LARGE, encoding="utf-8")
     _, out, _ = call(capsys, "check", "wide.f")
     code, _, err = call(capsys, "run", "wide.f", "one.deck")
@@ -193,7 +187,7 @@ def test_check_rejects_what_run_rejects(capsys: pytest.CaptureFixture[str]) -> N
     assert err == f"hull1620: {out}"
 
 
-def test_export_job_writes_a_folder_and_names_the_changes(capsys: pytest.CaptureFixture[str]) -> None:
+def test_export_job_writes_a_folder_and_names_the_changes(capsys) -> None:
     job = Path("job")
     code, out, _ = call(
         capsys, "export-job", "program2", "example4/punched", "--for", "pdq", "--out", "job", "--switch", "1"
@@ -220,9 +214,7 @@ def test_export_job_writes_a_folder_and_names_the_changes(capsys: pytest.Capture
         (("program1", "missing", "--for", "pdq", "--out", "job"), "missing: no such file or directory"),
     ],
 )
-def test_export_job_rejects_its_arguments_in_one_line(
-    capsys: pytest.CaptureFixture[str], words: tuple[str, ...], message: str
-) -> None:
+def test_export_job_rejects_its_arguments_in_one_line(capsys, words: tuple[str, ...], message: str) -> None:
     Path("taken").write_text("", encoding="ascii")
     code, _, err = call(capsys, "export-job", *words)
     assert (code, err.count("\n"), message in err) == (2, 1, True), err

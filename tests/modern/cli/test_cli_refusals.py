@@ -14,7 +14,7 @@ GROUNDS = ROOT / "fortran_src" / "grounds"
 
 
 @pytest.fixture
-def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Path:
+def own(tmp_path: Path, monkeypatch, capsys) -> Path:
     """Change to a folder with thirty points of three decimals, as points.csv and points.deck."""
     draw = random.Random(1963)
     rows = (",".join(f"{draw.uniform(-5, 5):.3f}" for _ in range(3)) for _ in range(30))
@@ -31,7 +31,7 @@ def tried(err: str) -> list[list[str]]:
     return [shlex.split(command)[1:] for command in commands if not command.startswith("hull1620: ")]
 
 
-def test_points_with_three_decimals_are_refused_with_the_reason(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_points_with_three_decimals_are_refused_with_the_reason(own: Path, capsys) -> None:
     code, _, err = call(capsys, "hull", "points.deck")
     assert code == 1
     words = " ".join(err.split())
@@ -46,7 +46,7 @@ def test_points_with_three_decimals_are_refused_with_the_reason(own: Path, capsy
     assert "--explain" not in longer
 
 
-def test_every_proposed_command_runs_and_some_give_the_hull(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_proposed_command_runs_and_some_give_the_hull(own: Path, capsys) -> None:
     commands = tried(call(capsys, "hull", "points.deck")[2])
     assert [words[0] for words in commands] == ["hull", "hull", "run", "diverge", "export"]
     codes = {" ".join(words): call(capsys, *words)[0] for words in commands}
@@ -56,7 +56,7 @@ def test_every_proposed_command_runs_and_some_give_the_hull(own: Path, capsys: p
     assert (own / "hull.off").read_text(encoding="ascii").startswith("OFF\n")
 
 
-def test_diff_proposes_the_deck_first_and_explains_once(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_diff_proposes_the_deck_first_and_explains_once(own: Path, capsys) -> None:
     code, out, err = call(capsys, "diff", "points.csv")
     assert code == 1
     assert err.count("known fault 6") <= 1 < out.count("DATA NOT ACCEPTABLE")
@@ -64,9 +64,7 @@ def test_diff_proposes_the_deck_first_and_explains_once(own: Path, capsys: pytes
 
 
 @pytest.mark.parametrize(("name", "fault"), [("lastpair", 1), ("throughc", 3)])
-def test_a_fault_of_the_original_is_named_and_its_correction_works(
-    name: str, fault: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_fault_of_the_original_is_named_and_its_correction_works(name, fault, tmp_path, capsys) -> None:
     deck = str(GROUNDS / f"{name}.deck")
     code, _, err = call(capsys, "hull", deck, "--explain")
     assert code == 1
@@ -75,7 +73,7 @@ def test_a_fault_of_the_original_is_named_and_its_correction_works(
     assert call(capsys, *tried(err)[0])[0] == 0
 
 
-def test_each_of_several_data_sets_is_named(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_each_of_several_data_sets_is_named(own: Path, capsys) -> None:
     text = Path("points.deck").read_text(encoding="ascii")
     Path("two.deck").write_text(text + " 1\n.1E+01        .1E+01        .1E+01\n" + text, encoding="ascii")
     err = call(capsys, "hull", "two.deck")[2]
@@ -87,7 +85,7 @@ def test_a_known_fault_has_its_number_in_the_list() -> None:
     assert {"1", "2", "3", "4", "5", "6", "16"} <= set(numbers)
 
 
-def test_epsilon_is_punched_and_read(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_epsilon_is_punched_and_read(own: Path, capsys) -> None:
     assert call(capsys, "cards", "points.csv", "--epsilon", ".01", "-o", "e.deck")[0] == 0
     assert (own / "e.deck").read_text(encoding="ascii").splitlines()[0] == "30+.10000000E-01"
     by_card = call(capsys, "hull", "e.deck", "--layers", "corrected,epsilon", "--core", "60000")
@@ -105,9 +103,7 @@ def test_epsilon_is_punched_and_read(own: Path, capsys: pytest.CaptureFixture[st
 
 @pytest.mark.parametrize("epsilon", ["-1", "", "rel:x", "rel:-1", "nan"])
 @pytest.mark.parametrize("command", ["hull", "diff", "cards"])
-def test_an_invalid_epsilon_is_rejected_in_one_line(
-    command: str, epsilon: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_invalid_epsilon_is_rejected_in_one_line(command: str, epsilon: str, capsys) -> None:
     code, out, err = call(capsys, command, "example1", f"--epsilon={epsilon}")
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert err.startswith(f"hull1620 {command}: argument --epsilon: ")

@@ -98,9 +98,7 @@ def test_nothing_is_lost_and_no_line_is_too_long(one: list[str], other: list[str
 
 @pytest.mark.parametrize("width", [60, 100, 170])
 @pytest.mark.parametrize("example", [1, 4, 5])
-def test_every_card_of_an_example_is_shown(
-    example: int, width: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_every_card_of_an_example_is_shown(example: int, width: int, monkeypatch, capsys) -> None:
     monkeypatch.setenv("COLUMNS", str(width))
     code, out, err = call(capsys, "reproduce", str(example), "--show")
     assert (code, err) == (0, "")
@@ -118,9 +116,7 @@ def test_every_card_of_an_example_is_shown(
     assert "^" in listed
 
 
-def test_every_result_of_a_paper_that_is_computed_is_shown(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_every_result_of_a_paper_that_is_computed_is_shown(monkeypatch, capsys) -> None:
     monkeypatch.setenv("COLUMNS", "200")
     (paper,) = (paper for paper in PAPERS if paper.name == "appel-will")
     code, out, _ = call(capsys, "reproduce", "appel-will", "--show")
@@ -131,7 +127,7 @@ def test_every_result_of_a_paper_that_is_computed_is_shown(
             assert line.strip().expandtabs(2) in out
 
 
-def test_json_on_standard_output_is_the_only_output(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_on_standard_output_is_the_only_output(capsys) -> None:
     code, out, err = call(capsys, "reproduce", "1", "--show", "--json", "-")
     assert code == 0
     assert json.loads(out)["reproduced"] is True

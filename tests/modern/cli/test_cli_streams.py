@@ -11,7 +11,7 @@ import pytest
 from tests.support.commands import DECK, call
 
 
-def test_files_replace_the_standard_streams(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_files_replace_the_standard_streams(room: Path, capsys) -> None:
     code, out, err = call(capsys, "hull", "good.deck", "--punch", "c", "--typewriter", "t", "--trace", "l")
     assert (code, out, err) == (0, "", "")
     assert Path("t").read_text(encoding="utf-8") == "POINTS ARE NOT COPLANAR\n"
@@ -22,9 +22,7 @@ def test_files_replace_the_standard_streams(room: Path, capsys: pytest.CaptureFi
     assert "X(2) = .10000000E+01" in trace
 
 
-def test_a_deck_from_standard_input(
-    room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_deck_from_standard_input(room: Path, capsys, monkeypatch) -> None:
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(DECK.encode()), encoding="utf-8"))
     assert call(capsys, "hull", "-")[0] == 0
 
@@ -39,7 +37,7 @@ def test_a_closed_pipe_is_no_error() -> None:
 # The outputs and their destinations.
 
 
-def test_a_device_is_written_and_not_replaced(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_device_is_written_and_not_replaced(room: Path, capsys) -> None:
     os.mkfifo("pipe")
     reader = subprocess.Popen(["cat", "pipe"], stdout=subprocess.PIPE, text=True)
     assert call(capsys, "hull", "good.deck", "--trace", "pipe")[0] == 0
@@ -47,7 +45,7 @@ def test_a_device_is_written_and_not_replaced(room: Path, capsys: pytest.Capture
     assert Path("pipe").is_fifo()
 
 
-def test_an_existing_file_keeps_its_mode_and_a_link_is_followed(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_existing_file_keeps_its_mode_and_a_link_is_followed(room: Path, capsys) -> None:
     Path("cards").write_text("old", encoding="utf-8")
     Path("cards").chmod(0o600)
     Path("link").symlink_to("cards")
@@ -57,7 +55,7 @@ def test_an_existing_file_keeps_its_mode_and_a_link_is_followed(room: Path, caps
     assert "CONVEX HULL" in Path("cards").read_text(encoding="utf-8")
 
 
-def test_output_before_an_invalid_card_is_kept(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_output_before_an_invalid_card_is_kept(room: Path, capsys) -> None:
     Path("bad.deck").write_text("2.\nABC\n", encoding="utf-8")
     code, out, err = call(capsys, "run", "good.f", "bad.deck", "--trace", "log")
     assert (code, out) == (2, " .20000000E+01\n")
@@ -65,14 +63,14 @@ def test_output_before_an_invalid_card_is_kept(room: Path, capsys: pytest.Captur
     assert "READ 2,X" in Path("log").read_text(encoding="utf-8")
 
 
-def test_blank_cards_after_the_deck_are_ignored(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_blank_cards_after_the_deck_are_ignored(room: Path, capsys) -> None:
     Path("b.deck").write_text(DECK + "\n\n", encoding="utf-8")
     code, _, err = call(capsys, "hull", "b.deck")
     assert code == 0
     assert "warning: b.deck: card 6, column 1: the programs do not read the blank cards" in err
 
 
-def test_errors_of_the_arithmetic_are_always_noted(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_errors_of_the_arithmetic_are_always_noted(room: Path, capsys) -> None:
     cards = "9.E+98        1.E+98        0.\n-9.E+98       2.E+98        0.            JUNK\n"
     Path("big.deck").write_text(" 2\n" + cards, encoding="utf-8")
     code, _, err = call(capsys, "hull", "big.deck")
@@ -90,9 +88,7 @@ def test_errors_of_the_arithmetic_are_always_noted(room: Path, capsys: pytest.Ca
         (["run", "a\nb.f"], "a\\nb.f: no such file"),
     ],
 )
-def test_outputs_are_checked_before_the_run(
-    room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
-) -> None:
+def test_outputs_are_checked_before_the_run(room: Path, capsys, arguments: list[str], words: str) -> None:
     code, out, err = call(capsys, *arguments)
     assert (code, out) == (2, "")
     assert words in err

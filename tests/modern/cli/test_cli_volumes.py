@@ -36,7 +36,7 @@ def scan() -> np.ndarray:
 
 
 @pytest.fixture(autouse=True)
-def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def _folder(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     array = scan()
     np.save("scan.npy", array)
@@ -44,7 +44,7 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     Path("scan.nrrd").write_bytes(nrrd(array, *PLACE))
 
 
-def test_the_selection_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_selection_is_reported(capsys) -> None:
     words = {
         (): "values other than 0, of 0 to 7; 89 voxels",
         ("--label", "1"): "label 1 of 1, 2, 7; 8 voxels",
@@ -63,7 +63,7 @@ def test_the_selection_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     assert placed.endswith("spacing 0.5 0.5 2 (unit not stated)")
 
 
-def test_the_meaning_of_coordinates_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_meaning_of_coordinates_is_reported(capsys) -> None:
     assert call(capsys, "voxel-hull", "scan.nrrd")[2].splitlines()[1] == (
         "coordinates: left-posterior-superior; centre of voxel (0, 0, 0) at -10 5 0.25; the array's axes run left, "
         "anterior, superior; vertices are corners, half a voxel from centres"
@@ -81,7 +81,7 @@ def test_the_meaning_of_coordinates_is_reported(capsys: pytest.CaptureFixture[st
 
 
 @pytest.mark.parametrize("form", ["off", "obj", "ply", "stl"])
-def test_a_label_becomes_a_mesh_in_millimetres(form: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_label_becomes_a_mesh_in_millimetres(form: str, capsys) -> None:
     code, out, _ = call(capsys, "voxel-hull", "scan.nrrd", "--label", "1", "--straight", "-o", f"one.{form}")
     assert code == 0
     corners = {tuple(map(float, point)) for point in read_points(f"one.{form}")}
@@ -90,7 +90,7 @@ def test_a_label_becomes_a_mesh_in_millimetres(form: str, capsys: pytest.Capture
     assert "hull: volume 4 mm^3\nhull: area 18 mm^2\nsolidity 1; convex deficiency 0 mm^3\n" in out
 
 
-def test_faces_stay_outward_if_an_axis_is_reversed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_faces_stay_outward_if_an_axis_is_reversed(capsys) -> None:
     assert WORLD.mirrors
     call(capsys, "voxel-hull", "scan.nrrd", "--label", "7", "-o", "seven.off")
     lines = Path("seven.off").read_text(encoding="ascii").split("\n")
@@ -103,7 +103,7 @@ def test_faces_stay_outward_if_an_axis_is_reversed(capsys: pytest.CaptureFixture
         assert ((points - a) @ normal).min() < 0
 
 
-def test_the_measures_of_a_hull_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_measures_of_a_hull_are_printed(capsys) -> None:
     call(capsys, "voxel-hull", "scan.nrrd", "--label", "7", "--straight", "-o", "seven.off")
     out = call(capsys, "voxel-hull", "scan.nrrd", "--label", "7")[1].splitlines()
     judged = exact_hull(read_points("seven.off"))
@@ -118,7 +118,7 @@ def test_the_measures_of_a_hull_are_printed(capsys: pytest.CaptureFixture[str]) 
     assert centres[-3:] == ["volume of the voxels: 0.5 mm^3", "hull: volume 0 mm^3", "hull: area 0 mm^2"]
 
 
-def test_each_label_has_a_row_and_a_mesh(capsys: pytest.CaptureFixture[str]) -> None:
+def test_each_label_has_a_row_and_a_mesh(capsys) -> None:
     code, out, err = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "--csv", "t.csv", "-o", "label-%02d.stl")
     assert code == 0
     assert sorted(path.name for path in Path().glob("label-*")) == ["label-01.stl", "label-02.stl", "label-07.stl"]
@@ -140,7 +140,7 @@ def test_each_label_has_a_row_and_a_mesh(capsys: pytest.CaptureFixture[str]) -> 
         assert Fraction(row["deficiency_exact"]) == hull.volume - Fraction(row["volume"])
 
 
-def test_selected_labels_have_rows_for_centres_and_filled_hulls(capsys: pytest.CaptureFixture[str]) -> None:
+def test_selected_labels_have_rows_for_centres_and_filled_hulls(capsys) -> None:
     some = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "--label", "7", "--label", "2")[1].splitlines()
     assert [line.split()[0] for line in some] == ["label", "7", "2", "lengths"]
     centres = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "--centres")[1].splitlines()
@@ -154,7 +154,7 @@ def test_selected_labels_have_rows_for_centres_and_filled_hulls(capsys: pytest.C
     assert "80/81" in Path("f.csv").read_text(encoding="ascii").splitlines()[3]
 
 
-def test_a_filled_hull_keeps_the_position_of_the_scan(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_filled_hull_keeps_the_position_of_the_scan(capsys) -> None:
     code, out, err = call(capsys, "voxel-hull", "scan.nrrd", "--label", "7", "--fill", "-o", "filled.nrrd")
     assert (code, "note" in err) == (0, False)
     assert out.endswith("polyhedron): 81 voxels\nsolidity 80/81, in voxels; convex deficiency: 1 voxel\n")
@@ -169,7 +169,7 @@ def test_a_filled_hull_keeps_the_position_of_the_scan(capsys: pytest.CaptureFixt
     assert read_volume("index.nrrd").world is None
 
 
-def test_one_of_several_arrays_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+def test_one_of_several_arrays_is_named(capsys) -> None:
     assert call(capsys, "voxel-hull", "scan.npz", "--array", "scan", "--label", "1")[0] == 0
     np.savez("one.npz", scan=scan())
     assert call(capsys, "voxel-hull", "one.npz")[0] == 0
@@ -205,9 +205,7 @@ def test_one_of_several_arrays_is_named(capsys: pytest.CaptureFixture[str]) -> N
         ("scan.nrrd --fill -o a.off", "expected a name that ends with .npy or .nrrd"),
     ],
 )
-def test_invalid_requests_are_reported_in_one_line(
-    words: str, message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_invalid_requests_are_reported_in_one_line(words: str, message: str, capsys) -> None:
     before = sorted(Path().iterdir())
     code, out, err = call(capsys, "voxel-hull", *words.split())
     assert (code, out, err.count("\n")) == (2, "", 1)
@@ -229,14 +227,14 @@ def test_warnings_of_python_about_a_header_are_not_shown(shape: str, code: int) 
     )
 
 
-def test_a_name_that_writes_two_labels_to_one_file_is_rejected(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_name_that_writes_two_labels_to_one_file_is_rejected(capsys) -> None:
     """A width does not truncate a number, so names differ. A missing folder is reported before anything is written."""
     code, _, err = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "-o", "absent/label-%d.off")
     assert (code, err.count("\n")) == (2, 1)
     assert "absent" in err
 
 
-def test_a_picture_is_filled_and_has_no_polyhedron(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_picture_is_filled_and_has_no_polyhedron(capsys) -> None:
     picture = Volume(scan()[:, :, 0] > 0, (0, 0))
     write_array("picture.npy", picture.array, picture)
     assert call(capsys, "voxel-hull", "picture.npy", "--fill", "--spacing", "1,2")[0] == 0

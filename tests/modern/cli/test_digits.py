@@ -28,16 +28,14 @@ CARDS = "       1.0     -99.9      0.01\n"
 
 
 @pytest.fixture
-def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def program(tmp_path: Path, monkeypatch) -> Path:
     monkeypatch.chdir(tmp_path)
     Path("my.f").write_text(SOURCE, encoding="utf-8")
     Path("my.deck").write_text(CARDS, encoding="utf-8")
     return tmp_path
 
 
-def test_report_says_which_digits_to_believe_and_which_statement_loses_them(
-    program: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_report_says_which_digits_to_believe_and_which_statement_loses_them(program: Path, capsys) -> None:
     assert main(["digits", "my.f", "my.deck", "--csv", "out.csv", "--html", "out.html", "--samples", "out.npy"]) == 0
     report = capsys.readouterr().out
     rows = {tuple(line.split()[:2]): line for line in report.splitlines() if line.strip()}
@@ -54,7 +52,7 @@ def test_report_says_which_digits_to_believe_and_which_statement_loses_them(
     assert np.load("out.npy").shape == (10, 2)
 
 
-def test_unknown_and_disputed_decisions_are_reported(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_unknown_and_disputed_decisions_are_reported(program: Path, capsys) -> None:
     lines = [
         "A=1./3.",
         "B=A*3.-1.",
@@ -86,9 +84,7 @@ def test_unknown_and_disputed_decisions_are_reported(program: Path, capsys: pyte
         (["--arithmetic", "none"], "no arithmetic is called 'none'"),
     ],
 )
-def test_wrong_options_are_explained_in_one_line(
-    program: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
-) -> None:
+def test_wrong_options_are_explained_in_one_line(program: Path, capsys, arguments: list[str], message: str) -> None:
     assert main(["digits", "my.f", "my.deck", *arguments]) == 2
     assert message in capsys.readouterr().err
 
@@ -99,9 +95,7 @@ def deck_of(name: str, *lines: str) -> str:
     return name
 
 
-def test_statement_that_rounds_within_the_last_digit_is_listed(
-    program: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_statement_that_rounds_within_the_last_digit_is_listed(program: Path, capsys) -> None:
     """The runs store .96666666 and .96666667; the estimate is limited to eight digits."""
     name = deck_of("one.f", "A=2.9/3.", "TYPE 1,A", "    1 FORMAT(E14.8)", "STOP")
     main(["digits", name])
@@ -109,9 +103,7 @@ def test_statement_that_rounds_within_the_last_digit_is_listed(
 
 
 @pytest.mark.parametrize("arithmetic", ["truncating", "exact", "float64", "interval:8"])
-def test_no_estimate_exceeds_the_printed_digits(
-    program: Path, capsys: pytest.CaptureFixture[str], arithmetic: str
-) -> None:
+def test_no_estimate_exceeds_the_printed_digits(program: Path, capsys, arithmetic: str) -> None:
     name = deck_of("short.f", "A=1./3.", "TYPE 1,A", "    1 FORMAT(F8.5)", "STOP")
     main(["digits", name, "--arithmetic", arithmetic])
     (row,) = (line.split() for line in capsys.readouterr().out.splitlines() if " .33333 " in line)
@@ -119,14 +111,12 @@ def test_no_estimate_exceeds_the_printed_digits(
     assert row[5:] == ["believe", "5", "digits"]
 
 
-def test_runs_that_the_arithmetic_names_are_counted(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_runs_that_the_arithmetic_names_are_counted(program: Path, capsys) -> None:
     main(["digits", "my.f", "my.deck", "--arithmetic", "stochastic:8:1-3"])
     assert "3 stochastic runs in step (stochastic:8:1-3)" in " ".join(capsys.readouterr().out.split())
 
 
-def test_narrow_report_wraps_statements_and_verdicts(
-    program: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_narrow_report_wraps_statements_and_verdicts(program: Path, capsys, monkeypatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     main(["digits", "my.f", "my.deck"])
     report = capsys.readouterr().out
@@ -139,9 +129,7 @@ def test_narrow_report_wraps_statements_and_verdicts(
 @pytest.mark.parametrize(
     ("option", "start"), [("--html", b"<!DOCTYPE html>"), ("--csv", b"part,row,"), ("--samples", b"\x93NUMPY")]
 )
-def test_data_go_to_standard_output_without_the_report(
-    program: Path, capsysbinary: pytest.CaptureFixture[bytes], option: str, start: bytes
-) -> None:
+def test_data_go_to_standard_output_without_the_report(program: Path, capsysbinary, option: str, start: bytes) -> None:
     main(["digits", "my.f", "my.deck", option, "-"])
     output = capsysbinary.readouterr()
     assert output.out.startswith(start)
@@ -149,15 +137,13 @@ def test_data_go_to_standard_output_without_the_report(
 
 
 @pytest.mark.parametrize("verb", ["READ", "ACCEPT"])
-def test_listing_with_digits_requires_a_deck_for_a_program_with_input(
-    program: Path, capsys: pytest.CaptureFixture[str], verb: str
-) -> None:
+def test_listing_with_digits_requires_a_deck_for_a_program_with_input(program: Path, capsys, verb: str) -> None:
     Path("input.f").write_text(f"      {verb} 1,A\n    1 FORMAT(F10.4)\n      END\n", encoding="utf-8")
     assert main(["listing", "input.f", "--digits"]) == 2
     assert "the program has READ or ACCEPT statements; name a data deck" in capsys.readouterr().err
 
 
-def test_listing_and_trace_show_the_digits(program: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_listing_and_trace_show_the_digits(program: Path, capsys) -> None:
     assert main(["listing", "my.f", "my.deck", "--digits"]) == 0
     listing = capsys.readouterr().out
     assert next(line for line in listing.splitlines() if "X=(-B-R)" in line).split()[3:5] == ["5.6", "2.6"]

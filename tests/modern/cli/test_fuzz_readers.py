@@ -23,7 +23,7 @@ def points(draw: random.Random) -> list[tuple[str, str, str]]:
     """Draw points in space, with or without decimals."""
     count, places = draw.randrange(4, 12), draw.randrange(3)
     corner = [("0", "0", "0"), ("9", "0", "0"), ("0", "9", "0"), ("0", "0", "9")]
-    return corner + [tuple(f"{draw.uniform(-5, 5):.{places}f}" for _ in range(3)) for _ in range(count)]  # type: ignore[misc]
+    return corner + [tuple(f"{draw.uniform(-5, 5):.{places}f}" for _ in range(3)) for _ in range(count)]
 
 
 def deck(draw: random.Random) -> bytes:
@@ -145,9 +145,7 @@ READERS: dict[str, tuple[str, Make, list[str]]] = {
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_a_damaged_file_is_read_or_rejected_in_one_line(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_damaged_file_is_read_or_rejected_in_one_line(name: str, tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     codes = codes_of(name, *READERS[name], tmp_path, capsys)
     assert {0, 2} <= codes, codes

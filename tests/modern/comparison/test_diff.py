@@ -26,7 +26,7 @@ def judge_of(points: list[tuple[int, int, int]]) -> Outcome:
 
 def changed(outcome: Outcome, **changes: object) -> Outcome:
     fields = {name: getattr(outcome, name) for name in Outcome.__dataclass_fields__}
-    return Outcome(**{**fields, **changes})  # type: ignore[arg-type]
+    return Outcome(**{**fields, **changes})
 
 
 def test_an_exact_hull_does_not_differ_from_itself() -> None:
@@ -75,14 +75,12 @@ def test_a_small_error_of_a_coefficient_is_measured_but_is_no_difference() -> No
         ("39_prism_n10", 1, "endless"),
     ],
 )
-def test_diff_of_the_machine_runs_has_the_known_result(
-    capsys: pytest.CaptureFixture[str], run: str, code: int, words: str
-) -> None:
+def test_diff_of_the_machine_runs_has_the_known_result(capsys, run: str, code: int, words: str) -> None:
     assert main(["diff", str(RUNS / run / "deck.cards")]) == code
     assert words in capsys.readouterr().out
 
 
-def test_json_output_covers_points_that_no_card_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_output_covers_points_that_no_card_holds(tmp_path: Path, capsys) -> None:
     path = tmp_path / "p.csv"
     path.write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1.0000000001\n")
     assert main(["diff", str(path), "--json", str(tmp_path / "d.json")]) == 0
@@ -94,7 +92,7 @@ def test_json_output_covers_points_that_no_card_holds(tmp_path: Path, capsys: py
     capsys.readouterr()
 
 
-def test_an_epsilon_makes_three_decimals_agree(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_epsilon_makes_three_decimals_agree(tmp_path: Path, capsys) -> None:
     """The listing refuses the set; with e the programs and the port agree with the exact hull."""
     deck, out = str(RUNS / "18_dec3_n6" / "deck.cards"), str(tmp_path / "d.json")
 
@@ -112,7 +110,7 @@ def test_an_epsilon_makes_three_decimals_agree(tmp_path: Path, capsys: pytest.Ca
     capsys.readouterr()
 
 
-def test_diff_rejects_bad_input_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_diff_rejects_bad_input_in_one_line(tmp_path: Path, capsys) -> None:
     path = tmp_path / "p.csv"
     path.write_text("0,0,x\n")
     assert main(["diff", str(path)]) == 2

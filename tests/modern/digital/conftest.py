@@ -10,7 +10,7 @@ from tests.support.itk_forks import Run, fork_server, fork_server_is_possible
 
 
 @pytest.fixture(autouse=True)
-def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def _folder(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
 
 
@@ -24,6 +24,6 @@ def server() -> Iterator[Run | None]:
 
 
 @pytest.fixture(autouse=True)
-def _forks(server: Run | None, monkeypatch: pytest.MonkeyPatch) -> None:
+def _forks(server: Run | None, monkeypatch) -> None:
     if server is not None:
         monkeypatch.setattr(itk, "_run", server)

@@ -213,7 +213,7 @@ def test_files_of_a_series_that_are_not_dicom_are_named_as_left_out() -> None:
 
 
 @needs_itk
-def test_a_compressed_volume_is_verified_piece_by_piece(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_compressed_volume_is_verified_piece_by_piece(monkeypatch) -> None:
     monkeypatch.setattr(streams, "CHUNK", 7)
     for name in ("MHA compressed", "NIfTI with gzip", "TIFF with Deflate"):
         sample = ITKS[name]()
@@ -261,9 +261,7 @@ NAN, INFINITY = float("nan"), float("inf")
         (0, "i", (540,), "NIfTI-2 is not supported; convert the file to NIfTI-1"),
     ],
 )
-def test_invalid_numbers_of_a_nifti_header_are_reported(
-    position: int, form: str, numbers: tuple[Any, ...], message: str
-) -> None:
+def test_invalid_numbers_of_a_nifti_header_are_reported(position, form, numbers, message) -> None:
     data = bytearray(NII)
     struct.pack_into(f"<{form}", data, position, *numbers)
     assert rejection(saved("a.nii", bytes(data))).startswith(message)

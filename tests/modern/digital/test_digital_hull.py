@@ -44,9 +44,7 @@ def test_hull_of_a_connected_solid_has_the_grid_points_of_the_judge(seed: int) -
 
 
 @given(st.integers(0, 10**9), st.tuples(*[st.integers(-3, 3)] * 3), st.integers(-4, 9))
-def test_coplanar_voxels_have_the_grid_points_of_the_judge(
-    seed: int, normal: tuple[int, int, int], offset: int
-) -> None:
+def test_coplanar_voxels_have_the_grid_points_of_the_judge(seed, normal, offset) -> None:
     source = np.random.default_rng(seed)
     array = source.random((7, 6, 8)) < 0.4
     positions = np.indices(array.shape).reshape(3, -1).T
@@ -54,7 +52,7 @@ def test_coplanar_voxels_have_the_grid_points_of_the_judge(
     assert not array.any() or agrees(array)
 
 
-def test_the_comparison_with_the_judge_can_fail(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_comparison_with_the_judge_can_fail(monkeypatch) -> None:
     array = solid_of([(0, 0, 0), (2, 0, 0), (0, 2, 1), (0, 0, 3)])
     assert agrees(array)
     monkeypatch.setattr(intervals, "_along", lambda line, t, z: (line[:1], t[:1], z[:1]))
@@ -71,9 +69,7 @@ def test_the_comparison_with_the_judge_can_fail(monkeypatch: pytest.MonkeyPatch)
         ([(0, 0, 0), (3, 0, 0), (0, 3, 0), (0, 0, 3)], "polyhedron"),
     ],
 )
-def test_hulls_of_every_dimension_have_the_grid_points_of_the_judge(
-    voxels: list[tuple[int, int, int]], kind: str
-) -> None:
+def test_hulls_of_every_dimension_have_the_grid_points_of_the_judge(voxels, kind) -> None:
     array = solid_of(voxels)
     for hull in (digital_hull(array), digital_hull(np.asfortranarray(array)), digital_hull(array.astype(float))):
         assert hull.kind == kind == KINDS[hull.dimension]
@@ -118,7 +114,7 @@ def test_ball_is_its_own_hull(diameter: int) -> None:
     assert np.array_equal(digital_hull(volume).filled, volume.array)
 
 
-def test_batch_size_does_not_change_the_hull(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_batch_size_does_not_change_the_hull(monkeypatch) -> None:
     array = ball(15).array & (np.indices((15, 15, 15)).sum(axis=0) % 5 == 0)
     whole = digital_hull(array)
     monkeypatch.setattr(intervals, "SLAB", 1)
@@ -142,7 +138,7 @@ def no_numba() -> None:
     raise NotInstalled("compiled code needs numba")
 
 
-def test_compiled_code_runs_for_large_volumes_only(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_compiled_code_runs_for_large_volumes_only(monkeypatch) -> None:
     calls = []
 
     def recorded(points: Any, simplex: Any, fast: bool) -> Any:
@@ -158,7 +154,7 @@ def test_compiled_code_runs_for_large_volumes_only(monkeypatch: pytest.MonkeyPat
     assert calls == [(False, False), (True, True), (True, False)]
 
 
-def test_compiled_code_without_numba_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_compiled_code_without_numba_is_an_error(monkeypatch) -> None:
     monkeypatch.setattr("modern.digital.hull.compiled_hull", no_numba)
     for volume in (ball(6), np.ones((3, 3)), np.ones((1, 2, 1)), np.ones((1, 1))):
         with pytest.raises(VolumeError, match="needs numba"):

@@ -31,7 +31,7 @@ TURNED = (math.cos(0.3), -math.sin(0.3), 0, math.sin(0.3), math.cos(0.3), 0, 0, 
 
 
 @pytest.fixture
-def separate_process(monkeypatch: pytest.MonkeyPatch) -> None:
+def separate_process(monkeypatch) -> None:
     """Read each file in a new process, as the commands do."""
     monkeypatch.setattr(itk, "_run", REAL_RUN)
 
@@ -180,7 +180,7 @@ def test_one_of_several_series_can_be_selected() -> None:
         (lambda: huge("a.mha"), "a.mha: expected at most 2147483648 voxels, found 9000 x 9000 x 9000"),
     ],
 )
-def test_invalid_files_are_reported_in_one_line(make: Callable[[], str], message: str, capfd: Any) -> None:
+def test_invalid_files_are_reported_in_one_line(make: Callable[[], str], message: str, capfd) -> None:
     name = make()
     with pytest.raises(Exception, match=r"\S") as caught:
         read_scan(name)
@@ -223,9 +223,7 @@ def huge(name: str) -> str:
         ("import time; time.sleep(60)", "SimpleITK did not read it within 0.5 seconds"),
     ],
 )
-def test_every_failure_of_the_library_is_one_line(
-    child: str, message: str, monkeypatch: pytest.MonkeyPatch, capfd: Any
-) -> None:
+def test_every_failure_of_the_library_is_one_line(child: str, message: str, monkeypatch, capfd) -> None:
     Path("child.py").write_text(f"print('noise', flush=True)\n{child}\n", encoding="utf-8")
     monkeypatch.setattr(itk, "_CHILD", "child.py")
     if "sleep" in child:
@@ -237,7 +235,7 @@ def test_every_failure_of_the_library_is_one_line(
 
 
 @pytest.mark.usefixtures("separate_process")
-def test_temporary_files_are_removed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_temporary_files_are_removed(monkeypatch, tmp_path: Path) -> None:
     monkeypatch.setenv("TMPDIR", str(tmp_path / "tmp"))
     monkeypatch.setattr("tempfile.tempdir", None)
     (tmp_path / "tmp").mkdir()
@@ -288,7 +286,7 @@ def test_voxels_of_a_file_read_by_the_library_can_be_selected() -> None:
         read_scan("a.nii.gz", Stated(series="1"))
 
 
-def test_time_limit_grows_with_the_size_of_the_files(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_time_limit_grows_with_the_size_of_the_files(monkeypatch) -> None:
     limits = []
     monkeypatch.setattr(itk, "_checked", lambda path, kind: (None, None, ""))
     monkeypatch.setattr(itk, "_slices", lambda path: {})

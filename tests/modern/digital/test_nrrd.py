@@ -42,7 +42,7 @@ def test_decimals_are_read_exactly() -> None:
 
 def test_spacings_are_steps_along_the_axes_from_zero() -> None:
     world = world_in("spacings: 0.5 0.25 2", 'units: "mm" "mm" "mm"')
-    assert world == World(((Fraction(1, 2), 0, 0), (0, Fraction(1, 4), 0), (0, 0, 2)), (0, 0, 0), "", "mm")  # type: ignore[arg-type]
+    assert world == World(((Fraction(1, 2), 0, 0), (0, Fraction(1, 4), 0), (0, 0, 2)), (0, 0, 0), "", "mm")
     unknown = world_in("spacings: nan nan nan", "space directions: (1,0,0) (0,1,0) (0,0,1)")
     assert unknown.steps[0] == (1, 0, 0)
 
@@ -113,9 +113,7 @@ vectors = st.tuples(numbers, numbers, numbers)
 
 @settings(deadline=None, max_examples=60)
 @given(st.tuples(vectors, vectors, vectors), vectors, st.sampled_from(["", LPS, "scanner-xyz"]), st.booleans())
-def test_a_written_volume_is_restored_with_its_position(
-    steps: tuple[tuple[Fraction, ...], ...], origin: tuple[Fraction, ...], space: str, unit: bool
-) -> None:
+def test_a_written_volume_is_restored_with_its_position(steps, origin, space, unit) -> None:
     if not determinant(steps):
         return
     volume = Volume(STEPS > 2, (4, -1, 0), world=World(steps, origin, space, "mm" if unit else ""))
@@ -129,7 +127,7 @@ def test_a_written_volume_is_restored_with_its_position(
 
 
 @pytest.fixture(autouse=True)
-def _folder(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+def _folder(tmp_path_factory, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path_factory.mktemp("nrrd"))
 
 

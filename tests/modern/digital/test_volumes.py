@@ -245,7 +245,7 @@ def test_invalid_names_are_reported(name: str, message: str) -> None:
     assert str(caught.value).startswith(message)
 
 
-def test_volumes_are_read_from_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_volumes_are_read_from_standard_input(monkeypatch) -> None:
     monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(npy(STEPS)), encoding="utf-8"))
     assert same(read_volume("-"), STEPS)
     monkeypatch.setattr("sys.stdin", None)

@@ -58,9 +58,7 @@ def image_of_every_voxel(volume: Volume, world: World, of: Of) -> list[tuple[Fra
 
 @settings(deadline=None, max_examples=60)
 @given(st.integers(0, 10**9), worlds(), st.tuples(*[st.integers(-9, 9)] * 3), st.sampled_from([VERTICES, CENTRES]))
-def test_hull_in_physical_coordinates_is_that_of_the_judge(
-    seed: int, world: World, origin: tuple[int, int, int], of: Of
-) -> None:
+def test_hull_in_physical_coordinates_is_that_of_the_judge(seed, world, origin, of) -> None:
     solid = random_solid(random.Random(seed), side=4, steps=20)
     volume = Volume(solid, origin, world=world)
     hull = voxel_hull(volume, of)

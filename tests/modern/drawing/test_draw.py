@@ -147,7 +147,7 @@ def test_axes_of_the_image_point_right_and_up(eye: Whole, right: Whole, up: Whol
         assert (y < middle[1]) == (sum(a * b for a, b in zip(centred, up, strict=True)) > 0)
 
 
-def test_a_direction_outside_the_list_is_chosen_if_none_in_it_is_suitable(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_direction_outside_the_list_is_chosen_if_none_in_it_is_suitable(monkeypatch) -> None:
     monkeypatch.setattr(view, "EYES", ())
     # At t = 2 the curve gives (2, -5, 8): the face x + 2 y + z is edge-on there.
     points = [(Fraction(0), Fraction(0), Fraction(0)), (Fraction(1), Fraction(1), Fraction(1))]

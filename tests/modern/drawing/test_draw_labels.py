@@ -70,7 +70,7 @@ def test_crosses_agrees_with_exact_intersections(a: tuple[int, int], b: tuple[in
         assert crosses((a, b), (*low, *high)) == meets
 
 
-def test_vertices_beyond_the_limit_are_not_numbered(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_vertices_beyond_the_limit_are_not_numbered(monkeypatch) -> None:
     monkeypatch.setattr("modern.drawing.draw.MOST_NUMBERS", 20)
     curve = [(k, k * k, 0) for k in range(21)]
     _, picture = draw(curve)

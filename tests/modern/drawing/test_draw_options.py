@@ -154,7 +154,7 @@ def test_strip_and_animation_contain_all_stages() -> None:
     construction = frames(staged(SOLID))
     text = strip(construction, "solid")
     assert len(groups(text)["words"]) >= len(construction)
-    assert ElementTree.fromstring(text).find(f"{SVG}title").text == "solid"  # type: ignore[union-attr]
+    assert ElementTree.fromstring(text).find(f"{SVG}title").text == "solid"
     moving = played(construction)
     stages = [g for g in ElementTree.fromstring(moving).iter(f"{SVG}g") if "stage" in g.get("class", "").split()]
     assert len(stages) == len(construction)
@@ -173,9 +173,7 @@ def test_polygons_have_stages_and_segments_have_none() -> None:
 # --- the command
 
 
-def test_draw_command_accepts_every_option(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_draw_command_accepts_every_option(tmp_path: Path, capsys, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("s.csv").write_text("".join(f"{x},{y},{z}\n" for x, y, z in SOLID), encoding="utf-8")
     assert call(capsys, "cards", "s.csv", "-o", "s.deck")[0] == 0
@@ -200,13 +198,7 @@ def test_draw_command_accepts_every_option(
         (["s.csv", "--width", "10"], "a picture cannot be 10 pixels wide"),
     ],
 )
-def test_draw_command_reports_errors_in_one_line(
-    arguments: list[str],
-    message: str,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_draw_command_reports_errors_in_one_line(arguments, message, tmp_path, capsys, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("s.csv").write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n", encoding="utf-8")
     code, out, err = call(capsys, "draw", *arguments)

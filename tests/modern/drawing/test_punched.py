@@ -35,7 +35,7 @@ def holes(card: ElementTree.Element) -> list[tuple[Fraction, Fraction, Fraction,
     matches = HOLE.findall(drawn)
     assert HOLE.sub("", drawn) == ""
     assert all(wide == back for _, _, wide, _, back in matches)
-    return [tuple(Fraction(number) / INCH for number in hole[:4]) for hole in matches]  # type: ignore[misc]
+    return [tuple(Fraction(number) / INCH for number in hole[:4]) for hole in matches]
 
 
 def read(card: ElementTree.Element) -> str:
@@ -114,7 +114,7 @@ def test_more_cards_than_a_box_are_refused() -> None:
 
 
 @pytest.fixture
-def deck(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def deck(tmp_path: Path, monkeypatch) -> Path:
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "my.deck"
     path.write_text("  3\n 1.5\n\nEND\n", encoding="ascii")
@@ -136,7 +136,7 @@ def test_command_writes_a_picture_for_each_card(deck: Path) -> None:
     assert "<title>my.deck: card 4</title>" in text
 
 
-def test_command_accepts_a_built_in_program(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_accepts_a_built_in_program(deck: Path, capsys) -> None:
     assert main(["punched", "program2"]) == 0
     drawn = cards(capsys.readouterr().out)
     assert [read(card) for card in drawn] == [card.text for card in programs.deck("program2").cards]
@@ -159,9 +159,7 @@ def test_command_accepts_a_built_in_program(deck: Path, capsys: pytest.CaptureFi
         (["none.deck"], "none.deck: no such file or directory"),
     ],
 )
-def test_punched_command_reports_errors_in_one_line(
-    deck: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
-) -> None:
+def test_punched_command_reports_errors_in_one_line(deck: Path, capsys, arguments: list[str], message: str) -> None:
     Path("small.f").write_text("A=1\nC  x\n", encoding="ascii")
     assert main(["punched", *arguments]) == 2
     assert capsys.readouterr().err == f"hull1620: {message}\n"

@@ -18,12 +18,12 @@ def test_altered_character_is_noticed(alteration: Alteration) -> None:
     assert noticed_by(alteration)
 
 
-def test_command_counts_the_alterations(capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_counts_the_alterations(capsys) -> None:
     assert alterations.main(["3", "5"]) == 0
     assert "noticed by" in capsys.readouterr().out
 
 
-def test_an_unnoticed_alteration_fails(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_unnoticed_alteration_fails(capsys, monkeypatch) -> None:
     monkeypatch.setattr(alterations, "noticed_by", lambda _: "")
     assert alterations.main(["4"]) == 1
     assert "4 noticed by no check" in capsys.readouterr().out

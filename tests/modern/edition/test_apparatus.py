@@ -171,7 +171,7 @@ def test_check_of_decks_covers_all_four() -> None:
         ("GO TO", "cards DIFFER from witness and "),
     ],
 )
-def test_a_deck_that_differs_from_its_build_fails(line: str, message: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_deck_that_differs_from_its_build_fails(line: str, message: str, monkeypatch) -> None:
     """Replace the last card, END; the message also reports a card that does not compile."""
     cards = [card.text for card in programs.committed("program1").cards]
     changed = deck_from_lines("program1.f", [*cards[:-1], "      " + line])
@@ -195,9 +195,7 @@ def test_every_optional_layer_holds() -> None:
         ("program3", "epsilon", "EPS", "EPT"),
     ],
 )
-def test_altered_row_of_an_optional_layer_is_noticed(
-    program: str, layer: str, lemma: str, altered: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_altered_row_of_an_optional_layer_is_noticed(program, layer, lemma, altered, monkeypatch) -> None:
     """The layers that no committed deck contains are compared by their hashes, and by the hulls of their decks."""
     deck = programs.deck
 

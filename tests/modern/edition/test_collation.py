@@ -4,7 +4,6 @@ import json
 import os
 import re
 from collections import Counter
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
@@ -87,9 +86,7 @@ def _page(first: int = 40, last: int = 75) -> list[str]:
     ],
     ids="crlf cr form-feed tabs shifted numbered numbered-by-line identified both typographic header twice".split(),
 )
-def test_a_page_typed_by_hand_confirms_its_cards_only(
-    typed: Callable[[list[str]], str], lines_without_card: list[int]
-) -> None:
+def test_a_page_typed_by_hand_confirms_its_cards_only(typed, lines_without_card) -> None:
     text = typed(_page())
     result = collate(text)
     expected = [n for n, card in enumerate(edition_cards()) if card.program == "program3" and 41 <= card.number <= 75]
@@ -114,9 +111,7 @@ def test_a_truncated_token_is_unreadable() -> None:
 
 
 @pytest.mark.parametrize("text", ["", "\n \n", "  GO TO 104\n", "(a) The hull is convex.\n(b) (c)\nI = 1\nEND\n"])
-def test_a_text_that_decides_no_card_is_rejected_in_one_line(
-    text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_text_that_decides_no_card_is_rejected_in_one_line(text: str, tmp_path: Path, capsys) -> None:
     (tmp_path / "page.txt").write_text(text, encoding="utf-8")
     assert main(["apparatus", "--collate", str(tmp_path / "page.txt")]) == 2
     message = capsys.readouterr().err
@@ -189,7 +184,7 @@ def test_without_a_registered_collation_rows_have_no_verdict() -> None:
     assert verdicts_by_id(programs.text("program2").row("P2-020")) == {}
 
 
-def test_a_registered_collation_is_a_witness_in_apparatus_and_tei(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_registered_collation_is_a_witness_in_apparatus_and_tei(monkeypatch) -> None:
     """The cards as edited, but without the fourth group of FORMAT 7, confirm a row and support a rival of another."""
     cards = [card.text for card in programs.committed("program2").cards]
     n = next(k for k, card in enumerate(cards) if card.startswith("    7 FORMAT"))

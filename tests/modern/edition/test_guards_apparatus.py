@@ -91,7 +91,7 @@ def test_all_missing_fields_are_named(tmp_path: Path) -> None:
         read(tmp_path, reason=None, evidence=None)
 
 
-def test_several_processes_return_the_same_proofs_in_the_same_order(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_several_processes_return_the_same_proofs_in_the_same_order(monkeypatch) -> None:
     monkeypatch.setattr(apparatus_checks, "_MANY", 1)
     rows = [row for name in programs.TEXTS for row in programs.text(name).rows if row.ground.get("kind") == "parse"]
     rows = rows[: apparatus_checks._CHUNK + 1]

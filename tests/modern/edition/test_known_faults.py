@@ -73,9 +73,7 @@ CORRECTED = [
 
 
 @pytest.mark.parametrize(("entry", "name", "outcome", "where", "row"), CORRECTED)
-def test_its_deck_shows_the_fault_and_its_row_alone_corrects_it(
-    entry: int, name: str, outcome: str, where: str, row: str
-) -> None:
+def test_its_deck_shows_the_fault_and_its_row_alone_corrects_it(entry, name, outcome, where, row) -> None:
     result = answer(name)
     assert (result.outcome, result.detail) == (outcome, where)
     assert answer(name, row).outcome == "right"
@@ -238,9 +236,7 @@ def ends(first: str, points: list[Triple]) -> set[tuple[Fraction, ...]]:
         ([(0, 0, 0), (0, 5, 5), (0, 1, 1), (0, 2, 2)], [1, 3], [0, 1]),
     ],
 )
-def test_12_the_state_of_the_examples_chooses_wrong_endpoints(
-    points: list[Triple], wrong: list[int], right: list[int]
-) -> None:
+def test_12_the_state_of_the_examples_chooses_wrong_endpoints(points, wrong, right) -> None:
     assert ends("program1_examples", points) == {tuple(map(Fraction, points[i])) for i in wrong}
     assert ends("program1", points) == {tuple(map(Fraction, points[i])) for i in right}
 

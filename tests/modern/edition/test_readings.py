@@ -85,7 +85,7 @@ def test_steps_are_the_fewest_and_can_be_undone() -> None:
     assert steps(row_of("A B", lemma="AB")) == ()
 
 
-def test_a_step_that_is_not_needed_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_step_that_is_not_needed_is_named(monkeypatch) -> None:
     row = programs.text("program1").row("P1-004")
     wrong = replace(row, changes=(replace(row.changes[0], lemma="I1=I"),))
     with altered(wrong):

@@ -34,7 +34,7 @@ def test_every_ground_deck_has_its_hash() -> None:
     assert {file for file, _ in TABLE.decks} == decks
 
 
-def test_a_changed_character_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_changed_character_is_noticed(monkeypatch) -> None:
     """Change one character in each witness and each deck, one file at a time."""
     for name in [excerpt.file for excerpt in TABLE.excerpts] + [file for file, _ in TABLE.decks]:
 
@@ -80,7 +80,7 @@ def test_a_row_leads_to_its_page_and_its_line() -> None:
             assert any(place(text.id, c.line) or not c.line.isdigit() for c in row.changes)
 
 
-def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch) -> None:
     with pytest.raises(ApparatusError, match=r"^a\.txt: expected the text .* SHA-256 ca978112ca1bbdca"):
         list(check_sources(("a.txt", "a")))
     with pytest.raises(ApparatusError, match="expected the text"):
@@ -95,7 +95,7 @@ def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch: pytest.Monkey
         monkeypatch.setattr(sources, "read", lambda file, witness=witness: witness)
         assert [same for _, same, _ in sources.check_against("whole.txt", whole)] == [True, holds]
     for wrong in ({"lines": 1}, {"bytes": 21}, {"characters": 23}):
-        table = sources.Sources((replace(document, **wrong),), (), (), ())  # type: ignore[arg-type]
+        table = sources.Sources((replace(document, **wrong),), (), (), ())
         monkeypatch.setattr(sources, "sources", lambda table=table: table)
         assert [same for _, same, _ in sources.check_against("whole.txt", whole)] == [False]
 

@@ -49,9 +49,7 @@ def test_the_misreads_that_no_check_detects(known: dict[str, Bench]) -> None:
         ("program3", "135+1", "DO136L=1,NV", "print"),
     ],
 )
-def test_the_first_check_that_detects_a_variant(
-    known: dict[str, Bench], program: str, place: str, reads: str, answer: str
-) -> None:
+def test_the_first_check_that_detects_a_variant(known, program, place, reads, answer) -> None:
     assert judged(variant(program, place, reads), known) in answer
 
 

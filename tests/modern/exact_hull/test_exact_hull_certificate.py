@@ -271,7 +271,7 @@ def test_the_rank_of_vectors_is_exact() -> None:
     assert checks.rank([(1, 10**30, 1), (1, 10**30 + 1, 1), (1, 10**30, 2)]) == 3
 
 
-def test_a_construction_that_forgets_points_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_construction_that_forgets_points_is_refused(monkeypatch) -> None:
     points = ball(60, 1)
     assert exact_hull(points).dimension == 3
     order = build_module.insertion_order
@@ -280,7 +280,7 @@ def test_a_construction_that_forgets_points_is_refused(monkeypatch: pytest.Monke
         exact_hull(points)
 
 
-def test_a_construction_in_rounded_numbers_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_construction_in_rounded_numbers_is_refused(monkeypatch) -> None:
     """The surface is constructed from coordinates truncated to multiples of 1024, so that only its planes are wrong."""
     points = ball(60, 2)
     construct = build_module.convex_surface
@@ -293,7 +293,7 @@ def test_a_construction_in_rounded_numbers_is_refused(monkeypatch: pytest.Monkey
         exact_hull(points)
 
 
-def test_a_construction_that_misses_visible_triangles_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_construction_that_misses_visible_triangles_is_refused(monkeypatch) -> None:
     """A point that is assigned no triangle although it sees one remains outside."""
     points = ball(60, 3)
     distribute = surface_module.Surface._distribute
@@ -309,7 +309,7 @@ def test_a_construction_that_misses_visible_triangles_is_refused(monkeypatch: py
 
 
 @pytest.mark.parametrize("times", [0, 2])
-def test_a_horizon_that_is_not_a_simple_cycle_raises_an_error(monkeypatch: pytest.MonkeyPatch, times: int) -> None:
+def test_a_horizon_that_is_not_a_simple_cycle_raises_an_error(monkeypatch, times: int) -> None:
     """The first edge of the horizon is missing, or occurs twice."""
     seen = surface_module.Surface._visible
 
@@ -322,7 +322,7 @@ def test_a_horizon_that_is_not_a_simple_cycle_raises_an_error(monkeypatch: pytes
         exact_hull([(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9), (5, 5, 5)])
 
 
-def test_a_construction_that_calls_boundary_points_inside_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_construction_that_calls_boundary_points_inside_is_refused(monkeypatch) -> None:
     monkeypatch.setattr(build_module, "_on_facets", lambda points, facets: np.empty(0, int))
     with pytest.raises(CertificateError, match="which contradicts its class"):
         exact_hull(GRID)

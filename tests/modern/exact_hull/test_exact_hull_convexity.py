@@ -34,7 +34,7 @@ SETS = {
 
 
 @pytest.fixture(autouse=True)
-def _by_convexity(monkeypatch: pytest.MonkeyPatch) -> None:
+def _by_convexity(monkeypatch) -> None:
     monkeypatch.setattr(checks, "MANY", 0)
     monkeypatch.setattr(checks, "_check_points", None)
 
@@ -116,7 +116,7 @@ def test_a_surface_with_a_dent_is_refused() -> None:
     refused(points, surface(points, triangles), "a plane occurs twice")
 
 
-def test_a_surface_turned_inside_out_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_surface_turned_inside_out_is_refused(monkeypatch) -> None:
     hull = exact_hull(OCTAHEDRON)
     facets = [Facet(tuple(-n for n in facet.plane), rotated(facet.polygon[::-1])) for facet in hull.facets]
     facets.sort(key=lambda facet: facet.plane)
@@ -128,7 +128,7 @@ def test_a_surface_turned_inside_out_is_refused(monkeypatch: pytest.MonkeyPatch)
 
 
 @pytest.mark.parametrize("least", [0, 1 << 60], ids=["by convexity", "by all planes"])
-def test_changed_arrays_of_facets_are_refused(least: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_changed_arrays_of_facets_are_refused(least: int, monkeypatch) -> None:
     monkeypatch.undo()
     monkeypatch.setattr(checks, "MANY", least)
     points = ball(build_module.MANY, 6)
@@ -208,7 +208,7 @@ def test_the_hull_of_all_points_except_any_vertex_is_refused(seed: int) -> None:
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_cones_and_all_planes_classify_every_point_equally(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cones_and_all_planes_classify_every_point_equally(name: str, monkeypatch) -> None:
     """The classes are determined by cones only, and by all planes only (no triangle is found for any point)."""
     points = SETS[name]
     hull = exact_hull(points)
@@ -224,7 +224,7 @@ def test_cones_and_all_planes_classify_every_point_equally(name: str, monkeypatc
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_a_point_on_an_edge_is_evaluated_in_one_plane(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_point_on_an_edge_is_evaluated_in_one_plane(name: str, monkeypatch) -> None:
     points = SETS[name]
     hull = exact_hull(points)
     monkeypatch.setattr(Planes, "largest", None)

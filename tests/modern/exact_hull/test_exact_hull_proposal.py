@@ -55,13 +55,13 @@ TURNED = [(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z + 0.1 * x) for x, y, z in CUB
 
 
 @pytest.fixture
-def _proposed(monkeypatch: pytest.MonkeyPatch) -> None:
+def _proposed(monkeypatch) -> None:
     """Propose hulls also for few points, and prevent the exact construction."""
     monkeypatch.setattr(build_module, "MANY", 4)
     monkeypatch.setattr(build_module, "convex_surface", None)
 
 
-def built(points, monkeypatch: pytest.MonkeyPatch) -> ExactHull:
+def built(points, monkeypatch) -> ExactHull:
     """Return the hull without a proposal."""
     monkeypatch.setattr(build_module, "MANY", math.inf)
     return exact_hull(points)
@@ -69,7 +69,7 @@ def built(points, monkeypatch: pytest.MonkeyPatch) -> ExactHull:
 
 @pytest.mark.parametrize("name", SETS)
 @pytest.mark.usefixtures("_proposed")
-def test_the_proposed_hull_is_the_exact_hull(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_proposed_hull_is_the_exact_hull(name: str, monkeypatch) -> None:
     points = SETS[name]
     hull = exact_hull(points)
     monkeypatch.undo()
@@ -147,7 +147,7 @@ def test_points_that_doubles_do_not_hold_are_left_to_numpy(name: str) -> None:
     assert propose(points, fast=False).triangles.tolist() == propose(points).triangles.tolist()
 
 
-def test_a_missing_kernel_raises_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_kernel_raises_an_error(monkeypatch) -> None:
     load.cache_clear()
     monkeypatch.setattr(build_module, "MANY", 4)
     monkeypatch.setitem(sys.modules, "numba", None)
@@ -230,7 +230,7 @@ def unaware(points, basis, fast) -> Proposal:
     "wrong", [dropped(1), dropped(9), turned, torn, pinched, unaware, lambda points, basis, fast: None]
 )
 @pytest.mark.parametrize("name", ["cube", "ball", "sphere", "octahedral ball"])
-def test_after_a_wrong_proposal_the_hull_is_constructed(wrong, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_after_a_wrong_proposal_the_hull_is_constructed(wrong, name: str, monkeypatch) -> None:
     points = SETS[name]
     expected = built(points, monkeypatch)
     monkeypatch.setattr(build_module, "MANY", 4)
@@ -238,7 +238,7 @@ def test_after_a_wrong_proposal_the_hull_is_constructed(wrong, name: str, monkey
     assert exact_hull(points) == expected
 
 
-def test_a_hull_constructed_after_a_refusal_is_proved_too(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_hull_constructed_after_a_refusal_is_proved_too(monkeypatch) -> None:
     points = SETS["sphere"]
     monkeypatch.setattr(build_module, "propose", dropped(2))
     monkeypatch.setattr(build_module, "insertion_order", lambda count, simplex: [])

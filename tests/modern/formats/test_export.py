@@ -357,7 +357,7 @@ def test_a_trimesh_has_the_vertices_of_the_hull_in_their_order() -> None:
     assert len(to_trimesh(convex_hull(SQUARE)).faces) == 2
 
 
-def test_to_trimesh_rejects_hulls_that_it_cannot_hold(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_to_trimesh_rejects_hulls_that_it_cannot_hold(monkeypatch) -> None:
     with pytest.raises(ExportError, match="the hull has dimension 1 and no area"):
         to_trimesh(convex_hull(SEGMENT))
     monkeypatch.setitem(sys.modules, "trimesh", None)

@@ -112,7 +112,7 @@ def test_the_first_line_and_the_extension_determine_the_format(text: str, source
     assert recognise(text, source) == kind
 
 
-def test_points_are_read_from_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_points_are_read_from_standard_input(monkeypatch) -> None:
     monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"\xef\xbb\xbf" + CSV.encode()), encoding="utf-8"))
     found = read_input("-")
     assert (found.source, found.kind, len(found.points)) == ("standard input", "csv", 2)
@@ -153,13 +153,7 @@ BAD = [
 @pytest.mark.parametrize("command", ["export", "draw"])
 @pytest.mark.parametrize(("data", "name", "words"), [b[1:] for b in BAD], ids=[b[0] for b in BAD])
 def test_invalid_points_are_one_line_and_leave_no_file(
-    command: str,
-    data: str | bytes,
-    name: str,
-    words: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    command, data, name, words, tmp_path, monkeypatch, capsys
 ) -> None:
     csv.field_size_limit(131_072)  # Python's own limit, which importing frictionless raises in the same process
     monkeypatch.chdir(tmp_path)
@@ -176,14 +170,14 @@ def test_invalid_points_are_one_line_and_leave_no_file(
 
 
 @pytest.fixture
-def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def room(tmp_path: Path, monkeypatch) -> Path:
     """Change to a folder that holds only a tetrahedron."""
     monkeypatch.chdir(tmp_path)
     Path("t.csv").write_text(TETRA, encoding="utf-8")
     return tmp_path
 
 
-def test_export_writes_every_format(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_export_writes_every_format(room: Path, capsys) -> None:
     for form in ("off", "obj", "ply", "stl", "json"):
         code, out, err = call(capsys, "export", "t.csv", "-o", f"t.{form}")
         assert (code, out, err) == (0, "", "note: t.csv: line 6 repeats the point of line 1\n")
@@ -215,9 +209,7 @@ BAD_ARGUMENTS = [
 
 
 @pytest.mark.parametrize(("arguments", "words"), BAD_ARGUMENTS, ids=[" ".join(b[0]) for b in BAD_ARGUMENTS])
-def test_invalid_arguments_are_one_line_and_leave_no_file(
-    room: Path, capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], words: str
-) -> None:
+def test_invalid_arguments_are_one_line_and_leave_no_file(room, capsys, arguments, words) -> None:
     Path("s.csv").write_text("0,0,0\n1,1,1\n", encoding="utf-8")
     before = sorted(path.name for path in room.iterdir())
     code, out, err = call(capsys, *arguments)
@@ -226,9 +218,7 @@ def test_invalid_arguments_are_one_line_and_leave_no_file(
     assert sorted(path.name for path in room.iterdir()) == before
 
 
-def test_meshes_are_exact_hulls_and_json_is_the_hull_of_the_procedure(
-    room: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_meshes_are_exact_hulls_and_json_is_the_hull_of_the_procedure(room: Path, capsys) -> None:
     points = [(3, 4, 8), (6, -3, 7), (1, 2, -5), (4, 2, -3), (4, 2, 4), (1, 2, 7), (-2, 2, 0), (2, 2, 2)]
     Path("e.csv").write_text("".join(f"{x},{y},{z}\n" for x, y, z in points), encoding="utf-8")
     made, judged = convex_hull(points), as_hull(exact_hull(points))
@@ -240,9 +230,7 @@ def test_meshes_are_exact_hulls_and_json_is_the_hull_of_the_procedure(
     assert found["centre"] is not None
 
 
-def test_export_reports_a_hull_that_was_not_determined(
-    room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_export_reports_a_hull_that_was_not_determined(room: Path, capsys, monkeypatch) -> None:
     """Exact arithmetic determines every hull, so this one is made by hand."""
     broken = Hull("exact", ERROR, 3, (("0", "0", "0"),), (), (), ())
     monkeypatch.setattr(export_command, "exact_hull_of", lambda *_, **__: (broken, []))

@@ -149,7 +149,7 @@ def test_an_array_of_another_shape_is_rejected(shape: tuple[int, ...]) -> None:
         read(file.getvalue())
 
 
-def test_export_and_cards_read_every_format(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_export_and_cards_read_every_format(tmp_path: Path, capsys) -> None:
     for form in ("off", "obj", "ply", "stl", "json"):
         (tmp_path / f"a.{form}").write_text(export_text(convex_hull(CUBE), form), encoding="ascii")
     np.save(tmp_path / "a.npy", np.array(CUBE, np.float32))

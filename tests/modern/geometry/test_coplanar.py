@@ -24,7 +24,7 @@ Points = list[tuple[float, float, float]]
 
 
 def exact(points: object) -> Hull:
-    return convex_hull(points, "exact")  # type: ignore[arg-type]
+    return convex_hull(points, "exact")
 
 
 def read(points: object, within: object) -> tuple[Hull, coplanar.Joined]:

@@ -43,7 +43,7 @@ CROWN = """OFF
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch) -> Path:
     monkeypatch.chdir(tmp_path)
     Path("fig4.off").write_text(FIG_4, encoding="utf-8")
     Path("crown.off").write_text(CROWN, encoding="utf-8")
@@ -57,7 +57,7 @@ def section(out: str, head: str) -> list[str]:
     return lines[start : lines.index("", start)]
 
 
-def test_tables_of_fig_4(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_tables_of_fig_4(folder: Path, capsys) -> None:
     code, out, err = call(capsys, "appel-will", "fig4.off")
     assert (code, err) == (0, "")
     assert "deleted as lying between two others: 4 (1-9), 3 (2-10)" in out
@@ -69,9 +69,7 @@ def test_tables_of_fig_4(folder: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert "IUC" not in out
 
 
-def test_trace_fits_the_use_counts_to_the_width_of_the_terminal(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_trace_fits_the_use_counts_to_the_width_of_the_terminal(folder: Path, capsys, monkeypatch) -> None:
     for columns in ("40", "100"):
         monkeypatch.setenv("COLUMNS", columns)
         code, out, _ = call(capsys, "appel-will", "fig4.off", "--trace")
@@ -84,7 +82,7 @@ def test_trace_fits_the_use_counts_to_the_width_of_the_terminal(
         assert "  type 1, SP 2, MP 6" in table
 
 
-def test_literal_lists_the_false_edges_of_the_star_test(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_literal_lists_the_false_edges_of_the_star_test(folder: Path, capsys) -> None:
     code, out, _ = call(capsys, "appel-will", "fig4.off", "--literal")
     assert code == 1
     assert "lines are not edges of the hull:" in out
@@ -99,7 +97,7 @@ def test_literal_lists_the_false_edges_of_the_star_test(folder: Path, capsys: py
     assert "lines are not edges of the hull" in out
 
 
-def test_step_3_as_printed_reverses_a_loop(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_step_3_as_printed_reverses_a_loop(folder: Path, capsys) -> None:
     Path("fig14.csv").write_text("0,0,4\n8,0,4\n4,8,4\n1,-2,0\n9,14,0\n17,-2,0\n", encoding="utf-8")
     _, preferred, _ = call(capsys, "appel-will", "fig14.csv")
     code, as_printed, err = call(capsys, "appel-will", "fig14.csv", "--printed", "step3")
@@ -108,7 +106,7 @@ def test_step_3_as_printed_reverses_a_loop(folder: Path, capsys: pytest.CaptureF
     assert "LUP(3,N)  -2 3 7 -6" in as_printed
 
 
-def test_rule_any_reports_whether_its_condition_is_met(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_rule_any_reports_whether_its_condition_is_met(folder: Path, capsys) -> None:
     _, out, _ = call(capsys, "appel-will", "fig4.off", "--inside-corners", "any")
     assert "deleted by rule any before any projection: 3 4" in out
     assert "28 projections" in out
@@ -120,7 +118,7 @@ def test_rule_any_reports_whether_its_condition_is_met(folder: Path, capsys: pyt
     assert "a polyhedron of 5 points" in out
 
 
-def test_the_output_is_an_off_file_of_the_hull(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_output_is_an_off_file_of_the_hull(folder: Path, capsys) -> None:
     assert call(capsys, "appel-will", "fig4.off", "-o", "hull.off")[0] == 0
     mesh = parse_off(Path("hull.off").read_text(encoding="utf-8"), "hull.off")
     assert (len(mesh.points), len(mesh.faces)) == (8, 6)
@@ -142,7 +140,7 @@ def test_the_output_is_an_off_file_of_the_hull(folder: Path, capsys: pytest.Capt
         ("0,0,0\n1,0,0\n0,1,0\n.25,.25,0\n", "a polygon of 3 points"),
     ],
 )
-def test_flat_input_has_a_summary(folder: Path, capsys: pytest.CaptureFixture[str], text: str, summary: str) -> None:
+def test_flat_input_has_a_summary(folder: Path, capsys, text: str, summary: str) -> None:
     Path("flat.csv").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, "appel-will", "flat.csv")
     assert code == 0
@@ -167,9 +165,7 @@ def test_flat_input_has_a_summary(folder: Path, capsys: pytest.CaptureFixture[st
         (["fig4.off", "-o", "."], ".: is a directory"),
     ],
 )
-def test_an_error_is_one_line(
-    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
-) -> None:
+def test_an_error_is_one_line(folder: Path, capsys, arguments: list[str], message: str) -> None:
     Path("bad.off").write_text("OFF\n4 4 6\n", encoding="utf-8")
     triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n"
     Path("two.off").write_text(triangle + "2 0 1\n", encoding="utf-8")

@@ -33,7 +33,7 @@ def cycle(polygon: Sequence[int]) -> tuple[int, ...]:
 
 def differences(points: Sequence[Sequence[object]], method: Method = CORRECTED) -> list[str]:
     """Name the properties in which the method differs from the exact hull."""
-    ours, judge = appel_will(points, method=method), exact_hull(points)  # type: ignore[arg-type]
+    ours, judge = appel_will(points, method=method), exact_hull(points)
     polygons = {3: [facet.polygon for facet in judge.facets], 2: [judge.polygon]}.get(judge.dimension, [])
     compared = {
         "fault": (ours.fault, ""),

@@ -27,9 +27,7 @@ def entries(points: list[tuple[int, int, int]] | tuple[tuple[int, int, int], ...
         ([(2, 8), (3, 8)], 4, (1, -2), 2, 3),
     ],
 )
-def test_types_of_fig_20(
-    edges: list[tuple[int, int]], kind: int, signs: tuple[int, int], start: int, match: int
-) -> None:
+def test_types_of_fig_20(edges, kind, signs, start, match) -> None:
     """In every type the loop runs from SP along L1 to the common point and along L2 to MP."""
     crossing = intersect(edges, 0, 1)
     assert crossing is not None

@@ -33,7 +33,7 @@ def groups(picture: str) -> dict[str, list[ElementTree.Element]]:
 
 
 def pairs(items: list[ElementTree.Element], name: str = "data-points") -> list[tuple[int, int]]:
-    return [tuple(int(number) for number in item.attrib[name].split()) for item in items]  # type: ignore[misc]
+    return [tuple(int(number) for number in item.attrib[name].split()) for item in items]
 
 
 def legend(picture: str) -> str:
@@ -42,7 +42,7 @@ def legend(picture: str) -> str:
 
 def scattered(seed: int, most: int = 12) -> Points:
     draw = random.Random(seed)
-    return [tuple(draw.randrange(-4, 5) for _ in range(3)) for _ in range(draw.randrange(4, most))]  # type: ignore[misc]
+    return [tuple(draw.randrange(-4, 5) for _ in range(3)) for _ in range(draw.randrange(4, most))]
 
 
 # --- the star polygon
@@ -177,9 +177,7 @@ def test_a_polygon_has_a_map_and_maps_that_cannot_be_drawn_are_rejected() -> Non
     ("name", "options"),
     [("solid", ()), ("star", ("--star-of", "5-6", "--width", "480")), ("map", ("--map", "--width", "480"))],
 )
-def test_the_committed_pictures_are_current(
-    name: str, options: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_committed_pictures_are_current(name: str, options: tuple[str, ...], tmp_path: Path, capsys) -> None:
     drawn = tmp_path / "drawn.svg"
     assert call(capsys, "appel-will", "appel-will/fig18", "-o", str(drawn), *options)[0] == 0
     assert drawn.read_text() == (ROOT / "docs" / "papers" / f"appel_will_{name}.svg").read_text()
@@ -189,7 +187,7 @@ def test_the_committed_pictures_are_current(
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch) -> Path:
     monkeypatch.chdir(tmp_path)
     draw = random.Random(5)
     rows = [",".join(str(draw.randrange(-99, 100)) for _ in range(3)) for _ in range(70)]
@@ -198,7 +196,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_the_command_draws_all_three(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_draws_all_three(folder: Path, capsys) -> None:
     pictures = []
     for options in ((), ("--map",), ("--star-of", "1-7"), ("--eye", "1,2,3"), ("--map", "--width", "900")):
         code, out, err = call(capsys, "appel-will", "appel-will/fig23", "-o", "a.svg", *options)
@@ -212,7 +210,7 @@ def test_the_command_draws_all_three(folder: Path, capsys: pytest.CaptureFixture
     ElementTree.fromstring(out)
 
 
-def test_more_than_50_points_are_summarised(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_more_than_50_points_are_summarised(folder: Path, capsys) -> None:
     code, out, err = call(capsys, "appel-will", "many.csv")
     assert (code, err) == (0, "")
     lines = out.splitlines()
@@ -229,7 +227,7 @@ def test_more_than_50_points_are_summarised(folder: Path, capsys: pytest.Capture
     assert "IUC(L)" in call(capsys, "appel-will", "many.csv", "--trace")[1]
 
 
-def test_merged_faces_match_the_faces_of_the_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_merged_faces_match_the_faces_of_the_file(folder: Path, capsys) -> None:
     assert call(capsys, "export", "d.csv", "-o", "d.off", "--coplanar-within", "1e-9")[0] == 0
     assert "added: " in call(capsys, "appel-will", "d.off")[1]
     code, out, err = call(capsys, "appel-will", "d.off", "--coplanar-within", "1e-9", "-o", "e.off")
@@ -263,9 +261,7 @@ def test_merged_faces_match_the_faces_of_the_file(folder: Path, capsys: pytest.C
         (("--coplanar-within", "x", "-o", "a.svg"), "'x' is not a decimal number"),
     ],
 )
-def test_invalid_options_are_rejected(
-    folder: Path, options: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_invalid_options_are_rejected(folder: Path, options: tuple[str, ...], message: str, capsys) -> None:
     code, out, err = call(capsys, "appel-will", "d.csv", *options)
     assert (code, out, err.count("\n")) == (2, "", 1), err
     assert message in err

@@ -91,9 +91,7 @@ def corner_mask(volume: Volume, of: Of, neighbours: int) -> NDArray[np.bool_]:
 
 @FEW
 @given(VOLUMES, st.permutations(range(3)), st.integers(1, 40), st.sampled_from(PLACES))
-def test_local_corners_do_not_depend_on_slabs_and_memory_order(
-    array: np.ndarray, axes: list[int], slab: int, of: Of
-) -> None:
+def test_local_corners_do_not_depend_on_slabs_and_memory_order(array, axes, slab, of) -> None:
     """Local corners among the corners of voxels are those of the volume with a voxel for each corner."""
     transposed = array.transpose(axes)
     whole = Volume(places(Volume(transposed.copy(), (0, 0, 0)), of), (0, 0, 0))
@@ -110,7 +108,7 @@ def test_local_corners_are_in_raster_order() -> None:
 
 
 def polyhedron(points: object, coplanar: str = ks.VISIBLE) -> ks.CellList:
-    cells = ks.convex_polyhedron(points, coplanar)  # type: ignore[arg-type]
+    cells = ks.convex_polyhedron(points, coplanar)
     assert isinstance(cells, ks.CellList)
     return cells
 
@@ -222,7 +220,7 @@ def test_a_volume_of_two_dimensions_is_rejected() -> None:
 )
 def test_unknown_options_are_rejected(options: dict[str, object]) -> None:
     with pytest.raises((ValueError, KeyError)):
-        ks.voxel_hull(ball(4), **options)  # type: ignore[arg-type]
+        ks.voxel_hull(ball(4), **options)
 
 
 def test_no_points_have_no_hull() -> None:

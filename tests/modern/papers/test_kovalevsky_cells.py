@@ -48,9 +48,7 @@ def test_the_three_sublists_agree(points: list[tuple[int, int, int]], coplanar: 
 
 @settings(max_examples=50)
 @given(POINTS, COPLANAR)
-def test_merging_gives_maximal_faces_and_straightening_removes_vertices_in_line(
-    points: list[tuple[int, int, int]], coplanar: str
-) -> None:
+def test_merging_gives_maximal_faces_and_straightening_removes_vertices_in_line(points, coplanar) -> None:
     lists = states(points, coplanar)
     if not lists:
         return

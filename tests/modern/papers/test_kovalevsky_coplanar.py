@@ -66,4 +66,4 @@ def test_flat_points_and_unknown_treatments_are_rejected() -> None:
     with pytest.raises(ValueError, match="in one plane"):
         coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], EXTENDED)
     with pytest.raises(ValueError, match="found 'visible'"):
-        coplanar_hull(GRID, "visible")  # type: ignore[arg-type]
+        coplanar_hull(GRID, "visible")

@@ -45,17 +45,13 @@ def direct_and_inserted(
 
 @settings(max_examples=50)
 @given(VOLUMES, PLACES, NEIGHBOURS, st.sampled_from([ks.VISIBLE, ks.INVISIBLE]))
-def test_any_voxels_have_the_cell_list_of_the_procedure(
-    array: np.ndarray, of: ks.Of, neighbours: int, coplanar: ks.Coplanar
-) -> None:
+def test_any_voxels_have_the_cell_list_of_the_procedure(array, of, neighbours, coplanar) -> None:
     assert same(*direct_and_inserted(Volume(array, (3, -8, 1)), of, neighbours, coplanar))
 
 
 @settings(max_examples=50)
 @given(VOLUMES, PLACES, NEIGHBOURS)
-def test_in_raster_order_with_coplanar_faces_visible_no_vertex_is_in_line(
-    array: np.ndarray, of: ks.Of, neighbours: int
-) -> None:
+def test_in_raster_order_with_coplanar_faces_visible_no_vertex_is_in_line(array, of, neighbours) -> None:
     """The merged faces are therefore those of the hull without straightening, for 6 and for 26 neighbours."""
     volume = Volume(array, (0, 0, 0))
     surface, direct = ks.voxel_hull(volume, of, neighbours, order=ks.RASTER).surface, ks.voxel_hull(volume, of).surface
@@ -101,8 +97,8 @@ def test_without_an_order_there_are_no_triangles() -> None:
     with pytest.raises(VolumeError, match="set the order, for example to raster"):
         _ = hull.polyhedron.triangles
     for choice in ({"order": ks.RASTER}, {"coplanar": ks.VISIBLE}):
-        inserted = ks.voxel_hull(half_ball(8), **choice)  # type: ignore[arg-type]
+        inserted = ks.voxel_hull(half_ball(8), **choice)
         assert inserted.order == ks.RASTER
         assert len(inserted.polyhedron.triangles.faces) == 2 * len(inserted.polyhedron.faces.vertices) - 4
     with pytest.raises(ValueError, match="raster or shuffled as the order of insertion, found 'sorted'"):
-        ks.voxel_hull(ball(4), order="sorted")  # type: ignore[arg-type]
+        ks.voxel_hull(ball(4), order="sorted")

@@ -52,7 +52,7 @@ def test_no_half_ball_has_the_triangles_printed_in_table_5() -> None:
 
 
 @pytest.fixture(autouse=True)
-def _empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def _empty_folder(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
 
 
@@ -65,7 +65,7 @@ WAYS = (
 )
 
 
-def test_the_command_prints_the_numbers_of_the_paper(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_prints_the_numbers_of_the_paper(capsys) -> None:
     code, out, err = call(
         capsys, "voxel-hull", "ball:32", "--corners", "6", "--coplanar", "invisible", "-o", "ball.off"
     )
@@ -78,7 +78,7 @@ def test_the_command_prints_the_numbers_of_the_paper(capsys: pytest.CaptureFixtu
     assert "260 faces, 342 vertices, 600 edges" in out
 
 
-def test_triangles_are_reported_only_if_an_order_is_requested(capsys: pytest.CaptureFixture[str]) -> None:
+def test_triangles_are_reported_only_if_an_order_is_requested(capsys) -> None:
     output = {options: call(capsys, "voxel-hull", "ball:32", *options.split())[1].splitlines() for options in WAYS}
     assert output[""][2:4] == [
         "hull of 360 local corners: 266 faces, 360 vertices, 624 edges",
@@ -95,7 +95,7 @@ def test_triangles_are_reported_only_if_an_order_is_requested(capsys: pytest.Cap
     assert {tuple(lines[:2] + lines[-4:]) for lines in output.values()} == {tuple(output[""][:2] + output[""][-4:])}
 
 
-def test_straight_merges_edges_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+def test_straight_merges_edges_in_one_line(capsys) -> None:
     options = ("half-ball:8", "--corners", "6", "--coplanar", "invisible", "-o")
     call(capsys, "voxel-hull", *options, "kept.off")
     call(capsys, "voxel-hull", *options, "straight.off", "--straight")
@@ -105,7 +105,7 @@ def test_straight_merges_edges_in_one_line(capsys: pytest.CaptureFixture[str]) -
     assert sizes == [48, 44]
 
 
-def test_cells_are_printed_as_tables(capsys: pytest.CaptureFixture[str]) -> None:
+def test_cells_are_printed_as_tables(capsys) -> None:
     Path("one.csv").write_text("0,0,0\n", encoding="utf-8")
     code, out, _ = call(capsys, "voxel-hull", "one.csv", "--cells", "--order", "raster")
     assert code == 0
@@ -126,7 +126,7 @@ def test_cells_are_printed_as_tables(capsys: pytest.CaptureFixture[str]) -> None
         ("0,0,0\n1,0,0\n1,1,0\n0,1,0\n", "flat: the hull is a polygon of 4 vertices and has no cell list", "4 1 4"),
     ],
 )
-def test_flat_hulls_are_reported(capsys: pytest.CaptureFixture[str], voxels: str, message: str, off: str) -> None:
+def test_flat_hulls_are_reported(capsys, voxels: str, message: str, off: str) -> None:
     Path("flat.csv").write_text(voxels, encoding="utf-8")
     code, out, _ = call(capsys, "voxel-hull", "flat.csv", "--centres", "-o", "flat.off")
     assert code == 0
@@ -134,7 +134,7 @@ def test_flat_hulls_are_reported(capsys: pytest.CaptureFixture[str], voxels: str
     assert Path("flat.off").read_text(encoding="utf-8").splitlines()[1] == off
 
 
-def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None:
+def test_fill_writes_the_filled_hull(capsys) -> None:
     Path("two.csv").write_text("3,0,0\n5,0,0\n3,0,0\n", encoding="utf-8")
     code, out, err = call(capsys, "voxel-hull", "two.csv", "--fill", "-o", "filled.npy")
     assert code == 0
@@ -160,7 +160,7 @@ def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None
         (("flat.npy",), "flat.npy: expected a volume of three dimensions, found two"),
     ],
 )
-def test_an_error_is_one_line(capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], message: str) -> None:
+def test_an_error_is_one_line(capsys, arguments: tuple[str, ...], message: str) -> None:
     np.save("flat.npy", np.ones((3, 3), dtype=np.uint8))
     code, _, err = call(capsys, "voxel-hull", *arguments)
     assert code == 2
@@ -169,7 +169,7 @@ def test_an_error_is_one_line(capsys: pytest.CaptureFixture[str], arguments: tup
     assert sorted(path.name for path in Path().iterdir()) == ["flat.npy"]
 
 
-def test_too_little_memory_is_one_line(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_too_little_memory_is_one_line(monkeypatch, capsys) -> None:
     def too_much(*_: object) -> None:
         raise MemoryError
 

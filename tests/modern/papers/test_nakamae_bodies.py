@@ -67,7 +67,7 @@ def test_components_are_the_solids_written_to_the_file(seed: int, number: int, i
     elif form == "ply":
         data = ply(points, faces, source.choice(("ascii", "binary_little_endian", "binary_big_endian")))
     else:
-        data = binary_stl(cut(points, faces))  # type: ignore[arg-type]
+        data = binary_stl(cut(points, faces))
     result = bodies(parse_mesh(data, f"a.{form}"), Reading(), "a")
     assert len(result.polyhedra) == number
     assert (result.notes == ()) == (number == 1)
@@ -113,7 +113,7 @@ def test_touching_solids_in_an_stl_file_are_separate_components() -> None:
     """Two cubes share an edge or a corner. The mesh read from STL contains each common point once."""
     for shift in ((1, 1, 0), (1, 1, 1)):
         second_cube = [tuple(a + b for a, b in zip(p, shift, strict=True)) for p in CUBE]
-        data = binary_stl([*cut(CUBE, CUBE_FACES), *cut(second_cube, CUBE_FACES)])  # type: ignore[arg-type]
+        data = binary_stl([*cut(CUBE, CUBE_FACES), *cut(second_cube, CUBE_FACES)])
         surface = parse_mesh(data, "a.stl")
         assert len(surface.points) == 16 - (2 if shift == (1, 1, 0) else 1)
         assert len(bodies(surface, Reading(), "a").polyhedra) == 2
@@ -212,7 +212,7 @@ def test_the_outline_is_complete_when_a_merged_face_is_edge_on() -> None:
 )
 def test_invalid_surfaces_are_rejected(points: list[Point], faces: list[tuple[int, ...]], message: str) -> None:
     with pytest.raises(SceneError) as caught:
-        read_mesh(points, faces)  # type: ignore[arg-type]
+        read_mesh(points, faces)
     assert str(caught.value).startswith(message)
     assert "\n" not in str(caught.value)
 
@@ -250,9 +250,7 @@ MIDDLES = [(3, 0, 0), (0, 3, 0), (0, 0, 3), (3, 3, 0), (3, 0, 3), (0, 3, 3)]
         ),
     ],
 )
-def test_closed_surfaces_without_reflex_edges_can_still_be_invalid(
-    points: list[tuple[object, ...]], faces: list[tuple[int, ...]], message: str
-) -> None:
+def test_closed_surfaces_without_reflex_edges_can_still_be_invalid(points, faces, message) -> None:
     """Reject a degenerate face, a prism over a star, a face that is not convex, and a tetrahedron covered twice."""
     with pytest.raises(SceneError) as caught:
         read_mesh(points, faces)
@@ -276,8 +274,8 @@ def test_notes_report_unused_vertices_and_repeated_points() -> None:
 
 
 def test_a_plate_is_accepted_and_an_open_surface_is_replaced_by_its_hull() -> None:
-    assert len(read_mesh(CUBE[:4], [(0, 1, 2, 3), (3, 2, 1, 0)]).polyhedra[0].faces) == 2  # type: ignore[arg-type]
-    result = read_mesh(CUBE, CUBE_FACES[1:], Reading(hull=True))  # type: ignore[arg-type]
+    assert len(read_mesh(CUBE[:4], [(0, 1, 2, 3), (3, 2, 1, 0)]).polyhedra[0].faces) == 2
+    result = read_mesh(CUBE, CUBE_FACES[1:], Reading(hull=True))
     assert (len(result.polyhedra[0].faces), result.notes) == (6, ("f: not closed, replaced by its hull",))
 
 

@@ -17,7 +17,7 @@ def run(*arguments: str) -> int:
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch) -> Path:
     monkeypatch.chdir(tmp_path)
     rows = [" ".join(map(str, row)) for row in (*CUBE, *((len(face), *face) for face in CUBE_FACES))]
     (tmp_path / "cube.off").write_text("\n".join(["OFF", "8 6 12", *rows, ""]))
@@ -27,7 +27,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.parametrize("source", ["cube.off", "points.csv", "mine.toml", "columns"])
-def test_every_kind_of_input_is_drawn(folder: Path, source: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_kind_of_input_is_drawn(folder: Path, source: str, capsys) -> None:
     assert run(source, "-o", "a.svg") == 0
     assert run(source, "-o", "a.hpgl", "--hidden") == 0
     ElementTree.parse(folder / "a.svg")
@@ -39,7 +39,7 @@ def test_every_kind_of_input_is_drawn(folder: Path, source: str, capsys: pytest.
     assert capsys.readouterr().out == (folder / "a.svg").read_text()
 
 
-def test_the_viewpoint_and_the_refinements_change_the_picture(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_viewpoint_and_the_refinements_change_the_picture(folder: Path, capsys) -> None:
     pictures = []
     for options in ((), ("--eye=-1,2,3",), ("--perspective", "--eye", "60,-60,30"), ("--without", "ghosts,ends")):
         assert run("mine.toml", *options) == 0
@@ -49,7 +49,7 @@ def test_the_viewpoint_and_the_refinements_change_the_picture(folder: Path, caps
     assert capsys.readouterr().out not in pictures
 
 
-def test_the_tables_show_relations_and_passages(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_tables_show_relations_and_passages(folder: Path, capsys) -> None:
     (folder / "two.toml").write_text(
         HEAD
         + "'cuboid'\nsize = [2, 2, 2]\n"
@@ -81,9 +81,7 @@ def test_the_tables_show_relations_and_passages(folder: Path, capsys: pytest.Cap
         (("flat.csv",), "flat.csv: a segment is not a polyhedron; expected points not on one line"),
     ],
 )
-def test_invalid_requests_are_rejected(
-    folder: Path, arguments: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_invalid_requests_are_rejected(folder: Path, arguments: tuple[str, ...], message: str, capsys) -> None:
     (folder / "flat.csv").write_text("0,0,0\n1,0,0\n")
     assert run(*arguments) == 2
     output = capsys.readouterr()

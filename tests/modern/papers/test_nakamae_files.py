@@ -38,7 +38,7 @@ at = [-3, -2, 0]
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch) -> Path:
     monkeypatch.chdir(tmp_path)
     inner = tmp_path / "scenes"
     (inner / "parts").mkdir(parents=True)
@@ -52,9 +52,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_paths_of_parts_are_relative_to_the_folder_of_the_scene(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_paths_of_parts_are_relative_to_the_folder_of_the_scene(folder: Path, capsys) -> None:
     polyhedra = read("scenes/three.toml").make()
     assert [len(polyhedron.vertices) for polyhedron in polyhedra] == [20, 8, 8, 8, 8, 10]
     assert polyhedra[1].name == "scenes/three.toml: part 2, component 1 of 2, copy 1,1,1"
@@ -93,9 +91,7 @@ def test_paths_of_parts_are_relative_to_the_folder_of_the_scene(
         ("at = [4, 0, 0]\n", "hul = true\n", "part 2: 'hul' is not a known field of this table"),
     ],
 )
-def test_an_invalid_part_is_rejected_with_one_line(
-    folder: Path, old: str, new: str, message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_invalid_part_is_rejected_with_one_line(folder: Path, old: str, new: str, message: str, capsys) -> None:
     assert SCENE.count(old) == 1
     Path("scenes/three.toml").write_text(SCENE.replace(old, new), encoding="utf-8")
     code, out, err = call(capsys, "hidden-line", "scenes/three.toml", "-o", "a.svg")
@@ -104,7 +100,7 @@ def test_an_invalid_part_is_rejected_with_one_line(
     assert not Path("a.svg").exists()
 
 
-def test_the_command_draws_files_with_faces(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_draws_files_with_faces(folder: Path, capsys) -> None:
     code, out, err = call(capsys, "hidden-line", "scenes/parts/boxes.stl")
     assert (code, err.splitlines()[0]) == (0, "note: scenes/parts/boxes.stl: 2 connected components")
     assert len(list(ElementTree.fromstring(out).iter("{http://www.w3.org/2000/svg}line"))) == 18
@@ -121,7 +117,7 @@ def test_the_command_draws_files_with_faces(folder: Path, capsys: pytest.Capture
     )
 
 
-def test_an_output_never_overwrites_a_file_of_the_scene(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_output_never_overwrites_a_file_of_the_scene(folder: Path, capsys) -> None:
     Path("scenes/ell.obj").rename("scenes/ell.svg")
     before = Path("scenes/ell.svg").read_text(encoding="utf-8")
     Path("scenes/three.toml").write_text(SCENE.replace("ell.obj", "ell.svg"), encoding="utf-8")

@@ -151,7 +151,7 @@ at = [0, -5, 0]
 """
 
 
-def test_the_command_reports_clipped_and_omitted_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys) -> None:
+def test_the_command_reports_clipped_and_omitted_parts(tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     Path("s.toml").write_text(SCENE, encoding="utf-8")
     code, _, err = call(capsys, "hidden-line", "s.toml", "-o", "a.svg")
@@ -176,9 +176,7 @@ def test_the_command_reports_clipped_and_omitted_parts(tmp_path: Path, monkeypat
         ("near = 8", "", ("--near", "-1"), "--near: expected a distance greater than 0, found '-1'"),
     ],
 )
-def test_invalid_near_planes_are_rejected(
-    tmp_path: Path, monkeypatch, capsys, old: str, new: str, arguments, message: str
-) -> None:
+def test_invalid_near_planes_are_rejected(tmp_path, monkeypatch, capsys, old, new, arguments, message) -> None:
     monkeypatch.chdir(tmp_path)
     Path("s.toml").write_text(SCENE.replace(old, new), encoding="utf-8")
     code, _, err = call(capsys, "hidden-line", "s.toml", *arguments, "-o", "a.svg")

@@ -47,9 +47,7 @@ def determinant(rows: list[tuple[int | Fraction, ...]]) -> int | Fraction:
 
 
 @given(_IMAGE, _IMAGE, _IMAGE)
-def test_formula_1_is_positive_to_the_right_of_the_line(
-    p: tuple[int, int, int], a: tuple[int, int, int], b: tuple[int, int, int]
-) -> None:
+def test_formula_1_is_positive_to_the_right_of_the_line(p, a, b) -> None:
     ones = [(Fraction(x, w), Fraction(y, w), Fraction(1)) for x, y, w in (p, a, b)]
     assert sign(value(line_through(a, b), p)) == sign(-determinant(ones))
     # With the y axis upward, (1, 0) is to the right of the line from (0, 0) to (0, 1).

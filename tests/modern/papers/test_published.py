@@ -92,9 +92,7 @@ def test_a_changed_number_is_detected(paper: published.Paper) -> None:
 
 
 @pytest.mark.parametrize("paper", published.PAPERS, ids=lambda paper: paper.name)
-def test_the_command_reports_every_verdict(
-    paper: published.Paper, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_reports_every_verdict(paper: published.Paper, tmp_path: Path, capsys) -> None:
     path = tmp_path / "verdicts.json"
     assert main(["reproduce", paper.name, "--json", str(path)]) == 0
     out = " ".join(capsys.readouterr().out.split())
@@ -108,9 +106,7 @@ def test_the_command_reports_every_verdict(
     assert [(entry["result"], entry["verdict"]) for entry in document] == [(f.result.id, f.kind) for f in verdicts]
 
 
-def test_a_result_that_is_not_reproduced_gives_exit_code_1(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], request: pytest.FixtureRequest
-) -> None:
+def test_a_result_that_is_not_reproduced_gives_exit_code_1(monkeypatch, capsys, request: pytest.FixtureRequest) -> None:
     module = import_module(PAPER.module)
     lines = dict(published.produced_by(PAPER))
     lines["fig14"] = ["1 1 3", *lines["fig14"][1:]]

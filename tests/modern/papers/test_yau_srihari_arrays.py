@@ -44,7 +44,7 @@ def test_trees_are_equal_if_side_and_leaves_are() -> None:
     assert full != "full"
 
 
-def test_slabs_of_any_size_give_the_same_tree(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_slabs_of_any_size_give_the_same_tree(monkeypatch) -> None:
     array = np.random.default_rng(3).random((23, 9, 14)) < 0.9
     array[4:20, :8, :8] = True
     whole = octree(array)
@@ -134,7 +134,7 @@ def in_a_plane(seed: int) -> list[tuple[int, int, int]]:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_all_points_of_one_plane_are_found(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_all_points_of_one_plane_are_found(seed: int, monkeypatch) -> None:
     """Their scores are equal as fractions but differ in float64."""
     points = in_a_plane(seed)
     actual, expected = scored(points)

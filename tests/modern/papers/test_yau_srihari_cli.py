@@ -15,15 +15,13 @@ STAIR = "x,y,z\n5,0,-1\n5,1,-1\n5,1,0\n6,0,-1\n6,0,0\n6,1,0\n6,2,0\n"
 
 
 @pytest.fixture
-def stair(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+def stair(tmp_path: Path, monkeypatch) -> str:
     monkeypatch.chdir(tmp_path)
     Path("stair.csv").write_text(STAIR, encoding="utf-8")
     return "stair.csv"
 
 
-def test_tables_print_every_stage_in_the_coordinates_of_the_input(
-    stair: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_tables_print_every_stage_in_the_coordinates_of_the_input(stair: str, capsys) -> None:
     code, out, err = call(capsys, "octree-hull", stair, "--tables")
     assert (code, err) == (0, "")
     assert out == (
@@ -52,7 +50,7 @@ def test_tables_print_every_stage_in_the_coordinates_of_the_input(
     )
 
 
-def test_the_default_output_is_a_summary(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_default_output_is_a_summary(stair: str, capsys) -> None:
     code, out, err = call(capsys, "octree-hull", stair)
     assert (code, err) == (0, "")
     assert out == (
@@ -77,9 +75,7 @@ def test_the_default_output_is_a_summary(stair: str, capsys: pytest.CaptureFixtu
         ("plane", "x,y\n2,2\n5,2\n2,9\n"),
     ],
 )
-def test_the_mesh_is_that_of_export_for_the_centres_of_the_voxels(
-    stair: str, name: str, voxels: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_mesh_is_that_of_export_for_the_centres_of_the_voxels(stair: str, name: str, voxels: str, capsys) -> None:
     Path("v.csv").write_text(voxels, encoding="utf-8")
     rows = [row if row.count(",") == 2 else f"{row},0" for row in voxels.split()[1:]]
     Path("p.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
@@ -92,7 +88,7 @@ def test_the_mesh_is_that_of_export_for_the_centres_of_the_voxels(
     assert actual == expected
 
 
-def test_notes_of_the_reader_are_printed_only_on_success(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_notes_of_the_reader_are_printed_only_on_success(stair: str, capsys) -> None:
     Path("far.csv").write_text("0,0,0\n0,0,0\n999999999,0,0\n", encoding="utf-8")
     code, out, err = call(capsys, "octree-hull", "far.csv", "-o", "far.npy")
     assert (code, out, err.count("\n")) == (2, "", 1), err
@@ -101,7 +97,7 @@ def test_notes_of_the_reader_are_printed_only_on_success(stair: str, capsys: pyt
     assert call(capsys, "octree-hull", "twice.csv")[::2] == (0, note)
 
 
-def test_faces_run_counterclockwise_seen_from_outside(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_faces_run_counterclockwise_seen_from_outside(stair: str, capsys) -> None:
     out = call(capsys, "octree-hull", stair, "--tables")[1]
     faces = re.findall(r"^  (\S+): (\S+) (\S+) (\S+)", out, re.MULTILINE)
     assert len(faces) == 4
@@ -112,7 +108,7 @@ def test_faces_run_counterclockwise_seen_from_outside(stair: str, capsys: pytest
         assert not np.cross(normal_of_points, normal).any()
 
 
-def test_the_trace_has_a_step_for_every_face(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_trace_has_a_step_for_every_face(stair: str, capsys) -> None:
     out = call(capsys, "octree-hull", stair, "--trace")[1]
     assert [line for line in out.splitlines() if line.startswith("  step")] == [
         "  step 1: edge (6,0,-1)-(5,0,-1) of a face with normal (0,-1,0)",
@@ -126,7 +122,7 @@ def test_the_trace_has_a_step_for_every_face(stair: str, capsys: pytest.CaptureF
     )
 
 
-def test_literal_reports_the_difference_and_gives_exit_code_1(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_literal_reports_the_difference_and_gives_exit_code_1(stair: str, capsys) -> None:
     code, out, err = call(capsys, "octree-hull", stair, "--literal")
     assert code == 1
     assert out.endswith(
@@ -137,9 +133,7 @@ def test_literal_reports_the_difference_and_gives_exit_code_1(stair: str, capsys
     assert "note: floor: no point found for 4 of 6 edges" in err
 
 
-def test_printed_statements_that_change_nothing_give_exit_code_0(
-    stair: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_printed_statements_that_change_nothing_give_exit_code_0(stair: str, capsys) -> None:
     Path("row.csv").write_text("0,0,0\n1,0,0\n2,0,0\n", encoding="utf-8")
     code, out, err = call(capsys, "octree-hull", "row.csv", "--printed", "marks, start")
     assert code == 0
@@ -148,9 +142,7 @@ def test_printed_statements_that_change_nothing_give_exit_code_0(
 
 
 @pytest.mark.parametrize("command", [["octree-hull"], ["voxel-hull", "--fill"]])
-def test_the_filled_hull_is_written_as_an_array(
-    stair: str, command: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_filled_hull_is_written_as_an_array(stair: str, command: list[str], capsys) -> None:
     Path("far.csv").write_text("0,0,0\n3,3,3\n0,3,0\n3,0,0\n", encoding="utf-8")
     code, _, _ = call(capsys, *command, "far.csv", "-o", "hull.npy")
     assert code == 0
@@ -158,11 +150,11 @@ def test_the_filled_hull_is_written_as_an_array(
     assert np.array_equal(np.load("hull.npy"), expected)
 
 
-def test_the_index_of_the_first_voxel_of_an_array_is_reported(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_index_of_the_first_voxel_of_an_array_is_reported(stair: str, capsys) -> None:
     assert call(capsys, "octree-hull", stair, "-o", "hull.npy")[2] == "note: the first voxel of the array is (5,0,-1)\n"
 
 
-def test_components_and_a_hull_over_one_line_are_reported(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_components_and_a_hull_over_one_line_are_reported(stair: str, capsys) -> None:
     Path("apart.csv").write_text("0,0\n4,2\n", encoding="utf-8")
     code, out, _ = call(capsys, "octree-hull", "apart.csv", "--tables")
     assert code == 0
@@ -184,9 +176,7 @@ def test_components_and_a_hull_over_one_line_are_reported(stair: str, capsys: py
         (["stair.csv", "--shape", "1,b"], "--shape: expected NX,NY,NZ, found '1,b'"),
     ],
 )
-def test_an_error_is_one_line(
-    stair: str, arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_error_is_one_line(stair: str, arguments: list[str], message: str, capsys) -> None:
     code, out, err = call(capsys, "octree-hull", *arguments)
     assert (code, out) == (2, "")
     assert err.count("\n") == 1

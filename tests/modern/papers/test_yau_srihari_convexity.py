@@ -46,9 +46,7 @@ def test_simple_solids_are_connected_and_without_gaps_along_the_axes() -> None:
 @pytest.mark.parametrize(
     ("x", "y", "cells"), [((0, 0, 0), (2, 2, 2), 1), ((0, 0, 0), (1, 2, 2), 2), ((0, 0, 0), (1, 1, 1), 8)]
 )
-def test_a_midpoint_cover_doubles_for_each_odd_sum(
-    x: tuple[int, int, int], y: tuple[int, int, int], cells: int
-) -> None:
+def test_a_midpoint_cover_doubles_for_each_odd_sum(x, y, cells) -> None:
     assert len(convexity.midpoint_cover(x, y)) == cells
 
 

@@ -249,7 +249,7 @@ LOW_CORNER = [
 """A solid with a square that has a corner below the plane of a face and a point at a small angle to that face."""
 
 
-def test_a_corner_below_the_known_face_must_count_as_in_its_plane(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_corner_below_the_known_face_must_count_as_in_its_plane(monkeypatch) -> None:
     array = np.zeros((8, 5, 6), dtype=np.bool_)
     array[tuple(np.array(LOW_CORNER).T)] = True
     assert violations(array, Printed())[1:] == (0, 0)

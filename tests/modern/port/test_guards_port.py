@@ -50,9 +50,7 @@ def sizes(dtype: type[np.floating[Any]]) -> list[float]:
 @pytest.mark.parametrize("dtype", TYPES)
 @AXIS
 @SIGN
-def test_numpy_runs_if_squares_of_coefficients_may_overflow(
-    dtype: type[np.floating[Any]], axis: int, sign: int
-) -> None:
+def test_numpy_runs_if_squares_of_coefficients_may_overflow(dtype, axis, sign) -> None:
     """A, B and C (3.4) are sums of six products of two coordinates: at most 6 M**2, their squares 36 M**4.
 
     Sizes at least 128 times too small to overflow must go to the kernels. Between the two limits either may run.
@@ -106,7 +104,7 @@ side.
 
 
 @pytest.fixture
-def quiet_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
+def quiet_kernels(monkeypatch) -> None:
     """Replace the compiled kernels by Python ones that report no overflow."""
     steps_of = fast_steps.with_kernels(unnoticing(kernels.grow), unnoticing(kernels.satisfied))
     monkeypatch.setattr(fast_steps, "load", lambda name: steps_of)

@@ -67,7 +67,7 @@ def test_epsilon_makes_points_with_three_decimals_acceptable() -> None:
 @pytest.mark.parametrize("epsilon", ["-1", "x", "rel:", "rel:-2", float("nan"), -0.5, True, (1,)])
 def test_invalid_epsilon_is_a_value_error(epsilon: object) -> None:
     with pytest.raises(ValueError, match="epsilon"):
-        convex_hull(CUBE, epsilon=epsilon)  # type: ignore[arg-type]
+        convex_hull(CUBE, epsilon=epsilon)
 
 
 @given(sets)

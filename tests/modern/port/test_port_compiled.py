@@ -126,9 +126,7 @@ small = st.integers(-3, 3).map(float)
 
 
 @given(st.lists(st.tuples(small, small, small), min_size=4, max_size=20), st.sampled_from(EPSILONS), st.booleans())
-def test_kernels_run_as_python_equal_numpy(
-    points: list[tuple[float, float, float]], epsilon: str | None, translate: bool
-) -> None:
+def test_kernels_run_as_python_equal_numpy(points, epsilon, translate) -> None:
     """Run the functions that numba compiles without numba."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(fast, "load", lambda _: fast.with_kernels(kernels.grow, kernels.satisfied))
@@ -176,7 +174,7 @@ def test_compiler_does_not_fuse_products_with_sums() -> None:
     assert (counts.tolist(), indices.tolist()) == ([1], [0, -1])
 
 
-def test_numpy_runs_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_numpy_runs_without_numba(monkeypatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
     fast.load.cache_clear()
     points = whole_ball(np.random.default_rng(1), 6000)

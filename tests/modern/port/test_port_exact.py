@@ -70,7 +70,7 @@ def turned(polygon: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def value(equation: object, point: tuple[str, str, str]) -> Fraction:
-    a, b, c, d = equation  # type: ignore[misc]
+    a, b, c, d = equation
     x, y, z = map(Fraction, point)
     return Fraction(a * x + b * y + c * z + d)
 
@@ -86,19 +86,19 @@ def lattice(r: random.Random, n: int) -> Triples:
 
 def flat(r: random.Random, n: int) -> Triples:
     axis, a = r.randrange(3), r.choice((1, 2, 3, 5))
-    return [tuple(7 if k == axis else r.randint(-a, a) for k in range(3)) for _ in range(n)]  # type: ignore[misc]
+    return [tuple(7 if k == axis else r.randint(-a, a) for k in range(3)) for _ in range(n)]
 
 
 def tilted(r: random.Random, n: int) -> Triples:
     a = r.choice((1, 2, 3, 5))
     u, v, o = ([r.randint(-3, 3) for _ in range(3)] for _ in range(3))
     steps = [(r.randint(-a, a), r.randint(-a, a)) for _ in range(n)]
-    return [tuple(o[k] + s * u[k] + t * v[k] for k in range(3)) for s, t in steps]  # type: ignore[misc]
+    return [tuple(o[k] + s * u[k] + t * v[k] for k in range(3)) for s, t in steps]
 
 
 def line(r: random.Random, n: int) -> Triples:
     u, o = ([r.randint(-3, 3) for _ in range(3)] for _ in range(2))
-    return [tuple(o[k] + t * u[k] for k in range(3)) for t in (r.randint(-5, 5) for _ in range(n))]  # type: ignore[misc]
+    return [tuple(o[k] + t * u[k] for k in range(3)) for t in (r.randint(-5, 5) for _ in range(n))]
 
 
 @pytest.mark.parametrize("family", [lattice, flat, tilted, line])
@@ -140,8 +140,8 @@ small = st.integers(-2, 2)
 @given(st.lists(st.tuples(small, small, small), min_size=1, max_size=12), st.integers(0, 200), small)
 def test_scaling_and_translation_change_no_decision(points: Triples, power: int, shift: int) -> None:
     hull = convex_hull(points)
-    scaled = convex_hull([tuple(f"{c}e{power}" for c in p) for p in points])  # type: ignore[attr-defined]
-    parts = [tuple(Fraction(c, 7) + shift for c in p) for p in points]  # type: ignore[attr-defined]
+    scaled = convex_hull([tuple(f"{c}e{power}" for c in p) for p in points])
+    parts = [tuple(Fraction(c, 7) + shift for c in p) for p in points]
     assert (scaled.vertices, scaled.boundary, scaled.inside) == (hull.vertices, hull.boundary, hull.inside)
     assert sorted(convex_hull(parts).vertices) == sorted(hull.vertices)
 
@@ -155,8 +155,8 @@ def test_one_two_and_three_points_have_a_hull() -> None:
 
 def test_machine_words_and_long_integers_agree() -> None:
     r = random.Random(62)
-    points: Triples = [tuple(r.randint(-20_000, 20_000) for _ in range(3)) for _ in range(60)]  # type: ignore[misc]
+    points: Triples = [tuple(r.randint(-20_000, 20_000) for _ in range(3)) for _ in range(60)]
     short = check(points)
-    long = convex_hull([tuple(c * 10**12 for c in p) for p in points])  # type: ignore[operator]
+    long = convex_hull([tuple(c * 10**12 for c in p) for p in points])
     assert (short.vertices, short.inside) == (long.vertices, long.inside)
     assert [f.defining for f in short.faces] == [f.defining for f in long.faces]

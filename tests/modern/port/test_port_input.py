@@ -41,7 +41,7 @@ INVALID_POINTS = (
 @pytest.mark.parametrize(("invalid", "message"), INVALID_POINTS)
 def test_error_names_an_invalid_point(invalid: object, message: str) -> None:
     with pytest.raises(PointsError) as caught:
-        convex_hull([ORIGIN, invalid])  # type: ignore[list-item]
+        convex_hull([ORIGIN, invalid])
     assert str(caught.value) == message
 
 
@@ -93,7 +93,7 @@ def test_arrays_are_read_and_their_shape_checked() -> None:
 @pytest.mark.parametrize("arithmetic", ["exact", "float64"])
 def test_empty_input_is_a_points_error(points: object, arithmetic: str) -> None:
     with pytest.raises(PointsError, match=r"^there are no points$"):
-        convex_hull(points, arithmetic)  # type: ignore[arg-type]
+        convex_hull(points, arithmetic)
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @pytest.fixture(scope="session")
-def shared(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
+def shared(tmp_path_factory, worker_id: str) -> Path:
     """Return a folder that all workers of the test session share."""
     base = tmp_path_factory.getbasetemp()
     return base if worker_id == "master" else base.parent
@@ -56,7 +56,7 @@ class Quiet(SimpleHTTPRequestHandler):
 
 
 @pytest.fixture(scope="session")
-def folder(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(site: Path, tmp_path_factory) -> Path:
     """Return a copy of the site with the emulator."""
     room = tmp_path_factory.mktemp("console")
     folder = room / "site"

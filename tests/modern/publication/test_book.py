@@ -195,7 +195,7 @@ def test_every_document_of_a_chapter_exists() -> None:
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+def whole(tmp_path_factory) -> tuple[str, Path]:
     folder = tmp_path_factory.mktemp("book")
     return book.typst(folder), folder
 
@@ -233,9 +233,7 @@ def test_the_book_is_pdf_a(whole: tuple[str, Path]) -> None:
     assert len(re.findall(rb"/S/Figure\b", made)) == len(re.findall(rb"/Alt\b", made)) > 50
 
 
-def test_without_typst_the_message_names_the_package(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_without_typst_the_message_names_the_package(tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.setattr(book, "typst", lambda folder: "")
     monkeypatch.setitem(sys.modules, "typst", None)
     assert book.main([str(tmp_path / "x.pdf")]) == 2

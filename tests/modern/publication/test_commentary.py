@@ -101,9 +101,7 @@ def test_the_listing_on_the_site_explains_every_block_and_every_variable() -> No
 
 
 @pytest.mark.parametrize("arguments", [(), ("--layers", "corrected")])
-def test_the_command_prints_the_commentary_of_a_listed_program_only(
-    arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_prints_the_commentary_of_a_listed_program_only(arguments: tuple[str, ...], capsys) -> None:
     code, out, err = call(capsys, "listing", "program2", "--commentary", *arguments)
     if arguments:
         assert (code, out, err.count("\n")) == (2, "", 1)

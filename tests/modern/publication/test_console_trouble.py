@@ -14,7 +14,7 @@ from tests.support.desks import Pair, played
 from tests.support.editions import LONG
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page
+    from playwright.sync_api import Page
 
 pytestmark = needs_pyodide
 
@@ -150,9 +150,7 @@ def test_an_endless_run_is_recognised_and_a_chosen_program_starts_without_a_load
     assert cards(tab)[-1].strip() == "R = -1.00000"
 
 
-def test_a_damaged_link_is_reported_and_a_link_opened_while_the_emulator_loads_is_followed(
-    chromium: Browser, served: str
-) -> None:
+def test_a_damaged_link_is_reported_and_a_link_opened_while_the_emulator_loads_is_followed(chromium, served) -> None:
     page = chromium.new_page()
     page.goto(f"{served}/console.html#program=mine.f&program-cards=!!!")
     page.wait_for_selector("#desk[data-state=on]", timeout=4 * LONG)

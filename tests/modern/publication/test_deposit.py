@@ -51,7 +51,7 @@ def parts() -> Parts:
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+def made(tmp_path_factory) -> tuple[Path, Path]:
     return write(tmp_path_factory.mktemp("deposit"), parts())
 
 
@@ -200,9 +200,7 @@ def test_the_collected_packages_suffice_to_build_and_have_wheels() -> None:
     assert all(block.count("sha256:") > 1 for block in packages.values())
 
 
-def test_wheels_of_other_versions_are_removed_and_missing_ones_downloaded(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_wheels_of_other_versions_are_removed_and_missing_ones_downloaded(tmp_path: Path, monkeypatch) -> None:
     lark = next(pin for pin in vendored.locked() if pin.startswith("lark=="))
     (tmp_path / "lark-0.1-py3-none-any.whl").touch()
     for pin in vendored.collected().keys() - {lark}:
@@ -317,7 +315,7 @@ def test_the_readme_builds_the_site_with_modules_and_files_of_the_deposit() -> N
     assert f"{day:%Y-%m-%d %H%M}" == f"{described().date} 0000"
 
 
-def test_a_deposit_contains_the_benchmark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_deposit_contains_the_benchmark(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.setattr(
         "modern.bench.benchmark.benchmark", lambda: {"original/program1.f": "C\n", "verdicts.json": "[]"}
     )
@@ -330,9 +328,7 @@ def test_a_deposit_contains_the_benchmark(tmp_path: Path, monkeypatch: pytest.Mo
     assert "not ours to license" in deposit.CONTENTS["benchmark/original/"].licence
 
 
-def test_missing_parts_and_foreign_folders_are_reported_in_one_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_missing_parts_and_foreign_folders_are_reported_in_one_line(tmp_path: Path, capsys, monkeypatch) -> None:
     with pytest.raises(BuildError, match=r"hull1620\.whl: no such file; make wheel builds it"):
         gather(tmp_path)
     about = described()

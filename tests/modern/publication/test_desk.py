@@ -32,9 +32,7 @@ from tests.support.paths import ROOT
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=[pair.name for pair in PAIRS])
-def test_cards_lines_and_messages_equal_those_of_the_command(
-    pair: Pair, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_cards_lines_and_messages_equal_those_of_the_command(pair: Pair, tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     desk = played(Desk(), pair)
     _, out, err = call(capsys, *pair.command(tmp_path))
@@ -153,9 +151,7 @@ def finished(desk: Desk) -> None:
             desk.act("START")
 
 
-def test_a_log_of_several_loads_is_repeated_by_the_page_and_by_the_command(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_log_of_several_loads_is_repeated_by_the_page_and_by_the_command(tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     desk = Desk()
     sessions = [played(desk, pair) for pair in PAIRS if pair.shows == "game"]
@@ -188,8 +184,8 @@ def test_a_run_goes_back_to_any_statement() -> None:
         forth.run(1e9)
         now = statement
         assert back.jump(statement)["waits"] == "answer"
-        assert back._session.state == forth._session.state  # type: ignore[union-attr]
-        assert back._session.devices.events == forth._session.devices.events  # type: ignore[union-attr]
+        assert back._session.state == forth._session.state
+        assert back._session.devices.events == forth._session.devices.events
         assert back._record == forth._record
         back.act("START")
         repeated = back.run(1e9)

@@ -73,9 +73,7 @@ def test_a_row_of_chapter_6_is_shown_in_its_example() -> None:
         ("", "x", ((0, 1),)),
     ],
 )
-def test_differing_returns_the_spans_that_differ(
-    expected: str, actual: str, spans: tuple[tuple[int, int], ...]
-) -> None:
+def test_differing_returns_the_spans_that_differ(expected, actual, spans) -> None:
     assert differing(expected, actual) == spans
 
 
@@ -128,7 +126,7 @@ def test_a_fault_shows_its_deck() -> None:
             assert read(f"fortran_src/grounds/{deck}.deck").splitlines()[1] in html
 
 
-def test_items_out_of_order_are_rejected(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_items_out_of_order_are_rejected(tmp_path: object, monkeypatch) -> None:
     from pathlib import Path
 
     from modern.publication import numbered as module

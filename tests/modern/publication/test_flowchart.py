@@ -139,7 +139,7 @@ def test_the_picture_is_xml_with_every_statement_as_text() -> None:
     for page in drawn.pages:
         for box in page.boxes:
             assert all(rows[line] for line in box.lines)
-    assert root.find(f"{SVG}title").text == "Flow chart of program2.f"  # type: ignore[union-attr]
+    assert root.find(f"{SVG}title").text == "Flow chart of program2.f"
     assert len(root.findall(f"{SVG}g")) == len(drawn.pages)
 
 
@@ -158,7 +158,7 @@ def test_single_pages_add_up_to_the_whole_chart() -> None:
         chart_svg(drawn, len(drawn.pages) + 1)
 
 
-def test_the_command(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command(capsys) -> None:
     code, out, err = call(capsys, "flowchart", "program2", "--page", "2")
     assert (code, err) == (0, "")
     assert out == chart_svg(chart(flow(built_in("program2"))), 2)

@@ -84,13 +84,11 @@ def drawn(number: int) -> str:
 
 
 @pytest.mark.parametrize("number", range(6))
-def test_the_page_and_the_command_explain_a_set_in_the_same_words(
-    number: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_page_and_the_command_explain_a_set_in_the_same_words(number: int, tmp_path: Path, capsys) -> None:
     assert agreement(drawn(number), tmp_path, capsys) in ("hull", "refused")
 
 
-def agreement(text: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> str:
+def agreement(text: str, folder: Path, capsys) -> str:
     """Compare the sentences of the page for a set with those of ``hull --explain``; return "hull" or "refused"."""
     answer, deck = parted(text), folder / "points.deck"
     (folder / "points.csv").write_text(text)

@@ -59,7 +59,7 @@ def test_no_other_module_formats_a_time_of_the_model() -> None:
     assert set(names) <= {("timing.py", True), ("run_output.py", True), ("machine.py", True)}
 
 
-def test_the_profile_has_an_interval_in_every_row_except_zeros(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_profile_has_an_interval_in_every_row_except_zeros(capsys) -> None:
     assert main(["hull", "example4", "--profile"]) == 0
     rows = re.findall(r"^  cause .*?\n(.*?)^  operations", capsys.readouterr().err, re.DOTALL | re.MULTILINE)
     assert len(rows) == 2
@@ -69,7 +69,7 @@ def test_the_profile_has_an_interval_in_every_row_except_zeros(capsys: pytest.Ca
         ), line
 
 
-def test_listings_with_statistics_have_intervals(capsys: pytest.CaptureFixture[str]) -> None:
+def test_listings_with_statistics_have_intervals(capsys) -> None:
     assert main(["listing", "program1", "example1"]) == 0
     first = capsys.readouterr().out.splitlines()[0]
     assert TIME.search(first)

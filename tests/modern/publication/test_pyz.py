@@ -18,7 +18,7 @@ from tests.support.editions import packed
 
 
 @pytest.fixture(scope="module")
-def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def program(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("pyz")
     path = folder / pyz.NAME
     path.write_bytes(pyz.pyz(packed(folder)))
@@ -26,7 +26,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def empty(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def empty(tmp_path: Path, monkeypatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -56,9 +56,7 @@ def test_the_one_file_reproduces_every_card_of_chapter_6(program: Path, empty: P
         "flowchart program1 --table",
     ],
 )
-def test_the_one_file_prints_what_the_installed_program_prints(
-    words: str, program: Path, empty: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_one_file_prints_what_the_installed_program_prints(words, program, empty, capsys, monkeypatch) -> None:
     monkeypatch.setenv("COLUMNS", "100")  # the width without a terminal, whatever an earlier test has set
     Path("chapter4.xml").write_text(tei("chapter4", "0.1.0"), encoding="utf-8")
     assert run(program, *words.split()) == call(capsys, *words.split())
@@ -99,16 +97,14 @@ def test_the_one_file_is_small_and_holds_the_licences_of_its_packages(program: P
     assert program.read_bytes().startswith(b"#!/usr/bin/env python3\n")
 
 
-def test_an_older_python_is_named_in_one_line(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_older_python_is_named_in_one_line(program: Path, monkeypatch) -> None:
     source = zipfile.ZipFile(program).read("__main__.py").decode()
     monkeypatch.setattr(sys, "version_info", (3, 10, 13))
     with pytest.raises(SystemExit, match=r"expected Python 3\.11 or later, found 3"):
         exec(source, {"__name__": "__main__"})
 
 
-def test_the_build_needs_a_wheel(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_build_needs_a_wheel(tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.setattr(building, "DIST", tmp_path)
     assert pyz.main([str(tmp_path)]) == 2
     assert "no wheel; make wheel builds it" in capsys.readouterr().err

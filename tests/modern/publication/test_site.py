@@ -152,7 +152,7 @@ def test_no_file_names_the_machine_or_the_time_of_the_build(site: Path) -> None:
             assert time.strftime("%Y-%m-%dT") not in content, file
 
 
-def test_a_folder_without_a_site_is_not_replaced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_without_a_site_is_not_replaced(tmp_path: Path, capsys) -> None:
     (tmp_path / "thesis.txt").write_text("kept")
     assert site_build.main([str(tmp_path)]) == 2
     assert (

@@ -213,9 +213,7 @@ def test_a_search_shows_the_right_place_first(chromium: Browser, site: Path) -> 
     assert first == QUERIES
 
 
-def test_the_navigation_has_at_most_eight_entries_and_long_pages_a_list_of_their_sections(
-    chromium: Browser, site: Path
-) -> None:
+def test_the_navigation_has_at_most_eight_entries_and_long_pages_a_list_of_their_sections(chromium, site) -> None:
     with opened(chromium, site, "program3.html", width=360, script=False) as (tab, _):
         entries = tab.locator(".sidebar-tree > ul > li > a").all_text_contents()
         assert entries == ["Story", "Programs", "Examples", "Machine", "Verdicts", "Learn", "Reference", "Get it"]

@@ -149,7 +149,7 @@ def test_apps_contain_readings_of_sources_only(name: str) -> None:
     assert "displaced" not in {
         app.get("ana", "").partition("#kind-")[2] for app in inline if app[0].text and app[1].text
     }
-    assert all(choice.find(f"{TEI}corr").get("cert") is None for choice in document.iter(TEI + "choice"))  # type: ignore[union-attr]
+    assert all(choice.find(f"{TEI}corr").get("cert") is None for choice in document.iter(TEI + "choice"))
 
 
 def test_displaced_pieces_return_to_the_places_of_the_print() -> None:
@@ -201,7 +201,7 @@ def test_rejected_readings_do_not_enter_the_text() -> None:
     assert before == after
 
 
-def test_the_command_writes_reads_and_validates(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_writes_reads_and_validates(tmp_path: Path, capsys) -> None:
     folder = tmp_path / "tei"
     assert call(capsys, "tei", "--all", str(folder)) == (0, "", "")
     assert {path.name for path in folder.iterdir()} == {
@@ -221,7 +221,7 @@ def test_the_command_writes_reads_and_validates(tmp_path: Path, capsys: pytest.C
     assert call(capsys, "tei", "nakamae_nishita_1972", "--check") == (0, "nakamae_nishita_1972: valid\n", "")
 
 
-def test_an_invalid_document_is_reported_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_document_is_reported_in_one_line(tmp_path: Path, capsys) -> None:
     other_schema = tmp_path / "other.rng"
     other_schema.write_text(schema().replace('<element name="ab">', '<element name="line">'))
     code, out, err = call(capsys, "tei", "program1", "--check", str(other_schema))
@@ -247,13 +247,7 @@ def test_an_invalid_document_is_reported_in_one_line(tmp_path: Path, capsys: pyt
         (("tei", "--all", "good.xml"), "good.xml: not a directory"),
     ],
 )
-def test_wrong_use_is_reported_in_one_line(
-    arguments: tuple[str, ...],
-    message: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_wrong_use_is_reported_in_one_line(arguments, message, tmp_path, monkeypatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     Path("bad.rng").write_text("<x", encoding="utf-8")
     Path("bad.xml").write_text("", encoding="utf-8")
@@ -264,9 +258,7 @@ def test_wrong_use_is_reported_in_one_line(
     assert message in err
 
 
-def test_a_damaged_document_is_read_or_rejected_with_one_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_damaged_document_is_read_or_rejected_with_one_line(tmp_path: Path, capsys) -> None:
     draw = random.Random(1963)
     source = written("program2")
     exit_codes = set()

@@ -11,7 +11,7 @@ from tests.support.studied import PLAN
 
 
 @pytest.fixture(scope="session")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def finished(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("study") / "small"
     run_study(PLAN, folder, workers=1, quiet=True)
     return folder
@@ -24,6 +24,6 @@ def copied(finished: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def _without_plots(monkeypatch: pytest.MonkeyPatch) -> None:
+def _without_plots(monkeypatch) -> None:
     """Charts are drawn after the rows are complete, and take longer than they do."""
     monkeypatch.setattr(study_run, "draw", lambda chart, folder: None)

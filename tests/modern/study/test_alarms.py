@@ -72,7 +72,7 @@ class Rows:
 
 
 def test_report_counts_noticed_decisions_and_false_alarms() -> None:
-    report = study.report(study.plan(), Rows())  # type: ignore[arg-type]
+    report = study.report(study.plan(), Rows())
     rows = {row[0]: row for row in report.tables[0].rows}
     assert [rows["CADNA, N = 10"][k].split(" ")[0] for k in (1, 2, 5, 6)] == ["2", "0.0", "2", "0.0"]
     assert rows["intervals"][6].startswith("50.0 ")
@@ -87,6 +87,6 @@ def test_report_counts_noticed_decisions_and_false_alarms() -> None:
 
 
 def test_report_says_that_sixteen_digits_missed_a_wrong_decision() -> None:
-    (conclusion, *_) = study.report(study.plan(), Rows(double_caught=0)).conclusions  # type: ignore[arg-type]
+    (conclusion, *_) = study.report(study.plan(), Rows(double_caught=0)).conclusions
     assert "Sixteen digits noticed 0.0 (" in conclusion
     assert "proved" not in conclusion

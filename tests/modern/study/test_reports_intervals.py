@@ -88,9 +88,7 @@ def seventies(folder: Path, failures: Sequence[int], slabs: int = 0, mended: int
         ([3, 4, 4, 4], "more than the two of the thesis"),
     ],
 )
-def test_seventy_differs_from_the_thesis_only_if_the_whole_interval_does(
-    tmp_path: Path, failures: list[int], claim: str
-) -> None:
+def test_seventy_differs_from_the_thesis_only_if_the_whole_interval_does(tmp_path, failures, claim) -> None:
     """The limits for 10, 11, 12, 20, 29 and 30 in 700 and for 2, 3, 14 and 15 in 280 are from scipy (beta.ppf)."""
     assert claim in seventies(tmp_path, failures)
 
@@ -113,9 +111,7 @@ UNDECIDED = "possibly unusual; there are too few groups to decide"
         ([2, 2, 0, 0, 0, 0], UNDECIDED),
     ],
 )
-def test_seventy_calls_two_unusual_only_if_the_whole_interval_is_below_a_twentieth(
-    tmp_path: Path, failures: list[int], claim: str
-) -> None:
+def test_seventy_calls_two_unusual_only_if_the_whole_interval_is_below_a_twentieth(tmp_path, failures, claim) -> None:
     """The limit is a twentieth of the groups; the interval of 1 in 4 is .0063 to .806."""
     conclusions = seventies(tmp_path, failures)
     assert [text in conclusions for text in (UNUSUAL, USUAL, UNDECIDED)] == [
@@ -132,9 +128,7 @@ def test_seventy_calls_two_unusual_only_if_the_whole_interval_is_below_a_twentie
         ([2, 0], 70, "seventy such sets have 2.0 (0.2 to 7.0) failures on average."),
     ],
 )
-def test_seventy_reports_the_interval_of_sets_in_space(
-    tmp_path: Path, failures: list[int], slabs: int, claim: str
-) -> None:
+def test_seventy_reports_the_interval_of_sets_in_space(tmp_path, failures, slabs, claim) -> None:
     """The interval of 0 in 131 ends at 1 - .025**(1/131), 1.944 in seventy.
 
     5 in 20 is .087 to .491, 1 in 70 .00036 to .077, 2 in 70 .0035 to .099.
@@ -223,9 +217,7 @@ def diverging(*lines: str, card: str) -> Figures:
     ],
     ids=["thirds", "whole thirds", "eight digits", "nine digits"],
 )
-def test_measure_finds_the_first_decision_that_differs_from_exact_arithmetic(
-    lines: list[str], card: str, place: str
-) -> None:
+def test_measure_finds_the_first_decision_that_differs_from_exact_arithmetic(lines, card, place) -> None:
     """A truncated third times 3 is less than 1.  The eighth digit of a card is read, the ninth is not."""
     assert diverging(*lines, card=card) == {"diverges": place}
 

@@ -198,7 +198,7 @@ def test_a_file_with_a_line_that_is_no_copy_is_rejected(tmp_path: Path, line: st
         measure(tmp_path, [group], 0)
 
 
-def test_a_measurement_continues_where_it_was_interrupted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_measurement_continues_where_it_was_interrupted(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.setattr("modern.study.restoration.ROUND", {"as the OCR": (2,)})
     period = others(DATA / "period")
     group = Group("one program", period.originals[:1], period.trials[:1])

@@ -52,9 +52,7 @@ def test_file_of_rows_that_is_not_of_the_plan_is_named(copied: Path) -> None:
         run_study(PLAN, copied, workers=1, quiet=True, resume=True)
 
 
-def test_digit_changed_in_100_places_of_the_rows_is_always_noticed_with_file_and_line(
-    finished: Path, copied: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_digit_changed_in_100_places_of_the_rows_is_always_noticed_with_file_and_line(finished, copied, capsys) -> None:
     rng = random.Random(1963)
     files = sorted((copied / "rows").iterdir())
     assert main(["study", "--verify", str(copied)]) == 0
@@ -76,9 +74,7 @@ def test_digit_changed_in_100_places_of_the_rows_is_always_noticed_with_file_and
             path.write_bytes(intact)
 
 
-def test_verify_reports_every_damaged_file_and_resume_stops(
-    finished: Path, copied: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_verify_reports_every_damaged_file_and_resume_stops(finished: Path, copied: Path, capsys) -> None:
     paths = [copied / "rows" / name for name in ("0000-000000007.jsonl", "0001-000000004.jsonl")]
     for path in paths:
         path.write_text(path.read_text().replace('"seed":"', '"seed":"0', 1))
@@ -105,9 +101,7 @@ def test_verify_reports_every_damaged_file_and_resume_stops(
         ('"family": "integers"', '"family": "ball"', "the plan in the manifest is damaged"),
     ],
 )
-def test_verify_reports_a_damaged_manifest(
-    before: str, after: str, message: str, finished: Path, copied: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_verify_reports_a_damaged_manifest(before, after, message, finished, copied, capsys) -> None:
     path = copied / "manifest.json"
     text = path.read_text()
     assert before in text

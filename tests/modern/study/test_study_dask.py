@@ -56,16 +56,14 @@ def test_killed_worker_does_not_change_the_files(cluster: Any, finished: Path, t
     assert contents(tmp_path / "dask") == contents(finished)
 
 
-def test_worker_with_different_versions_is_rejected(
-    cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_worker_with_different_versions_is_rejected(cluster: Any, tmp_path: Path, monkeypatch) -> None:
     own = study_workers.versions()
     monkeypatch.setattr(study_workers, "versions", lambda: {**own, "numpy": "0.1"})
     with pytest.raises(PlanError, match=rf"a worker has numpy {own['numpy']}, this process 0.1"):
         run_study(PLAN, tmp_path / "old", dask=cluster.scheduler_address, quiet=True)
 
 
-def test_worker_without_hull1620_is_rejected(cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_worker_without_hull1620_is_rejected(cluster: Any, tmp_path: Path, monkeypatch) -> None:
     def missing() -> None:
         raise ModuleNotFoundError("No module named 'modern'")
 
@@ -76,7 +74,7 @@ def test_worker_without_hull1620_is_rejected(cluster: Any, tmp_path: Path, monke
 
 
 @pytest.mark.parametrize("address", ["nonsense", "tcp://127.0.0.1:1"])
-def test_address_without_a_cluster_is_rejected(address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_address_without_a_cluster_is_rejected(address: str, tmp_path: Path, monkeypatch) -> None:
     monkeypatch.setattr(study_workers, "TIMEOUT", 1)
     with pytest.raises(PlanError) as rejection:
         run_study(PLAN, tmp_path / "no", dask=address, quiet=True)

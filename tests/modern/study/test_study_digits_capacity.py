@@ -32,7 +32,7 @@ def _sample(family: str, index: int, **parameters: int) -> Sample:
 
 
 def _finished(plan: Plan, folder: Path, module: object) -> Report:
-    return run_study(plan, folder, module.report, workers=1, quiet=True)  # type: ignore[attr-defined]
+    return run_study(plan, folder, module.report, workers=1, quiet=True)
 
 
 def _table_places(machine: Machine) -> int:
@@ -91,7 +91,7 @@ def test_greatest_intermediate_value_has_the_derived_number_of_digits() -> None:
 
 
 @pytest.fixture(scope="module")
-def digits_study(tmp_path_factory: pytest.TempPathFactory) -> tuple[Plan, Path, Report]:
+def digits_study(tmp_path_factory) -> tuple[Plan, Path, Report]:
     whole = digits.plan(2, 7)
     plan = Plan(whole.name, whole.title, whole.question, whole.cells[:3], whole.seed, whole.notes)
     folder = tmp_path_factory.mktemp("digits") / "out"

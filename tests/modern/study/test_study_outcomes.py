@@ -82,9 +82,7 @@ CASES = [
 
 
 @pytest.mark.parametrize(("points", "route", "outcome", "detail"), CASES)
-def test_deck_has_the_expected_outcome(
-    points: Sequence[Sequence[int | str]] | str, route: Route, outcome: str, detail: str
-) -> None:
+def test_deck_has_the_expected_outcome(points, route, outcome, detail) -> None:
     found = answer(points, route)
     assert (found.outcome, found.detail) == (outcome, detail)
 
@@ -243,7 +241,7 @@ def test_deciding_statement_agrees_with_a_trace() -> None:
         told = answer_of_run(run, one, options_of(LISTED)).detail
         lines: list[Line] = []
         machine = Machine(step.program, step.deck, options_of(LISTED))
-        machine.tracer = lambda line, _, lines=lines: lines.append(line)  # type: ignore[misc]
+        machine.tracer = lambda line, _, lines=lines: lines.append(line)
         machine.run()
         typed = max(k for k, line in enumerate(lines) if line.text.startswith("PRINT"))
         assert told == f"{step.name} {position(step.program, lines[typed - 1])}"

@@ -38,7 +38,7 @@ def spread(sample, run):
 
 
 @pytest.fixture
-def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+def module(tmp_path: Path, monkeypatch) -> str:
     """Write a plan and a module next to it in an empty folder; return the unique name of the module."""
     name = "own_" + tmp_path.name
     (tmp_path / "plans").mkdir()
@@ -49,7 +49,7 @@ def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     return name
 
 
-def test_module_next_to_the_plan_is_found(module: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_module_next_to_the_plan_is_found(module: str, capsys) -> None:
     assert main(["study", "plans/own.toml", "--workers", "1", "--quiet"]) == 0
     text = next(Path("own/rows").iterdir()).read_text()
     assert '"spread":5' in text
@@ -73,9 +73,7 @@ def test_worker_processes_find_the_module(module: str) -> None:
         ("def line(draw, n)", "def line(draw)", "unexpected keyword argument 'n'"),
     ],
 )
-def test_error_in_the_module_gives_one_line_with_file_and_line_number(
-    was: str, now: str, words: str, module: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_error_in_the_module_gives_one_line_with_file_and_line_number(was, now, words, module, capsys) -> None:
     path = Path("plans") / f"{module}.py"
     path.write_text(MODULE.replace(was, now))
     assert main(["study", "plans/own.toml", "--workers", "1", "--quiet"]) == 2
@@ -86,7 +84,7 @@ def test_error_in_the_module_gives_one_line_with_file_and_line_number(
         assert f"{module}.py, line" in err
 
 
-def test_missing_module_is_named(module: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_module_is_named(module: str, capsys) -> None:
     (Path("plans") / f"{module}.py").unlink()
     assert main(["study", "plans/own.toml", "--workers", "1", "--quiet"]) == 2
     assert f"no module is called '{module}' next to the plan or on Python's module path" in capsys.readouterr().err
@@ -126,7 +124,7 @@ parameters = { digits = 3, n = 12 }
 
 
 def test_digits_beyond_the_cards_are_kept_with_uncut_and_otherwise_lost_with_a_note(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path, monkeypatch, capsys
 ) -> None:
     """Twelve digits are enough for coordinates of three digits; the eight of the cards between the programs are not."""
     monkeypatch.chdir(tmp_path)
@@ -148,7 +146,7 @@ def test_no_note_if_the_cards_hold_all_digits() -> None:
     assert len(cut_lines(read_plan_of(Programs("doubles", arithmetic="float64")))) == 1
 
 
-def read_plan_of(*routes: Programs):  # type: ignore[no-untyped-def]
+def read_plan_of(*routes: Programs):
     from modern.study import Cell, Plan
 
     return Plan("p", "", "", (Cell({"n": 4}, "integers", {"digits": 1, "n": 4}, routes, 1),))

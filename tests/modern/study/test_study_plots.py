@@ -149,9 +149,7 @@ INTERVALS = st.builds(Interval, NUMBERS, NUMBERS | st.just(-inf), NUMBERS | st.j
 
 @settings(max_examples=12)
 @given(st.lists(st.tuples(NUMBERS, INTERVALS)), st.text(st.characters(codec="utf-8")), st.booleans())
-def test_charts_are_unchanged_by_writing_and_reading(
-    tmp_path_factory: pytest.TempPathFactory, points: list[tuple[float, Interval]], words: str, log: bool
-) -> None:
+def test_charts_are_unchanged_by_writing_and_reading(tmp_path_factory, points, words, log) -> None:
     folder = tmp_path_factory.mktemp("charts")
     line = Lines("a-1", words, "x", words, (Series(words, tuple(points)),), marks=(Mark(1.5, words, log),), log_y=log)
     bar = Bars("b", "", "", "", (Series("s", tuple((str(x), e) for x, e in points)),), percent=log, note=words)
@@ -182,9 +180,7 @@ def test_charts_are_unchanged_by_writing_and_reading(
         ),
     ],
 )
-def test_damaged_file_of_charts_gives_a_one_line_error(
-    tmp_path: Path, text: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_damaged_file_of_charts_gives_a_one_line_error(tmp_path: Path, text: str, capsys) -> None:
     (tmp_path / "charts.json").write_text(text)
     assert main(["study", "--redraw", str(tmp_path)]) == 2
     out, err = capsys.readouterr()
@@ -195,7 +191,7 @@ def test_damaged_file_of_charts_gives_a_one_line_error(
 
 
 @NEEDS_MATPLOTLIB
-def test_redrawn_charts_equal_the_original_ones(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_redrawn_charts_equal_the_original_ones(tmp_path: Path, capsys) -> None:
     first, again = tmp_path / "first", tmp_path / "again"
     charts = (CHARTS["logarithmic"], CHARTS["bars"])
     for folder in (first, again):

@@ -51,7 +51,7 @@ parameters = { path = "mine.csv", shuffle = true }
 
 
 @pytest.fixture
-def plan_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def plan_file(tmp_path: Path, monkeypatch) -> Path:
     (tmp_path / "mine.csv").write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n1,1,.5\n")
     path = tmp_path / "three.toml"
     path.write_text(PLAN_FILE)
@@ -76,9 +76,7 @@ def test_tables_have_equal_contents_as_text_csv_and_markdown() -> None:
     assert with_interval(mean([3.0])) == "3.00"
 
 
-def test_study_finishes_without_matplotlib(
-    plan_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_study_finishes_without_matplotlib(plan_file: Path, tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     run_study(read_plan(str(plan_file)), tmp_path / "out", workers=1)
     assert "hull1620[plot]" in capsys.readouterr().err
@@ -230,7 +228,7 @@ def test_epsilon_of_a_plan_may_be_a_number_or_text(tmp_path: Path, epsilon: str,
     assert plan.cells[0].routes[0].epsilon == "0.001"
 
 
-def test_command_line_runs_resumes_and_lists_studies(plan_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_line_runs_resumes_and_lists_studies(plan_file: Path, capsys) -> None:
     assert main(["study", "--list"]) == 0
     assert "seventy" in capsys.readouterr().out
     assert main(["study", "three.toml", "--workers", "1", "--quiet"]) == 0
@@ -264,16 +262,14 @@ def test_command_line_runs_resumes_and_lists_studies(plan_file: Path, capsys: py
         (["seventy", "--samples", "70", "--out", "three.toml/in"], "not a directory"),
     ],
 )
-def test_invalid_input_gives_a_one_line_error(
-    arguments: list[str], message: str, plan_file: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_invalid_input_gives_a_one_line_error(arguments: list[str], message: str, plan_file: Path, capsys) -> None:
     assert main(["study", *arguments]) == 2
     out, err = capsys.readouterr()
     assert message in err
     assert (out, err.count("\n")) == ("", 1)
 
 
-def test_families_and_measures_are_listed_with_parameters(capsys: pytest.CaptureFixture[str]) -> None:
+def test_families_and_measures_are_listed_with_parameters(capsys) -> None:
     assert main(["study", "--families", "--measures"]) == 0
     out = capsys.readouterr().out
     for name in (*FAMILIES, "file", *MEASURES):

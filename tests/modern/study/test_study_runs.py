@@ -146,7 +146,7 @@ def test_ctrl_c_stops_two_workers_at_once_and_the_study_resumes_to_the_same_rows
     assert contents_without_plots(folder) == contents_without_plots(tmp_path / "whole")
 
 
-def test_ctrl_c_during_the_start_of_a_worker_pool_raises_keyboard_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ctrl_c_during_the_start_of_a_worker_pool_raises_keyboard_interrupt(monkeypatch) -> None:
     """The pool's own thread has been made but not started, so the pool cannot wait for it."""
 
     def pressed(thread: threading.Thread) -> None:
@@ -160,9 +160,7 @@ def test_ctrl_c_during_the_start_of_a_worker_pool_raises_keyboard_interrupt(monk
         list(in_processes(PLAN, list(PLAN.chunks()), 2))
 
 
-def test_first_sample_is_finished_before_workers_start_if_no_compiled_code_exists(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_first_sample_is_finished_before_workers_start_if_no_compiled_code_exists(monkeypatch) -> None:
     monkeypatch.setattr(workers, "must_compile", lambda: True)
     monkeypatch.setattr(workers, "ProcessPoolExecutor", lambda *_, **__: pytest.fail("a worker starts"))
     chunk, rows = next(in_processes(PLAN, list(PLAN.chunks()), 2))
@@ -170,9 +168,7 @@ def test_first_sample_is_finished_before_workers_start_if_no_compiled_code_exist
 
 
 @pytest.mark.parametrize("quiet", [False, True])
-def test_failed_compilation_is_reported(
-    quiet: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_failed_compilation_is_reported(quiet: bool, monkeypatch, capsys) -> None:
     monkeypatch.setattr(run, "must_compile", lambda: True)
     monkeypatch.setattr(run, "why_plain", lambda _: "")
     monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")  # compile_engine then raises NotInstalled
@@ -184,7 +180,7 @@ def test_failed_compilation_is_reported(
 
 
 @pytest.mark.parametrize("has_code", [False, True])
-def test_repetitions_are_compiled_only_if_they_must_be(has_code: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_repetitions_are_compiled_only_if_they_must_be(has_code: bool, monkeypatch) -> None:
     monkeypatch.setattr(run, "must_compile", lambda: False)
     monkeypatch.setattr(run, "must_compile_repetitions", lambda: not has_code)
     route = Programs("corrected", measures=("alarms",))
@@ -194,9 +190,7 @@ def test_repetitions_are_compiled_only_if_they_must_be(has_code: bool, monkeypat
 
 @pytest.mark.parametrize("writes", [1, 9])
 @pytest.mark.usefixtures("_without_plots")
-def test_full_disk_gives_a_one_line_error_and_the_study_can_be_resumed(
-    finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, writes: int
-) -> None:
+def test_full_disk_gives_a_one_line_error_and_the_study_can_be_resumed(finished, tmp_path, monkeypatch, writes) -> None:
     folder, writes_left = tmp_path / "full", [writes]
 
     def fsync(_: int) -> None:
@@ -214,11 +208,9 @@ def test_full_disk_gives_a_one_line_error_and_the_study_can_be_resumed(
     assert contents_without_plots(folder) == contents_without_plots(finished)
 
 
-def test_study_can_be_resumed_after_the_index_filled_the_disk(
-    finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_study_can_be_resumed_after_the_index_filled_the_disk(finished: Path, tmp_path: Path, monkeypatch) -> None:
     folder = tmp_path / "index"
-    original = Store.open.__func__  # type: ignore[attr-defined]
+    original = Store.open.__func__
 
     def small(cls: type[Store], place: Path, plan: Plan) -> Store:
         store: Store = original(cls, place, plan)
@@ -319,9 +311,7 @@ def with_cell(**changes: Any) -> Plan:
         (Port("r", epsilon="-1"), "epsilon"),
     ],
 )
-def test_invalid_plan_is_rejected_before_anything_is_written(
-    plan: Plan | Programs | Port, message: str, tmp_path: Path
-) -> None:
+def test_invalid_plan_is_rejected_before_anything_is_written(plan, message, tmp_path) -> None:
     with pytest.raises(EmulatorError, match=message) as rejection:
         run_study(plan if isinstance(plan, Plan) else with_cell(routes=(plan,)), tmp_path / "no", quiet=True)
     assert "\n" not in str(rejection.value)

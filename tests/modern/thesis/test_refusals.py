@@ -81,9 +81,7 @@ def test_a_long_search_stopped_by_the_limit_is_not_a_fault() -> None:
 
 
 @pytest.mark.parametrize(("points", "program"), [(SOLID, 3), (FLAT, 2)])
-def test_the_point_that_does_not_satisfy_its_equation_is_named(
-    points: list[tuple[str, str, str]], program: int
-) -> None:
+def test_the_point_that_does_not_satisfy_its_equation_is_named(points, program) -> None:
     """In the port's eight digits the equation that program 1 punched has the same nonzero value at the point."""
     deck = data_deck(points, "points")
     found = cause_of(deck)
