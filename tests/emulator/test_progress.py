@@ -65,16 +65,13 @@ def test_progress_ignores_a_closed_pipe() -> None:
     progress.close()
 
 
-def test_chunks_are_computed_only_when_requested() -> None:
-    """So memory does not grow with the number of chunks."""
+def test_chunks_are_computed_on_request_without_a_thread() -> None:
+    # So memory does not grow with the number of chunks.
     plan = replace(PLAN, cells=(replace(PLAN.cells[0], samples=5_000_000),))
     chunks = [chunk for chunk, _ in zip(plan.chunks(), range(1000), strict=False)]
     made = in_processes(plan, chunks, 1)
     assert [next(made)[0] for _ in range(2)] == chunks[:2]
     made.close()
-
-
-def test_a_study_with_one_worker_starts_no_thread() -> None:
     before = threading.active_count()
     list(in_processes(PLAN, list(PLAN.chunks())[:1], 1))
     assert threading.active_count() == before

@@ -159,12 +159,21 @@ def test_an_invalid_epsilon_is_an_input_error(epsilon: Any) -> None:
             call()
 
 
-def test_an_area_works_with_numpy_and_fractions_and_keeps_its_digits() -> None:
+def test_volumes_areas_and_solidity_are_exact_numbers() -> None:
     corner = hull1620.exact_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
     assert corner.area / corner.volume == pytest.approx(14.19615242270663)
     assert np.sqrt(corner.area) ** 2 == pytest.approx(2.366025403784439)
     again = pickle.loads(pickle.dumps(corner.area))
     assert (again, again.digits) == (corner.area, corner.area.digits)
+    points = np.random.default_rng(7).integers(-9, 10, (14, 3))
+    hull = hull1620.convex_hull(points, text=True)
+    assert hull.volume == hull1620.exact_hull(points).volume
+    assert hull.corrected == hull.record.corrected
+    solid = np.zeros((3, 3, 3), bool)
+    solid[[0, 2, 1], [0, 0, 1], [0, 0, 0]] = True
+    hull = hull1620.digital_hull(solid)
+    assert (hull.voxels, hull.solidity) == (4, Fraction(3, 4))
+    assert hull1620.digital_hull(np.ones((2, 2, 2))).solidity == 1
 
 
 @pytest.mark.parametrize("hull_of", BOTH)
@@ -203,28 +212,18 @@ def test_an_accepted_hull_of_very_large_or_small_numbers_can_be_used(hull_of: An
             hull.save(tmp_path / f"hull.{extension}", digits=9)
 
 
-def test_all_functions_draw_the_same_picture() -> None:
+def test_pictures_are_the_same_from_all_functions_and_follow_the_options() -> None:
     hull = hull1620.exact_hull(CUBE)
     assert hull._repr_svg_() == hull.draw() == hull1620.draw(CUBE) == hull1620.draw(hull)
     assert hull.draw().startswith("<svg ")
     assert hull.draw(eye=(1, 2.5, np.float32(3)), title="a cube") == hull1620.draw(CUBE, (2, 5, 6), "a cube")
     with pytest.raises(hull1620.ExportError, match="expected a direction of view with 3 numbers, found 2"):
         hull.draw(eye=(1, 2))
-
-
-def test_the_options_determine_the_content_of_a_picture() -> None:
     points = [*CUBE, (1, 1, 1)]
     whole, without = hull1620.draw(points), hull1620.draw(points, labels="none", hidden=False, others=False)
     assert ('class="inside"' in whole, 'class="inside"' in without) == (True, False)
     assert ('class="numbers"' in whole, 'class="numbers"' in without) == (True, False)
     assert hull1620.exact_hull(points).draw(width=900).startswith('<svg xmlns="http://www.w3.org/2000/svg" width="900"')
-
-
-def test_the_variant_of_the_text_has_the_same_volume() -> None:
-    points = np.random.default_rng(7).integers(-9, 10, (14, 3))
-    hull = hull1620.convex_hull(points, text=True)
-    assert hull.volume == hull1620.exact_hull(points).volume
-    assert hull.corrected == hull.record.corrected
 
 
 @pytest.mark.parametrize("ending", ["off", "obj", "ply", "stl", "json", "svg"])
@@ -306,11 +305,3 @@ def test_an_image_of_simpleitk_has_its_hull_in_its_coordinates() -> None:
     # The axis x has the direction (0, 1, 0), and y (-1, 0, 0).
     assert hull.points.min(axis=0).tolist() == [5, 19.75, 29.5]
     assert hull.points.max(axis=0).tolist() == [11, 21.75, 31.5]
-
-
-def test_the_solidity_of_voxels_is_a_fraction() -> None:
-    solid = np.zeros((3, 3, 3), bool)
-    solid[[0, 2, 1], [0, 0, 1], [0, 0, 0]] = True
-    hull = hull1620.digital_hull(solid)
-    assert (hull.voxels, hull.solidity) == (4, Fraction(3, 4))
-    assert hull1620.digital_hull(np.ones((2, 2, 2))).solidity == 1

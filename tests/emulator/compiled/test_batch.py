@@ -210,13 +210,10 @@ def test_unsupported_decks_run_in_the_interpreter(lines: list[str], data: list[s
     assert count_compiled(lines, data) == 0
 
 
-def test_the_first_deck_with_an_error_raises_it() -> None:
+def test_errors_of_decks_and_of_the_size_are_raised() -> None:
     card = " .20000000E+01     1.5   12"
     with pytest.raises(CardError, match=r"deck 3: card 1, column 1: 'BAD' is not a number"):
         run_batch(program(*COPY), decks([card], [card], ["BAD"], [card], ["WORSE"]))
-
-
-def test_a_program_that_is_too_large_is_rejected_even_without_decks() -> None:
     large = program("DIMENSION X(3200)", "X(1)=0.", "END")
     for data in ([], decks([])):
         with pytest.raises(DeckError, match="OVERLAP"):
@@ -224,10 +221,17 @@ def test_a_program_that_is_too_large_is_rejected_even_without_decks() -> None:
     assert run_batch(program(*COPY), []) == ()
 
 
-def test_more_decks_than_a_block_agree() -> None:
+def test_blocks_and_decks_do_not_share_state() -> None:
     card = " .20000000E+01     1.5"
     texts = [[f"{card}{n:5d}"] * (n % 4 + 1) for n in range(2 * runner.BLOCK + 3)]
     assert count_compiled(COPY, *texts) == len(texts)
+    # The texts of FORMATs, storage, and the list of PAUSEs are reset for each deck.
+    lines = ["M=0", "1 PUNCH 2", "READ 2", "IF(SENSE SWITCH 1)3,1", "3 PAUSE", "GO TO 1", "2 FORMAT(5HFIRST)", "END"]
+    assert count_compiled(lines, ["AAAAA", "BBBBB"], ["CCCCC"], ["DDDDD"] * 3) == 3
+    lines = ["1 READ 2,A", "TYPE 3,A", "READ 4", "TYPE 4", "GO TO 1", "2 FORMAT(49X,29X,F5.1)", "3 FORMAT(F5.1)"]
+    lines += ["4 FORMAT(49X,29X,4HABCD)", "END"]
+    card = f"{'77':78}1."
+    assert count_compiled(lines, [card] * 4, [card] * 2) == 2
 
 
 def test_a_log_grows_and_a_deck_that_exceeds_it_runs_in_the_interpreter(monkeypatch) -> None:
@@ -235,19 +239,6 @@ def test_a_log_grows_and_a_deck_that_exceeds_it_runs_in_the_interpreter(monkeypa
     monkeypatch.setattr(runner, "MOST_LOG_ROOM", 1 << 10)
     lines = ["READ 1,N", "DO 5 I=1,N", "5 PUNCH 2,I", "1 FORMAT(I4)", "2 FORMAT(5X,I5)", "END"]
     assert count_compiled(lines, *([f"{n:4d}"] for n in (1, 3, 0, 40, 7, 500, 2, 39))) == 7
-
-
-def test_decks_do_not_share_state() -> None:
-    """The texts of FORMATs, storage, and the list of PAUSEs are reset for each deck."""
-    lines = ["M=0", "1 PUNCH 2", "READ 2", "IF(SENSE SWITCH 1)3,1", "3 PAUSE", "GO TO 1", "2 FORMAT(5HFIRST)", "END"]
-    assert count_compiled(lines, ["AAAAA", "BBBBB"], ["CCCCC"], ["DDDDD"] * 3) == 3
-
-
-def test_columns_beyond_a_card_are_blank() -> None:
-    lines = ["1 READ 2,A", "TYPE 3,A", "READ 4", "TYPE 4", "GO TO 1", "2 FORMAT(49X,29X,F5.1)", "3 FORMAT(F5.1)"]
-    lines += ["4 FORMAT(49X,29X,4HABCD)", "END"]
-    card = f"{'77':78}1."
-    assert count_compiled(lines, [card] * 4, [card] * 2) == 2
 
 
 def test_every_limit_ends_both_engines_at_the_same_place() -> None:

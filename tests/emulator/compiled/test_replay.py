@@ -57,23 +57,17 @@ def test_machine_takes_the_branch_for_a_negative_number_and_exact_arithmetic_tha
     assert test.taken == test.target(-1) != test.target(exact[test.place]) == test.target(0)
 
 
-def test_repeating_in_the_same_arithmetic_gives_the_numbers_of_the_machine(tape: Tape) -> None:
+def test_repetition_in_the_same_arithmetic_and_with_more_digits_equals_the_run(tape: Tape) -> None:
     ((mantissas, exponents),) = repetitions(tape, DIGITS, [rules_of("truncating")])
     assert list(zip(mantissas, exponents, strict=True)) == [tape.number(test.place) for test in tape.tests]
-
-
-def test_twice_the_digits_are_those_of_a_run_with_them(tape: Tape) -> None:
-    """The branch is the machine's, so the number that is tested is compared."""
+    # The branch is the machine's, so the number that is tested is compared.
     ((mantissas, exponents),) = repetitions(tape, DIGITS, [rules_of("truncating:16")])
     assert (mantissas, exponents) == ([-(10**15)], [-14])
 
 
-def test_exact_values_of_a_product_along_the_machines_branch(tape: Tape) -> None:
+def test_exact_values_and_intervals_follow_the_branch_of_the_machine(tape: Tape) -> None:
     assert exactly(tape, DIGITS)[-1] == -1
     assert all(isinstance(value, Fraction) for value in exactly(tape, DIGITS))
-
-
-def test_intervals_enclose_the_exact_values_and_those_of_the_machine(tape: Tape) -> None:
     for (low, high), exact, k in zip(enclosed(tape, DIGITS), exactly(tape, DIGITS), range(99), strict=False):
         assert Fraction(low) <= exact <= Fraction(high)
         if tape.operations[k] == LEAF:
@@ -138,15 +132,12 @@ def rules_of_stochastic(seed: int) -> Rules:
     return rules
 
 
-def test_tape_until_a_test_keeps_what_the_test_needs() -> None:
+def test_a_recording_is_the_run_of_the_machine_up_to_a_test() -> None:
     tape = taped()
     part = tape.until(0)
     assert part.tests == tape.tests
     assert len(part.operations) == tape.tests[0].place + 1 < len(tape.operations)
     assert tape.until(-1).tests == []
-
-
-def test_recorded_run_is_that_of_the_machine() -> None:
     program = compile_deck(deck_from_lines("thirds.f", PROGRAM.strip("\n").split("\n")))
     deck = deck_from_lines("cards", ["    1.0000    3.0000"])
     (card,) = Machine(program, deck, EIGHT).run().punched

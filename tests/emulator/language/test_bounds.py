@@ -129,14 +129,11 @@ def test_array_in_a_list_is_a_single_instruction() -> None:
     assert code_positions(program(*lines)) == code_positions(program(*single))
 
 
-def test_statement_beyond_the_largest_machine_is_rejected() -> None:
-    """Characters beyond the limit are not parsed."""
+def test_code_beyond_the_largest_machine_gives_one_message() -> None:
+    # Characters beyond the limit are not parsed.
     assert errors(*continued("A=B", "+C" * 33, 290), "END") == ()
     (message,) = errors(*continued("A=B", "+C" * 33, 400), "END")
     assert (message.card, message.message) == (1, "the statement has more than 20000 characters")
-
-
-def test_formats_beyond_the_largest_machine_give_one_message() -> None:
-    """There is one message, at the first FORMAT beyond the limit."""
+    # There is one message, at the first FORMAT beyond the limit.
     messages = errors(*(f"{k} FORMAT(2000I5)" for k in range(1, 100)), "END")
     assert [(m.card, m.message[:7]) for m in messages] == [(7, "OVERLAP")]

@@ -47,10 +47,16 @@ def test_only_the_quote_and_the_record_mark_share_their_punches_with_other_chara
     assert len(PUNCHES) == 52
 
 
-def test_columns_beyond_the_text_are_blank() -> None:
+def test_cards_and_decks_have_a_limited_size() -> None:
     card = Card(1, "AB")
     assert card.columns(1, 3) == "AB "
     assert card.columns(80, 80) == " "
+    assert deck_from_lines("x", ["A" * 80 + "   "]).cards[0].text == "A" * 80
+    with pytest.raises(CardError, match="x: card 1, column 81: a card has 80 columns; this line has 81"):
+        deck_from_lines("x", ["A" * 81])
+    with pytest.raises(DeckError, match="expected at most 100000 cards, found 100001"):
+        deck_from_text("x", "\n" * (cards.MAX_CARDS + 1))
+    assert len(deck_from_text("x", "\n" * cards.MAX_CARDS).cards) == cards.MAX_CARDS
 
 
 @pytest.mark.parametrize(
@@ -94,18 +100,6 @@ def test_invalid_character_is_reported_with_card_and_column(line: str, column: i
     assert str(caught.value).startswith(f"my.deck: card 2, column {column}: ")
     assert any(part in str(caught.value) for part in words.split("' or '"))
     assert (caught.value.source, caught.value.card, caught.value.column) == ("my.deck", 2, column)
-
-
-def test_line_of_more_than_80_columns_is_rejected_unless_blank() -> None:
-    assert deck_from_lines("x", ["A" * 80 + "   "]).cards[0].text == "A" * 80
-    with pytest.raises(CardError, match="x: card 1, column 81: a card has 80 columns; this line has 81"):
-        deck_from_lines("x", ["A" * 81])
-
-
-def test_deck_with_too_many_cards_is_rejected() -> None:
-    with pytest.raises(DeckError, match="expected at most 100000 cards, found 100001"):
-        deck_from_text("x", "\n" * (cards.MAX_CARDS + 1))
-    assert len(deck_from_text("x", "\n" * cards.MAX_CARDS).cards) == cards.MAX_CARDS
 
 
 @given(st.lists(texts, max_size=20))

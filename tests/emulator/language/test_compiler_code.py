@@ -69,9 +69,13 @@ def test_expressions(statement: str, expected: list[str]) -> None:
     assert code(statement, "END")[:-1] == expected
 
 
-def test_next_statement_reuses_temporaries() -> None:
+def test_temporaries_are_reused() -> None:
     made = program("D=A*B+C*D", "E=A*B+C*D", "END")
     assert [e.name for e in made.storage.entries if e.kind == "temporary"] == [T1, T2]
+    words = code("D=(A+B)*(C+D)-(A-B)*(C-D)", "END")
+    assert words.count(f"FMFAC {T1}") == 1
+    assert "FMFAC temporary 2" in words
+    assert words[-3:-1] == [f"FSBR {words[-3].removeprefix('FSBR ')}", "FMFAC D"]
 
 
 def test_temporaries_are_those_of_the_deck_of_1962() -> None:
@@ -87,15 +91,11 @@ def test_temporaries_are_those_of_the_deck_of_1962() -> None:
     ]
 
 
-def test_two_temporaries() -> None:
-    words = code("D=(A+B)*(C+D)-(A-B)*(C-D)", "END")
-    assert words.count(f"FMFAC {T1}") == 1
-    assert "FMFAC temporary 2" in words
-    assert words[-3:-1] == [f"FSBR {words[-3].removeprefix('FSBR ')}", "FMFAC D"]
-
-
-def test_constant_subscripts_become_addresses() -> None:
+def test_subscripts_become_addresses_or_minus_one() -> None:
     assert code("DIMENSION X(5),A(2,3)", "X(4)=A(2,3)", "END")[:-1] == ["SEND A(2,3)", "TRANSMIT X(4)"]
+    made = program("DIMENSION X(5)", "A=X(I)", "GO TO 5", "5 END")
+    assert [i.subscript for i in made.code if i.operation == op.SEND] == [0]
+    assert {i.subscript for i in made.code if i.operation != op.SEND} == {-1}
 
 
 @pytest.mark.parametrize(
@@ -108,12 +108,6 @@ def test_variable_subscripts(subscript: str, factor: int, addend: int) -> None:
     (found,) = made.subscripts
     assert (found.c1, found.o1, found.rows, found.columns) == (factor, addend, 5, 0)
     assert made.storage.name_of(found.v1) == "I"
-
-
-def test_instruction_without_subscript_holds_minus_one() -> None:
-    made = program("DIMENSION X(5)", "A=X(I)", "GO TO 5", "5 END")
-    assert [i.subscript for i in made.code if i.operation == op.SEND] == [0]
-    assert {i.subscript for i in made.code if i.operation != op.SEND} == {-1}
 
 
 @pytest.mark.parametrize(("statement", "more"), [("A=X(2)", 0), ("A=X(I)", 24), ("A=Y(I,J)", 60), ("A=Y(I,1)", 24)])
@@ -134,17 +128,11 @@ def test_do_tests_at_the_bottom() -> None:
     assert made.code[back + 1].operation == op.SEND
 
 
-def test_two_dos_on_one_statement_close_inner_first() -> None:
+def test_instructions_hold_the_numbers_of_loops_and_branches() -> None:
     made = program("DO 5 I=1,2", "DO 5 J=1,3", "5 A=B", "END")
     tests = [i.address for i in made.code if i.operation == op.DOTEST]
     assert [made.storage.name_of(made.loops[t][0]) for t in tests] == ["J", "I"]
-
-
-def test_branches_hold_instruction_numbers() -> None:
     made = program("5 IF(A)5,6,7", "6 CONTINUE", "7 STOP", "END")
     (targets,) = made.branches
     assert [made.line_at(t).label for t in targets] == [5, 6, 7]
-
-
-def test_operation_numbers_follow_the_order_of_their_names() -> None:
     assert [getattr(op, name) for name in op.NAMES] == list(range(op.STOP + 1))

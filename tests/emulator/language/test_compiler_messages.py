@@ -88,44 +88,33 @@ def test_columns(line: str, column: int) -> None:
     assert message.column == column
 
 
-def test_crossed_dos() -> None:
+def test_messages_follow_the_order_of_cards() -> None:
     lines = ["DO 5 I=1,3", "DO 6 J=1,3", "5 X=1.", "6 Y=1.", "END"]
     assert any("must be inside the range that ends with 5" in d.message and d.card == 2 for d in errors(*lines))
-
-
-def test_all_messages_in_order_of_cards() -> None:
     found = errors("GO TO 7", "X=", "I=A+1", "Y=Z(3)", "END")
     assert [d.card for d in found] == [2, 3, 4]  # where a card does not parse, jumps are not judged
-
-
-def test_branches_are_checked_only_if_all_statements_parse() -> None:
     assert [d.card for d in errors("GO TO 7", "I=A+1", "END")] == [1, 2]
 
 
-def test_missing_end_is_a_warning() -> None:
+def test_warnings_do_not_prevent_a_run() -> None:
     (message,) = diagnostics("X=1.")
     assert message.warning
     assert "no END card" in message.message
-
-
-def test_long_record_is_error_12_as_a_warning() -> None:
-    """C26-5619 p. 56: 87 characters.  The rest is lost at run time, so the deck still runs."""
+    # C26-5619 p. 56: 87 characters.  The rest is lost at run time, so the deck still runs.
     (message,) = diagnostics("5 FORMAT(40X,40X,8X)", "END")
     assert (message.number, message.warning) == (12, True)
     assert (message.card, message.column) == (1, 9)
     assert diagnostics("5 FORMAT(40X,40X,7X)", "END") == ()
 
 
-def test_compile_deck_raises_with_every_message() -> None:
+def test_a_compile_error_has_every_message_and_its_place() -> None:
     with pytest.raises(CompileError) as caught:
         compile_deck(source("GO TO 5", "GO TO 6", "END"))
     assert str(caught.value) == "deck.f: card 1, column 1: error: there is no statement number 5 (and 1 more)"
     assert len(caught.value.diagnostics) == 2
-
-
-def test_line_of_a_message() -> None:
     (message,) = errors("X=A+I", "END")
     assert message.line("p.f").startswith("p.f: card 1, column 5: error 5: ")
+    assert len(errors("IF(A)5,6,5", "6 END")) == 1
 
 
 @pytest.mark.parametrize("lines", [[], [""], ["C  ONLY A COMMENT", ""]])
@@ -134,9 +123,16 @@ def test_deck_without_statements_is_rejected(lines: list[str]) -> None:
         translate(source(*lines))
 
 
-def test_deck_of_formats_alone_compiles() -> None:
+def test_formats_alone_the_largest_core_and_arrays_named_like_functions_compile() -> None:
     assert diagnostics("5 FORMAT(I4)", "END") == ()
     assert [d.warning for d in diagnostics("5 FORMAT(I4)")] == [True]
+    # 60,000 positions, less 120 for names, with ten per field (C26-5619 p. 66-67).
+    assert diagnostics("DIMENSION X(5988)", "END") == ()
+    assert "OVERLAP" in errors("DIMENSION X(5989)", "END")[0].message
+    assert diagnostics("DIMENSION X(5987)", "X(1)=Y", "END") == ()
+    assert "OVERLAP" in errors("DIMENSION X(5988)", "X(1)=Y", "END")[0].message
+    # A DIMENSION makes any name an array, and a name without arguments is a variable.
+    assert diagnostics("DIMENSION SIN(3)", "I=2", "SIN(I)=1.", "SQRT=SIN(2)", "END") == ()
 
 
 @pytest.mark.parametrize("cards", [["E N D", "X=1."], ["GO TO 5", " 05 END", "X=1."], ["END ", "     1"]])
@@ -162,20 +158,3 @@ def test_huge_array_in_a_list_is_rejected_at_once(size: str, words: str) -> None
     """The compiler makes no object code for an array that no core can hold."""
     with within(2):
         assert words in errors(f"DIMENSION X({size})", "PUNCH 90,X", F, "END")[0].message
-
-
-def test_the_largest_core_holds_5988_fields() -> None:
-    """60,000 positions, less 120 for names, with ten per field (C26-5619 p. 66-67)."""
-    assert diagnostics("DIMENSION X(5988)", "END") == ()
-    assert "OVERLAP" in errors("DIMENSION X(5989)", "END")[0].message
-    assert diagnostics("DIMENSION X(5987)", "X(1)=Y", "END") == ()
-    assert "OVERLAP" in errors("DIMENSION X(5988)", "X(1)=Y", "END")[0].message
-
-
-def test_label_missing_twice_in_a_statement_gives_one_message() -> None:
-    assert len(errors("IF(A)5,6,5", "6 END")) == 1
-
-
-def test_functions_may_be_arrays_and_variables() -> None:
-    """A DIMENSION makes any name an array, and a name without arguments is a variable."""
-    assert diagnostics("DIMENSION SIN(3)", "I=2", "SIN(I)=1.", "SQRT=SIN(2)", "END") == ()

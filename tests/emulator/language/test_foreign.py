@@ -101,12 +101,15 @@ def test_foreign_keywords_may_be_names(line: str) -> None:
     assert errors(*lines) == () if "DATA=" not in line else len(errors(*lines)) == 1
 
 
-def test_repeated_foreign_statement_gives_one_message_with_all_cards() -> None:
+def test_repeated_foreign_statements_give_one_message_with_all_cards() -> None:
     lines = ["  CALL A(X)", "Y=1.", "  CALL B", "5   CALL C(Y,Z)", "GO TO 5"]
     message = only(*lines)
     assert (message.card, message.message[-21:]) == (1, "(also on cards 3, 4)"[-21:].rjust(21))
     many = only(*["  CALL A(X)"] * 9)
     assert many.message.endswith("(also on cards 2, 3, 4, 5 and 4 more)")
+    message = only("F(X)=X**2+1.", "ROOTF(A,B)=A/B", "Y=F(2.)+ROOTF(Y,F(Y))", "PUNCH 90,Y")
+    assert message.message.startswith("a statement function belongs to FORTRAN II; write its expression")
+    assert message.message.endswith("(also on card 2)")
 
 
 SUBPROGRAMS = [
@@ -122,17 +125,16 @@ SUBPROGRAMS = [
 ]
 
 
-def test_subprogram_gives_one_message_before_or_after_the_program() -> None:
+def test_subprograms_give_one_message_and_the_cards_around_are_checked() -> None:
     program = ["5 X=1.", "GO TO 6", "6 STOP", "END"]
     assert [d.card for d in errors(*program, *SUBPROGRAMS)] == [5]
     assert [d.card for d in errors(*SUBPROGRAMS, *program)] == [1]
     (message,) = errors(*program, *SUBPROGRAMS, *SUBPROGRAMS)
     assert message.message.endswith("the cards from this one to its END are skipped (also on card 14)")
-
-
-def test_cards_around_a_subprogram_are_checked() -> None:
     found = errors("X=A+I", "END", *SUBPROGRAMS, "Y=2.")
     assert [(d.card, d.number) for d in found] == [(1, 5), (3, 0)]
+    assert "BLOCK DATA belongs to FORTRAN IV" in only("BLOCK DATA", "DATA X/1./", "END").message
+    assert "ENTRY belongs to FORTRAN IV" in only("ENTRY SUB(X)").message
 
 
 @pytest.mark.parametrize(
@@ -160,34 +162,25 @@ def test_function_defined_in_the_deck_may_be_used(opening: str) -> None:
     assert (message.card, "FUNCTION belongs to FORTRAN II" in message.message) == (4, True)
 
 
-def test_block_data_and_entry() -> None:
-    assert "BLOCK DATA belongs to FORTRAN IV" in only("BLOCK DATA", "DATA X/1./", "END").message
-    assert "ENTRY belongs to FORTRAN IV" in only("ENTRY SUB(X)").message
-
-
-def test_statement_function_and_its_uses_give_one_message() -> None:
-    message = only("F(X)=X**2+1.", "ROOTF(A,B)=A/B", "Y=F(2.)+ROOTF(Y,F(Y))", "PUNCH 90,Y")
-    assert message.message.startswith("a statement function belongs to FORTRAN II; write its expression")
-    assert message.message.endswith("(also on card 2)")
-
-
 @pytest.mark.parametrize("line", ["X(I)=2.", "X(1)=2.", "X(I+1)=2."])
 def test_element_of_an_undeclared_array_is_not_a_statement_function(line: str) -> None:
     assert only("I=1", line).message == "X is not an array (no DIMENSION before this card)"
 
 
-def test_names_declared_by_foreign_statements_are_not_checked() -> None:
+def test_names_and_functions_of_foreign_statements_are_reported_once() -> None:
     found = errors("  COMMON A(10),B", "REAL I", "X=A(1)+I", "A(2)=I*2.", "C=B+J", "Z=Q(2)", F, "END")
     assert [(d.card, d.number) for d in found] == [(1, 0), (2, 0), (5, 5), (6, 0)]
-
-
-def test_unknown_function_is_reported_once_with_the_known_ones() -> None:
     first, second = errors("X=ABSF(Y)", "Z=SQR(X)+ABSF(ABSF(X))", "PUNCH 90,(X,I=1,2)", F, "END")
     known = "; the functions are SIN, COS, ATAN, EXP, LOG and SQRT; "
     assert first.message.startswith(f"ABSF is neither an array nor a library function{known}for ABSF write IF (X)")
     assert first.message.endswith("(also on card 2)")
     assert (second.card, second.column) == (2, 3)
     assert second.message.endswith(known + "for SQR write SQRT")
+    lines = ["READ 1,X", "1 FORMAT(10A4)", "2 FORMAT(I2,A1)", "3 FORMAT(1PE14.8)", "4 FORMAT('TEXT')", "5 FORMAT(3A1)"]
+    found = errors(*lines, "END")
+    assert [(d.card, d.number) for d in found] == [(2, 11), (4, 11), (5, 11)]
+    assert found[0].message == FOREIGN_FIELDS["A"] + " (also on cards 3, 6)"
+    assert [d.message for d in found[1:]] == [FOREIGN_FIELDS["P"], FOREIGN_FIELDS["'"]]
 
 
 @pytest.mark.parametrize(
@@ -210,14 +203,6 @@ def test_unknown_function_is_reported_once_with_the_known_ones() -> None:
 def test_unknown_function_gets_a_suggestion(name: str, words: str) -> None:
     assert suggest_function(name, LIBRARY).endswith(words) or words.endswith("IF (X)")
     assert words in suggest_function(name, LIBRARY)
-
-
-def test_each_foreign_field_is_reported_once() -> None:
-    lines = ["READ 1,X", "1 FORMAT(10A4)", "2 FORMAT(I2,A1)", "3 FORMAT(1PE14.8)", "4 FORMAT('TEXT')", "5 FORMAT(3A1)"]
-    found = errors(*lines, "END")
-    assert [(d.card, d.number) for d in found] == [(2, 11), (4, 11), (5, 11)]
-    assert found[0].message == FOREIGN_FIELDS["A"] + " (also on cards 3, 6)"
-    assert [d.message for d in found[1:]] == [FOREIGN_FIELDS["P"], FOREIGN_FIELDS["'"]]
 
 
 HOLLERITH = [

@@ -46,10 +46,13 @@ def test_specifications(text: str, expected: tuple[Spec, ...]) -> None:
     assert specs(text) == expected
 
 
-def test_hollerith_ends_at_column_72() -> None:
+def test_invalid_formats_are_reported_once() -> None:
     assert specs("(59H" + "A" * 59 + ")") == (Literal("A" * 59),)
     (message,) = errors("5 FORMAT(70HABC", "END")
     assert (message.number, "runs past the end of the card" in message.message) == (11, True)
+    assert [d.number for d in errors("5 FORMAT(E14. 8)", "END")] == [11]
+    assert len(errors("PUNCH 5,A", "5 FORMAT(A4)", "END")) == 1
+    assert len(errors("PUNCH 5", "5 FORMAT(A4)", "END")) == 1
 
 
 @pytest.mark.parametrize(
@@ -108,17 +111,8 @@ def test_message_and_column_of_a_format_error(text: str, column: int, words: str
     assert message.message.startswith(words)
 
 
-def test_blank_after_the_point_is_error_11() -> None:
-    assert [d.number for d in errors("5 FORMAT(E14. 8)", "END")] == [11]
-
-
 @pytest.mark.parametrize(("text", "warned"), [("(49X)", 0), ("(50X)", 1), ("(50H" + "A" * 50 + ")", 1)])
 def test_width_of_x_and_h(text: str, warned: int) -> None:
     """C26-5619 p. 37, 41: at most 49."""
     found = diagnostics(f"5 FORMAT{text}", "END")
     assert [d.warning for d in found] == [True] * warned
-
-
-def test_invalid_format_is_reported_once() -> None:
-    assert len(errors("PUNCH 5,A", "5 FORMAT(A4)", "END")) == 1
-    assert len(errors("PUNCH 5", "5 FORMAT(A4)", "END")) == 1

@@ -50,15 +50,12 @@ def test_fourth_level_of_lists_is_rejected(item: str) -> None:
     assert errors(*cards(f"PUNCH 1,{beside}"), "1 FORMAT(24I2)", "END") == ()
 
 
-def test_format_groups_may_be_nested_two_deep() -> None:
-    """The parentheses of the FORMAT itself do not count: 2(1X,2(I1)) is four fields."""
+def test_formats_and_parentheses_have_a_limited_depth() -> None:
+    # The parentheses of the FORMAT itself do not count: 2(1X,2(I1)) is four fields.
     assert punched("PUNCH 1,(J,J=1,4)", "1 FORMAT(2(1X,2(I1)))", "END") == (" 12 34",)
     (message,) = errors("1 FORMAT(2(1X,2(2(I1))))", "END")
     assert (message.card, message.number) == (1, 11)
-
-
-def test_parentheses_may_be_nested_sixty_deep() -> None:
-    """The limit protects Python's own stack.  It counts the parentheses that are open at the same time."""
+    # The limit protects Python's own stack.  It counts the parentheses that are open at the same time.
     sixty = f"{'(' * 60}1.{')' * 60}"
     assert diagnostics(*cards(f"X={sixty}"), "END") == ()
     assert diagnostics(*cards(f"X={sixty}+{sixty}"), "END") == ()
@@ -93,10 +90,13 @@ def test_constant_subscript_gives_the_address(subscript: str, element: int) -> N
     assert code("DIMENSION A(9)", f"X=A({subscript})", "END")[0] == f"SEND A({element})"
 
 
-def test_constant_factors_in_both_subscripts() -> None:
-    """B(2*1,2*2) of B(2,4) is row 2, column 4."""
+def test_factors_in_subscripts_select_the_element() -> None:
+    # B(2*1,2*2) of B(2,4) is row 2, column 4.
     assert code("DIMENSION B(2,4)", "X=B(2*1,2*2-1)", "END")[0] == "SEND B(2,3)"
     assert code("DIMENSION B(2,4)", "B(3-1,2*2)=X", "END")[:2] == ["SEND X", "TRANSMIT B(2,4)"]
+    # 2*J+1 is 7 for J = 3, and the limit of the loop stays as it was.
+    lines = [*FILLED, "J=3", "K=A(2*J+1)", "L=A(3*J-2)", "PUNCH 1,K,L,J", "1 FORMAT(3I2)", "END"]
+    assert punched(*lines) == (" 7 7 3",)
 
 
 @pytest.mark.parametrize(("subscript", "element"), [("2*3", 6), ("2*4-1", 7), ("2*3-6", 0), ("3-4", -1)])
@@ -105,12 +105,6 @@ def test_constant_subscript_out_of_bounds_stops_the_run(subscript: str, element:
     result = run("DIMENSION A(5)", f"A({subscript})=1.", "END")
     assert result.ending.kind == "bounds"
     assert str(element) in result.ending.message
-
-
-def test_subscript_factor_does_not_change_the_loop() -> None:
-    """2*J+1 is 7 for J = 3, and the limit of the loop stays as it was."""
-    lines = [*FILLED, "J=3", "K=A(2*J+1)", "L=A(3*J-2)", "PUNCH 1,K,L,J", "1 FORMAT(3I2)", "END"]
-    assert punched(*lines) == (" 7 7 3",)
 
 
 @pytest.mark.parametrize("subscript", ["4/2", "2*3*1", "1+2+3", "-2", "-2*J", "-J+5", "+2*J+1-1", "J*2", "1+J"])

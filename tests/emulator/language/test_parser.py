@@ -106,9 +106,16 @@ def test_do() -> None:
     assert plain.step is None
 
 
-def test_dimension() -> None:
+def test_dimension_format_and_assignment_to_a_name_like_do() -> None:
     statement = body("DIMENSION X(51), A(4,5)")
     assert statement == tree.Dimension((("X", (51,), Place(1, 11)), ("A", (4, 5), Place(1, 18))))
+    statement = body("5 FORMAT(2H= ,I4)")
+    assert isinstance(statement, tree.Format)
+    assert statement.text.rstrip() == "(2H= ,I4)"
+    # ``DO10I`` is a name of five characters.
+    statement = body("DO 10 I=1")
+    assert isinstance(statement, tree.Assignment)
+    assert statement.target.name == "DO10I"
 
 
 @pytest.mark.parametrize("verb", ["READ", "ACCEPT", "PUNCH", "PRINT", "TYPE"])
@@ -122,12 +129,6 @@ def test_input_output(verb: str) -> None:
     assert loop.variable.name == "I"
     assert isinstance(loop.items[1], tree.Loop)
     assert shown(loop.step) == "2" if loop.step else False
-
-
-def test_format_holds_its_columns() -> None:
-    statement = body("5 FORMAT(2H= ,I4)")
-    assert isinstance(statement, tree.Format)
-    assert statement.text.rstrip() == "(2H= ,I4)"
 
 
 REFUSED = [
@@ -205,27 +206,14 @@ def test_error_types_of_page_56(line: str, number: int) -> None:
     assert message.number == number
 
 
-def test_unknown_statement_is_quoted_to_forty_characters() -> None:
+def test_cards_without_a_statement_are_reported_and_parsing_continues() -> None:
     (message,) = parsed("XYZ " + "ABCDEFGHIJ" * 6).diagnostics
     assert message.message == "not a statement of this FORTRAN: XYZ" + ("ABCDEFGHIJ" * 4)[:37]
-
-
-def test_a_statement_number_without_a_statement() -> None:
     (message,) = parsed("100").diagnostics
     assert "expected a statement after the statement number" in message.message
-
-
-def test_parsing_continues_after_an_invalid_card() -> None:
     result = parsed("X=", "Y=1.", "Z==1.", "END")
     assert [d.card for d in result.diagnostics] == [1, 3]
     assert len(result.statements) == 2
-
-
-def test_do_without_a_limit_is_an_assignment() -> None:
-    """``DO10I`` is a name of five characters."""
-    statement = body("DO 10 I=1")
-    assert isinstance(statement, tree.Assignment)
-    assert statement.target.name == "DO10I"
 
 
 @pytest.mark.parametrize(("first", "last"), [("100", ""), ("DIMENSION X(", "     1)"), ("X=1.E", ""), ("GO TO ", "")])

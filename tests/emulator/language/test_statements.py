@@ -34,12 +34,15 @@ def test_a_statement_may_start_in_any_column(card: str, label: str, text: str) -
     assert (statement.label, statement.text) == (label, text)
 
 
-def test_a_format_keeps_its_columns() -> None:
+def test_places_and_the_columns_of_formats_are_kept() -> None:
     statement = only("28FORMAT (3X,5HA B C)")
     assert (statement.label, statement.kind) == ("28", "format")
     assert statement.text.rstrip() == "(3X,5HA B C)"
     assert statement.places[0] == Place(1, 10)
     assert len(statement.text) == len(statement.places) == 72 - 9
+    statement = only("C  X", " 10  A = B")
+    assert statement.place == Place(2, 6)
+    assert [statement.places[k] for k in range(len(statement.places))] == [Place(2, 6), Place(2, 8), Place(2, 10)]
 
 
 def test_statement_that_reaches_column_73_gives_one_warning() -> None:
@@ -52,16 +55,14 @@ def test_statement_that_reaches_column_73_gives_one_warning() -> None:
     assert diagnostics("X=1.".ljust(72) + "BUTL0010", "C" * 80, "END") == ()
 
 
-def test_places_are_card_and_column() -> None:
-    statement = only("C  X", " 10  A = B")
-    assert statement.place == Place(2, 6)
-    assert [statement.places[k] for k in range(len(statement.places))] == [Place(2, 6), Place(2, 8), Place(2, 10)]
-
-
-def test_columns_73_to_80_are_identification() -> None:
-    """C26-5619 p. 12, the figure."""
+def test_columns_73_to_80_and_other_invalid_characters() -> None:
+    # C26-5619 p. 12, the figure.
     assert only("X=1.".ljust(72) + "BUTL0010").text == "X=1."
     assert only(" " * 70 + "X=1.5").text == "X="
+    with pytest.raises(CardError, match=r"data\.cards: card 1, column 3: 'x' is not in the card code"):
+        run("READ 1,I", "1 FORMAT(I4)", "END", data=["C x"])
+    # Columns 73 to 80 alone do not make a statement.
+    assert [s.text for s in sources(source(" " * 72 + "BUTL0010", "X=1."))] == ["X=1."]
 
 
 @pytest.mark.parametrize("card", ["C  A COMMENT", "C", "C  ", "", "     ", "C     X=1."])
@@ -85,37 +86,22 @@ def test_comment_that_looks_like_a_statement_gives_a_warning(card: str) -> None:
     assert "taken as a comment" in message.message
 
 
-def test_data_card_with_invalid_characters_is_rejected() -> None:
-    with pytest.raises(CardError, match=r"data\.cards: card 1, column 3: 'x' is not in the card code"):
-        run("READ 1,I", "1 FORMAT(I4)", "END", data=["C x"])
-
-
 @pytest.mark.parametrize("card", ["C1=2.", "C(3)=2.", "C =2.", "CA =1.", "CONTINUE"])
 def test_not_comments(card: str) -> None:
     assert only(card).text == card.replace(" ", "")
 
 
-def test_card_with_identification_alone_is_ignored() -> None:
-    """Columns 73 to 80 alone do not make a statement."""
-    assert [s.text for s in sources(source(" " * 72 + "BUTL0010", "X=1."))] == ["X=1."]
-
-
-def test_continuation_by_column_6() -> None:
+def test_statements_continue_by_column_6() -> None:
     statement = only("      X = A +", "     1 B +", "     2C")
     assert statement.text == "X=A+B+C"
     assert [card.number for card in statement.cards] == [1, 2, 3]
     assert statement.places[-1] == Place(3, 7)
-
-
-def test_hollerith_field_continues_in_column_7() -> None:
     first = "   10 FORMAT(6HAB"
     statement = only(first.ljust(70) + "12", "     1CD)")
     assert statement.text.rstrip() == (first[12:].ljust(58) + "12CD)")
     assert statement.places[statement.text.index("C")] == Place(2, 7)
-
-
-def test_a_comment_does_not_end_a_continued_statement() -> None:
     assert only("      X = A +", "C  A COMMENT", "     1 B").text == "X=A+B"
+    assert only("      PUNCH 5,(A(I),", "     1 I=1,3)").text == "PUNCH5,(A(I),I=1,3)"
 
 
 @pytest.mark.parametrize(
@@ -136,10 +122,6 @@ def test_a_format_numbered_in_column_6() -> None:
     """A statement may start in any column, and the parentheses in a Hollerith field need not match."""
     cards = source("1 FORMAT(I4)", "     5 FORMAT(4H(A)))", "END")
     assert [(s.label, s.kind) for s in sources(cards)] == [("1", "format"), ("5", "format"), ("", "end")]
-
-
-def test_continuation_of_an_indexed_list() -> None:
-    assert only("      PUNCH 5,(A(I),", "     1 I=1,3)").text == "PUNCH5,(A(I),I=1,3)"
 
 
 @pytest.mark.parametrize(

@@ -9,20 +9,14 @@ from tests.support.deckwork import machine, number, program, punched, run
 NEIGHBOURS = ["DIMENSION X(3),Y(3),M(2,2)", "I=4", "J=0"]
 
 
-def test_first_element_of_the_first_array() -> None:
-    """C26-5619 p. 66: 19879 in 20K.  In larger machines the address is higher by the additional core."""
+def test_arrays_lie_downward_from_the_first_address() -> None:
+    # C26-5619 p. 66: 19879 in 20K.  In larger machines the address is higher by the additional core.
     made = program("DIMENSION X(5)", "END")
     first = made.storage.entries[0]
     assert (first.name, first.first, first.size) == ("X", 0, 5)
     assert [core_address(0, core) for core in (20_000, 40_000, 60_000)] == [19_879, 39_879, 59_879]
-
-
-def test_elements_run_downward_by_ten() -> None:
     assert [core_address(i, 20_000) for i in range(3)] == [19_879, 19_869, 19_859]
-
-
-def test_arrays_are_contiguous_in_order_of_the_dimension() -> None:
-    """Bases 64 and 76 elements apart in the executed deck: 19889, 19249, 18489 (10 above element 1)."""
+    # Bases 64 and 76 elements apart in the executed deck: 19889, 19249, 18489 (10 above element 1).
     made = program("DIMENSION A(64),B(76),C(76)", "END")
     bases = [core_address(entry.first, 20_000) + 10 for entry in made.storage.arrays()]
     assert bases == [19_889, 19_249, 18_489]
@@ -43,24 +37,18 @@ def test_fields_in_order_of_first_appearance() -> None:
     ]
 
 
-def test_every_variable_constant_and_statement_number_takes_one_field() -> None:
-    """C26-5619 p. 69."""
+def test_every_name_takes_one_field() -> None:
+    # C26-5619 p. 69.
     assert program("END").storage.fields == 0
     assert program("A=1.", "END").storage.fields == 2
     assert program("5 A=1.", "END").storage.fields == 3
     assert program("A=1.", "B=1.", "END").storage.fields == 3
     assert program("DIMENSION A(4,5)", "I=5", "A(I,I)=1.", "END").storage.fields == 23
-
-
-def test_names_of_fields() -> None:
     storage = program("DIMENSION X(3),A(2,2)", "K=1", "END").storage
     names = [storage.name_of(i) for i in range(storage.fields)]
     assert names[:7] == ["X(1)", "X(2)", "X(3)", "A(1,1)", "A(2,1)", "A(1,2)", "A(2,2)"]
     assert set(names[7:]) == {"K", "constant 1"}
     assert storage.name_of(99) == "field 99, outside the data"
-
-
-def test_allocator_places_a_name_once() -> None:
     allocator = Allocator()
     first = allocator.place("array", "X", (2, 3))
     assert allocator.place("array", "X") is first
@@ -89,23 +77,18 @@ def test_strict_bounds(statement: str, where: str) -> None:
     assert (result.ending.kind, result.ending.message) == ("bounds", f"deck.f: card 4: {where}, in {statement}")
 
 
-def test_strict_bounds_in_lists() -> None:
+def test_strict_bounds_in_lists_and_beyond_the_next_element() -> None:
     result = run(*NEIGHBOURS, "READ 1,X(I)", "1 FORMAT(E14.8)", "END", data=["1."])
     assert result.ending.message == "deck.f: card 4: X(4) is outside X(3), in READ 1,X(I)"
+    assert run("DIMENSION X(3)", "I=3", "A=X(I+2)", "END").ending.kind == "bounds"
 
 
-def test_core_mode_overwrites_the_neighbour() -> None:
-    """Executed: X(n+1) is the first element of the next array, and X(0) the last of the one before."""
+def test_core_mode_reaches_neighbours_and_stops_outside_the_data() -> None:
+    # Executed: X(n+1) is the first element of the next array, and X(0) the last of the one before.
     lines = ["DIMENSION X(3),Y(3)", "Y(1)=1.", "X(3)=3.", "I=4", "J=0", "X(I)=7.", "Y(J)=8."]
     assert punched(*lines, "PUNCH 1,Y(1),X(3)", "1 FORMAT(2F5.1)", "END", bounds="core") == ("  7.0  8.0",)
-
-
-def test_core_mode_with_two_dimensions() -> None:
     lines = ["DIMENSION M(2,2),N(2)", "M(1,2)=5", "I=3", "K=M(I,1)", "J=3", "M(1,J)=6", "PUNCH 1,K,N(1)"]
     assert punched(*lines, "1 FORMAT(2I3)", "END", bounds="core") == ("  5  6",)
-
-
-def test_core_mode_stops_outside_the_data() -> None:
     result = run("DIMENSION X(3)", "I=2000", "X(I)=1.", "END", bounds="core")
     assert result.ending.kind == "outside"
     assert result.ending.message.startswith("deck.f: card 3: a subscript reaches outside the data")
@@ -122,10 +105,6 @@ def test_element_one_past_the_end_may_be_copied() -> None:
     core = machine(*lines, "A=X(I)", "END", bounds="core")
     assert core.run().ending.kind == "end"
     assert number(core, "A") == ".50000000E+01"
-
-
-def test_element_two_past_the_end_may_not_be_copied() -> None:
-    assert run("DIMENSION X(3)", "I=3", "A=X(I+2)", "END").ending.kind == "bounds"
 
 
 def test_overlap_message_names_the_core_size() -> None:

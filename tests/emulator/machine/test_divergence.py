@@ -86,19 +86,20 @@ def test_losses_have_a_worst_and_a_median() -> None:
     assert (zero.worst, zero.median) == (0.6, 0.1)
 
 
-def test_branches_that_do_not_join_end_the_comparison() -> None:
+def test_decisions_include_joined_branches_and_computed_go_tos() -> None:
     divergence = compared("A=1./3.", "IF(A*3.-1.)10,20,10", "10 STOP", "20 K=2", "END")
     assert divergence.decisions == 1
     assert divergence.apart == "the branches do not join again"
-
-
-def test_decisions_are_compared_after_the_runs_have_joined() -> None:
-    """Each of nine thirds takes another branch than the exact one, and all join at 30."""
+    # Each of nine thirds takes another branch than the exact one, and all join at 30.
     lines = ["A=1./3.", "DO 30 I=1,9", "IF(A*3.-1.)10,30,10", "10 K=1", "30 CONTINUE", "END"]
     divergence = compared(*lines)
     assert (divergence.decisions, divergence.apart) == (9, "")
     assert divergence.first_decision is not None
     assert divergence.first_decision.time == 1
+    lines = ["A=1./3.", "J=A*3.", "K=J+1", "GO TO(5,6),K", "5 CONTINUE", "6 M=1", "END"]
+    decision = compared(*lines).first_decision
+    assert decision is not None
+    assert (decision.line.place.card, decision.values) == (4, ("1", "2"))
 
 
 def test_a_loop_that_ends_earlier_in_one_run_is_a_decision() -> None:
@@ -112,27 +113,26 @@ def test_a_loop_that_ends_earlier_in_one_run_is_a_decision() -> None:
     assert (divergence.decisions, divergence.apart) == (1, "")
 
 
-def test_a_computed_go_to_is_a_decision() -> None:
-    lines = ["A=1./3.", "J=A*3.", "K=J+1", "GO TO(5,6),K", "5 CONTINUE", "6 M=1", "END"]
-    decision = compared(*lines).first_decision
-    assert decision is not None
-    assert (decision.line.place.card, decision.values) == (4, ("1", "2"))
-
-
-def test_an_ending_of_exact_numbers_is_reported() -> None:
+def test_endings_of_exact_numbers_missing_cards_and_limits_are_reported() -> None:
     divergence = compared("A=2.", "B=SIN(A)", "C=B", "END")
     assert (divergence.decisions, divergence.values) == (0, 0)
     message = "exact ended: deck.f: card 2: exact arithmetic cannot hold SIN of 2, in B=SIN(A)"
     assert divergence.apart == f"{message}; --against mp:200 compares with 200 bits instead"
+    # After the runs have diverged, a missing card is not an error of the command.
+    lines = ["READ 1,N", "A=1./3.", "IF(A*3.-1.)10,20,10", "10 READ 1,N", "20 K=1", "1 FORMAT(I2)", "END"]
+    divergence = compared(*lines, data=[" 1"])
+    assert divergence.decisions == 1
+    assert divergence.endings[0] is not None
+    assert divergence.endings[0].kind == "input"
+    divergence = compared("K=0", "5 K=K+1", "GO TO 5", "END")
+    assert (divergence.apart, divergence.statements) == ("", (5_000, 5_000))
+    assert [ending and ending.kind for ending in divergence.endings] == ["limit", "limit"]
 
 
-def test_values_with_the_same_text_are_shown_exactly() -> None:
+def test_equal_values_and_copies_do_not_differ() -> None:
     divergence = compared("A=.1", "B=A", "END", names=("float64", "exact"))
     assert divergence.first_value is not None
     assert divergence.first_value.values == ("0.10000000000000000555...", "0.1")
-
-
-def test_copies_of_undefined_fields_are_equal() -> None:
     divergence = compared("DIMENSION X(3)", "X(1)=X(2)", "Y=1.", "END")
     assert (divergence.compared, divergence.values) == (2, 0)
 
@@ -145,31 +145,13 @@ def test_infinities_and_nans_are_equal(names: tuple[str, str]) -> None:
     assert (divergence.compared, divergence.values, divergence.apart) == (5, 0, "")
 
 
-def test_a_bad_card_raises_its_error() -> None:
+def test_bad_cards_and_large_programs_raise_their_errors() -> None:
     with pytest.raises(CardError, match="d: card 1, column 1: 'X' is not a number"):
         compared("READ 1,A", "1 FORMAT(E14.8)", "END", data=["X"])
     with pytest.raises(DeckError, match="the hopper is empty"):
         compared("READ 1,A", "1 FORMAT(E14.8)", "END")
-
-
-def test_a_program_that_is_too_large_is_rejected() -> None:
     with pytest.raises(DeckError, match="OVERLAP"):
         compared("DIMENSION X(3900)", "X(1)=1.", "END")
-
-
-def test_a_missing_card_in_one_run_is_its_ending() -> None:
-    """After the runs have diverged, a missing card is not an error of the command."""
-    lines = ["READ 1,N", "A=1./3.", "IF(A*3.-1.)10,20,10", "10 READ 1,N", "20 K=1", "1 FORMAT(I2)", "END"]
-    divergence = compared(*lines, data=[" 1"])
-    assert divergence.decisions == 1
-    assert divergence.endings[0] is not None
-    assert divergence.endings[0].kind == "input"
-
-
-def test_the_limit_ends_both_runs() -> None:
-    divergence = compared("K=0", "5 K=K+1", "GO TO 5", "END")
-    assert (divergence.apart, divergence.statements) == ("", (5_000, 5_000))
-    assert [ending and ending.kind for ending in divergence.endings] == ["limit", "limit"]
 
 
 def test_without_values_only_the_first_decision_is_compared() -> None:

@@ -32,57 +32,36 @@ def test_five_numbers_are_laid_out_by_each_format(form: str, data: list[str]) ->
     assert punched(f"1 FORMAT{form}", *READ_5, data=data) == ("  1  2  3  4  5",)
 
 
-def test_an_h_field_on_input_replaces_its_text() -> None:
-    """C26-5619 p. 41: the columns read are written when the FORMAT is used for output."""
+def test_text_and_columns_read_are_written_again() -> None:
+    # C26-5619 p. 41: the columns read are written when the FORMAT is used for output.
     lines = ["READ 1,I", "PUNCH 1,I", "1 FORMAT(5HTITLE,I3)", "END"]
     assert punched(*lines, data=["AB CD 12"]) == ("AB CD 12",)
-
-
-def test_an_x_field_on_input_keeps_the_columns() -> None:
-    """C26-5619 p. 37."""
+    # C26-5619 p. 37.
     lines = ["READ 1,I", "PUNCH 1,I", "1 FORMAT(3X,I3)", "END"]
     assert punched(*lines, data=["ABC 12"]) == ("ABC 12",)
-
-
-def test_a_heading_is_read_and_printed() -> None:
     lines = ["READ 1", "PUNCH 1", "PUNCH 1", "1 FORMAT(10HHEADING   )", "END"]
     assert punched(*lines, data=["PROGRAM 1"]) == ("PROGRAM 1", "PROGRAM 1")
-
-
-def test_each_machine_has_separate_literals() -> None:
     lines = ["READ 1", "PUNCH 1", "1 FORMAT(3HABC)", "END"]
     assert punched(*lines, data=["XYZ"]) == ("XYZ",)
     assert punched("PUNCH 1", "1 FORMAT(3HABC)", "END") == ("ABC",)
 
 
-def test_a_read_without_a_list_reads_a_card() -> None:
+def test_every_read_begins_a_new_card() -> None:
     lines = ["READ 1", "READ 2,N", "PUNCH 2,N", "1 FORMAT(I2)", "2 FORMAT(I2)", "END"]
     assert punched(*lines, data=["77", " 5"]) == (" 5",)
-
-
-def test_every_read_begins_a_new_card() -> None:
     lines = ["READ 1,N", "READ 1,M", "PUNCH 1,N,M", "1 FORMAT(2I2)", "END"]
     assert punched(*lines, data=[" 1 2", " 3 4"]) == (" 1 3",)
 
 
-def test_a_repeated_format_writes_its_literals_again() -> None:
+def test_formats_are_repeated() -> None:
     lines = ["N=7", "PUNCH 1,N,N,N", "1 FORMAT(/2HN=,I2)", "END"]
     assert punched(*lines) == ("", "N= 7", "", "N= 7", "", "N= 7")
-
-
-def test_a_format_is_repeated_from_its_last_group_with_a_field() -> None:
-    """IBM FORTRAN II-D, executed (g1 of tests/data/compiler_runs; OPEN-QUESTIONS 4)."""
+    # IBM FORTRAN II-D, executed (g1 of tests/data/compiler_runs; OPEN-QUESTIONS 4).
     lines = ["I=1", "J=2", "K=3", "L=4", "M=5", "PUNCH 17,I,J,K,L,M"]
     assert punched(*lines, "17 FORMAT(1HA,I2,1HB,2(I2,1HC))", "END") == ("A 1B 2C 3C", " 4C 5C")
     assert punched(*lines, "17 FORMAT(1HA,I2,1HB,2(I2,1HC),2(1HD))", "END") == ("A 1B 2C 3CDD", " 4C 5CDD")
-
-
-def test_a_format_with_a_slash_at_the_end_is_repeated() -> None:
     lines = ["N=7", "PUNCH 1,N,N", "1 FORMAT(I2/)", "END"]
     assert punched(*lines) == (" 7", "", " 7", "")
-
-
-def test_output_stops_at_the_first_unused_field() -> None:
     lines = ["N=7", "PUNCH 1,N", "1 FORMAT(I2,1H.,I2,1H,)", "END"]
     assert punched(*lines) == (" 7.",)
 
@@ -99,8 +78,17 @@ def test_records_are_truncated_to_72_and_87_columns() -> None:
     ]
 
 
-def test_blanks_beyond_column_72_cause_no_warning() -> None:
+def test_blanks_and_minus_zero_in_fields() -> None:
     assert run("PUNCH 1", "1 FORMAT(3HABC,40X,40X)", "END").notices == ()
+    result = run("READ 1,A,N", "PUNCH 1,A,N", "1 FORMAT(E14.8,I4)", "END", data=[""])
+    assert result.punched == (" .00000000E-99   0",)
+    assert [notice.message for notice in result.notices] == [
+        "data.cards: card 1, column 1: a blank field is read as zero",
+        "data.cards: card 1, column 15: a blank field is read as zero",
+    ]
+    # Thesis p. 109, the last line of example 4.
+    card = "-.00000000E-99 .00000000E-99"
+    assert punched("READ 1,A,B", "PUNCH 1,A,B", "1 FORMAT(2E14.8)", "END", data=[card]) == (card,)
 
 
 @pytest.mark.parametrize(("verb", "device"), [("PUNCH", "punch"), ("TYPE", "type"), ("PRINT", "type")])
@@ -110,31 +98,15 @@ def test_print_and_type_use_the_typewriter_and_events_keep_their_order(verb: str
     assert [(e.what, e.text) for e in result.events] == [(device, "ABC")]
 
 
-def test_an_error_in_a_field_names_card_and_column() -> None:
+def test_errors_name_the_card_and_column_of_a_field() -> None:
     with pytest.raises(CardError) as caught:
         run("READ 1,I,J", "1 FORMAT(2I4)", "END", data=["   1  X2"])
     assert str(caught.value) == "data.cards: card 1, column 5: 'X2' is not an integer"
-
-
-def test_an_error_on_the_second_card_names_that_card() -> None:
     with pytest.raises(CardError) as caught:
         run("READ 1,I,A", "1 FORMAT(2X,I2/E14.8)", "END", data=["  12", "   1.2.3"])
     assert (caught.value.card, caught.value.column) == (2, 1)
-
-
-def test_a_blank_field_is_zero_with_a_warning() -> None:
-    result = run("READ 1,A,N", "PUNCH 1,A,N", "1 FORMAT(E14.8,I4)", "END", data=[""])
-    assert result.punched == (" .00000000E-99   0",)
-    assert [notice.message for notice in result.notices] == [
-        "data.cards: card 1, column 1: a blank field is read as zero",
-        "data.cards: card 1, column 15: a blank field is read as zero",
-    ]
-
-
-def test_minus_zero_is_read_and_written() -> None:
-    """Thesis p. 109, the last line of example 4."""
-    card = "-.00000000E-99 .00000000E-99"
-    assert punched("READ 1,A,B", "PUNCH 1,A,B", "1 FORMAT(2E14.8)", "END", data=[card]) == (card,)
+    with pytest.raises(DeckError, match=r"data\.cards: card 1, column 1: the deck ends in the middle of a data set"):
+        run("READ 1,I,J", "1 FORMAT(I2)", "END", data=[" 1"])
 
 
 @pytest.mark.parametrize(
@@ -150,8 +122,3 @@ def test_the_modes_of_field_and_variable_must_match(lines: list[str], data: list
     result = run(*lines, "END", data=data)
     assert result.ending.kind == "mode"
     assert message in result.ending.message
-
-
-def test_an_empty_hopper_within_a_list_is_an_error() -> None:
-    with pytest.raises(DeckError, match=r"data\.cards: card 1, column 1: the deck ends in the middle of a data set"):
-        run("READ 1,I,J", "1 FORMAT(I2)", "END", data=[" 1"])

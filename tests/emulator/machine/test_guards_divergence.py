@@ -58,25 +58,16 @@ def test_the_loss_of_three_digits_does_not_depend_on_the_reference(names, losses
     assert {loss.line.place.card: loss.worst for loss in divergence.losses} == losses
 
 
-def test_the_loss_is_never_negative() -> None:
-    """9.991 is 9.99 in three digits: a relative error of 1E-4, smaller than the last digit."""
+def test_losses_lie_between_none_and_all_digits() -> None:
+    # 9.991 is 9.99 in three digits: a relative error of 1E-4, smaller than the last digit.
     divergence = compared("truncating:3", "exact", ["A=9.991"])
     assert [(loss.differing, loss.worst) for loss in divergence.losses] == [(1, 0.0)]
-
-
-def test_the_loss_is_never_more_than_all_digits() -> None:
-    """10.4 - 10.3951 is .0049, but .1 in three digits, an error of 19 times the value: not 4.3 digits are lost."""
+    # 10.4 - 10.3951 is .0049, but .1 in three digits, an error of 19 times the value: not 4.3 digits are lost.
     divergence = compared("truncating:3", "exact", READ, ["10.4000010.39510"])
     assert {loss.line.place.card: loss.worst for loss in divergence.losses}[2] == 3.0
-
-
-def test_a_value_differing_from_zero_has_lost_all_digits() -> None:
-    """No difference is relative to zero (docs/reference/machine.md): 1 - .33333333 * 3 has lost all eight digits."""
+    # No difference is relative to zero (docs/reference/machine.md): 1 - .33333333 * 3 has lost all eight digits.
     divergence = compared("truncating", "exact", ["A=1./3.", "B=1.-A*3."])
     assert {loss.line.place.card: loss.worst for loss in divergence.losses} == {1: 0.0, 2: 8.0}
-
-
-def test_an_exact_root_is_compared_with_more_digits_than_the_studied_one() -> None:
-    """1.4142135 differs from 1.41421356237... by 4.41E-8, whose logarithm is -7.36: .6 of eight digits are lost."""
+    # 1.4142135 differs from 1.41421356237... by 4.41E-8, whose logarithm is -7.36: .6 of eight digits are lost.
     divergence = compared("truncating", "exact", ["A=2.", "B=SQRT(A)"])
     assert {loss.line.place.card: loss.worst for loss in divergence.losses} == {1: 0.0, 2: 0.6}

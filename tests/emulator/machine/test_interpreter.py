@@ -136,26 +136,20 @@ def test_the_sign_of_a_zero_follows_from_the_object_code(name: str) -> None:
     assert results(name, *lines).punched == ("-.00000000E-99 .00000000E-99 .00000000E-99",)
 
 
-def test_minus_zero_counts_as_zero_in_exact_arithmetic() -> None:
+def test_zeros_and_fixed_point_numbers_do_not_depend_on_the_arithmetic() -> None:
     lines = ["A=-0.", "Z=A+A", "Y=A*1.", "X=A", "IF(A)5,6,5", "5 STOP", "6 PUNCH 1,Z,Y,X", "1 FORMAT(3E14.8)", "END"]
     assert results("exact", *lines).punched == (" .00000000E-99 .00000000E-99-.00000000E-99",)
-
-
-def test_fixed_point_arithmetic_is_the_same_in_every_system() -> None:
     lines = ["K=9999", "K=K+2", "X=K", "M=12345.9", "L=-2.9", "PUNCH 1,K,X,M,L", "1 FORMAT(I5,F6.2,2I5)", "END"]
     for name in ("exact", "float64", "float32", "mp:60"):
         assert results(name, *lines).punched == ("    1  1.00 2345   -2",)
 
 
-def test_an_undefined_number_ends_the_run() -> None:
+def test_undefined_numbers_and_elements_outside_end_the_run() -> None:
     result = results("exact", "A=B+1.", "END")
     assert (result.ending.kind, result.ending.message) == (
         "undefined",
         "deck.f: card 1: B is undefined but is used in a calculation, in A=B+1.",
     )
-
-
-def test_bounds_are_checked_except_for_copies_of_the_next_element() -> None:
     start = ["DIMENSION X(3)", "I=3", "X(3)=1."]
     assert results("float64", *start, "Y=X(I+1)", "END").ending.kind == "end"
     assert results("float64", *start, "Y=X(I+1)+1.", "END").ending.kind == "bounds"
@@ -204,14 +198,11 @@ def test_uncut_numbers_accompany_the_cards(name: str) -> None:
     assert cut.punched == (f" 7{'.99999999000000000000'.rjust(25)}",)
 
 
-def test_decimal_arithmetic_keeps_uncut_numbers_too() -> None:
+def test_uncut_numbers_are_kept_on_request_only() -> None:
     options = Options(numbers=numbers("truncating:12"), uncut=True)
     made = program("A=1./3.", "PUNCH 1,A", "1 FORMAT(E14.8)", "END")
     result = Machine(made, deck_from_lines("d", []), options).run()
     assert result.uncut == (((1, 14, (333333333333, 0)),),)
     assert run_batch(made, [deck_from_lines("d", [])], options)[0] == result
-
-
-def test_without_the_option_no_uncut_numbers_are_kept() -> None:
     result = results("exact", "A=1./3.", "PUNCH 1,A", "1 FORMAT(E14.8)", "END")
     assert result.uncut == ()

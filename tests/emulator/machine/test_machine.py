@@ -15,18 +15,17 @@ OUT = "PUNCH 90,K"
 F = "90 FORMAT(I4)"
 
 
-def test_a_run_ends_by_an_empty_hopper_by_stop_or_by_end() -> None:
+def test_a_run_ends_normally_by_its_statements_or_an_empty_hopper() -> None:
     assert run("X=1.", "END").ending.kind == "end"
     assert run("STOP", "END").ending.kind == "stop"
     assert run("X=1.").ending.kind == "end"
     assert run("5 READ 90,K", "GO TO 5", F, "END", data=["1", "2"]).ending.kind == "hopper"
     assert [Ending(kind).normal for kind in ("end", "stop", "hopper", "limit", "mode")] == [True] * 3 + [False] * 2
-
-
-def test_stop_ends_the_run_before_the_next_statement() -> None:
     result = run("K=1", OUT, "STOP", OUT, F, "END")
     assert result.punched == ("   1",)
     assert result.statements == 3
+    with pytest.raises(DeckError, match="the hopper is empty at the first READ"):
+        run("READ 90,K", F, "END")
 
 
 def test_an_empty_hopper_at_the_first_read_is_a_normal_end() -> None:
@@ -47,11 +46,6 @@ def test_an_empty_hopper_within_a_data_set_is_an_error() -> None:
         "data.cards: card 2, column 1: the deck ends in the middle of a data set; "
         "another card is read by statement 2 (card 3) of deck.f"
     )
-
-
-def test_a_hopper_without_any_card_is_an_error() -> None:
-    with pytest.raises(DeckError, match="the hopper is empty at the first READ"):
-        run("READ 90,K", F, "END")
 
 
 @pytest.mark.parametrize(
@@ -105,25 +99,16 @@ def test_the_limit_bounds_the_number_of_cards_punched(lines: list[str]) -> None:
 # Loops and jumps.
 
 
-def test_a_loop_uses_the_current_value_of_its_limit() -> None:
-    """Part two 5: changing N inside the loop shortens the loop at once."""
+def test_loops_use_current_values() -> None:
+    # Part two 5: changing N inside the loop shortens the loop at once.
     assert punched("N=9", "K=0", "DO 5 I=1,N", "K=K+1", "5 N=4", "PUNCH 90,K,I", "90 FORMAT(2I4)", "END") == (
         "   4   5",
     )
-
-
-def test_a_jump_out_of_a_do_keeps_its_variable() -> None:
     lines = ["DO 5 I=1,9", "IF(I-4)5,6,5", "5 CONTINUE", "6 K=I", OUT, F, "END"]
     assert punched(*lines) == ("   4",)
-
-
-def test_a_jump_into_the_range_of_a_do_continues_the_loop() -> None:
-    """Program 2 jumps to 138 within the DO of 143; the variable continues from its value (GOTRAN p. 16)."""
+    # Program 2 jumps to 138 within the DO of 143; the variable continues from its value (GOTRAN p. 16).
     lines = ["I=7", "K=0", "GO TO 4", "DO 5 I=1,9", "4 K=K+1", "5 CONTINUE", "PUNCH 90,K,I", "90 FORMAT(2I4)", "END"]
     assert punched(*lines) == ("   3  10",)
-
-
-def test_nested_dos_may_end_on_the_same_statement() -> None:
     lines = ["K=0", "DO 5 I=1,3", "DO 5 J=1,4", "5 K=K+1", "PUNCH 90,K,I,J", "90 FORMAT(3I4)", "END"]
     assert punched(*lines) == ("  12   4   5",)
 
@@ -181,23 +166,14 @@ def test_a_pause_without_an_operator_continues_with_a_warning() -> None:
 # Lists.
 
 
-def test_whole_arrays_are_transferred_column_by_column() -> None:
-    """The elements are in the order A(1,1), A(2,1), A(1,2) ... (C26-5619 p. 66-69)."""
+def test_lists_transfer_elements_in_order() -> None:
+    # The elements are in the order A(1,1), A(2,1), A(1,2) ... (C26-5619 p. 66-69).
     lines = ["DIMENSION M(2,3)", "READ 90,M", "PUNCH 90,M(1,1),M(1,2),M(1,3)", "PUNCH 90,M", "90 FORMAT(6I3)", "END"]
     assert punched(*lines, data=["  1  2  3  4  5  6"]) == ("  1  3  5", "  1  2  3  4  5  6")
-
-
-def test_indexed_lists_transfer_the_elements_in_order() -> None:
     lines = ["DIMENSION M(2,3)", "READ 90,((M(I,J),J=1,3),I=1,2)", "PUNCH 90,(M(I,2),I=1,2)", "PUNCH 90,M"]
     assert punched(*lines, "90 FORMAT(6I3)", "END", data=["  1  2  3  4  5  6"]) == ("  2  5", "  1  4  2  5  3  6")
-
-
-def test_an_indexed_list_has_at_least_one_pass_and_may_have_a_step() -> None:
     lines = ["N=0", "PUNCH 90,(I,I=1,N)", "PUNCH 90,(I,I=1,9,3)", "PUNCH 90,I", "90 FORMAT(9I3)", "END"]
     assert punched(*lines) == ("  1", "  1  4  7", " 10")
-
-
-def test_a_list_may_read_its_own_limit_and_subscript() -> None:
     lines = ["DIMENSION M(5)", "READ 90,N,(M(I),I=1,N),K,M(K)", "PUNCH 90,M(1),M(2),M(3)", "90 FORMAT(9I3)", "END"]
     assert punched(*lines, data=["  2  8  9  3  7"]) == ("  8  9  7",)
 
@@ -213,19 +189,13 @@ def test_a_list_nested_too_deeply_is_an_error() -> None:
 # Typewriter.
 
 
-def test_accept_reads_and_type_writes_lines() -> None:
+def test_typed_lines_are_read_and_checked() -> None:
     result = run("ACCEPT 90,K", "K=K+1", "TYPE 90,K", F, "END", keyboard=["  41"])
     assert result.typed == ("  42",)
     assert [(e.what, e.text) for e in result.events] == [("accept", "  41"), ("type", "  42")]
     assert result.cards_read == 0
-
-
-def test_accept_without_a_line_is_an_error() -> None:
     with pytest.raises(DeckError, match=r"no typed line is left for ACCEPT in the statement on card 1"):
         run("ACCEPT 90,K", F, "END")
-
-
-def test_a_typed_line_that_is_not_a_number_is_an_error() -> None:
     with pytest.raises(CardError, match=r"^typewriter: (?!.*card 0).*column 1: 'X' is not an integer"):
         run("ACCEPT 90,K", F, "END", keyboard=["X"])
 
@@ -290,30 +260,24 @@ def test_an_undefined_field_may_be_copied() -> None:
 # The machine as a whole.
 
 
-def test_machines_do_not_share_state() -> None:
+def test_runs_do_not_change_programs_or_each_other() -> None:
     made = program("READ 90,K", "1 K=K+1", "IF(K-9)1,2,2", f"2 {OUT}", F, "END")
     first = Machine(made, deck_from_lines("a", ["   1"]), Options())
     two = Machine(made, deck_from_lines("b", ["  50"]), Options())
     assert two.run().punched == ("  51",)
     assert first.run().punched == ("   9",)
-
-
-def test_a_run_does_not_change_the_program() -> None:
     made = program("K=0", "1 K=K+1", "IF(K-9)1,2,2", f"2 {OUT}", F, "END")
     results = [Machine(made, source(), Options()).run() for _ in range(2)]
     assert results[0] == results[1]
 
 
-def test_only_ibm1962_types_error_codes_and_all_count_them_by_statement() -> None:
+def test_only_ibm1962_types_error_codes() -> None:
     lines = ["DO 5 I=1,3", "5 A=1./0.", "B=1.E60*1.E60", "END"]
     loud, silent = run(*lines, arithmetic="ibm1962"), run(*lines)
     assert loud.typed == ("ERROR E7", "ERROR E7", "ERROR E7", "ERROR E3")
     assert silent.typed == ()
     assert loud.errors == silent.errors == (MachineError("E3", 3, 1), MachineError("E7", 2, 3))
-
-
-def test_a_field_that_is_too_narrow_has_a_record_of_its_own_under_ibm1962() -> None:
-    """The code is typed and punched with the number by E14.8 (OPEN-QUESTIONS 14)."""
+    # The code is typed and punched with the number by E14.8 (OPEN-QUESTIONS 14).
     lines = ["A=1234567.", "PUNCH 1,A", "1 FORMAT(F7.3)", "END"]
     result = run(*lines, arithmetic="ibm1962")
     assert result.typed == ("ERROR F8",)
@@ -330,16 +294,13 @@ def test_the_result_counts_statements() -> None:
 HEADED = ["READ 1,N", "5 READ 1,I", "PUNCH 1,I", "GO TO 5", "1 FORMAT(I4)", "END"]
 
 
-def test_with_the_option_hopper_any_a_later_read_may_end_the_run() -> None:
-    """Such programs read a header card and then loop over cases."""
+def test_an_empty_hopper_ends_a_run_at_a_later_read_but_not_within_a_list() -> None:
+    # Such programs read a header card and then loop over cases.
     made, data = program(*HEADED), deck_from_lines("data", ["   3", "   7", "   8"])
     result = Machine(made, data, Options(hopper="any")).run()
     assert (result.ending.kind, result.punched) == ("hopper", ("   7", "   8"))
     with pytest.raises(DeckError, match="the deck ends in the middle of a data set"):
         Machine(made, data, Options()).run()
-
-
-def test_an_empty_hopper_within_a_list_is_always_an_error() -> None:
     made = program("READ 1,I,J", "1 FORMAT(I4)", "END")
     with pytest.raises(DeckError, match="the deck ends in the middle of a data set"):
         Machine(made, deck_from_lines("data", ["   3"]), Options(hopper="any")).run()

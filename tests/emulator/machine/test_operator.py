@@ -25,19 +25,13 @@ def logged(lines: list[str], text: str, **setting: object) -> tuple[Result, str]
     return result, log.getvalue()
 
 
-def test_a_file_types_lines_and_presses_start_without_a_warning() -> None:
+def test_a_file_operates_the_machine_up_to_its_last_line() -> None:
     result = answered(ASKING, "* a comment\nENTER    7\n\nENTER   -8\nENTER    0\nSTART\n")
     assert (result.typed, result.ending.kind, result.notices) == (("   7", "  -8"), "stop", ())
-
-
-def test_after_the_last_line_of_a_file_nobody_operates_the_machine() -> None:
     result = answered(ASKING, "ENTER    0\n")
     assert [notice.kind for notice in result.notices] == ["pause"]
     with pytest.raises(DeckError, match="no typed line is left for ACCEPT in statement 5"):
         answered(ASKING, "ENTER    1\n")
-
-
-def test_a_file_may_correct_a_bad_line() -> None:
     result, log = logged(ASKING, "ENTER    X\nENTER    9\nENTER    0\n")
     assert result.typed == ("   9",)
     assert "* typewriter: line 1, column 1: 'X' is not an integer; the line is typed again: ACCEPT" in log
@@ -53,10 +47,16 @@ def test_switches_at_the_head_of_a_file_are_set_before_the_run() -> None:
     assert (result.typed, result.statements) == (("ON",), 8)
 
 
-def test_an_action_is_performed_when_its_work_is_done() -> None:
+def test_logs_contain_lines_typed_and_actions_at_their_work() -> None:
     result, log = logged(WAITING, "AT 100 SWITCH 2 ON\nSTART\n")
     assert result.typed == ("  50",)
     assert "AT 100 SWITCH 2 ON\n" in log
+    log = io.StringIO()
+    machine(*ASKING).run(Logged(Operator(["   5", "   0"]), log))
+    assert [line for line in log.getvalue().splitlines() if line[0] not in "*L"] == ["ENTER    5", "ENTER    0"]
+    operator = FromFile("o.txt", "ENTER    0\n* not this\nSTART\nSTART\n")
+    machine(*ASKING).run(operator)
+    assert operator.first_unused == 4
 
 
 @pytest.mark.parametrize(
@@ -87,12 +87,6 @@ def test_a_log_contains_actions_and_events() -> None:
         "ENTER    4",
         "* punch    4",
     ]
-
-
-def test_a_log_without_an_operator_contains_the_lines_typed() -> None:
-    log = io.StringIO()
-    machine(*ASKING).run(Logged(Operator(["   5", "   0"]), log))
-    assert [line for line in log.getvalue().splitlines() if line[0] not in "*L"] == ["ENTER    5", "ENTER    0"]
 
 
 @pytest.mark.parametrize(
@@ -140,12 +134,6 @@ def test_an_action_that_does_not_fit_names_file_and_line(lines: list[str], text:
     with pytest.raises(OperatorError) as caught:
         answered(lines, text)
     assert str(caught.value) == f"o.txt: {message}"
-
-
-def test_the_first_unused_line_is_known() -> None:
-    operator = FromFile("o.txt", "ENTER    0\n* not this\nSTART\nSTART\n")
-    machine(*ASKING).run(operator)
-    assert operator.first_unused == 4
 
 
 @pytest.mark.parametrize(

@@ -44,21 +44,12 @@ def test_copies_and_conversions_are_traced() -> None:
     ]
 
 
-def test_an_undefined_copy_is_traced_as_undefined() -> None:
+def test_copies_lists_loops_and_the_last_statement_are_traced() -> None:
     assert values("DIMENSION X(3)", "X(1)=X(2)", "END")[0] == "X(1) = undefined"
-
-
-def test_input_and_output_lists_are_traced() -> None:
     assert values("READ 1,I,A", "1 FORMAT(I2,E14.8)", "END", data=(" 5 .20000000E+01",))[0] == (
         "I = 5, A = .20000000E+01"
     )
-
-
-def test_a_loop_is_traced_in_every_pass() -> None:
     assert values("DO 5 I=1,3", "5 K=I+I", "END") == ["I = 1", "K = 2", "K = 4", "K = 6", ""]
-
-
-def test_the_last_statement_before_the_limit_is_traced() -> None:
     assert len(values("5 K=1", "GO TO 5", "END", limit=7)) == 7
 
 

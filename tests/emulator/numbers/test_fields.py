@@ -99,11 +99,13 @@ def test_exponent_out_of_range_is_rejected(columns: str) -> None:
         fields.read_floating(E14, columns, RULES)
 
 
-def test_the_largest_and_smallest() -> None:
+def test_limits_of_the_range_and_undefined_numbers() -> None:
     assert fields.parse_constant(".99999999E99", RULES) == (99999999, 99)
     assert fields.parse_constant(".1E-99", RULES) == (10000000, -99)
     assert fields.parse_constant("0.E50", RULES) == (0, ZERO)
     assert fields.parse_constant("0.E999999", RULES) == (0, ZERO)
+    with pytest.raises(fields.FieldError, match="undefined"):
+        fields.write_floating(E14, 0, UNDEFINED, RULES)
 
 
 @pytest.mark.parametrize(
@@ -144,11 +146,6 @@ def test_lost_digits_give_a_warning() -> None:
     assert (fields.read_fixed("9999").mantissa, fields.read_fixed("9999").remark) == (9999, None)
     assert fields.read_fixed("10000").mantissa == 0
     assert words(fields.read_fixed("10000")) == "10000 has more than four digits; the last four are kept"
-
-
-def test_undefined_number_cannot_be_written() -> None:
-    with pytest.raises(fields.FieldError, match="undefined"):
-        fields.write_floating(E14, 0, UNDEFINED, RULES)
 
 
 @pytest.mark.parametrize(("name", "text"), [("truncating:2", " .12000000E+01"), ("truncating:20", " .12345678E+01")])

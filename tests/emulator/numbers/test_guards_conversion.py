@@ -55,9 +55,12 @@ def test_blanks_after_the_point_are_zeros_without_an_exponent(columns: str, mant
     assert floating(columns, BLANKS) == (mantissa, exponent)
 
 
-def test_blanks_before_an_exponent_without_a_point_are_zeros() -> None:
-    """1 2E5 is 102 * 10**5, and the FORMAT puts the point eight digits from the right: .102."""
+def test_blanks_and_trailing_zeros_of_a_number_are_not_lost_digits() -> None:
+    # 1 2E5 is 102 * 10**5, and the FORMAT puts the point eight digits from the right: .102.
     assert floating("1 2E5", BLANKS) == (10200000, 0)
+    # Trailing zeros are dropped without loss, so they are not counted.
+    floating(".12345678900", "9 digits")
+    floating("00123456700000", "")
 
 
 @pytest.mark.parametrize(
@@ -67,12 +70,6 @@ def test_blanks_before_an_exponent_without_a_point_are_zeros() -> None:
 def test_blanks_are_reported_rather_than_lost_digits(columns: str, words: str) -> None:
     """A field gives one warning.  A blank may change the value tenfold, a ninth digit only by 1 in 10**8."""
     floating(columns, words)
-
-
-def test_trailing_zeros_do_not_count_as_lost_digits() -> None:
-    """Trailing zeros are dropped without loss, so they are not counted."""
-    floating(".12345678900", "9 digits")
-    floating("00123456700000", "")
 
 
 @pytest.mark.parametrize(("columns", "value"), [("1234 ", 2340), ("1 234", 234), ("-1234 ", -2340)])

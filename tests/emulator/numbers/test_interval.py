@@ -118,13 +118,10 @@ def test_exponential_is_limited_by_the_decimal_exponent_of_its_value(sign: str) 
     assert [end.adjusted() for end in value] == [-9989 if sign else 9988] * 2
 
 
-def test_run_with_squares_below_the_range_does_not_hang() -> None:
+def test_intervals_below_the_range_end_and_are_printed_with_all_digits() -> None:
     cards = ["      A=1.E-90", "      DO 1 I=1,12", "    1 A=A*A", "      B=ATAN(A)", "      END"]
     program = compile_deck(deck_from_lines("program", cards))
     assert Machine(program, no_deck(program), Options(numbers("interval:8"))).run().ending.kind != "undecided"
-
-
-def test_ends_of_an_interval_are_printed_with_all_their_digits() -> None:
     system = IntervalNumbers(50)
     low, high = system.divide(system.decimal(1, 0), system.decimal(3, 0))
     assert system.text((low, high)) == f"[0.{'3' * 50}, 0.{'3' * 49}4]"

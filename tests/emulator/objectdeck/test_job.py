@@ -119,13 +119,10 @@ def test_long_statement_continues_for_monitor_and_is_squeezed_or_rejected_for_pd
         exported(deck_from_lines("my.f", long), (), "pdq")
 
 
-def test_characters_with_the_same_punches_are_exchanged() -> None:
+def test_characters_are_exchanged_and_a_deck_without_end_is_rejected() -> None:
     deck = deck_from_lines("my.f", ["      PUNCH 1", "    1 FORMAT(2HA')", "      END"])
     assert exported(deck, ("1?",), "pdq").source[1] == "    1 FORMAT(2HA@)"
     assert exported(deck, ("1?",), "pdq").data == ("1|",)
-
-
-def test_deck_without_end_is_rejected() -> None:
     source = programs.deck("program1")
     with pytest.raises(DeckError, match="expected an END card; found none"):
         job(Deck("my.f", source.cards[:-1]), compile_deck(source), source, "pdq")

@@ -126,12 +126,9 @@ def test_programs_of_the_thesis_take_the_same_decisions(language: str, tmp_path:
     assert counts.first == {}
 
 
-def test_a_deck_that_does_not_compile_is_refused_with_its_place() -> None:
+def test_translation_names_the_place_of_an_error_and_keeps_the_order() -> None:
     with pytest.raises(CompileError, match=r"deck\.f: card 1, column 4"):
         translated(deck_from_lines("deck.f", ["A=+*B", "END"]), "fortran")
-
-
-def test_statements_are_translated_in_the_order_of_the_object_code() -> None:
     text = translated(deck_from_lines("deck.f", ["DIMENSION X(3)", "10 X(I+1)=B-C*D", "GO TO 10", "END"]), "c")
     assert '#line 2 "deck.f" /* X(I+1)=B-C*D */\nL10:;\n    X(I + 1) = -(C*D - B);\n' in text
     assert "#define X(i) X_[index_of(__LINE__, i, 3)]" in text

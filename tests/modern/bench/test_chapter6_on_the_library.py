@@ -24,19 +24,13 @@ def rows(name: str) -> list[dict[str, str]]:
     return list(csv.DictReader((Path(FOLDER) / name).read_text(encoding="ascii").splitlines()))
 
 
-def test_every_printed_card_has_a_verdict() -> None:
+def test_the_results_cover_every_card_and_row_with_the_present_programs() -> None:
     printed = [p for example in EXAMPLES for p in prints(example) if p.device == "punch"]
     cards = [(p.example, p.program, n) for p in printed for n in range(1, len(p.lines) + 1)]
     assert [(int(r["example"]), int(r["program"]), int(r["card"])) for r in rows("chapter6.csv")] == cards
     assert len(cards) == 312
-
-
-def test_the_results_are_those_of_the_present_object_programs() -> None:
     means = tomllib.loads((Path(FOLDER) / "means.toml").read_text(encoding="ascii"))
     assert means["programs"] == {name: program_digest(name) for name in NAMES}
-
-
-def test_every_row_of_the_base_text_has_an_answer() -> None:
     entries = [(name, programs.built_in(name)) for name in NAMES]
     expected = [(n, r.id) for n, e in entries for r in programs.text(e.text).rows if r.layer in e.layers]
     assert [(row["program"], row["row"]) for row in rows("apparatus.csv")] == expected

@@ -37,34 +37,25 @@ def test_grade_and_number_of_cases_follow_from_the_constructor() -> None:
     assert checks[2].evidence.describe() == "searched: pairs, 5 cases, seed 7"
 
 
-def test_no_outcome_and_one_false_outcome_do_not_hold() -> None:
+def test_outcomes_conditions_and_slips_decide_a_check() -> None:
     assert not any(
         check.holds for check in (proved("p", [], ""), exhausted("d", [1, 0], ""), searched(PAIRS, 5, [], ""))
     )
-
-
-def test_condition_that_nothing_violates_is_not_a_condition() -> None:
     assert exhibited(1, "").unless(True, "a case").evidence.violation == "a case"
     assert exhibited(1, "").unless(False, "a case").evidence.violation == ""
-
-
-def test_slip_must_be_true_as_corrected() -> None:
     assert slip(False, True, "z", "").evidence.correction == "z"
     assert slip(False, False, "z", "").evidence.correction == ""
     assert not refuted(True, "").holds
 
 
-def test_counterexample_of_a_search_is_shrunk() -> None:
+def test_counterexamples_are_shrunk() -> None:
     check = search(PAIRS, lambda pair: pair[0] < 17, 1000, "smaller than 17")
     assert (check.holds, check.message) == (False, "refuted by (17,)")
     assert search(PAIRS, lambda pair: pair[0] <= 50, 1000, "at most 50").holds
-
-
-def test_shrinking_ignores_cases_to_which_the_statement_does_not_apply() -> None:
     assert shrink(((5, 5), (3, -8), (0, 1)), lambda points: points[1][1] < 0) == ((), (0, -1))
 
 
-def test_generator_draws_the_same_accepted_cases_each_time() -> None:
+def test_generators_repeat_their_cases_and_full_searches_need_a_parameter() -> None:
     even = Generator("even numbers", 3, lambda random: random.randint(0, 99), lambda number: number % 2 == 0)
     assert [*even.cases(4)] == [*even.cases(9)][:4]
     assert all(number % 2 == 0 for number in even.cases(20))
@@ -72,8 +63,6 @@ def test_generator_draws_the_same_accepted_cases_each_time() -> None:
     first = next(number for number in iter(lambda: random.randint(0, 99), None) if number % 2 == 0)
     assert next(even.cases(1)) == first
 
-
-def test_full_size_needs_a_parameter_for_the_cases() -> None:
     def check() -> Check:
         return exhibited(True, "")
 

@@ -21,19 +21,13 @@ def test_every_search_has_a_result_that_is_the_verdict_of_its_rows() -> None:
         assert all(ROWS[row].verdict == CONDITION for row in ids if results[name].result == CONDITION)
 
 
-def test_no_search_is_outstanding() -> None:
+def test_searches_are_outstanding_only_without_a_current_result() -> None:
     assert list(full.outstanding({result.check: result for result in full.recorded()})) == []
-
-
-def test_search_is_outstanding_without_a_result_or_after_a_change() -> None:
     results = {result.check: result for result in full.recorded()}
     name = next(iter(results))
     changed = {name: replace(results[name], sources=""), **{k: v for k, v in results.items() if k != name}}
     assert name in full.outstanding(changed)
     assert name in full.outstanding({})
-
-
-def test_sources_include_definitions_of_other_modules() -> None:
     used = full._used("modern.claims.thesis.chapter5", "procedure_in_exact_arithmetic")
     assert ("modern.claims.thesis.chapter7", "vertices_of") in used
 

@@ -44,13 +44,17 @@ def test_an_altered_step_is_not_proved_and_is_false(name: str) -> None:
     assert [text for text, step in altered.items() if step.refuting_values(seed=1963) is None] == []
 
 
-def test_a_certificate_must_use_positive_multipliers_and_squares() -> None:
+def test_proofs_need_valid_certificates_and_their_premises() -> None:
     x, y = variables("x y")
     assert not Step("", {"x": not_negative(x)}, not_negative(y), (term("x", y),), ("x",)).is_valid()
     assert not Step("", {"x": not_negative(x)}, positive(x), (term("x"),)).is_valid()
     assert not Step("", {}, not_negative(-x * x), (term("", x),)).is_valid()
     assert not Step("", {"x": zero(x)}, positive(x), (term("x"),)).is_valid()
     assert Step("", {"x": zero(x)}, zero(x * y), (term("x", y),)).is_valid()
+    linear, _ = algebra.combination_satisfies()
+    (p,) = variables("p_x")
+    assert linear.is_valid()
+    assert not Step("", {}, zero(linear.conclusion.value + p * p)).is_valid()
 
 
 def test_theorems_that_something_exists_have_exact_instances() -> None:
@@ -66,10 +70,3 @@ def test_instances_are_checked(monkeypatch) -> None:
     # Without the first eight points the last one is not outside of H_5.
     monkeypatch.setattr(existence, "ADDED", existence.ADDED[:7])
     assert not all(existence.outside_several_planes())
-
-
-def test_the_combination_step_needs_its_linear_function() -> None:
-    linear, _ = algebra.combination_satisfies()
-    (p,) = variables("p_x")
-    assert linear.is_valid()
-    assert not Step("", {}, zero(linear.conclusion.value + p * p)).is_valid()

@@ -47,15 +47,13 @@ def test_computed_verdicts_are_the_recorded_ones(document: str) -> None:
     assert [(row.statement.id, row.computed, row.message) for row in judged(document) if not row.agrees] == []
 
 
-def test_checks_decide_existing_statements_that_record_a_verdict() -> None:
+def test_rows_are_unique_decided_and_name_their_counterexamples() -> None:
     assert [name for name in decisions() if name not in BY_ID or BY_ID[name].same] == []
-
-
-def test_rows_have_unique_quotations_and_end_in_a_full_stop() -> None:
     assert {place: n for place, n in Counter((row.document, row.words) for row in ROWS).items() if n > 1} == {}
     for row in ROWS:
         assert 1 <= len(row.words.split()) <= MOST_WORDS
         assert row.says.endswith(".")
+    assert {row.file for row in ROWS if row.file} == {path.name for path in COUNTEREXAMPLES.iterdir()} - {"README.md"}
 
 
 @pytest.mark.parametrize(
@@ -115,10 +113,6 @@ def test_every_numbered_item_has_a_row(document: str, kind: str, names: list[str
     assert [name for name in names if name not in text] == []
 
 
-def test_every_counterexample_is_named_in_a_row() -> None:
-    assert {row.file for row in ROWS if row.file} == {path.name for path in COUNTEREXAMPLES.iterdir()} - {"README.md"}
-
-
 @pytest.mark.parametrize("run", sorted({row.run for row in ROWS if row.run}))
 def test_commands_that_show_counterexamples_run(run: str, capsys, monkeypatch) -> None:
     monkeypatch.chdir(ROOT)
@@ -161,10 +155,14 @@ def test_invalid_row_is_rejected(original: str, replacement: str, message: str) 
         list(read_rows("x", VALID_ROW.replace(original, replacement)))
 
 
-def test_repetition_has_the_verdict_of_the_row_that_decides() -> None:
+def test_repetitions_and_slips_are_counted_separately() -> None:
     repeated = VALID_ROW.replace("[1.4]", "[2.5]") + "same = 1"
     first, second = read_rows("x", VALID_ROW + 'untested = "lost"\n' + repeated)
     assert (second.verdict, second.why, second.same) == (UNTESTABLE, "lost", first.id)
+    numbers = sum(map(counts, DOCUMENTS), Counter())
+    assert numbers.total() == len(ROWS)
+    assert numbers["repetition"] == sum(bool(row.same) for row in ROWS)
+    assert numbers["slip"] == sum(row.verdict in SLIPS and not row.same for row in ROWS)
 
 
 def test_missing_evidence_is_named() -> None:
@@ -181,13 +179,6 @@ def test_missing_evidence_is_named() -> None:
         StatementError, match=re.escape("the field 'code' names modern.port.nothing, which does not exist")
     ):
         resolve(replace(row, code="modern.port.nothing"))
-
-
-def test_counts_separate_repetitions_and_slips() -> None:
-    numbers = sum(map(counts, DOCUMENTS), Counter())
-    assert numbers.total() == len(ROWS)
-    assert numbers["repetition"] == sum(bool(row.same) for row in ROWS)
-    assert numbers["slip"] == sum(row.verdict in SLIPS and not row.same for row in ROWS)
 
 
 def test_reproduce_accepts_documents_theorems_and_statements(capsys) -> None:
