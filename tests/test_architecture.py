@@ -13,16 +13,10 @@ LIMITS = architecture.limits(ROOT)
 EMULATOR = ("compiled", "machine", "objectdeck", "translation", "language", "numbers", "jit")
 
 
-def test_packages_import_only_lower_packages() -> None:
+def test_modules_import_lower_packages_without_cycles_and_keep_the_limits() -> None:
     are_kept, report = architecture.check_contracts(ROOT)
     assert are_kept, report
-
-
-def test_imports_form_no_cycle() -> None:
     assert architecture.import_cycle("emulator", "modern", "hull1620") == ()
-
-
-def test_modules_and_packages_keep_the_limits() -> None:
     assert architecture.modules_outside_packages(ROOT) == []
     assert len(architecture.packages_of_modern(ROOT)) <= LIMITS.max_packages
     assert architecture.wrong_lengths(ROOT, LIMITS) == []

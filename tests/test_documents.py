@@ -52,16 +52,13 @@ def test_every_block_names_its_language_and_every_skip_its_reason() -> None:
     assert {path: count for path, count in counts.items() if count} == SKIPPED
 
 
-def test_named_and_linked_files_exist() -> None:
+def test_named_files_and_headings_exist() -> None:
     packages = ("emulator", "modern", "tests")
     existing = ["/" + name(file) for package in packages for file in (ROOT / package).rglob("*.*")]
     for path in documents.DOCUMENTS:
         named = documents.files_named(path)
         assert [file for file in named if not any(place.endswith("/" + file) for place in existing)] == [], path
         assert [link for link in documents.links(path) if not (path.parent / link).exists()] == [], path
-
-
-def test_linked_headings_exist() -> None:
     targets = {target for path in documents.DOCUMENTS for target in documents.linked_headings(path)}
     anchors = {page: documents.anchors(page) for page, _ in targets}
     assert [f"{name(page)}#{anchor}" for page, anchor in sorted(targets) if anchor not in anchors[page]] == []
@@ -104,14 +101,11 @@ def test_a_failing_block_is_reported(block: str, message: str, tmp_path: Path, m
         documents.run(page)
 
 
-def test_file_names_and_links_are_read(tmp_path: Path) -> None:
+def test_file_names_links_and_anchors_are_read(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     page.write_text("`attic/a.py`, `NAME.py`, [x](docs/b.md#part), [y](https://c.org/d.md)\n", encoding="utf-8")
     assert documents.files_named(page) == {"attic/a.py"}
     assert documents.links(page) == {"docs/b.md"}
-
-
-def test_anchors_are_those_of_forge_and_site(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     page.write_text("# Nobody's `A*B`, twice\n```sh\n# none\n```\n[a](#here) [b](x.md#one-two)\n", encoding="utf-8")
     assert documents.anchors(page) == {"nobodys-ab-twice"}

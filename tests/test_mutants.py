@@ -31,16 +31,13 @@ def test_the_seed_and_the_text_of_the_lines_determine_the_sample() -> None:
         assert difference(mutant.file, source, mutated(source, mutant)).count("\n@@") == 1
 
 
-def test_annotations_marks_of_parameters_and_operators_can_be_left_out() -> None:
+def test_mutants_leave_out_annotations_and_tables_name_existing_files() -> None:
     lines = ["def f(a: int | None, *, b: int | str = 3) -> int | None:", "    pass"]
     places = {(mutant.line, lines[mutant.line - 1][mutant.column]) for mutant in mutants("f.py", "\n".join(lines))}
     assert places == {(1, "3")}
     names = {mutant.operator for mutant in mutants("f.py", "def f(a):\n    return a == 1\n", ["core/*_[!I]*_Is*"])}
     comparisons = {f"core/ReplaceComparisonOperator_Eq_{name}" for name in ("NotEq", "Lt", "LtE", "Gt", "GtE")}
     assert names == {"core/NumberReplacer"} | comparisons
-
-
-def test_every_file_and_test_of_the_tables_exists() -> None:
     areas, _ = read_areas()
     assert {"arithmetic", "conversion", "formats", "compiler", "exact_hull"} <= {area.name for area in areas}
     assert read_equivalents()

@@ -19,12 +19,29 @@ def test_theorem_is_tied_to_the_print_and_true(theorem: Theorem) -> None:
     assert theorem_faults(theorem, TEXT) == ()
 
 
-def test_p3_of_theorem_4_1_is_lost_and_not_invented() -> None:
+def test_lost_and_outside_points_of_theorems_are_those_of_the_print() -> None:
     theorem = THEOREMS["4.1"]
     assert theorem.point("P3") is None
     assert "P3" in theorem.lost
     assert theorem.extremes["ly"] == "P3"
     assert not any("P_3=" in "".join(line.text.split()) for line in build(TEXT) if int(line.id) < 30)
+    theorem = THEOREMS["4.8"]
+    point = theorem.point("Q9")
+    assert point is not None
+    assert point.at == (Fraction(-2, 135), Fraction(1, 9), Fraction(-1, 10))
+    assert [p.number for p in theorem.planes if p.at(point) > 0] == [3, 4, 5, 6, 7, 8]
+    lines = build(TEXT, ("ocr",))
+    faults = theorem_faults(THEOREMS["4.8"], TEXT, lines)
+    assert faults == (
+        "theorem 4.8: line 88 does not print (-4, 4, 2)",
+        "theorem 4.8: the table does not list Q6 for plane 2",
+    )
+    theorem = THEOREMS["4.8"]
+    first = theorem.points[0]
+    slip = dataclasses.replace(first, at=printed_point("(-4, -4, 2)"))
+    mine = [p for p in theorem.planes if first.name in p.vertices]
+    assert [p.number for p in mine] == [1, 2, 7]
+    assert all(p.at(first) == 0 != p.at(slip) for p in mine)
 
 
 def test_table_1_faces_use_every_vertex_and_close_up() -> None:
@@ -36,14 +53,6 @@ def test_table_1_faces_use_every_vertex_and_close_up() -> None:
             edges[edge] = edges.get(edge, 0) + 1
     assert len(edges) == 12
     assert set(edges.values()) == {2}
-
-
-def test_theorem_4_8_the_last_point_is_outside_planes_3_to_8_only() -> None:
-    theorem = THEOREMS["4.8"]
-    point = theorem.point("Q9")
-    assert point is not None
-    assert point.at == (Fraction(-2, 135), Fraction(1, 9), Fraction(-1, 10))
-    assert [p.number for p in theorem.planes if p.at(point) > 0] == [3, 4, 5, 6, 7, 8]
 
 
 @pytest.mark.parametrize("row", [r for r in TEXT.rows if r.ground["kind"] == "sibling"], ids=lambda r: r.id)
@@ -70,24 +79,6 @@ def test_two_term_conditions_of_theorem_4_2_are_a_slip() -> None:
         if line.id in row.ground["lines"]:
             assert "D_" not in line.text
             assert "z_" not in line.text
-
-
-def test_author_rows_off_leave_the_slips() -> None:
-    lines = build(TEXT, ("ocr",))
-    faults = theorem_faults(THEOREMS["4.8"], TEXT, lines)
-    assert faults == (
-        "theorem 4.8: line 88 does not print (-4, 4, 2)",
-        "theorem 4.8: the table does not list Q6 for plane 2",
-    )
-
-
-def test_first_point_of_theorem_4_8_as_printed_is_in_none_of_its_planes() -> None:
-    theorem = THEOREMS["4.8"]
-    first = theorem.points[0]
-    slip = dataclasses.replace(first, at=printed_point("(-4, -4, 2)"))
-    mine = [p for p in theorem.planes if first.name in p.vertices]
-    assert [p.number for p in mine] == [1, 2, 7]
-    assert all(p.at(first) == 0 != p.at(slip) for p in mine)
 
 
 @pytest.mark.parametrize("theorem", THEOREMS.values(), ids=lambda t: t.id)

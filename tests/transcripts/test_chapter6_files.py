@@ -22,8 +22,16 @@ def altered(line: str, old: str, new: str) -> chapter6_cards.Chapter:
     return dataclasses.replace(CHAPTER, print=lines)
 
 
-def test_the_chapter_has_no_fault() -> None:
+def test_files_are_built_completely_from_the_print(tmp_path: Path) -> None:
     assert check_chapter(CHAPTER) == ()
+    folder = Path(str(chapter6_folder()))
+    found = {p.relative_to(folder).as_posix() for p in folder.glob("example*/*")}
+    assert found == set(NAMES)
+    assert len(_digits()) == 2 * len([d for d in CHAPTER.layout.devices if d.layer == "layout"])
+    names = chapter6_cards.write_files(CHAPTER, tmp_path)
+    assert names == tuple(NAMES)
+    assert {n: (tmp_path / n).read_text() for n in names} == dict(chapter6_cards.built_files(CHAPTER))
+    assert not list(tmp_path.rglob("*.new"))
 
 
 @pytest.mark.parametrize(("example", "program", "device", "name"), chapter6_cards.device_files(CHAPTER), ids=NAMES)
@@ -32,12 +40,6 @@ def test_committed_file_equals_its_build(example: int, program: int, device: str
     images = chapter6_cards.card_images(CHAPTER, example, program, device)
     assert committed.decode("ascii") == "".join(image + "\n" for image in images)
     assert all(image == image.rstrip() and len(image) <= 80 and "\t" not in image for image in images)
-
-
-def test_no_other_device_file_is_committed() -> None:
-    folder = Path(str(chapter6_folder()))
-    found = {p.relative_to(folder).as_posix() for p in folder.glob("example*/*")}
-    assert found == set(NAMES)
 
 
 @pytest.mark.parametrize("entry", [d for d in CHAPTER.layout.devices if d.layer == "layout"], ids=lambda d: str(d.file))
@@ -94,10 +96,6 @@ def _digits() -> list[tuple[str, str, str]]:
     return places
 
 
-def test_every_printed_file_has_a_digit_to_alter() -> None:
-    assert len(_digits()) == 2 * len([d for d in CHAPTER.layout.devices if d.layer == "layout"])
-
-
 @pytest.mark.parametrize(("line", "old", "new"), _digits())
 def test_guard_one_altered_digit_is_caught(line: str, old: str, new: str) -> None:
     chapter = altered(line, old, new)
@@ -132,14 +130,11 @@ def test_guard_a_reversed_plane_is_caught() -> None:
     assert faults == ("example5/program3.punch: equation 3 has a point of the deck on its positive side",)
 
 
-def test_guard_an_unused_line_is_caught() -> None:
+def test_guard_lines_must_be_used_exactly_once() -> None:
     layout = dataclasses.replace(CHAPTER.layout, headings=CHAPTER.layout.headings[1:])
     assert check_tie(chapter6_cards.rebuilt(CHAPTER.text, layout)) == (
         "line 1 of the corrected print belongs to no card and no heading",
     )
-
-
-def test_guard_a_line_used_twice_is_caught() -> None:
     layout = dataclasses.replace(CHAPTER.layout, headings=(*CHAPTER.layout.headings, "58"))
     assert check_tie(chapter6_cards.rebuilt(CHAPTER.text, layout)) == ("line 58 of the corrected print is used twice",)
 
@@ -154,13 +149,6 @@ def test_guard_a_changed_device_file_is_caught(tmp_path: Path) -> None:
         "example1/program1.deck is missing",
         "example5/program3.punch differs from the file built from witness, apparatus and layout",
     )
-
-
-def test_written_files_are_the_built_ones(tmp_path: Path) -> None:
-    names = chapter6_cards.write_files(CHAPTER, tmp_path)
-    assert names == tuple(NAMES)
-    assert {n: (tmp_path / n).read_text() for n in names} == dict(chapter6_cards.built_files(CHAPTER))
-    assert not list(tmp_path.rglob("*.new"))
 
 
 @pytest.mark.parametrize(
@@ -179,12 +167,9 @@ def test_a_print_that_does_not_fit_is_one_clear_line(line: str, old: str, new: s
     assert str(caught.value).startswith("example2/program1.punch: ")
 
 
-def test_unknown_device_is_one_clear_line() -> None:
+def test_devices_and_options_that_do_not_exist_are_rejected(capsys) -> None:
     with pytest.raises(chapter6_cards.TranscriptError, match=r"^chapter 6 has no punch for example 7, program 1$"):
         chapter6_cards.card_images(CHAPTER, 7, 1, "punch")
-
-
-def test_the_command_line_checks_and_rejects_wrong_options(capsys) -> None:
     assert main(["--check"]) == 0
     assert capsys.readouterr().out == ""
     assert main(["--run"]) == 2

@@ -47,12 +47,9 @@ def test_a_format_that_cannot_be_read_is_one_line(text: str, values: int, messag
     assert "\n" not in str(caught.value)
 
 
-def test_layout_agrees_with_its_formats() -> None:
+def test_layout_agrees_with_its_formats_and_their_pages() -> None:
     assert check_layout(CHAPTER) == ()
-
-
-def test_listed_format_is_on_its_page() -> None:
-    """`listed` equals the OCR text of the listing except for blanks, and a change to it has a note."""
+    # `listed` equals the OCR text of the listing except for blanks, and a change to it has a note.
     for entry in CHAPTER.layout.formats:
         assert (entry.listed == entry.text) == (not entry.note), entry
         witness = files("fortran_src").joinpath("witness", f"program{entry.program}.txt").read_text(encoding="utf-8")
@@ -70,12 +67,21 @@ def with_card(card_id: str, **changes: object) -> Chapter:
     return rebuilt(CHAPTER.text, dataclasses.replace(layout, cards=tuple(new.values()), devices=devices))
 
 
-def test_guard_a_moved_column_is_caught() -> None:
+def test_guard_moved_columns_changed_words_and_missing_cards_are_caught() -> None:
     card = next(c for c in CHAPTER.layout.cards if c.id == "p1.10.1")
     moved = tuple(dataclasses.replace(f, first=f.first + 1, last=f.last + 1) for f in card.fields)
     assert check_layout(with_card("p1.10.1", fields=moved)) == (
         "card p1.10.1: its columns differ from those of FORMAT 10",
     )
+    # Without the row of the layer typist, example 4 prints CONVES and FORMAT 20 has CONVEX.
+    (row,) = [r for r in CHAPTER.text.rows if "CONVES" in r.changes[0].witness]
+    faults = check_layout(load_chapter(without={row.id}))
+    assert faults == ("example4/program2.punch: line 172 prints CONVES, the FORMAT CONVEX",)
+    chapter = without_card("example3/program1.deck", 1)
+    with pytest.raises(
+        TranscriptError, match=r"^example3/program1.deck: line \S+: '\+\.1.*' remains after the last field$"
+    ):
+        check_layout(chapter)
 
 
 def without_card(file: str, at: int) -> Chapter:
@@ -94,18 +100,3 @@ def test_guard_a_missing_blank_card_is_caught(at: int) -> None:
     (fault,) = check_layout(without_card("example1/program1.punch", place))
     assert fault.startswith("example1/program1.punch: ")
     assert "cannot follow" in fault
-
-
-def test_guard_a_word_that_differs_from_the_format_is_caught() -> None:
-    """Without the row of the layer typist, example 4 prints CONVES and FORMAT 20 has CONVEX."""
-    (row,) = [r for r in CHAPTER.text.rows if "CONVES" in r.changes[0].witness]
-    faults = check_layout(load_chapter(without={row.id}))
-    assert faults == ("example4/program2.punch: line 172 prints CONVES, the FORMAT CONVEX",)
-
-
-def test_a_missing_card_is_one_clear_line() -> None:
-    chapter = without_card("example3/program1.deck", 1)
-    with pytest.raises(
-        TranscriptError, match=r"^example3/program1.deck: line \S+: '\+\.1.*' remains after the last field$"
-    ):
-        check_layout(chapter)

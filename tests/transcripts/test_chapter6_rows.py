@@ -26,23 +26,21 @@ def faults(chapter: Chapter, row_id: str) -> tuple[str, ...]:
     return row_faults(chapter, chapter.text.row(row_id))
 
 
-def test_the_ground_of_every_row_holds() -> None:
+def test_rows_have_grounds_kinds_ids_and_move_characters_only() -> None:
     assert [fault for row in CHAPTER.text.rows for fault in row_faults(CHAPTER, row)] == []
-
-
-def test_rows_have_known_kinds_and_reasons() -> None:
     for row in CHAPTER.text.rows:
         assert row.kind in KINDS
         assert (row.kind == "slip") == (row.layer == "typist")
         assert row.reason.endswith(".")
         assert len(row.evidence) > 20
-
-
-def test_row_ids_follow_the_pages() -> None:
     ids = [row.id for row in CHAPTER.text.rows]
     pages = [int(row.page) for row in CHAPTER.text.rows]
     assert ids == [f"C6-{n:03d}" for n in range(1, len(ids) + 1)]
     assert pages == sorted(pages)
+    for row in CHAPTER.text.rows:
+        if row.kind == "displaced":
+            old, new = ("".join(getattr(c, part) for c in row.changes) for part in ("witness", "lemma"))
+            assert Counter("".join(old.split())) == Counter("".join(new.split())), row.id
 
 
 def test_dropped_zero_rows_add_a_zero_to_the_run_and_nothing_else() -> None:
@@ -53,13 +51,6 @@ def test_dropped_zero_rows_add_a_zero_to_the_run_and_nothing_else() -> None:
         old, new = ("".join(part.split()) for part in (change.witness, change.lemma))
         assert len(new) == len(old) + 1
         assert re.sub("0+", "0", new) == re.sub("0+", "0", old)
-
-
-def test_displaced_rows_only_move_characters() -> None:
-    for row in CHAPTER.text.rows:
-        if row.kind == "displaced":
-            old, new = ("".join(getattr(c, part) for c in row.changes) for part in ("witness", "lemma"))
-            assert Counter("".join(old.split())) == Counter("".join(new.split())), row.id
 
 
 def test_deck_grounds_name_the_same_point() -> None:
@@ -133,25 +124,21 @@ def test_a_superfluous_row_is_caught(ground: dict[str, object], change: Change) 
     assert fault.startswith("row X-1: its ground")
 
 
-def test_a_wrong_digit_in_a_row_is_caught_by_the_second_ground() -> None:
+def test_guard_wrong_digits_vertices_and_grounds_are_caught() -> None:
     row = CHAPTER.text.row("C6-192")
     change = dataclasses.replace(row.changes[0], lemma=row.changes[0].lemma.replace("00E", "01E"))
     assert change != row.changes[0]
     assert faults(with_rows(dataclasses.replace(row, changes=(change,))), row.id)
-
-
-def test_a_wrong_vertex_is_caught() -> None:
     row = CHAPTER.text.row("C6-228")
     change = dataclasses.replace(row.changes[0], lemma="1 2 3")
     assert faults(with_rows(dataclasses.replace(row, changes=(change,))), row.id)
-
-
-def test_the_minus_zero_of_example_4_rests_on_the_page() -> None:
-    """Without its minus, C of equation 2 would be the only number of the page that lost a point but not a minus."""
+    # Without its minus, C of equation 2 would be the only number of the page that lost a point but not a minus.
     row = CHAPTER.text.row("C6-089")
     assert row.certainty == "probable"
     change = dataclasses.replace(row.changes[0], lemma="\t.00000000E-99")
     assert faults(with_rows(dataclasses.replace(row, changes=(change,))), row.id)
+    chapter = with_rows(extra({"kind": "opinion"}, Change("58", "CONVEX", " CONVEX")))
+    assert faults(chapter, "X-1") == ("row X-1: unknown kind of ground 'opinion'",)
 
 
 def test_lost_points_of_example_4_line_by_line() -> None:
@@ -168,8 +155,3 @@ def test_lost_points_of_example_4_line_by_line() -> None:
                 negatives += number.startswith("-")
                 zeros += number == "-.00000000E-99"
     assert (negatives, zeros) == (13, 1)
-
-
-def test_an_unknown_ground_is_a_fault() -> None:
-    chapter = with_rows(extra({"kind": "opinion"}, Change("58", "CONVEX", " CONVEX")))
-    assert faults(chapter, "X-1") == ("row X-1: unknown kind of ground 'opinion'",)

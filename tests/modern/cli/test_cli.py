@@ -114,53 +114,41 @@ def test_misuse(room: Path, capsys, arguments: list[str], words: str) -> None:
     assert sorted(os.listdir()) == before
 
 
-def test_hull_writes_cards_to_stdout_and_typed_lines_to_stderr(room: Path, capsys) -> None:
+def test_hull_writes_cards_lines_and_a_profile_to_their_streams(room: Path, capsys) -> None:
     code, out, err = call(capsys, "hull", "good.deck")
     assert code == 0
     assert "CONVEX HULL HAS BEEN DETERMINED" in out
     assert err == "POINTS ARE NOT COPLANAR\n"
-
-
-def test_a_profile_fits_a_narrow_terminal(room: Path, capsys) -> None:
     code, _, err = call(capsys, "hull", "good.deck", "--profile")
     assert code == 0
     assert "time on a 1620 Model 1" in err
     assert all(len(line) <= 80 for line in err.splitlines())
 
 
-def test_line_ends_and_blank_fields_are_accepted(room: Path, capsys) -> None:
+def test_line_ends_blank_fields_and_repeated_points_are_accepted_with_a_warning(room: Path, capsys) -> None:
     Path("crlf.deck").write_bytes(DECK.replace("\n", "\r\n").rstrip().encode())
     assert call(capsys, "hull", "crlf.deck")[0] == 0
     Path("blank.deck").write_text(DECK.replace("+.00000000E+00", " " * 14), encoding="utf-8")
     code, _, err = call(capsys, "hull", "blank.deck")
     assert code == 0
     assert "warning: blank.deck: card 2, column 1: x: a blank field is read as zero" in err
-
-
-def test_a_repeated_point_is_noted(room: Path, capsys) -> None:
     Path("twice.deck").write_text(DECK.replace(" 4", " 5") + "1.0           -.0           .0\n", encoding="utf-8")
     _, _, err = call(capsys, "hull", "twice.deck")
     assert "warning: twice.deck: card 6, column 1: the same point as on card 3" in err
 
 
-def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys) -> None:
+def test_a_run_ends_at_the_empty_hopper_or_an_invalid_field(room: Path, capsys) -> None:
     assert call(capsys, "run", "good.f", "x.deck") == (
         0,
         " .20000000E+01\n .30000000E+01\n",
         "note: good.f: the run ended after 2 cards, because the hopper was empty at the READ of statement 1 (card 1)\n",
     )
-
-
-def test_an_empty_hopper_at_a_later_read_ends_a_run(room: Path, capsys) -> None:
-    """Any READ of ``run`` may find the hopper empty. ``hull`` requires complete data sets."""
+    # Any READ of ``run`` may find the hopper empty. ``hull`` requires complete data sets.
     Path("short.deck").write_text(" 3\n" + GOOD_POINT + "\n", encoding="utf-8")
     assert call(capsys, "run", "program1", "short.deck")[:2] == (0, "")
     code, out, err = call(capsys, "hull", "short.deck")
     assert (code, out) == (2, "")
     assert "short.deck: card 2, column 1: the deck ends after 1 of 3 points" in err
-
-
-def test_an_invalid_field_ends_a_run(room: Path, capsys) -> None:
     Path("bad.deck").write_text("2.\nABC\n", encoding="utf-8")
     assert call(capsys, "run", "good.f", "bad.deck")[::2] == (
         2,
@@ -176,16 +164,13 @@ def test_a_refusal_gives_exit_code_1(capsys, run: str, typed: str) -> None:
     assert typed in err
 
 
-def test_with_switch_1_a_run_continues_after_data_not_acceptable(capsys) -> None:
-    """KNOWN-FAULTS 10."""
+def test_switch_1_and_the_limit_determine_how_long_a_run_continues(capsys) -> None:
+    # KNOWN-FAULTS 10.
     deck = MACHINE_RUNS / "18_dec3_n6" / "deck.cards"
     off = call(capsys, "hull", str(deck))
     on = call(capsys, "hull", str(deck), "--switch", "1", "--limit", "100000")
     assert off[2].count("DATA NOT ACCEPTABLE") == 1
     assert on[2].count("DATA NOT ACCEPTABLE") > 1
-
-
-def test_statement_limit_keeps_the_cards_punched_so_far(capsys) -> None:
     deck = MACHINE_RUNS / "39_prism_n10" / "deck.cards"
     code, out, err = call(capsys, "hull", str(deck), "--limit", "100000")
     assert code == 1
@@ -203,12 +188,16 @@ def test_reproduce_as_json(room: Path, capsys) -> None:
     assert json.loads(out) == document
 
 
-def test_reproduce_without_a_terminal_has_no_colour(capsys) -> None:
+def test_reproduce_and_apparatus_print_plain_text(capsys) -> None:
     code, out, _ = call(capsys, "reproduce", "5")
     assert code == 0
     assert "\x1b" not in out
     assert "exact in another order" in out
     assert "Every printed result is reproduced." in out
+    code, out, _ = call(capsys, "apparatus", "--program", "1", "--layer", "lacuna")
+    assert code == 0
+    assert out.splitlines()[-1] == "2 rows"
+    assert "INN=0" in out
 
 
 def test_reproduce_shows_the_cards_that_differ(monkeypatch, capsys) -> None:
@@ -250,20 +239,15 @@ def test_map_and_compile_print_tables(capsys) -> None:
     assert "RSGN" in out
 
 
-def test_apparatus_lists_rows(capsys) -> None:
-    code, out, _ = call(capsys, "apparatus", "--program", "1", "--layer", "lacuna")
-    assert code == 0
-    assert out.splitlines()[-1] == "2 rows"
-    assert "INN=0" in out
-
-
-def test_points_become_cards_and_cards_points(room: Path, capsys) -> None:
+def test_points_become_cards_and_are_truncated_on_request(room: Path, capsys) -> None:
     Path("p.csv").write_text("x,y,z\n1,-2.5,3e-2\n\n0,.125,-0\n", encoding="utf-8")
     code, out, err = call(capsys, "cards", "p.csv")
     assert (code, err) == (0, "")
     assert out == (" 2\n+.10000000E+01-.25000000E+01+.30000000E-01\n+.00000000E+00+.12500000E+00-.00000000E+00\n")
     assert call(capsys, "cards", "p.csv", "-o", "p.deck")[:2] == (0, "")
     assert Path("p.deck").read_text(encoding="utf-8") == out
+    Path("p.csv").write_text("1,2,-1234.56789\n", encoding="utf-8")
+    assert "-.12345678E+04" in call(capsys, "cards", "p.csv", "--truncate")[1]
 
 
 CSV_FAULTS = [
@@ -284,11 +268,6 @@ def test_cards_rejects_points_that_no_card_holds(room: Path, capsys, text: str, 
     assert (code, out) == (2, "")
     assert words in err
     assert not Path("p.deck").exists()
-
-
-def test_cards_truncates_on_request(room: Path, capsys) -> None:
-    Path("p.csv").write_text("1,2,-1234.56789\n", encoding="utf-8")
-    assert "-.12345678E+04" in call(capsys, "cards", "p.csv", "--truncate")[1]
 
 
 def test_help_imports_nothing_that_only_a_run_needs() -> None:

@@ -43,19 +43,33 @@ def test_a_square_of_nine_digits_changes_a_decision(room: Path, capsys) -> None:
     assert "digits lost, of 8.0, up to that decision" in lines
 
 
-def test_binary_numbers_decide_correctly(room: Path, capsys) -> None:
+def test_other_arithmetics_and_layers_decide_correctly(room: Path, capsys) -> None:
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--arithmetic", "float64")
     assert code == 0
     assert "none differs" in out
     assert "digits lost, of 16.0\n" in out
+    # The corrected cards do not use the roots.
+    code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--layers", "corrected")
+    assert code == 0
+    assert "none differs" in out
+    code, out, _ = call(capsys, "diverge", "sum.f", "any.deck")
+    assert code == 0
+    assert "values: 2 compared, none differs" in out
+    code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--arithmetic", "exact")
+    assert code == 0
+    assert "digits lost" not in out
 
 
-def test_only_the_first_decision_is_reported_on_request(room: Path, capsys) -> None:
+def test_decisions_are_limited_by_options(room: Path, capsys) -> None:
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--first")
     assert code == 1
     assert "compared, 1 differs" in out
     assert "values:" not in out
     assert "digits lost" not in out
+    code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--limit", "10")
+    assert code == 1
+    assert "decisions: 1 compared, none differs" in out
+    assert "comparison ended: both runs were stopped after 10 statements" in out
 
 
 def test_the_comparison_is_written_as_json(room: Path, capsys) -> None:
@@ -67,13 +81,6 @@ def test_the_comparison_is_written_as_json(room: Path, capsys) -> None:
     assert found["values"]["differing_in_step"] <= found["values"]["differing"] <= found["values"]["compared"]
     assert sum(loss["differing"] for loss in found["losses"]) == found["values"]["differing_in_step"]
     assert [ending["kind"] for ending in found["endings"]] == ["hopper", "hopper"]
-
-
-def test_layers_are_compared(room: Path, capsys) -> None:
-    """The corrected cards do not use the roots."""
-    code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--layers", "corrected")
-    assert code == 0
-    assert "none differs" in out
 
 
 def test_the_comparison_fits_a_narrow_terminal(room: Path, capsys, monkeypatch) -> None:
@@ -91,25 +98,6 @@ def test_values_that_exact_numbers_cannot_hold_are_reported(room: Path, capsys) 
     assert err == ""
     code, out, err = call(capsys, "run", "sine.f", "any.deck", "--arithmetic", "exact")
     assert (code, out, err) == (1, "", f"hull1620: {words}\n")
-
-
-def test_equal_runs_are_reported_as_equal(room: Path, capsys) -> None:
-    code, out, _ = call(capsys, "diverge", "sum.f", "any.deck")
-    assert code == 0
-    assert "values: 2 compared, none differs" in out
-
-
-def test_a_limit_is_reported_as_a_limit(room: Path, capsys) -> None:
-    code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--limit", "10")
-    assert code == 1
-    assert "decisions: 1 compared, none differs" in out
-    assert "comparison ended: both runs were stopped after 10 statements" in out
-
-
-def test_exact_numbers_lose_no_digits(room: Path, capsys) -> None:
-    code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--arithmetic", "exact")
-    assert code == 0
-    assert "digits lost" not in out
 
 
 MISUSE = [

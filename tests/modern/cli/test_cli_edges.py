@@ -246,10 +246,16 @@ def test_data_that_are_left_out_or_lie_elsewhere_are_noted(words: str, note: str
     assert note.format(own) in call(capsys, *words.split())[2]
 
 
-def test_a_sample_of_a_plan_file_has_a_name(own: Path, capsys) -> None:
+def test_a_sample_of_a_plan_and_a_pipe_are_read(own: Path, capsys) -> None:
     first, again, different = (call(capsys, "cards", f"mine.toml/{k}") for k in ("1", "0/1", "2"))
     assert first == again != different
     assert first[1].startswith(" 5\n")
+    os.mkfifo("pipe")
+    writer = threading.Thread(target=lambda: Path("pipe").write_bytes(Path("good.deck").read_bytes()))
+    writer.start()
+    from_pipe = call(capsys, "hull", "pipe")
+    writer.join()
+    assert from_pipe[:2] == call(capsys, "hull", "good.deck")[:2]
 
 
 @pytest.mark.parametrize(
@@ -268,15 +274,6 @@ def test_a_device_without_an_end_is_read_up_to_the_limit_of_its_kind(words, size
     os.symlink("/dev/zero", "zero.toml")
     most = f"at most {size} MiB can be read from a pipe or device; write the data to a file"
     assert call(capsys, *words.split()) == (2, "", f"hull1620: {words.split()[-1]}: {most}\n")
-
-
-def test_a_pipe_with_an_end_is_read_to_its_end(own: Path, capsys) -> None:
-    os.mkfifo("pipe")
-    writer = threading.Thread(target=lambda: Path("pipe").write_bytes(Path("good.deck").read_bytes()))
-    writer.start()
-    from_pipe = call(capsys, "hull", "pipe")
-    writer.join()
-    assert from_pipe[:2] == call(capsys, "hull", "good.deck")[:2]
 
 
 def test_the_shell_completes_commands_options_and_examples() -> None:

@@ -67,9 +67,12 @@ def test_an_unknown_example_is_reported_as_a_missing_file(name: str, folder: Pat
     assert (code, err) == (2, f"hull1620: {name}: no such file or directory\n")
 
 
-def test_a_file_takes_precedence_over_an_example_of_its_name(folder: Path, capsys) -> None:
+def test_examples_are_named_like_files_but_files_take_precedence(folder: Path, capsys) -> None:
     (folder / "example5").write_text(CSV, encoding="ascii")
     assert call(capsys, "diff", "example5")[1].startswith("example5: 5 points\n")
+    code, out, err = call(capsys, "punched", "example1")
+    assert (code, err) == (0, "")
+    assert "<title>example1: 4 cards</title>" in out
 
 
 @pytest.mark.parametrize("command", [["hull"], ["diverge", "program1"], ["diverge", "program1_examples"]])
@@ -94,14 +97,11 @@ def test_the_message_about_too_many_digits_names_a_valid_remedy(folder: Path, ca
     assert "not run" not in call(capsys, "diff", "long.deck")[1]
 
 
-def test_an_overlap_names_a_sufficient_core(folder: Path, capsys) -> None:
+def test_remedies_for_an_overlap_and_a_raw_volume_are_named(folder: Path, capsys) -> None:
     code, _, err = call(capsys, "hull", "example5", "--layers", "corrected")
     assert code == 2
     assert "OVERLAP" in err
     assert err.endswith("; --core 60000 is large enough\n")
-
-
-def test_a_raw_volume_needs_a_shape(folder: Path, capsys) -> None:
     (folder / "a.raw").write_bytes(bytes(100) + b"\x01" * 25)
     for command in ("voxel-hull", "octree-hull"):
         code, _, err = call(capsys, command, "a.raw")
@@ -158,12 +158,6 @@ def test_the_layers_are_listed() -> None:
     base = {"ocr", "print", "lacuna", "cosmetic"}
     every = {row.layer for name in programs.TEXTS for row in programs.text(name).rows} - base
     assert [layer for layer in every if layer not in str(layers.help)] == []
-
-
-def test_punched_accepts_an_example_by_name(capsys) -> None:
-    code, out, err = call(capsys, "punched", "example1")
-    assert (code, err) == (0, "")
-    assert "<title>example1: 4 cards</title>" in out
 
 
 @pytest.mark.parametrize("command", [["run"], ["diverge"], ["listing"]])

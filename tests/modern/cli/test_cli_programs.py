@@ -67,14 +67,11 @@ def test_upcase_converts_a_program_to_capitals(command: str, capsys) -> None:
     assert (code, out.replace("small.f", "large.f"), err) == expected
 
 
-def test_a_period_program_in_lower_case_runs(capsys) -> None:
+def test_period_programs_run_in_lower_case_and_with_an_operator_file(capsys) -> None:
     code, out, err = call(capsys, "run", str(PERIOD / "pi.f"), str(PERIOD / "pi.deck"), "--upcase")
     assert (code, err.count("\n")) == (0, 1)
     assert "the run ended after 2 cards, because the hopper was empty" in err
     assert [line[-9:] for line in out.splitlines()] == ["3.1405970", "3.1415928"]
-
-
-def test_a_period_program_runs_with_its_operator_file(capsys) -> None:
     operator = f"--operator={PERIOD / 'job.operator'}"
     code, out, err = call(capsys, "run", str(PERIOD / "job.f"), str(PERIOD / "job.deck"), operator)
     assert (code, len(out.splitlines())) == (0, 2)

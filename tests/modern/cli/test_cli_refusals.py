@@ -56,11 +56,15 @@ def test_every_proposed_command_runs_and_some_give_the_hull(own: Path, capsys) -
     assert (own / "hull.off").read_text(encoding="ascii").startswith("OFF\n")
 
 
-def test_diff_proposes_the_deck_first_and_explains_once(own: Path, capsys) -> None:
+def test_explanations_name_the_deck_and_each_data_set_once(own: Path, capsys) -> None:
     code, out, err = call(capsys, "diff", "points.csv")
     assert code == 1
     assert err.count("known fault 6") <= 1 < out.count("DATA NOT ACCEPTABLE")
     assert tried(err)[0] == ["cards", "points.csv", "-o", "points.deck"]
+    text = Path("points.deck").read_text(encoding="ascii")
+    Path("two.deck").write_text(text + " 1\n.1E+01        .1E+01        .1E+01\n" + text, encoding="ascii")
+    err = call(capsys, "hull", "two.deck")[2]
+    assert [line for line in err.splitlines() if line.startswith("data set")] == ["data set 1:", "data set 3:"]
 
 
 @pytest.mark.parametrize(("name", "fault"), [("lastpair", 1), ("throughc", 3)])
@@ -71,13 +75,6 @@ def test_a_fault_of_the_original_is_named_and_its_correction_works(name, fault, 
     assert f"(known fault {fault})" in " ".join(err.split())
     assert f"row P3-0{24 + fault} of layer corrected corrects it" in " ".join(err.split())
     assert call(capsys, *tried(err)[0])[0] == 0
-
-
-def test_each_of_several_data_sets_is_named(own: Path, capsys) -> None:
-    text = Path("points.deck").read_text(encoding="ascii")
-    Path("two.deck").write_text(text + " 1\n.1E+01        .1E+01        .1E+01\n" + text, encoding="ascii")
-    err = call(capsys, "hull", "two.deck")[2]
-    assert [line for line in err.splitlines() if line.startswith("data set")] == ["data set 1:", "data set 3:"]
 
 
 def test_a_known_fault_has_its_number_in_the_list() -> None:

@@ -37,20 +37,23 @@ def test_a_narrow_terminal_shows_one_text_below_the_other() -> None:
     ]
 
 
-def test_a_line_that_occurs_elsewhere_is_not_marked_as_wrong() -> None:
+def test_marks_follow_columns_words_and_positions() -> None:
     found = list(side_by_side(["N=2", "ONE", "TWO"], ["N=2", "TWO", "ONE"], 60))
     assert found[0].strip() == "= equal; ~ at another position"
     assert not any("^" in line for line in found)
     # A line that occurs twice there and once here is marked.
     assert any("^" in line for line in side_by_side(["ONE", "TWO", "TWO"], ["TWO", "ONE", "ONE"], 60))
-
-
-def test_cards_are_compared_column_by_column_and_print_word_by_word() -> None:
     assert masks_by_column("  .5", " .5") == (" ^^^", " ^^^")
     assert masks_by_text("9 1 2 C", "9 1 2 0") == ("      ^", "      ^")
     assert masks_by_text("2 3 4 1 1", "2 1 1") == ("  ^ ^", "")
     (line,) = [line for line in side_by_side(["1\t2"], ["1 2"], 60, columns=False) if line.startswith("         1")]
     assert " = " in line
+    # Both lines are marked up to the end of the longer one.
+    for one, other in (([], ["1" * 18]), (["1" * 18], []), (["12"], ["1" * 18])):
+        *_, line, marks = side_by_side(one, other, 60)
+        at = line.index("|") + 2
+        assert marks[at:] == ("^" * 18 if "12" not in one else " " + "^" * 17)
+        assert max(map(len, side_by_side(one, other, 50))) <= 50
 
 
 TEXT = st.lists(st.text("ABC .1", max_size=40).map(str.rstrip), max_size=6)
@@ -77,15 +80,6 @@ def told(found: list[str]) -> tuple[str, ...]:
         for k in shown:
             texts[k] += line[16:]
     return tuple(text.replace(" ", "") for text in texts)
-
-
-def test_marks_are_below_their_characters_if_the_other_line_is_longer() -> None:
-    """Both lines are marked up to the end of the longer one."""
-    for one, other in (([], ["1" * 18]), (["1" * 18], []), (["12"], ["1" * 18])):
-        *_, line, marks = side_by_side(one, other, 60)
-        at = line.index("|") + 2
-        assert marks[at:] == ("^" * 18 if "12" not in one else " " + "^" * 17)
-        assert max(map(len, side_by_side(one, other, 50))) <= 50
 
 
 @given(TEXT, TEXT, st.integers(50, 140), st.booleans())

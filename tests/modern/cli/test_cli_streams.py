@@ -55,22 +55,16 @@ def test_an_existing_file_keeps_its_mode_and_a_link_is_followed(room: Path, caps
     assert "CONVEX HULL" in Path("cards").read_text(encoding="utf-8")
 
 
-def test_output_before_an_invalid_card_is_kept(room: Path, capsys) -> None:
+def test_output_before_an_invalid_card_is_kept_and_blank_cards_are_ignored(room: Path, capsys) -> None:
     Path("bad.deck").write_text("2.\nABC\n", encoding="utf-8")
     code, out, err = call(capsys, "run", "good.f", "bad.deck", "--trace", "log")
     assert (code, out) == (2, " .20000000E+01\n")
     assert err.count("\n") == 1
     assert "READ 2,X" in Path("log").read_text(encoding="utf-8")
-
-
-def test_blank_cards_after_the_deck_are_ignored(room: Path, capsys) -> None:
     Path("b.deck").write_text(DECK + "\n\n", encoding="utf-8")
     code, _, err = call(capsys, "hull", "b.deck")
     assert code == 0
     assert "warning: b.deck: card 6, column 1: the programs do not read the blank cards" in err
-
-
-def test_errors_of_the_arithmetic_are_always_noted(room: Path, capsys) -> None:
     cards = "9.E+98        1.E+98        0.\n-9.E+98       2.E+98        0.            JUNK\n"
     Path("big.deck").write_text(" 2\n" + cards, encoding="utf-8")
     code, _, err = call(capsys, "hull", "big.deck")

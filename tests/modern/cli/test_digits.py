@@ -95,11 +95,18 @@ def deck_of(name: str, *lines: str) -> str:
     return name
 
 
-def test_statement_that_rounds_within_the_last_digit_is_listed(program: Path, capsys) -> None:
-    """The runs store .96666666 and .96666667; the estimate is limited to eight digits."""
+def test_listed_digits_follow_the_runs_of_the_arithmetic(program: Path, capsys) -> None:
+    # The runs store .96666666 and .96666667; the estimate is limited to eight digits.
     name = deck_of("one.f", "A=2.9/3.", "TYPE 1,A", "    1 FORMAT(E14.8)", "STOP")
     main(["digits", name])
     assert "A=2.9/3." in capsys.readouterr().out
+    main(["digits", "my.f", "my.deck", "--arithmetic", "stochastic:8:1-3"])
+    assert "3 stochastic runs in step (stochastic:8:1-3)" in " ".join(capsys.readouterr().out.split())
+    assert main(["listing", "my.f", "my.deck", "--digits"]) == 0
+    listing = capsys.readouterr().out
+    assert next(line for line in listing.splitlines() if "X=(-B-R)" in line).split()[3:5] == ["5.6", "2.6"]
+    assert main(["run", "my.f", "my.deck", "--arithmetic", "stochastic:8:1-10", "--trace", "out.txt"]) == 0
+    assert "X = 0.0001 (2.6 digits)" in Path("out.txt").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("arithmetic", ["truncating", "exact", "float64", "interval:8"])
@@ -109,11 +116,6 @@ def test_no_estimate_exceeds_the_printed_digits(program: Path, capsys, arithmeti
     (row,) = (line.split() for line in capsys.readouterr().out.splitlines() if " .33333 " in line)
     assert row[2:5] == ["5.0", "5.0", "5.0"]
     assert row[5:] == ["believe", "5", "digits"]
-
-
-def test_runs_that_the_arithmetic_names_are_counted(program: Path, capsys) -> None:
-    main(["digits", "my.f", "my.deck", "--arithmetic", "stochastic:8:1-3"])
-    assert "3 stochastic runs in step (stochastic:8:1-3)" in " ".join(capsys.readouterr().out.split())
 
 
 def test_narrow_report_wraps_statements_and_verdicts(program: Path, capsys, monkeypatch) -> None:
@@ -141,11 +143,3 @@ def test_listing_with_digits_requires_a_deck_for_a_program_with_input(program: P
     Path("input.f").write_text(f"      {verb} 1,A\n    1 FORMAT(F10.4)\n      END\n", encoding="utf-8")
     assert main(["listing", "input.f", "--digits"]) == 2
     assert "the program has READ or ACCEPT statements; name a data deck" in capsys.readouterr().err
-
-
-def test_listing_and_trace_show_the_digits(program: Path, capsys) -> None:
-    assert main(["listing", "my.f", "my.deck", "--digits"]) == 0
-    listing = capsys.readouterr().out
-    assert next(line for line in listing.splitlines() if "X=(-B-R)" in line).split()[3:5] == ["5.6", "2.6"]
-    assert main(["run", "my.f", "my.deck", "--arithmetic", "stochastic:8:1-10", "--trace", "out.txt"]) == 0
-    assert "X = 0.0001 (2.6 digits)" in Path("out.txt").read_text(encoding="utf-8")

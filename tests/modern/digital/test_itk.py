@@ -91,12 +91,17 @@ def test_nifti_orientation_is_converted_to_lps() -> None:
         assert turned.steps == ((Fraction(1, 2), 0, 0), (0, Fraction(1, 4), 0), (0, 0, 2))
 
 
-def test_missing_nifti_orientation_is_noted() -> None:
+def test_nifti_orientation_spacing_and_scale_are_noted() -> None:
     Path("a.nii").write_bytes(nifti(VALUES, (0.5, 0.25, 2), (0, 0, 0), "none", units=0))
     scan = read_scan("a.nii")
     assert scan.notes == ("a.nii: the file states no orientation (qform and sform are 0)",)
     assert scan.world is not None
     assert scan.world.unit == ""
+    scan = oriented(0, 1, (1, 0, 0, 10, 0, 2, 0, 20, 0, 0, 3, 30))
+    assert scan.notes == ("a.nii: the sform has the spacing 1 2 3 mm, but pixdim has 0.5 0.25 2 mm, which is used",)
+    scan = oriented(1, 0, (0,) * 12, 0.5)
+    assert np.array_equal(scan.values, VALUES / 2)
+    assert scan.notes == ("a.nii: the values are scaled: 0.5 times the stored value plus 0 (scl_slope, scl_inter)",)
 
 
 @pytest.mark.parametrize("name", ["a.nii", "a.mha"])
@@ -125,12 +130,16 @@ def test_a_tiff_file_has_no_position() -> None:
     assert np.array_equal(picture.values, VALUES[:, :, 0])
 
 
-def test_all_types_of_numbers_are_read() -> None:
+def test_formats_follow_from_names_and_all_types_are_read() -> None:
     for kind in ("u1", "i1", "u2", "i4", "u4", "f4", "f8"):
         array = VALUES.astype(kind)
         values = read_scan(written("a.mha", values=array)).values
         assert values.dtype == array.dtype
         assert np.array_equal(values, array)
+    scan = read_scan(series("ct", (0.0, 1.5, 3.0, 7.5)))
+    assert scan.notes == ("ct: slices are 1.5 to 4.5 mm apart and are treated as evenly spaced",)
+    assert {kind_of(f"a{ending}") for ending in KINDS} == {"NIfTI", "MetaImage", "TIFF", "DICOM"}
+    assert (kind_of("-"), kind_of("a.nrrd"), kind_of("nii"), kind_of("a\0.nii")) == (None, None, None, None)
 
 
 def test_a_dicom_series_is_read_in_the_order_of_its_slices() -> None:
@@ -141,11 +150,6 @@ def test_a_dicom_series_is_read_in_the_order_of_its_slices() -> None:
     assert (scan.world.origin, scan.world.space, scan.world.unit) == ((-10, 20, 0), LPS, "mm")
     assert scan.notes == ()
     assert read_scan("ct/1.2.3-0.dcm").values.shape[:2] == (2, 3)
-
-
-def test_uneven_slices_are_noted() -> None:
-    scan = read_scan(series("ct", (0.0, 1.5, 3.0, 7.5)))
-    assert scan.notes == ("ct: slices are 1.5 to 4.5 mm apart and are treated as evenly spaced",)
 
 
 def test_one_of_several_series_can_be_selected() -> None:
@@ -270,11 +274,6 @@ def test_nrrd_agrees_with_the_library(direction: Any) -> None:
         assert ours.TransformIndexToPhysicalPoint(voxel) == pytest.approx(place, abs=1e-12)
 
 
-def test_format_follows_from_the_file_name_extension() -> None:
-    assert {kind_of(f"a{ending}") for ending in KINDS} == {"NIfTI", "MetaImage", "TIFF", "DICOM"}
-    assert (kind_of("-"), kind_of("a.nrrd"), kind_of("nii"), kind_of("a\0.nii")) == (None, None, None, None)
-
-
 def test_voxels_of_a_file_read_by_the_library_can_be_selected() -> None:
     written("a.nii.gz")
     volume = read_volume("a.nii.gz", labels=[3])
@@ -325,14 +324,3 @@ def test_nifti_forms_that_differ_are_noted() -> None:
     assert oriented(1, 1, (0.5, 0, 0, 10.001, 0, 0.25, 0, 20, 0, 0, 2, 30)).notes == ()
     assert oriented(0, 1, moved).notes == ()
     assert oriented(2, 0, moved).notes == ()
-
-
-def test_spacing_of_a_nifti_sform_that_differs_is_noted() -> None:
-    scan = oriented(0, 1, (1, 0, 0, 10, 0, 2, 0, 20, 0, 0, 3, 30))
-    assert scan.notes == ("a.nii: the sform has the spacing 1 2 3 mm, but pixdim has 0.5 0.25 2 mm, which is used",)
-
-
-def test_scaled_nifti_values_are_noted() -> None:
-    scan = oriented(1, 0, (0,) * 12, 0.5)
-    assert np.array_equal(scan.values, VALUES / 2)
-    assert scan.notes == ("a.nii: the values are scaled: 0.5 times the stored value plus 0 (scl_slope, scl_inter)",)

@@ -40,11 +40,18 @@ def test_decimals_are_read_exactly() -> None:
     assert (world.space, world.unit) == (LPS, "mm")
 
 
-def test_spacings_are_steps_along_the_axes_from_zero() -> None:
+def test_positions_are_read_restored_and_never_rounded() -> None:
     world = world_in("spacings: 0.5 0.25 2", 'units: "mm" "mm" "mm"')
     assert world == World(((Fraction(1, 2), 0, 0), (0, Fraction(1, 4), 0), (0, 0, 2)), (0, 0, 0), "", "mm")
     unknown = world_in("spacings: nan nan nan", "space directions: (1,0,0) (0,1,0) (0,0,1)")
     assert unknown.steps[0] == (1, 0, 0)
+    picture = Volume(np.ones((2, 3), np.bool_), (0, 0), world=world_of(2, directions=[(0, 1, 1), (2, 0, 0)]))
+    write_nrrd("a.nrrd", picture.array, picture)
+    assert read_volume("a.nrrd").world == picture.world
+    volume = Volume(STEPS > 0, (0, 0, 0), world=world_of(3, spacing=(Fraction(1, 3), 1, 1)))
+    with pytest.raises(VolumeError, match=r"b\.nrrd: 1/3 has no finite decimal"):
+        write_nrrd("b.nrrd", volume.array, volume)
+    assert not Path("b.nrrd").exists()
 
 
 @pytest.mark.parametrize(
@@ -152,19 +159,6 @@ def test_coordinates_of_a_list_are_stored_as_an_origin() -> None:
     whole = listed([(0, 0, 0), (0, 0, 1)])
     write_array("b.nrrd", whole.array, whole)
     assert read_volume("b.nrrd").world is None
-
-
-def test_a_picture_in_space_is_restored() -> None:
-    picture = Volume(np.ones((2, 3), np.bool_), (0, 0), world=world_of(2, directions=[(0, 1, 1), (2, 0, 0)]))
-    write_nrrd("a.nrrd", picture.array, picture)
-    assert read_volume("a.nrrd").world == picture.world
-
-
-def test_positions_without_finite_decimals_are_not_written() -> None:
-    volume = Volume(STEPS > 0, (0, 0, 0), world=world_of(3, spacing=(Fraction(1, 3), 1, 1)))
-    with pytest.raises(VolumeError, match=r"a\.nrrd: 1/3 has no finite decimal"):
-        write_nrrd("a.nrrd", volume.array, volume)
-    assert not Path("a.nrrd").exists()
 
 
 def test_written_bytes_are_reproducible() -> None:

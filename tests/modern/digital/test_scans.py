@@ -84,12 +84,18 @@ def test_labels_are_the_integer_values_except_zero(array: np.ndarray) -> None:
             assert volume.array.any(axis=other_axes)[[0, -1]].all()
 
 
-def test_several_labels_are_selected_together() -> None:
+def test_labels_are_selected_listed_and_reported_if_missing() -> None:
     array = np.array([[[0, 1, 2, 3, 3, 7]]], np.uint8)
     selection = chosen(scan(array), Choice(labels=(3, 1)))
     assert selection.volume.array.ravel().tolist() == [False, True, False, True, True, False]
     assert (selection.present, selection.lowest, selection.highest) == ((1, 2, 3, 7), 0, 7)
     assert chosen(scan(-array.astype(">f4")), Choice(labels=(-7,))).volume.count == 1
+    with pytest.raises(NoVoxels, match="there are no labels: no value is an integer other than 0"):
+        label_boxes(scan([[0.5, 0.0]]))
+    with pytest.raises(NoVoxels, match="no voxel has the label 9; the labels are 1, 2"):
+        label_boxes(scan([[1, 2]]), (1, 9))
+    assert listed_labels([1, 2]) == "1, 2"
+    assert listed_labels(range(1, 40)) == "1, 2, 3, 4, ... 39 (39 labels)"
 
 
 @pytest.mark.parametrize(
@@ -109,18 +115,6 @@ def test_invalid_selections_are_reported(array: Any, choice: Choice, message: st
     with pytest.raises(VolumeError) as caught:
         chosen(scan(array), choice)
     assert message in str(caught.value)
-
-
-def test_missing_labels_are_reported() -> None:
-    with pytest.raises(NoVoxels, match="there are no labels: no value is an integer other than 0"):
-        label_boxes(scan([[0.5, 0.0]]))
-    with pytest.raises(NoVoxels, match="no voxel has the label 9; the labels are 1, 2"):
-        label_boxes(scan([[1, 2]]), (1, 9))
-
-
-def test_many_labels_are_listed_briefly() -> None:
-    assert listed_labels([1, 2]) == "1, 2"
-    assert listed_labels(range(1, 40)) == "1, 2, 3, 4, ... 39 (39 labels)"
 
 
 def test_read_volume_selects_by_threshold_and_by_label(tmp_path: Any) -> None:

@@ -65,12 +65,17 @@ def test_a_ball_has_the_voxels_within_half_a_diameter_of_its_centre(diameter: in
         assert voxels(half_ball(diameter)) == {voxel for voxel in brute_ball(diameter, 1) if voxel[2] >= 1}
 
 
-def test_coordinates_are_in_raster_order_and_count_from_the_origin() -> None:
+def test_coordinates_keep_their_order_origin_and_repetitions() -> None:
     volume = parse_volume(b"x,y,z\n7,-2,5\n6,-2,5\n6,-1,4\n6,-2,4\n", "list")
     assert volume.origin == (6, -2, 4)
     assert volume.array.shape == (2, 2, 2)
     assert volume.coordinates().tolist() == [[6, -2, 4], [6, -1, 4], [6, -2, 5], [7, -2, 5]]
     assert volume.notes == ()
+    volume = listed(np.array([[-100, 3, 2], [100, 4, 2], [-100, 3, 2]], dtype=np.int8), "list")
+    assert (volume.count, volume.origin, volume.array.shape) == (2, (-100, 3, 2), (201, 2, 1))
+    assert volume.coordinates().tolist() == [[-100, 3, 2], [100, 4, 2]]
+    assert volume.notes == ("list: 1 of 3 voxels are repetitions",)
+    assert listed([(5, 6)]).dimension == 2
 
 
 @pytest.mark.parametrize("kind", [np.bool_, np.uint8, np.int8, np.int64, np.float32, ">i2"])
@@ -141,12 +146,16 @@ def test_raw_data_are_read_with_x_fastest(nx: int, ny: int, nz: int, data: st.Da
                 assert volume.array[x, y, z] == (values[x + nx * (y + ny * z)] != 0)
 
 
-def test_balls_are_read_by_name() -> None:
+def test_balls_are_read_by_name_and_accept_no_shape() -> None:
     assert read_volume("ball:32").count == 17077
     assert read_volume("ball:6").origin == (-3, -3, -3)
     assert voxels(read_volume("ball:6:vertex")) == voxels(ball(6, "vertex"))
     assert voxels(read_volume("half-ball:6")) == voxels(half_ball(6, "vertex"))
     assert voxels(read_volume("half-ball:6:voxel")) == voxels(half_ball(6, "voxel"))
+    with pytest.raises(VolumeError, match="--shape and --dtype are for raw data"):
+        read_volume("ball:8", (2, 2, 2))
+    with pytest.raises(VolumeError, match="expected the centre voxel or vertex"):
+        ball(8, "edge")
 
 
 def test_a_written_array_is_restored(tmp_path: Path) -> None:
@@ -253,14 +262,6 @@ def test_volumes_are_read_from_standard_input(monkeypatch) -> None:
         read_volume("-")
 
 
-def test_listed_keeps_coordinates_and_notes_repetitions() -> None:
-    volume = listed(np.array([[-100, 3, 2], [100, 4, 2], [-100, 3, 2]], dtype=np.int8), "list")
-    assert (volume.count, volume.origin, volume.array.shape) == (2, (-100, 3, 2), (201, 2, 1))
-    assert volume.coordinates().tolist() == [[-100, 3, 2], [100, 4, 2]]
-    assert volume.notes == ("list: 1 of 3 voxels are repetitions",)
-    assert listed([(5, 6)]).dimension == 2
-
-
 @pytest.mark.parametrize(
     ("coordinates", "message"),
     [
@@ -280,13 +281,6 @@ def test_invalid_lists_of_coordinates_are_reported(coordinates: Any, message: st
     assert message in str(caught.value)
 
 
-def test_balls_accept_no_shape_and_no_other_centre() -> None:
-    with pytest.raises(VolumeError, match="--shape and --dtype are for raw data"):
-        read_volume("ball:8", (2, 2, 2))
-    with pytest.raises(VolumeError, match="expected the centre voxel or vertex"):
-        ball(8, "edge")
-
-
 HEADERS = [
     b"{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2, (2",
     b"{'descr': ('<f8',), 'fortran_order': False, 'shape': (2, 2, 2)}",
@@ -304,13 +298,10 @@ def test_damaged_npy_headers_are_reported_in_one_line(tmp_path: Path, header: by
         read_volume(str(path))
 
 
-def test_negative_spacing_is_rejected() -> None:
+def test_spacings_are_positive_and_negative_ones_of_a_file_are_noted() -> None:
     for spacing in ((-1, 1, 1), (1, 1, Fraction(-1, 2)), ("1", "-2", "1")):
         with pytest.raises(VolumeError, match="ball:8:voxel: spacing: expected positive numbers, found -"):
             read_volume("ball:8", spacing=spacing)
-
-
-def test_negative_spacings_of_an_nrrd_file_are_noted() -> None:
     volume = parse_volume(nrrd(STEPS.astype("u1"), "uchar", "spacings: -1 1 1"), "a.nrrd")
     assert volume.notes == ("a.nrrd: line 8: spacings: a negative number reverses its axis",)
 

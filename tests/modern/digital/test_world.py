@@ -122,14 +122,11 @@ def test_positions_are_converted_between_anatomical_spaces() -> None:
         World(world.steps, world.origin).turned(RAS)
 
 
-def test_oblique_axes_are_named_by_their_main_direction() -> None:
+def test_axes_and_steps_of_oblique_volumes_are_named() -> None:
     steps = ((ONE / 2, 4 * ONE, ONE), (-3 * ONE, ONE, NONE), (NONE, ONE, -2 * ONE))
     world = World(steps, (NONE,) * 3, RAS)
     assert world.bearings() == (("anterior", False), ("left", False), ("inferior", False))
     assert World(steps, (NONE,) * 3, "scanner-xyz").bearings() == ()
-
-
-def test_step_lengths_are_exact_along_an_axis_and_have_six_digits_otherwise() -> None:
     world = world_of(3, directions=[(0, "-0.1234567891", 0), (3, 0, 4), (0, 1, 1)])
     assert world is not None
     assert world.spacings() == (("0.1234567891", True), ("5", False), ("1.41421", False))
@@ -167,10 +164,14 @@ def test_invalid_positions_are_reported(place: dict[str, Any], message: str) -> 
     assert message in str(caught.value)
 
 
-def test_pixels_of_a_picture_in_space_have_no_exact_area() -> None:
+def test_volumes_need_a_step_for_every_axis_and_pictures_in_space_have_no_area() -> None:
     world = world_of(2, directions=[(1, 0, 1), (0, 1, 0)])
     with pytest.raises(VolumeError, match="2 axes in a space of 3"):
         voxel_volume(world)
+    with pytest.raises(VolumeError, match="expected 3 steps of the position, found 2"):
+        Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0), world=world_of(2, (1, 1)))
+    with pytest.raises(VolumeError, match="a Volume has its own position"):
+        hull_of_voxels(Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0)), spacing=(1, 1, 1))
 
 
 @pytest.mark.parametrize("text", ["1e401", "9" * 101, "", "x", "1/2", "0x10"])
@@ -178,10 +179,3 @@ def test_numbers_of_headers_are_decimals_of_limited_size(text: str) -> None:
     with pytest.raises(ValueError, match=r"\S"):
         length_text(text)
     assert length_text("-1.5e-2") == Fraction(-3, 200)
-
-
-def test_a_volume_needs_a_step_for_every_axis() -> None:
-    with pytest.raises(VolumeError, match="expected 3 steps of the position, found 2"):
-        Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0), world=world_of(2, (1, 1)))
-    with pytest.raises(VolumeError, match="a Volume has its own position"):
-        hull_of_voxels(Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0)), spacing=(1, 1, 1))

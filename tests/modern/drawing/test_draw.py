@@ -214,16 +214,13 @@ def test_a_boundary_point_moved_off_its_face_by_rounding_is_drawn_on_that_face()
         assert len(Picture(draw_svg(drawn, (24, 55, 29))).titles("boundary")) == 1
 
 
-def test_vertices_within_two_pixels_share_a_number() -> None:
+def test_vertices_and_edges_that_coincide_share_a_number() -> None:
     # 300 units take 552 pixels, so the three points at one end lie within two pixels.
     hull, picture = draw([(0, 0, 0), (300, 0, 0), (0, 1, 0), (0, 0, 1)], (1, -9, 2))
     assert len(set(picture.vertices().values())) == 4
     alone = str(hull.vertices.index(1) + 1)
     together = ",".join(str(k) for k, index in enumerate(hull.vertices, 1) if index != 1)
     assert set(picture.numbers()) == {alone, together}
-
-
-def test_edges_along_the_line_of_sight_share_a_number() -> None:
     hull, picture = draw(CUBE, (1, 0, 0))
     place = {index: str(k) for k, index in enumerate(hull.vertices, 1)}
     together = {frozenset((place[k], place[k + 4])) for k in range(4)}
@@ -248,10 +245,18 @@ def test_a_polygon_is_drawn_perpendicular_to_the_view() -> None:
         draw(SQUARE, (1, 1, 0))
 
 
-def test_a_triangle_is_drawn_with_and_without_faces() -> None:
+def test_triangles_points_and_slivers_are_drawn() -> None:
     hull, picture = draw([(2, -5, 20), (200, -4, -50), (-30, 80, 4)])
     assert set(picture.edges("seen")) == {(0, 1), (0, 2), (1, 2)}
     assert draw_svg(replace(hull, faces=())) == draw_svg(hull)
+    _, picture = draw([(1, 2, 3), (1, 2, 3)])
+    assert picture.titles("vertices") == ["vertex 1: point 1 (1, 2, 3)"]
+    assert list(picture.numbers()) == ["1"]
+    assert picture.legend() == ["Point"]
+    sliver = [("0", "0", "0"), ("1", "0", "0"), ("0.3", "1", "0"), ("0.4", "0.3", "1E-40")]
+    from_above, from_below = draw(sliver, (1, -2, 5))[1], draw(sliver, (1, -2, -5))[1]
+    assert (len(from_above.edges("seen")), len(from_above.edges("hidden"))) == (6, 0)
+    assert (len(from_below.edges("seen")), len(from_below.edges("hidden"))) == (3, 3)
 
 
 @pytest.mark.parametrize("end", [(3, 4, 12), (0, 0, 7), (0, -2, 0), (5, 0, 0)])
@@ -269,13 +274,6 @@ def test_a_segment_is_drawn_at_its_full_length(end: Whole) -> None:
         draw([(0, 0, 0), end], [-2 * c for c in end])
 
 
-def test_a_point_is_drawn_as_one_numbered_vertex() -> None:
-    _, picture = draw([(1, 2, 3), (1, 2, 3)])
-    assert picture.titles("vertices") == ["vertex 1: point 1 (1, 2, 3)"]
-    assert list(picture.numbers()) == ["1"]
-    assert picture.legend() == ["Point"]
-
-
 @pytest.mark.parametrize("unit", ["E90", "E-90", "E900", "E-2000"])
 def test_scaling_and_translation_do_not_change_the_picture(unit: str) -> None:
     picture = draw(EXAMPLE_6)[1]
@@ -284,13 +282,6 @@ def test_scaling_and_translation_do_not_change_the_picture(unit: str) -> None:
         assert scaled.edges(key) == picture.edges(key)
     if unit == "E90":
         assert draw([[str(c + 10**40) for c in p] for p in EXAMPLE_6])[1].edges("seen") == picture.edges("seen")
-
-
-def test_edges_of_a_sliver_are_hidden_as_those_of_a_solid() -> None:
-    sliver = [("0", "0", "0"), ("1", "0", "0"), ("0.3", "1", "0"), ("0.4", "0.3", "1E-40")]
-    from_above, from_below = draw(sliver, (1, -2, 5))[1], draw(sliver, (1, -2, -5))[1]
-    assert (len(from_above.edges("seen")), len(from_above.edges("hidden"))) == (6, 0)
-    assert (len(from_below.edges("seen")), len(from_below.edges("hidden"))) == (3, 3)
 
 
 def test_invalid_directions_widths_and_hulls_are_refused() -> None:

@@ -82,12 +82,18 @@ def test_vertices_beyond_the_limit_are_not_numbered(monkeypatch) -> None:
 # --- the file
 
 
-def test_text_is_escaped_and_ascii() -> None:
+def test_text_is_escaped_and_numbers_are_short() -> None:
     text = draw_svg(convex_hull(CUBE), title='<a> & "b" \x00 \ud800 é 立')
     assert text.isascii()
     root = ElementTree.fromstring(text)
     assert root[0].text == '<a> & "b" ? ? é 立'
     assert escape("a<b>&c") == "a&lt;b&gt;&amp;c"
+    assert [number(n) for n in (1250, 100, -5, 0, -100, 7)] == ["12.5", "1", "-0.05", "0", "-1", "0.07"]
+    assert eye_of(["1", "-2.5", " 1e-3"]) == (1, Fraction(-5, 2), Fraction(1, 1000))
+    with pytest.raises(ExportError, match="expected 3 numbers X,Y,Z, found 2"):
+        eye_of(["1", "2"])
+    with pytest.raises(ExportError, match="'x' is not a number"):
+        eye_of(["1", "2", "x"])
 
 
 def test_all_elements_are_within_the_size_of_the_file() -> None:
@@ -100,15 +106,3 @@ def test_all_elements_are_within_the_size_of_the_file() -> None:
             for item in root.iter():
                 for names, limit in ((("x", "x1", "x2", "cx"), wide), (("y", "y1", "y2", "cy"), tall)):
                     assert all(0 <= float(item.attrib[name]) <= limit for name in names if name in item.attrib)
-
-
-def test_hundredths_are_written_without_superfluous_zeros() -> None:
-    assert [number(n) for n in (1250, 100, -5, 0, -100, 7)] == ["12.5", "1", "-0.05", "0", "-1", "0.07"]
-
-
-def test_directions_are_read_or_refused() -> None:
-    assert eye_of(["1", "-2.5", " 1e-3"]) == (1, Fraction(-5, 2), Fraction(1, 1000))
-    with pytest.raises(ExportError, match="expected 3 numbers X,Y,Z, found 2"):
-        eye_of(["1", "2"])
-    with pytest.raises(ExportError, match="'x' is not a number"):
-        eye_of(["1", "2", "x"])

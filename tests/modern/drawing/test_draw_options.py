@@ -122,12 +122,15 @@ def test_differences_of_points_are_drawn_and_explained() -> None:
     assert "not drawn: 3" in text
 
 
-def test_cards_of_other_points_are_refused() -> None:
+def test_unrelated_cards_and_segments_without_stages_are_refused() -> None:
     hull = convex_hull(BOX)
     with pytest.raises(UnrelatedCards, match=r"x.punch: these cards have no vertices"):
         card_differences(read_hull(["", "N=  3"]), hull, "x.punch")
     with pytest.raises(UnrelatedCards, match=r"x.punch: \d of the points on these cards are not among the points"):
         card_differences(read_hull(punched(SOLID)), hull, "x.punch")
+    assert len(frames(staged([(0, 0, 0), (5, 0, 0), (6, 4, 0), (2, 7, 0), (-3, 4, 0), (2, 2, 0)]))) > 1
+    with pytest.raises(ExportError, match="no stages"):
+        frames(staged([(0, 0, 0), (1, 1, 1), (2, 2, 2)]))
 
 
 # --- the construction
@@ -162,12 +165,6 @@ def test_strip_and_animation_contain_all_stages() -> None:
     delays = [float(re.findall(r"([\d.]+)s", g.get("style", ""))[0]) for g in stages]
     assert delays == sorted(set(delays))
     assert "prefers-reduced-motion" in moving
-
-
-def test_polygons_have_stages_and_segments_have_none() -> None:
-    assert len(frames(staged([(0, 0, 0), (5, 0, 0), (6, 4, 0), (2, 7, 0), (-3, 4, 0), (2, 2, 0)]))) > 1
-    with pytest.raises(ExportError, match="no stages"):
-        frames(staged([(0, 0, 0), (1, 1, 1), (2, 2, 2)]))
 
 
 # --- the command

@@ -102,13 +102,10 @@ def test_holes_and_characters_reproduce_the_deck(lines: list[str]) -> None:
             assert text.get("{http://www.w3.org/XML/1998/namespace}space") == "preserve"
 
 
-def test_error_names_card_and_column_of_a_character_without_a_punch() -> None:
+def test_characters_without_a_punch_and_more_than_a_box_are_refused() -> None:
     deck = deck_from_lines("deck.f", ["A=1", "C  what? #1"])
     with pytest.raises(CardError, match=r"^deck\.f: card 2, column 4: 'w' is not in the card code"):
         cards_svg(deck)
-
-
-def test_more_cards_than_a_box_are_refused() -> None:
     with pytest.raises(DeckError, match=f"expected at most {MOST_CARDS} cards for one picture, found {MOST_CARDS + 1}"):
         cards_svg(deck_from_lines("deck", ["1"] * (MOST_CARDS + 1)))
 
@@ -121,22 +118,16 @@ def deck(tmp_path: Path, monkeypatch) -> Path:
     return path
 
 
-def test_command_writes_one_picture(deck: Path) -> None:
+def test_command_writes_one_picture_or_one_for_each_card(deck: Path, capsys) -> None:
     assert main(["punched", "my.deck", "-o", "cards.svg", "--across", "2"]) == 0
     drawn = cards(Path("cards.svg").read_text(encoding="ascii"))
     assert [read(card) for card in drawn] == ["  3", " 1.5", "", "END"]
-
-
-def test_command_writes_a_picture_for_each_card(deck: Path) -> None:
     assert main(["punched", "my.deck", "-o", "card-%02d.svg"]) == 0
-    names = sorted(path.name for path in Path().glob("*.svg"))
+    names = sorted(path.name for path in Path().glob("card-*.svg"))
     assert names == ["card-01.svg", "card-02.svg", "card-03.svg", "card-04.svg"]
     text = Path("card-04.svg").read_text(encoding="ascii")
     assert [read(card) for card in cards(text)] == ["END"]
     assert "<title>my.deck: card 4</title>" in text
-
-
-def test_command_accepts_a_built_in_program(deck: Path, capsys) -> None:
     assert main(["punched", "program2"]) == 0
     drawn = cards(capsys.readouterr().out)
     assert [read(card) for card in drawn] == [card.text for card in programs.deck("program2").cards]

@@ -33,10 +33,17 @@ def test_row_is_needed(row: Row) -> None:
     assert proof.holds, proof.message
 
 
-def test_splitting_the_fused_page_changes_only_spacing() -> None:
+def test_decks_and_optional_layers_hold() -> None:
     row = next(row for row in ROWS if row.text == "program1" and row.kind == "fused")
     (change,) = row.changes
     assert "".join(change.witness.split()) == "".join(change.lemma.split())
+    proofs = list(check_decks())
+    assert [proof.subject for proof in proofs] == [f"{name}.f" for name in programs.NAMES]
+    assert all(proof.holds for proof in proofs)
+    for proof in proofs:
+        cards = len(programs.committed(proof.subject.removesuffix(".f")).cards)
+        assert proof.message.startswith(f"{cards} cards equal witness and ")
+    assert [proof.message for proof in grounds.check_layers() if not proof.holds] == []
 
 
 # Each kind of ground fails if it is false.
@@ -109,9 +116,13 @@ def test_a_false_ground_fails(row_id: str, ground: dict[str, object], message: s
     assert proof.message.startswith(message)
 
 
-def test_names_are_exchanged_in_pairs() -> None:
+def test_names_cards_and_layers_without_a_row_are_rejected_or_found() -> None:
     with pytest.raises(ValueError, match="shorter"):
         check_row(superfluous(FORCED | {"rename": ["O3", "O1", "X"]}, "P1-018"))
+    deck = deck_from_lines("d.f", ["5 A=1.", "C  COMMENT", "B=2.", "6 END"])
+    assert [grounds._card(deck, place) for place in ("5", "5+1", "6")] == ["A=1.", "B=2.", "END"]
+    with pytest.raises(DeckError, match=r"^program2 has no layer 'examples'; its layers are "):
+        programs.deck("program2", ("examples",))
 
 
 TRUE_GROUNDS = [
@@ -149,20 +160,6 @@ def test_outcomes_are_equal_if_cards_and_ending_are() -> None:
     assert not refused.same_as(replace(refused, ending=DeckError("y")))
 
 
-def test_a_card_is_named_by_its_number_or_its_distance_from_the_last_one() -> None:
-    deck = deck_from_lines("d.f", ["5 A=1.", "C  COMMENT", "B=2.", "6 END"])
-    assert [grounds._card(deck, place) for place in ("5", "5+1", "6")] == ["A=1.", "B=2.", "END"]
-
-
-def test_check_of_decks_covers_all_four() -> None:
-    proofs = list(check_decks())
-    assert [proof.subject for proof in proofs] == [f"{name}.f" for name in programs.NAMES]
-    assert all(proof.holds for proof in proofs)
-    for proof in proofs:
-        cards = len(programs.committed(proof.subject.removesuffix(".f")).cards)
-        assert proof.message.startswith(f"{cards} cards equal witness and ")
-
-
 @pytest.mark.parametrize(
     ("line", "message"),
     [
@@ -181,10 +178,6 @@ def test_a_deck_that_differs_from_its_build_fails(line: str, message: str, monke
     assert message in proof.message
     assert proof.message.endswith(", and do NOT compile") == (line == "GO TO")
     assert all(other_proof.holds for other_proof in others[:2])
-
-
-def test_every_optional_layer_holds() -> None:
-    assert [proof.message for proof in grounds.check_layers() if not proof.holds] == []
 
 
 @pytest.mark.parametrize(
@@ -206,11 +199,6 @@ def test_altered_row_of_an_optional_layer_is_noticed(program, layer, lemma, alte
     assert lemma in deck(program, (layer,)).text()
     monkeypatch.setattr(programs, "deck", changed)
     assert [proof.subject for proof in grounds.check_layers() if not proof.holds] == [f"layer {layer}"]
-
-
-def test_a_layer_without_rows_is_rejected() -> None:
-    with pytest.raises(DeckError, match=r"^program2 has no layer 'examples'; its layers are "):
-        programs.deck("program2", ("examples",))
 
 
 # The mechanism on a text of three lines.

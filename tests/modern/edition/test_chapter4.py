@@ -35,14 +35,11 @@ def test_a_moved_point_fails_a_claim(theorem: str, point: str) -> None:
     assert any(not seen.holds for seen in worked_example_checks(moved(BY_ID[theorem], point)).values())
 
 
-def test_an_equation_that_is_no_face_fails_the_table_of_4_8() -> None:
+def test_false_equations_fail_and_the_lost_point_has_candidates() -> None:
     theorem = BY_ID["4.8"]
     changed = replace(theorem.planes[0], coefficients=(*theorem.planes[0].coefficients[:3], Fraction(1)))
     found = worked_example_checks(replace(theorem, planes=(changed, *theorem.planes[1:])))
     assert not found["supporting"].holds
-
-
-def test_the_lost_point_of_4_1_has_candidates_in_the_plane() -> None:
     theorem = BY_ID["4.1"]
     candidates = lost_candidates(theorem)
     assert candidates

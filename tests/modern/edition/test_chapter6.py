@@ -30,17 +30,17 @@ def test_printed(reports: dict[tuple[int, str, int, str], Report], example: int,
     assert report.verdict.kind == EXACT
 
 
-def test_every_printed_device_is_judged(reports: dict[tuple[int, str, int, str], Report]) -> None:
+def test_printed_devices_are_judged_and_their_cards_counted(reports: dict[tuple[int, str, int, str], Report]) -> None:
     judged = {(e, p, d) for e, s, p, d in reports if s == "examples"}
     assert judged == {(p.example, p.program, p.device) for e in range(1, 7) for p in prints(e)}
     assert {(e, p) for e, p, d in judged if d == "punch"} == set(PRINTED)
-
-
-def test_typed_lines_as_chapter_5_states(reports: dict[tuple[int, str, int, str], Report]) -> None:
     for report in reports.values():
         if report.device == "typewriter":
             assert report.stated
             assert report.produced == report.printed
+    all_reproduced, exact, reordered, different = summary(reports.values())
+    assert all_reproduced
+    assert (exact, reordered, different) == (29, 7, 0)
 
 
 LISTED = {(2, 1): EXACT, (3, 1): EXACT}
@@ -52,12 +52,6 @@ def test_through_the_listing(reports: dict[tuple[int, str, int, str], Report], e
     verdict = reports[example, "listing", program, "punch"].verdict
     assert verdict.kind == LISTED.get((example, program), ORDER)
     assert (verdict.kind == ORDER) == bool(verdict.same)
-
-
-def test_summary_counts_cards(reports: dict[tuple[int, str, int, str], Report]) -> None:
-    all_reproduced, exact, reordered, different = summary(reports.values())
-    assert all_reproduced
-    assert (exact, reordered, different) == (29, 7, 0)
 
 
 # Every verdict can fail.

@@ -55,13 +55,21 @@ def test_the_witness_has_every_card_but_the_conjectures_and_shares_its_own_error
     assert verdicts_by_id(row, [replace(result, id="ours")]) == {"ours": ("supports a rival",)}
 
 
-def test_a_retyped_page_in_small_letters_confirms_its_cards() -> None:
+def test_retyped_pages_and_numbers_of_formats_confirm_their_cards() -> None:
     cards = [card.text for card in programs.committed("program3").cards[40:75]]
     result = collate("\n".join(cards).lower())
     assert [card.card for card in result.cards if card.lines] == [
         n for n, card in enumerate(edition_cards()) if card.program == "program3" and 41 <= card.number <= 75
     ]
     assert not any(r.verdict in ("contradicts", "supports a rival") for c in result.cards for r in c.readings)
+    formats = [card.text for card in programs.committed("program2").cards if re.match(r" +\d+ FORMAT", card.text)]
+    result = collate("\n".join(formats))
+    readings = [card.readings[0].verdict for card in result.cards if card.lines]
+    assert readings == ["confirms"] * len(formats)
+    cut = collate("\n".join(card[:24] for card in _page()))
+    ends = [card.readings[-1] for card in cut.cards if card.lines and not card.readings[-1].transcription]
+    assert ends
+    assert {reading.verdict for reading in ends} == {"unreadable"}
 
 
 def _page(first: int = 40, last: int = 75) -> list[str]:
@@ -94,20 +102,6 @@ def test_a_page_typed_by_hand_confirms_its_cards_only(typed, lines_without_card)
     assert {reading.verdict for n in expected for reading in result.cards[n].readings} == {"confirms"}
     used = {line for card in result.cards for line in card.lines}
     assert [number for number, _ in read_lines(text) if number not in used] == lines_without_card
-
-
-def test_numbers_of_formats_are_not_taken_for_line_numbers() -> None:
-    formats = [card.text for card in programs.committed("program2").cards if re.match(r" +\d+ FORMAT", card.text)]
-    result = collate("\n".join(formats))
-    readings = [card.readings[0].verdict for card in result.cards if card.lines]
-    assert readings == ["confirms"] * len(formats)
-
-
-def test_a_truncated_token_is_unreadable() -> None:
-    cut = collate("\n".join(card[:24] for card in _page()))
-    ends = [card.readings[-1] for card in cut.cards if card.lines and not card.readings[-1].transcription]
-    assert ends
-    assert {reading.verdict for reading in ends} == {"unreadable"}
 
 
 @pytest.mark.parametrize("text", ["", "\n \n", "  GO TO 104\n", "(a) The hull is convex.\n(b) (c)\nI = 1\nEND\n"])
@@ -144,24 +138,21 @@ def test_another_number_contradicts_and_a_rival_is_supported() -> None:
     assert verdicts == [("supports a rival", "105"), ("contradicts", "999"), ("contradicts", "10")]
 
 
-def test_tokens_cover_every_card() -> None:
+def test_collations_cover_every_card_and_are_saved() -> None:
     for n, card in enumerate(edition_cards()):
         assert "".join(card.solid[a:b] for a, b in spans(n)) == card.solid
+    assert align("It was a bright cold day in April, and the clocks were striking thirteen.\n") == {}
+    result = collate(witness("program2"), "ours.txt")
+    assert from_json(to_json(result), "x.json") == result
+    assert to_csv(result).count("\n") == 1 + sum(len(card.readings) for card in result.cards)
+    assert not any(entry.file for entry in sources.sources().transcriptions)
+    assert collation.registered() == ()
+    assert verdicts_by_id(programs.text("program2").row("P2-020")) == {}
 
 
 @pytest.mark.parametrize(("a", "b", "expected"), [("", "AB", 2), ("KITTEN", "SITTING", 3), ("GOTO100", "GOTO100", 0)])
 def test_edit_distance(a: str, b: str, expected: int) -> None:
     assert distance(a, b) == distance(b, a) == expected
-
-
-def test_a_text_without_cards_has_no_alignment() -> None:
-    assert align("It was a bright cold day in April, and the clocks were striking thirteen.\n") == {}
-
-
-def test_a_collation_is_saved_and_read() -> None:
-    result = collate(witness("program2"), "ours.txt")
-    assert from_json(to_json(result), "x.json") == result
-    assert to_csv(result).count("\n") == 1 + sum(len(card.readings) for card in result.cards)
 
 
 @pytest.mark.parametrize(
@@ -176,12 +167,6 @@ def test_a_file_that_is_no_collation_is_rejected(change: dict[str, object], mess
     data = json.loads(to_json(collate("\n".join(_page())))) | change
     with pytest.raises(ApparatusError, match="^" + message):
         from_json(json.dumps(data), "x.json")
-
-
-def test_without_a_registered_collation_rows_have_no_verdict() -> None:
-    assert not any(entry.file for entry in sources.sources().transcriptions)
-    assert collation.registered() == ()
-    assert verdicts_by_id(programs.text("program2").row("P2-020")) == {}
 
 
 def test_a_registered_collation_is_a_witness_in_apparatus_and_tei(monkeypatch) -> None:

@@ -61,21 +61,17 @@ def test_certainty_follows_from_layer_kind_and_ground(tmp_path: Path, fields: di
     assert read(tmp_path, **fields).row("T-001").certainty == certainty
 
 
-def test_a_page_is_that_of_the_witness_line(tmp_path: Path) -> None:
+def test_derived_fields_and_rejected_readings_are_read(tmp_path: Path) -> None:
     assert read(tmp_path).row("T-001").page == "64"
-
-
-def test_a_cause_is_one_of_five(tmp_path: Path) -> None:
     assert read(tmp_path).row("T-001").cause == "ocr"
     with pytest.raises(ApparatusError, match=r"expected one of ocr, typist, author, editor, undecidable$"):
         read(tmp_path, cause='"chance"')
-
-
-def test_rejected_readings_have_their_reasons(tmp_path: Path) -> None:
     (rejected,) = read(tmp_path, rdg='[{ reading = "I", reason = "r" }]').row("T-001").rejected
     assert (rejected.reading, rejected.reason) == ("I", "r")
     with pytest.raises(ApparatusError, match="a rejected reading needs a reading and a reason"):
         read(tmp_path, rdg='[{ reading = "I" }]')
+    with pytest.raises(ApparatusError, match=r"^t: row T-001 lacks reason, evidence$"):
+        read(tmp_path, reason=None, evidence=None)
 
 
 @pytest.mark.parametrize("name", FIELDS)
@@ -84,11 +80,6 @@ def test_a_row_without_one_of_its_fields_is_rejected(tmp_path: Path, name: str) 
     with pytest.raises(ApparatusError) as caught:
         read(tmp_path, **{name: None})
     assert str(caught.value) == f"t: row {row} lacks {name}"
-
-
-def test_all_missing_fields_are_named(tmp_path: Path) -> None:
-    with pytest.raises(ApparatusError, match=r"^t: row T-001 lacks reason, evidence$"):
-        read(tmp_path, reason=None, evidence=None)
 
 
 def test_several_processes_return_the_same_proofs_in_the_same_order(monkeypatch) -> None:

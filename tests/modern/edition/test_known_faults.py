@@ -91,9 +91,17 @@ def test_no_other_row_corrects_it(name: str, row: str) -> None:
                 assert answer(name, *rows).outcome != "right", wrong_row
 
 
-def test_every_correction_is_tested() -> None:
-    """P3-029 only keeps a message; the test of entry 4 covers it."""
+def test_every_entry_and_correction_has_a_test() -> None:
+    # P3-029 only keeps a message; the test of entry 4 covers it.
     assert sorted({row for *_, row in CORRECTED} | {"P3-029"}) == sorted(CORRECTIONS)
+    named = {entry for entry, *_ in CORRECTED}
+    named |= {int(match[1]) for name in globals() if (match := re.match(r"test_(\d+)_", name))}
+    assert named == set(ENTRIES) == set(range(1, len(ENTRIES) + 1))
+    for name in programs.TEXTS:
+        for row in programs.text(name).rows:
+            if row.layer == "corrected":
+                entry, *_ = re.findall(r"KNOWN-FAULTS (\d+)", row.reason)
+                assert row.id in ENTRIES[int(entry)], row.id
 
 
 # Faults without a row that corrects them.
@@ -299,17 +307,3 @@ def test_19_points_nearly_in_a_plane_of_constant_z_are_projected_onto_a_line() -
     hull = read_hull(job.final.result.punched)
     assert job.final.name == "program2"
     assert (len(hull.vertices), len(hull.equations)) == (2, 1)
-
-
-def test_every_entry_has_a_test() -> None:
-    named = {entry for entry, *_ in CORRECTED}
-    named |= {int(match[1]) for name in globals() if (match := re.match(r"test_(\d+)_", name))}
-    assert named == set(ENTRIES) == set(range(1, len(ENTRIES) + 1))
-
-
-def test_the_rows_name_the_entries_they_correct() -> None:
-    for name in programs.TEXTS:
-        for row in programs.text(name).rows:
-            if row.layer == "corrected":
-                entry, *_ = re.findall(r"KNOWN-FAULTS (\d+)", row.reason)
-                assert row.id in ENTRIES[int(entry)], row.id

@@ -22,14 +22,16 @@ def row_of(words: str, kind: str = "misread", lemma: str = "", layer: str = "ocr
     return Row("R", "t", layer, kind, "r", "e", (Change("1", words, lemma),), {"kind": "parse"})
 
 
-def test_every_row_keeps_the_rule_of_its_kind() -> None:
+def test_rows_keep_the_rules_of_their_kinds_and_pairs() -> None:
     assert [fault for row in OCR for fault in reading_faults(row, PLACES)] == []
-
-
-def test_every_pair_of_the_table_is_used() -> None:
-    """Marks that make up a whole fragment are not counted."""
+    # Marks that make up a whole fragment are not counted.
     unused = {(pair.witness, pair.lemma) for pair in table()} - set(PLACES)
     assert unused == {("_", ""), ("•", ""), ("·", "")}
+    row = row_of("Il=ML", lemma="I1=ML")
+    assert list(reading_faults(row, attested([row]))) == [
+        "no other row reads 'l' as '1', and the table names no other evidence"
+    ]
+    assert not list(reading_faults(row_of("KELEO", lemma="KELEQ"), attested([])))
 
 
 @pytest.mark.parametrize(
@@ -65,14 +67,6 @@ def test_what_each_kind_allows(kind: str, witness: str, lemma: str, fault: str) 
     faults = list(reading_faults(row_of(witness, kind, lemma), PLACES))
     assert bool(faults) is bool(fault)
     assert all(fault in message for message in faults)
-
-
-def test_a_pair_used_once_needs_other_evidence() -> None:
-    row = row_of("Il=ML", lemma="I1=ML")
-    assert list(reading_faults(row, attested([row]))) == [
-        "no other row reads 'l' as '1', and the table names no other evidence"
-    ]
-    assert not list(reading_faults(row_of("KELEO", lemma="KELEQ"), attested([])))
 
 
 def test_steps_are_the_fewest_and_can_be_undone() -> None:

@@ -34,19 +34,13 @@ def never_run() -> dict[str, list[tuple[int, str]]]:
     }
 
 
-def test_the_number_of_statements_that_no_checked_deck_executes(never_run: dict[str, list[tuple[int, str]]]) -> None:
+def test_unexecuted_statements_and_characters_are_counted(never_run: dict[str, list[tuple[int, str]]]) -> None:
     missed = [text for statements in never_run.values() for _, text in statements]
     total = sum(len(programs.program(name).statements) for name in programs.TEXTS)
     characters = sum(len("".join(text.split())) for text in missed)
     assert f"executes {len(missed)} of the {total} statements ({characters} characters)" in README
-
-
-def test_their_statement_numbers_are_listed(never_run: dict[str, list[tuple[int, str]]]) -> None:
     for name, statements in never_run.items():
         labels = ", ".join(str(label) for label, _ in statements if label)
         assert f"{name[:7]} {name[7]}: {labels}" in README, labels
-
-
-def test_characters_of_the_witness() -> None:
     count = sum(len("".join(line.text.split())) for name in programs.TEXTS for line in programs.text(name).witness)
     assert f"The witness has {count:,} characters that are not blank" in README

@@ -17,21 +17,16 @@ TEXTS = texts()
 TABLE = sources.sources()
 
 
-def test_every_witness_is_an_excerpt_of_a_document() -> None:
+def test_excerpts_and_ground_decks_have_their_hashes() -> None:
     witnesses = {str(path.relative_to(ROOT)) for path in ROOT.glob("*/witness/*.txt")}
     witnesses |= {str(path.relative_to(ROOT)) for path in ROOT.glob("transcripts/*/witness.txt")}
     assert {excerpt.file for excerpt in TABLE.excerpts} == witnesses
     assert {excerpt.text for excerpt in TABLE.excerpts} == set(TEXTS)
     assert {excerpt.document for excerpt in TABLE.excerpts} <= {document.id for document in TABLE.documents}
-
-
-def test_all_hashes_are_those_of_the_files() -> None:
     assert all(proof.holds for proof in check_sources())
-
-
-def test_every_ground_deck_has_its_hash() -> None:
     decks = {str(path.relative_to(ROOT)) for path in (ROOT / "fortran_src" / "grounds").glob("*.deck")}
     assert {file for file, _ in TABLE.decks} == decks
+    assert digest("## page 1\na\n## page 2\nb\n") == digest("a\nb\n") != digest("a\nc\n")
 
 
 def test_a_changed_character_is_noticed(monkeypatch) -> None:
@@ -47,10 +42,6 @@ def test_a_changed_character_is_noticed(monkeypatch) -> None:
             assert sum(not proof.holds for proof in check_sources()) == 1, name
 
 
-def test_page_marks_do_not_belong_to_a_witness() -> None:
-    assert digest("## page 1\na\n## page 2\nb\n") == digest("a\nb\n") != digest("a\nc\n")
-
-
 def test_every_line_with_words_is_a_line_of_the_document() -> None:
     for excerpt in TABLE.excerpts:
         document = TABLE.document(excerpt.document)
@@ -62,12 +53,26 @@ def test_every_line_with_words_is_a_line_of_the_document() -> None:
                 assert 1 <= document_line <= document.lines
 
 
-def test_excerpts_of_the_later_papers_hold_no_running_text() -> None:
-    """They hold numbers, tables, captions and formulas: no line has more than 14 words."""
+def test_documents_state_pages_facts_and_folders() -> None:
+    # They hold numbers, tables, captions and formulas: no line has more than 14 words.
     for excerpt in TABLE.excerpts:
         if excerpt.document != "butler-1963":
             for line in read(excerpt.file).split("\n"):
                 assert len(re.findall(r"[A-Za-z]{2,}", line)) <= 14, line
+    # The last line of each text has no line end, but it is counted and belongs to a page.
+    for document in TABLE.documents:
+        assert document.pages[-1][2] == document.lines
+        for (_, first, last), (_, after, _) in pairwise(document.pages):
+            assert first <= last < after
+    for document in TABLE.documents:
+        for field in ("author", "title", "year", "institution", "volume", "extent", "doi", "held", "rights"):
+            assert getattr(document, field) or (field, document.id) == ("volume", "butler-1963")
+        assert len(document.sha256) == 64
+        assert "unknown" in document.held
+    license_ = Path(ROOT / "LICENSE").read_text(encoding="utf-8")
+    for excerpt in TABLE.excerpts:
+        folder = str(Path(excerpt.file).parent)
+        assert folder in license_, folder
 
 
 def test_a_row_leads_to_its_page_and_its_line() -> None:
@@ -98,26 +103,3 @@ def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch) -> None:
         table = sources.Sources((replace(document, **wrong),), (), (), ())
         monkeypatch.setattr(sources, "sources", lambda table=table: table)
         assert [same for _, same, _ in sources.check_against("whole.txt", whole)] == [False]
-
-
-def test_pages_of_lines_end_where_the_text_ends() -> None:
-    """The last line of each text has no line end, but it is counted and belongs to a page."""
-    for document in TABLE.documents:
-        assert document.pages[-1][2] == document.lines
-        for (_, first, last), (_, after, _) in pairwise(document.pages):
-            assert first <= last < after
-
-
-def test_unknown_facts_are_marked() -> None:
-    for document in TABLE.documents:
-        for field in ("author", "title", "year", "institution", "volume", "extent", "doi", "held", "rights"):
-            assert getattr(document, field) or (field, document.id) == ("volume", "butler-1963")
-        assert len(document.sha256) == 64
-        assert "unknown" in document.held
-
-
-def test_the_license_names_every_folder_of_a_document() -> None:
-    license_ = Path(ROOT / "LICENSE").read_text(encoding="utf-8")
-    for excerpt in TABLE.excerpts:
-        folder = str(Path(excerpt.file).parent)
-        assert folder in license_, folder

@@ -152,36 +152,27 @@ def test_every_small_set_of_the_3_3_3_grid_has_the_hull_of_all_triples(size: int
         compare(points, rng)
 
 
-def test_every_set_of_the_2_2_3_grid_has_the_hull_of_all_triples() -> None:
+def test_small_sets_in_space_a_plane_and_a_line_have_the_hull_of_all_triples() -> None:
     rng = random.Random(223)
     for points in classes(grid(2, 2, 3), range(1, 13)):
         compare(points, rng)
-
-
-def test_every_set_of_the_3_3_square_in_a_skew_plane() -> None:
     square = [(x + 2 * y, 3 * x - y, y - 2 * x) for x in range(3) for y in range(3)]
     rng = random.Random(33)
     for bits in range(1, 512):
         compare([point for index, point in enumerate(square) if bits >> index & 1], rng)
-
-
-def test_every_set_of_six_points_in_a_line() -> None:
     line = [(2 * k - 3, 5 - k, 3 * k) for k in range(6)]
     rng = random.Random(6)
     for bits in range(1, 64):
         compare([point for index, point in enumerate(line) if bits >> index & 1], rng, 2)
 
 
-def test_random_sets_of_the_3_3_3_grid_have_the_hull_of_all_triples() -> None:
+def test_random_sets_of_grids_have_the_hull_of_all_triples() -> None:
     rng = random.Random(0)
     points = grid(3, 3, 3)
     for _ in range(400):
         compare(rng.sample(points, rng.randint(5, 14)), rng)
     for _ in range(10):
         compare(rng.sample(points, rng.randint(15, 27)), rng)
-
-
-def test_random_sets_of_wider_grids_have_the_hull_of_all_triples() -> None:
     rng = random.Random(5)
     for _ in range(200):
         side = rng.choice((4, 5, 9))

@@ -45,9 +45,17 @@ def test_texts_that_are_not_decimal_numbers_are_rejected(text: str) -> None:
         exact_hull([(0, 0, 0), (0, 0, text)])
 
 
-def test_too_many_digits_are_rejected() -> None:
+def test_floats_and_integers_have_their_binary_values() -> None:
     with pytest.raises(PointsError, match="point 0, coordinate x: 4001 digits; at most 4000 are read"):
         exact_hull([("1" * 4001, 0, 0)])
+    assert exact_hull([(0.1, 0, 0)]).scale == 2**55
+    assert exact_hull([("0.1", 0, 0)]).scale == 10
+    line = [(0.1, 0, 0), (0.2, 0, 0), (0.3, 0, 0), (0, "0.1", 0)]
+    assert exact_hull(line).dimension == 2
+    edge = 2**63 - 1
+    points = np.array([(-edge, 0, 0), (edge, 0, 0), (0, edge, 0), (0, -edge, 1), (0, 0, edge)], dtype=np.int64)
+    assert exact_hull(points).vertices == (0, 1, 2, 3, 4)
+    assert exact_hull(np.array([(2**64 - 1, 0, 0), (0, 0, 0)], dtype=np.uint64)).scaled[0][0] == 2**64 - 1
 
 
 def test_all_types_of_coordinates_give_the_same_hull() -> None:
@@ -68,20 +76,6 @@ def test_all_types_of_coordinates_give_the_same_hull() -> None:
     assert exact_hull([np.array(p) for p in numbers]) == expected
     assert exact_hull(iter(numbers)) == exact_hull(map(iter, numbers)) == expected
     assert exact_hull([[f"{n}.0" for n in p] for p in numbers]) == expected
-
-
-def test_a_float_has_the_binary_value_it_stores() -> None:
-    assert exact_hull([(0.1, 0, 0)]).scale == 2**55
-    assert exact_hull([("0.1", 0, 0)]).scale == 10
-    line = [(0.1, 0, 0), (0.2, 0, 0), (0.3, 0, 0), (0, "0.1", 0)]
-    assert exact_hull(line).dimension == 2
-
-
-def test_numpy_integers_do_not_overflow() -> None:
-    edge = 2**63 - 1
-    points = np.array([(-edge, 0, 0), (edge, 0, 0), (0, edge, 0), (0, -edge, 1), (0, 0, edge)], dtype=np.int64)
-    assert exact_hull(points).vertices == (0, 1, 2, 3, 4)
-    assert exact_hull(np.array([(2**64 - 1, 0, 0), (0, 0, 0)], dtype=np.uint64)).scaled[0][0] == 2**64 - 1
 
 
 @pytest.mark.parametrize(
@@ -113,13 +107,10 @@ def test_invalid_points_are_rejected_with_their_index(points, message: str) -> N
         exact_hull(points)
 
 
-def test_equal_points_form_a_hull_of_dimension_0() -> None:
+def test_equal_and_collinear_points_form_hulls_of_dimensions_0_and_1() -> None:
     hull = exact_hull([("1.5", 2, 3)] * 3)
     assert (hull.dimension, hull.scale, hull.scaled[0]) == (0, 2, (3, 4, 6))
     assert (hull.vertices, hull.facets, hull.duplicates, hull.edges()) == ((0,), (), ((1, 0), (2, 0)), ())
-
-
-def test_collinear_points_form_a_hull_of_dimension_1() -> None:
     hull = exact_hull([(1, 1, 1), ("0.5", "0.5", "0.5"), (3, 3, 3), (1, 1, 1)])
     assert (hull.dimension, hull.vertices, hull.inside, hull.boundary) == (1, (1, 2), (0,), ())
     assert [(facet.plane, facet.polygon) for facet in hull.facets] == [((-1, -1, -1, 3), (1,)), ((1, 1, 1, -18), (2,))]
@@ -185,11 +176,14 @@ def test_strings_have_the_same_coordinates_as_their_fractions(points) -> None:
     assert list(coordinates) == to_integers(exact, coordinates.scale)
 
 
-def test_tiny_floats_on_one_axis_and_huge_floats_on_others_have_the_hull_of_fractions() -> None:
+def test_tiny_and_huge_floats_have_the_hull_of_fractions() -> None:
     most = 1.7976931348623157e308
     floats = [(5e-324, 1e-300, 1e-300), (0.0, most, 1e300), (0.0, 0.0, 1e300), (1e-300, -most, 5e-324)]
     floats += [(0.0, -most, -most), (0.0, 1.0, 0.0), (5e-324, 0.0, 0.0)]
     assert exact_hull(floats) == exact_hull([tuple(map(Fraction, point)) for point in floats])
+    for side, are_small in ((2**16 - 1, True), (2**16, False)):
+        corners = [(0, 0, 0), (side, 0, 0), (0, side, 0), (0, 0, side)]
+        assert read_points(corners).images.are_small == are_small
 
 
 coordinate = st.one_of(
@@ -218,12 +212,6 @@ def test_errors_in_the_construction_are_within_the_bound(points) -> None:
             assert abs(computed - true) < BOUND
             if images.are_small:
                 assert computed == true
-
-
-def test_points_are_small_if_the_sides_of_their_box_have_at_most_48_bits() -> None:
-    for side, are_small in ((2**16 - 1, True), (2**16, False)):
-        corners = [(0, 0, 0), (side, 0, 0), (0, side, 0), (0, 0, side)]
-        assert read_points(corners).images.are_small == are_small
 
 
 def signs(planes, points, filtered: bool = False) -> dict[tuple[int, int], int]:

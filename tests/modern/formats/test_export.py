@@ -222,8 +222,18 @@ def test_finite_decimals_have_an_exponent_only_if_they_are_long(value: Fraction,
     assert finite_decimal(value) == text
 
 
-def test_integers_of_more_than_4300_digits_have_text() -> None:
+def test_large_faces_integers_and_triangles_are_written() -> None:
     assert integer_text(-(10**5000)) == "-1" + "0" * 5000
+    for corners, size in ((255, "uchar"), (256, "int")):
+        points = tuple((str(k), str(k * k), "0") for k in range(corners))
+        text = mesh_text(Mesh(2, points, (tuple(range(corners)),)), "ply")
+        assert f"property list {size} int vertex_indices" in text.splitlines()
+        assert len(tiny_ply(text)[1][0]) == corners
+    # Example 1 of the thesis: program 1 punches the planes of three points and no supporting lines.
+    hull = convex_hull([(2, -5, 20), (200, -4, -50), (-30, 80, 4)])
+    bare = mesh(replace(hull, faces=()))
+    assert len(bare.faces[0]) == 3
+    assert bare == mesh(hull)
 
 
 def test_a_polygon_is_one_face_in_the_orientation_of_its_plane() -> None:
@@ -237,22 +247,6 @@ def test_a_polygon_is_one_face_in_the_orientation_of_its_plane() -> None:
     assert len(tiny_stl(export_text(hull, "stl"))) == 2
     turned = replace(hull, plane=("0", "0", "-16", "16"))
     assert mesh(turned).faces[0][1:] == mesh(hull).faces[0][:0:-1]
-
-
-def test_a_ply_face_of_more_than_255_vertices_has_an_int_count() -> None:
-    for corners, size in ((255, "uchar"), (256, "int")):
-        points = tuple((str(k), str(k * k), "0") for k in range(corners))
-        text = mesh_text(Mesh(2, points, (tuple(range(corners)),)), "ply")
-        assert f"property list {size} int vertex_indices" in text.splitlines()
-        assert len(tiny_ply(text)[1][0]) == corners
-
-
-def test_a_triangle_without_supporting_lines_has_the_same_mesh() -> None:
-    """Example 1 of the thesis: program 1 punches the planes of three points and no supporting lines."""
-    hull = convex_hull([(2, -5, 20), (200, -4, -50), (-30, 80, 4)])
-    bare = mesh(replace(hull, faces=()))
-    assert len(bare.faces[0]) == 3
-    assert bare == mesh(hull)
 
 
 def test_a_segment_and_a_point_are_written_without_faces() -> None:

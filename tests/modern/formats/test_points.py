@@ -45,10 +45,19 @@ def test_a_deck_a_list_and_an_off_file_have_the_same_points(text: str, kind: str
     assert (found.kind, found.places, found.notes) == (kind, places, ())
 
 
-def test_decimal_text_is_preserved() -> None:
+def test_decks_are_read_with_notes_and_without_loss() -> None:
     assert parse_input(CSV, "points").points == (("1", "-2.50", "3e-6"), ("12.345678", "0", ".9E91"))
     assert parse_input(OFF, "points").points == (("1", "-2.50", "3e-6"), ("12.345678", "0", ".9E91"))
     assert parse_input(DECK, "points").points == (("1", "-2.5", "0.000003"), ("12.345678", "0", "9E+90"))
+    found = parse_input(DECK + " 1\n" + CARD + " 1\n 2.\n", "a.deck")
+    assert len(found.points) == 2
+    assert found.notes == ("a.deck: 3 data sets; only the first one is read",)
+    found = parse_input(" 1\n 2.\n", "a.deck")
+    assert found.points == (("2", "0", "0"),)
+    assert found.notes == (
+        "a.deck: card 2, column 15: y: a blank field is read as zero",
+        "a.deck: card 2, column 29: z: a blank field is read as zero",
+    )
 
 
 @pytest.mark.parametrize(
@@ -66,21 +75,6 @@ def test_all_digits_of_a_card_are_read(field: str, value: str) -> None:
     """In a field without a decimal point, E14.8 assumes it before the eighth digit from the right."""
     found = parse_input(f" 1\n{field}{'0.':<14}{'0.':<14}\n", "a.deck")
     assert found.points == ((value, "0", "0"),)
-
-
-def test_only_the_first_of_several_data_sets_is_read_with_a_note() -> None:
-    found = parse_input(DECK + " 1\n" + CARD + " 1\n 2.\n", "a.deck")
-    assert len(found.points) == 2
-    assert found.notes == ("a.deck: 3 data sets; only the first one is read",)
-
-
-def test_warnings_about_a_deck_become_notes() -> None:
-    found = parse_input(" 1\n 2.\n", "a.deck")
-    assert found.points == (("2", "0", "0"),)
-    assert found.notes == (
-        "a.deck: card 2, column 15: y: a blank field is read as zero",
-        "a.deck: card 2, column 29: z: a blank field is read as zero",
-    )
 
 
 @pytest.mark.parametrize("example", [1, 2, 3, 4, 5, 6])

@@ -125,16 +125,13 @@ def test_all_rules_are_right_if_three_planes_meet_at_every_point() -> None:
     assert concave > 20, "the samples must have points that are concave on a face"
 
 
-def test_the_sense_of_the_given_surfaces_does_not_matter() -> None:
+def test_senses_and_duplicates_of_surfaces_do_not_matter() -> None:
     source = random.Random(18)
     points, surfaces = extruded(source)
     reversed_at_random = [s if source.random() < 0.5 else s[::-1] for s in surfaces]
     expected, actual = preprocess(points, surfaces, "any"), preprocess(points, reversed_at_random, "any")
     assert actual.deleted == expected.deleted
     assert {frozenset(c.line.ends) for c in actual.inside} == {frozenset(c.line.ends) for c in expected.inside}
-
-
-def test_surfaces_may_name_a_point_by_its_duplicate() -> None:
     points, surfaces = crown(4)
     doubled = [*points, points[8]]
     renamed = [*surfaces[:5], *(tuple(9 if index == 8 else index for index in s) for s in surfaces[5:])]
@@ -171,15 +168,12 @@ def test_maps_of_no_polyhedron_are_rejected(points: Sequence[Point], surfaces: S
     assert message in str(caught.value)
 
 
-def test_a_map_without_outside_is_rejected() -> None:
-    """In this projective plane of six points every line is on two surfaces, but it has only one side."""
+def test_maps_without_outside_and_unknown_rules_are_rejected() -> None:
+    # In this projective plane of six points every line is on two surfaces, but it has only one side.
     triangles = "012 023 034 045 051 124 235 341 452 513"
     surfaces = [tuple(int(digit) for digit in triangle) for triangle in triangles.split()]
     points = [(0, 0, 0), (5, 0, 1), (0, 7, 2), (3, 1, 9), (-4, 2, 6), (1, -8, 3)]
     with pytest.raises(MapError, match="have no outside"):
         oriented(points, surfaces)
-
-
-def test_an_unknown_rule_is_rejected() -> None:
     with pytest.raises(ValueError, match="'all' is not a rule"):
         preprocess(*TETRAHEDRON, "all")

@@ -47,12 +47,9 @@ def differences(points: Sequence[Sequence[object]], method: Method = CORRECTED) 
     return [name for name, (actual, expected) in compared.items() if actual != expected]
 
 
-def test_point_sets_of_all_families_agree_with_the_exact_hull() -> None:
+def test_point_sets_agree_with_the_exact_hull_by_every_method() -> None:
     for name, points in sets(150, 1):
         assert differences(points) == [], name
-
-
-def test_without_preference_and_by_sorted_stars_the_hull_is_the_same() -> None:
     for name, points in sets(40, 3):
         assert differences(points, FIRST_LINE) == [], name
         assert differences(points, Method(star=as_corrected)) == [], name
@@ -115,12 +112,9 @@ def test_points_between_others_are_deleted_in_any_order() -> None:
         assert differences(points) == []
 
 
-def test_every_pair_of_points_is_projected_once_if_none_is_deleted() -> None:
+def test_every_pair_is_projected_once_and_surfaces_face_outward() -> None:
     points = [(k, k * k, k**3) for k in range(-4, 5)]
     assert appel_will(points).projections == len(list(combinations(points, 2)))
-
-
-def test_outward_surfaces_are_those_of_the_exact_hull() -> None:
     for _, points in sets(30, 4):
         hull, judge = appel_will(points), exact_hull(points)
         if hull.dimension == 3:

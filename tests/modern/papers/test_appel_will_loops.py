@@ -35,8 +35,19 @@ def test_types_of_fig_20(edges, kind, signs, start, match) -> None:
     assert surface(crossing.entries, edges) == (start, crossing.common)
 
 
-def test_lines_without_a_common_point_do_not_intersect() -> None:
+def test_rules_are_selected_and_searches_without_a_face_stop() -> None:
     assert intersect([(1, 2), (3, 4)], 0, 1) is None
+    assert printed() == Method()
+    assert printed(*PRINTED).rules == Rules(False, True, True, True, True)
+    with pytest.raises(ValueError, match="'step2' is not one of star, step3"):
+        printed("step2")
+    # All angles are right angles, so the condition alone would find no loop.
+    assert entries(CUBE, Rules()) == entries(CUBE, Rules(dot_condition=False))
+    assert len(entries(CUBE, Rules())) == 6
+    table = find_loops([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1), (0, 2)], Rules())
+    assert table.loops == ()
+    assert table.stopped == "the loop begun with lines 1 and 2 does not return to its start"
+    assert not table.closed
 
 
 @pytest.mark.parametrize("points", [FIG_14, FIG_23, CUBE], ids=["fig14", "fig23", "cube"])
@@ -68,54 +79,28 @@ def test_step_3_as_printed_finds_the_same_faces_in_the_same_order() -> None:
     assert all(abs(a[0]) == abs(b[0]) for a, b in differing)
 
 
-def test_step_5_as_printed_cannot_give_the_second_printed_loop() -> None:
-    """With "go back to step 2", line 1 gets no second try, and the second loop begins with another line."""
+def test_steps_5_and_9_as_printed_fail() -> None:
+    # With "go back to step 2", line 1 gets no second try, and the second loop begins with another line.
     (fig22,) = (result.corrected for result in results_of(PAPER) if result.id == "fig22-loops-1-3")
     second_loop = [int(entry) for entry in fig22[0].split("\t")[3].split()]
     for dot in (True, False):
         assert entries(FIG_14, Rules(dot, step_5=True))[1][0] != second_loop[0]
         assert entries(FIG_14, Rules(dot))[1] == second_loop
-
-
-def test_step_9_as_printed_reuses_a_line_and_does_not_close() -> None:
-    """It excludes L1 and L2 only. The face of five points here needs lines 8 and 7 in descending order."""
+    # It excludes L1 and L2 only. The face of five points here needs lines 8 and 7 in descending order.
     points = [(-6, -6, 1), (-4, -4, 5), (-8, 14, 8), (-2, 0, 10), (0, 2, 14), (-4, 20, 17)]
     as_printed = appel_will(points, method=Method(rules=Rules(False, step_9=True)))
     assert "does not return to its start" in as_printed.fault
     assert not appel_will(points, method=Method(rules=Rules(False))).fault
 
 
-def test_step_7_as_printed_finds_the_loops_in_another_order() -> None:
-    """An L1 whose first L2 defines no plane of the hull is skipped."""
+def test_steps_7_and_10_as_printed_find_the_loops_in_another_way() -> None:
+    # An L1 whose first L2 defines no plane of the hull is skipped.
     points = [(0, 0, 2), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, -2)]
     as_printed, corrected = entries(points, printed("step7").rules), entries(points, Rules())
     assert sorted(sorted(map(abs, loop)) for loop in as_printed) == sorted(sorted(map(abs, loop)) for loop in corrected)
     assert as_printed != corrected
-
-
-def test_step_10_as_printed_finds_every_loop_but_clears_the_counts() -> None:
-    """Step 5 prevents repeated loops, and step 2 ends when all lines were addressed. No count becomes 2."""
+    # Step 5 prevents repeated loops, and step 2 ends when all lines were addressed. No count becomes 2.
     hull = appel_will(FIG_14, method=printed("step10"))
     assert [set(s) for s in hull.surfaces] == [set(s) for s in appel_will(FIG_14).surfaces]
     assert all(max(loop.uses) == 1 for loop in hull.table.loops)
     assert hull.fault == "9 of 9 edges are not used by exactly two loops"
-
-
-def test_printed_selects_rules_by_name() -> None:
-    assert printed() == Method()
-    assert printed(*PRINTED).rules == Rules(False, True, True, True, True)
-    with pytest.raises(ValueError, match="'step2' is not one of star, step3"):
-        printed("step2")
-
-
-def test_a_cube_has_no_positive_product_and_uses_the_first_line() -> None:
-    """All angles are right angles, so the condition alone would find no loop."""
-    assert entries(CUBE, Rules()) == entries(CUBE, Rules(dot_condition=False))
-    assert len(entries(CUBE, Rules())) == 6
-
-
-def test_edges_that_bound_no_face_stop_the_search() -> None:
-    table = find_loops([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1), (0, 2)], Rules())
-    assert table.loops == ()
-    assert table.stopped == "the loop begun with lines 1 and 2 does not return to its start"
-    assert not table.closed

@@ -75,15 +75,12 @@ def test_the_printed_test_accepts_the_face_diagonals_of_a_cube() -> None:
     assert not corrected.fault
 
 
-def test_edges_at_points_deleted_later_are_dropped() -> None:
-    """In Fig. 4 the printed test accepts edges to points 3 and 4 before these points are deleted."""
+def test_lines_are_sorted_and_edges_at_deleted_points_dropped() -> None:
+    # In Fig. 4 the printed test accepts edges to points 3 and 4 before these points are deleted.
     hull = appel_will(FIG_4, method=PRINTED)
     assert set(appel_will(FIG_4).edges) < set(hull.edges)
     assert {deleted.point for deleted in hull.deleted} == {2, 3}
     assert not {2, 3} & set(hull.vertices)
-
-
-def test_a_projection_sorts_the_line_and_keeps_the_sense_of_rotation() -> None:
     points = [(0, 0, 5), (0, 0, 9), (1, 0, 3), (0, 1, -4), (0, 0, 7), (0, 0, -1)]
     projection = stars.project(points, (0, 1), range(6))
     assert [points[index][2] for index in projection.line] == [-1, 5, 7, 9]

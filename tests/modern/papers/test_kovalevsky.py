@@ -101,10 +101,14 @@ def test_local_corners_do_not_depend_on_slabs_and_memory_order(array, axes, slab
         assert np.array_equal(points, ks.local_corners(whole, ks.CENTRES, neighbours))
 
 
-def test_local_corners_are_in_raster_order() -> None:
+def test_corners_and_flat_polygons_are_in_order() -> None:
     points = ks.local_corners(half_ball(8), ks.VERTICES, 6).tolist()
     assert points == sorted(points, key=lambda p: p[::-1])
     assert len(points) == 48
+    hull = ks.voxel_hull(Volume(np.ones((3, 1, 3), dtype=np.bool_), (0, 0, 0)), ks.CENTRES)
+    assert isinstance(hull.surface, ks.Flat)
+    steps = [abs(p[0] - q[0]) + abs(p[2] - q[2]) for p, q in pairwise(hull.surface.vertices)]
+    assert steps == [2, 2, 2]
 
 
 def polyhedron(points: object, coplanar: str = ks.VISIBLE) -> ks.CellList:
@@ -154,13 +158,6 @@ def test_values_fit_64_bits_at_the_bound() -> None:
             assert number not in waiting.face or values[waiting.face[number]] > 0
 
 
-def test_the_vertices_of_a_flat_polygon_are_in_cyclic_order() -> None:
-    hull = ks.voxel_hull(Volume(np.ones((3, 1, 3), dtype=np.bool_), (0, 0, 0)), ks.CENTRES)
-    assert isinstance(hull.surface, ks.Flat)
-    steps = [abs(p[0] - q[0]) + abs(p[2] - q[2]) for p, q in pairwise(hull.surface.vertices)]
-    assert steps == [2, 2, 2]
-
-
 @FEW
 @given(VOLUMES)
 def test_reconstruction_gives_the_filled_hull(array: np.ndarray) -> None:
@@ -196,23 +193,19 @@ def test_a_hull_without_voxels_or_with_too_many_is_rejected() -> None:
         ks.reconstructed(wide, ks.CENTRES)
 
 
-def test_a_flat_hull_has_no_polyhedron() -> None:
+def test_arrays_are_volumes_and_hulls_without_polyhedra_are_rejected() -> None:
     with pytest.raises(VolumeError, match="rod: expected a hull in space, found a segment, which has no cell list"):
         _ = ks.voxel_hull(Volume(np.ones((1, 1, 5), dtype=np.bool_), (0, 0, 0), "rod"), ks.CENTRES).polyhedron
-
-
-def test_an_array_of_truth_values_is_a_volume() -> None:
     array = half_ball(8).array
     assert ks.voxel_hull(array).polyhedron.faces == ks.voxel_hull(Volume(array, (0, 0, 0))).polyhedron.faces
     with pytest.raises(VolumeError, match="expected an array of truth values"):
         ks.voxel_hull(np.ones((2, 2, 2)))
     with pytest.raises(VolumeError, match="volume: there are no voxels"):
         ks.voxel_hull(np.zeros((2, 2, 2), dtype=np.bool_))
-
-
-def test_a_volume_of_two_dimensions_is_rejected() -> None:
     with pytest.raises(VolumeError, match="expected a volume of three dimensions, found two"):
         ks.voxel_hull(Volume(np.ones((2, 2), dtype=np.bool_), (0, 0)))
+    with pytest.raises(ValueError, match="no points"):
+        ks.convex_polyhedron([])
 
 
 @pytest.mark.parametrize(
@@ -221,8 +214,3 @@ def test_a_volume_of_two_dimensions_is_rejected() -> None:
 def test_unknown_options_are_rejected(options: dict[str, object]) -> None:
     with pytest.raises((ValueError, KeyError)):
         ks.voxel_hull(ball(4), **options)
-
-
-def test_no_points_have_no_hull() -> None:
-    with pytest.raises(ValueError, match="no points"):
-        ks.convex_polyhedron([])

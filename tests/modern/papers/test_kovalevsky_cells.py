@@ -80,11 +80,15 @@ def test_the_economical_encoding_preserves_the_cell_list(points: list[tuple[int,
         assert len(encoding.integers()) == economical_size(cells) + 2 + len(cells.faces)
 
 
-def test_a_cube_is_expanded_from_its_encoding() -> None:
+def test_cubes_are_expanded_and_vertices_in_line_have_planes() -> None:
     cells = ks.expanded(CUBE)
     assert cells.economical() == CUBE
     assert cells.planes() == ((0, 0, -1, 0), (0, 0, 1, -2), (0, -1, 0, 0), (1, 0, 0, -2), (0, 1, 0, -2), (-1, 0, 0, 0))
     assert len(list(all_rows(cells))) == 3 + 8 + 12 + 6
+    polygon = [(0, 0, 5), (2, 0, 5), (4, 0, 5), (4, 4, 5), (0, 4, 5)]
+    assert planes_of(polygon, [range(1, 6), (5, 4, 2, 1)]) == [(0, 0, 1, -5), (0, 0, -1, 5)]
+    with pytest.raises(ks.CellListError, match="no area"):
+        planes_of([*polygon, (1, 1, 1), (2, 2, 2), (3, 3, 3)], [range(1, 6), (6, 7, 8)])
 
 
 def faces(*cycles: tuple[int, ...]) -> ks.Economical:
@@ -121,13 +125,6 @@ def test_encodings_of_no_convex_surface_are_rejected(encoding: ks.Economical, me
     with pytest.raises(ks.CellListError) as caught:
         ks.expanded(encoding)
     assert message in str(caught.value)
-
-
-def test_planes_of_polygons_with_vertices_in_line() -> None:
-    polygon = [(0, 0, 5), (2, 0, 5), (4, 0, 5), (4, 4, 5), (0, 4, 5)]
-    assert planes_of(polygon, [range(1, 6), (5, 4, 2, 1)]) == [(0, 0, 1, -5), (0, 0, -1, 5)]
-    with pytest.raises(ks.CellListError, match="no area"):
-        planes_of([*polygon, (1, 1, 1), (2, 2, 2), (3, 3, 3)], [range(1, 6), (6, 7, 8)])
 
 
 def test_a_vertex_one_unit_outside_of_a_large_hull_is_detected() -> None:

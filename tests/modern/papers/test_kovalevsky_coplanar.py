@@ -36,16 +36,13 @@ def test_points_in_general_position_give_triangles_only(treatment: Treatment) ->
     assert (hull.larger, hull.extended, hull.straightened) == (0, 0, 0)
 
 
-def test_fig_8_a_face_is_extended() -> None:
-    """The point (3, 2, 0) lies in the plane of the pyramid's square."""
+def test_figures_7_and_8_faces_are_merged_and_extended() -> None:
+    # The point (3, 2, 0) lies in the plane of the pyramid's square.
     pyramid = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 2)]
     before, after = (coplanar_hull(points, EXTENDED) for points in (pyramid, [*pyramid, (3, 2, 0)]))
     assert after.extended > before.extended
     assert list(after.faces) == judged([*pyramid, (3, 2, 0)])
-
-
-def test_fig_7_a_quadrangle_is_merged_with_the_coplanar_face() -> None:
-    """The new face has two edges in common with the face it is merged with."""
+    # The new face has two edges in common with the face it is merged with.
     pyramid = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 2)]
     hull = coplanar_hull([*pyramid, (3, 3, 0)], QUADRANGLES)
     assert hull.larger == 1

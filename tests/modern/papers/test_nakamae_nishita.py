@@ -109,11 +109,16 @@ def test_formula_4_agrees_with_distances_in_space() -> None:
 # --- faces and edges
 
 
-def test_a_cuboid_shows_nine_edges_and_a_contour_of_six() -> None:
+def test_edges_of_cuboids_and_divided_faces_are_classified() -> None:
     cuboid_ = solid(0, box((0, 0, 0), (1, 2, 3)), parallel((3, -2, 1)), ORIGIN)
     assert Counter(edge.kind for edge in cuboid_.edges) == {INNER: 3, CONTOUR: 6, BACK: 3}
     assert len(cuboid_.contour) == 6
     assert len(cuboid_.segments) == 9
+    square = box((0, 0, 0), (1, 1, 1))
+    halves = [*square.faces[1:], square.faces[0][:3], (*square.faces[0][2:], square.faces[0][0])]
+    for eye in ((1, 2, -3), (1, 2, 3)):
+        divided = solid(0, Polyhedron("cube", square.vertices, tuple(halves)), parallel(eye), ORIGIN)
+        assert Counter(edge.kind for edge in divided.edges) == {INNER: 3, CONTOUR: 6, BACK: 3, FLAT: 1}
 
 
 @settings(max_examples=40)
@@ -135,14 +140,6 @@ def test_the_contour_is_the_hull_of_the_images_clockwise(seed: int, in_perspecti
         assert len(set(contour)) == len(contour)
         segments = {frozenset(pair) for pair in zip(contour, contour[1:] + contour[:1], strict=True)}
         assert segments == {frozenset((edge.start, edge.end)) for edge in projected.edges if edge.kind == CONTOUR}
-
-
-def test_an_edge_between_coplanar_faces_is_flat() -> None:
-    square = box((0, 0, 0), (1, 1, 1))
-    halves = [*square.faces[1:], square.faces[0][:3], (*square.faces[0][2:], square.faces[0][0])]
-    for eye in ((1, 2, -3), (1, 2, 3)):
-        divided = solid(0, Polyhedron("cube", square.vertices, tuple(halves)), parallel(eye), ORIGIN)
-        assert Counter(edge.kind for edge in divided.edges) == {INNER: 3, CONTOUR: 6, BACK: 3, FLAT: 1}
 
 
 # --- tables
@@ -254,14 +251,11 @@ def test_intersecting_polyhedra_are_rejected() -> None:
     assert draw([box((0, 0, 0), (2, 2, 2)), box((1, 1, 1), (3, 3, 3))], parallel((2, -3, 1)), check=False).pieces
 
 
-def test_two_plates_in_one_plane_hide_nothing() -> None:
+def test_plates_in_one_plane_hide_nothing_and_edge_on_are_not_drawn() -> None:
     plates = [
         plate("a", [vector(*p, 0) for p in square]) for square in (((0, 0), (2, 0), (2, 2)), ((1, 0), (3, 0), (3, 2)))
     ]
     drawing = draw(plates, parallel((1, -1, 3)))
     assert all(piece.visible and (piece.first, piece.last) == (0, 1) for piece in drawing.pieces)
     assert len(drawing.pieces) == 6
-
-
-def test_a_plate_seen_edge_on_is_not_drawn() -> None:
     assert draw([plate("a", [vector(0, 0, 0), vector(1, 0, 0), vector(1, 1, 0)])], parallel((1, 2, 0))).pieces == ()

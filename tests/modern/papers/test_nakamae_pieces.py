@@ -43,9 +43,13 @@ def test_each_refinement_is_needed(refinement: str, polyhedra: list[Polyhedron])
     assert difference(polyhedra, eye, refinement) > 0
 
 
-def test_an_unknown_refinement_is_rejected() -> None:
+def test_unknown_refinements_flat_columns_and_eyes_inside_are_rejected() -> None:
     with pytest.raises(SceneError, match=r"^'end' is not one of enclosed, touching, ends, ghosts$"):
         draw(BEHIND, parallel((1, 1, 1)), ("end",))
+    with pytest.raises(SceneError, match="not entirely in front of the observation point"):
+        draw([box((0, 0, 0), (2, 2, 2))], perspective(vector(1, 1, 1), vector(9, 9, 9)))
+    with pytest.raises(SceneError, match="rises within the plane of its base"):
+        column("c", [vector(0, 0, 0), vector(1, 0, 0), vector(0, 1, 0)], vector(1, 1, 0))
 
 
 def test_in_general_position_clipping_agrees_with_the_printed_rule() -> None:
@@ -170,10 +174,3 @@ def _length(drawing: Drawing, visible: bool) -> Fraction:
             edge = [abs(a - b) for a, b in zip(points[piece.start], points[piece.end], strict=True)]
             total += sum(edge) * (piece.last - piece.first)
     return total
-
-
-def test_a_column_without_height_and_an_eye_inside_a_solid_are_rejected() -> None:
-    with pytest.raises(SceneError, match="not entirely in front of the observation point"):
-        draw([box((0, 0, 0), (2, 2, 2))], perspective(vector(1, 1, 1), vector(9, 9, 9)))
-    with pytest.raises(SceneError, match="rises within the plane of its base"):
-        column("c", [vector(0, 0, 0), vector(1, 0, 0), vector(0, 1, 0)], vector(1, 1, 0))

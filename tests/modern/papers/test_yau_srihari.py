@@ -155,11 +155,13 @@ def test_flat_solids_have_hulls(voxels: list[tuple[int, int, int]], faces: int, 
     assert (len(hull.lower.faces), len(hull.lower.chain)) == (faces, chain)
 
 
-def test_components_of_a_solid_that_is_not_connected_are_counted() -> None:
+def test_components_are_counted_and_large_cubes_rejected() -> None:
     array = solid_of([(0, 0, 0), (1, 1, 0), (5, 5, 5)])
     hull = octree_hull(array)
     assert hull.components == 3
     assert (hull.solid_voxels, hull.voxels) == (3, judged(array)[1].sum())
+    with pytest.raises(VolumeError, match="the octree's cube has side 2048, more than 2147483648 voxels"):
+        octree_hull(np.ones((1025, 1, 1), dtype=np.bool_))
 
 
 @given(arrays.arrays(np.bool_, arrays.array_shapes(min_dims=2, max_dims=3, max_side=5)))
@@ -183,11 +185,6 @@ def test_components_agree_with_a_flood_fill(array: np.ndarray) -> None:
 def test_arrays_that_are_not_solids_are_rejected(array: np.ndarray) -> None:
     with pytest.raises(VolumeError, match=r"no voxels|expected an array of truth values"):
         octree_hull(array)
-
-
-def test_a_solid_that_needs_too_large_a_cube_is_rejected() -> None:
-    with pytest.raises(VolumeError, match="the octree's cube has side 2048, more than 2147483648 voxels"):
-        octree_hull(np.ones((1025, 1, 1), dtype=np.bool_))
 
 
 def test_printed_selects_statements_by_name() -> None:

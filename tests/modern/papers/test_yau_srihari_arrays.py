@@ -150,14 +150,11 @@ def in_order(places: list[tuple[int, int]]) -> list[tuple[int, int]]:
     return sorted(places, key=lambda place: [(place[1] >> k & 1, place[0] >> k & 1) for k in range(9, -1, -1)])
 
 
-def test_no_face_is_found_if_all_points_lie_on_the_known_side() -> None:
+def test_candidates_lie_beyond_the_known_side_and_are_marked_once() -> None:
     start, end, apex = (0, 0, 0), (4, 0, 0), (2, 3, 0)
     normal = (0, -1, 0)
     assert Candidates([start, end, apex]).face_on(start, end, normal) == []
     assert Candidates([start, end, apex]).face_on(end, start, normal) == [apex]
-
-
-def test_marked_points_are_not_found_again() -> None:
     points = [(0, 0, 0), (4, 0, 0), (2, 2, 0), (0, 4, 0)]
     candidates = Candidates(points)
     edge = ((4, 0, 0), (0, 0, 0), (0, -1, 0))

@@ -88,13 +88,19 @@ def test_the_mesh_is_that_of_export_for_the_centres_of_the_voxels(stair: str, na
     assert actual == expected
 
 
-def test_notes_of_the_reader_are_printed_only_on_success(stair: str, capsys) -> None:
+def test_notes_offsets_and_components_are_reported(stair: str, capsys) -> None:
     Path("far.csv").write_text("0,0,0\n0,0,0\n999999999,0,0\n", encoding="utf-8")
     code, out, err = call(capsys, "octree-hull", "far.csv", "-o", "far.npy")
     assert (code, out, err.count("\n")) == (2, "", 1), err
     Path("twice.csv").write_text("0,0,0\n0,0,0\n", encoding="utf-8")
     note = "note: twice.csv: 1 of 2 voxels are repetitions\n"
     assert call(capsys, "octree-hull", "twice.csv")[::2] == (0, note)
+    assert call(capsys, "octree-hull", stair, "-o", "hull.npy")[2] == "note: the first voxel of the array is (5,0,-1)\n"
+    Path("apart.csv").write_text("0,0\n4,2\n", encoding="utf-8")
+    code, out, _ = call(capsys, "octree-hull", "apart.csv", "--tables")
+    assert code == 0
+    assert "over one line; vertices of its envelope:\n  (0,0,0) (4,2,0)\n" in out
+    assert out.endswith("digital points of the hull of 2 6-connected parts: 3 voxels, an octree of 49 nodes\n")
 
 
 def test_faces_run_counterclockwise_seen_from_outside(stair: str, capsys) -> None:
@@ -148,18 +154,6 @@ def test_the_filled_hull_is_written_as_an_array(stair: str, command: list[str], 
     assert code == 0
     expected = judged(solid_of([(0, 0, 0), (3, 3, 3), (0, 3, 0), (3, 0, 0)]))[1]
     assert np.array_equal(np.load("hull.npy"), expected)
-
-
-def test_the_index_of_the_first_voxel_of_an_array_is_reported(stair: str, capsys) -> None:
-    assert call(capsys, "octree-hull", stair, "-o", "hull.npy")[2] == "note: the first voxel of the array is (5,0,-1)\n"
-
-
-def test_components_and_a_hull_over_one_line_are_reported(stair: str, capsys) -> None:
-    Path("apart.csv").write_text("0,0\n4,2\n", encoding="utf-8")
-    code, out, _ = call(capsys, "octree-hull", "apart.csv", "--tables")
-    assert code == 0
-    assert "over one line; vertices of its envelope:\n  (0,0,0) (4,2,0)\n" in out
-    assert out.endswith("digital points of the hull of 2 6-connected parts: 3 voxels, an octree of 49 nodes\n")
 
 
 @pytest.mark.parametrize(

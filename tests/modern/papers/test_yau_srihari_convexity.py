@@ -36,11 +36,13 @@ def test_the_half_cell_expansion_has_eight_cells_per_voxel() -> None:
         assert set(convexity.voxels_of(convexity.half_cell_expansion(array))) == expected
 
 
-def test_simple_solids_are_connected_and_without_gaps_along_the_axes() -> None:
+def test_gaps_make_solids_neither_simple_nor_midpoint_convex() -> None:
     assert convexity.is_simple(solid_of([(0, 0, 0), (1, 0, 0), (1, 1, 0)]))
     assert not convexity.is_simple(solid_of([(0, 0, 0), (2, 0, 0), (0, 1, 0), (1, 1, 0), (2, 1, 0)]))
     assert not convexity.is_simple(solid_of([(0, 0, 0), (1, 1, 0)]))
     assert convexity.is_simple(solid_of(RING))
+    assert convexity.is_midpoint_convex(solid_of([(0, 0, 0), (1, 1, 1)]))
+    assert not convexity.is_midpoint_convex(solid_of([(0, 0, 0), (2, 0, 0)]))
 
 
 @pytest.mark.parametrize(
@@ -50,19 +52,11 @@ def test_a_midpoint_cover_doubles_for_each_odd_sum(x, y, cells) -> None:
     assert len(convexity.midpoint_cover(x, y)) == cells
 
 
-def test_a_gap_in_a_row_is_not_midpoint_convex() -> None:
-    assert convexity.is_midpoint_convex(solid_of([(0, 0, 0), (1, 1, 1)]))
-    assert not convexity.is_midpoint_convex(solid_of([(0, 0, 0), (2, 0, 0)]))
-
-
-def test_the_hulls_of_small_solids_pass_the_kim_rosenfeld_test() -> None:
+def test_hulls_are_digitally_convex_except_of_some_paths() -> None:
     for array in solids(30, 5):
         hull = octree_hull(array).filled
         assert convexity.is_simple(hull)
         assert convexity.is_digitally_convex(hull)
-
-
-def test_the_hull_of_a_connected_solid_need_not_be_digitally_convex() -> None:
     path = solid_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0), (0, 1, 1), (0, 1, 2)])
     assert convexity.is_simple(path)
     assert np.array_equal(octree_hull(path).filled, path)
@@ -79,16 +73,13 @@ def test_the_hull_of_a_connected_solid_need_not_be_connected() -> None:
     assert components(filled) == 2
 
 
-def test_a_bend_and_a_ring_are_not_convex() -> None:
+def test_bends_and_deficiencies_are_not_convex() -> None:
     bend = solid_of([*((x, 0, 0) for x in range(4)), *((0, y, 0) for y in range(1, 4))])
     assert convexity.is_simple(bend)
     assert not convexity.is_digitally_convex(bend)
     assert not convexity.is_digitally_convex(solid_of(RING))
     assert convexity.is_digitally_convex(np.ones((2, 3, 2), dtype=np.bool_))
     assert convexity.is_digitally_convex(solid_of([(0, 0, 0), (1, 0, 0), (1, 1, 0)]))
-
-
-def test_the_solid_is_its_hull_less_its_deficiency() -> None:
     for array in solids(10, 5):
         missing = convexity.convex_deficiency(array)
         assert np.array_equal(octree_hull(array).filled & ~missing, array)

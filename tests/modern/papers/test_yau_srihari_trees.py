@@ -43,12 +43,15 @@ def test_an_octree_stores_its_array(array: np.ndarray) -> None:
     assert count(tree) == np.count_nonzero(array)
 
 
-def test_two_sons_lie_over_each_quadrant() -> None:
+def test_sons_lie_over_quadrants_and_marked_nodes_have_no_value() -> None:
     for number in range(8):
         i, j = QUADRANTS[number // 2]
         cube = np.zeros((2, 2, 2), dtype=np.bool_)
         cube[i, j, number % 2] = True
         assert octree(cube) == Octree(2, np.array([number]), np.array([1]))
+    tree = trees.written(trees.no_columns(2), {(0, 0): trees.Leaf(3, marked=True), (1, 0): trees.Leaf(5, marked=True)})
+    assert trees.heights(tree) == {(0, 0): 3, (1, 0): 5}
+    assert (tree.low, tree.high) == (None, None)
 
 
 @FEW
@@ -101,12 +104,6 @@ def test_written_leaves_replace_those_of_the_tree(cube: np.ndarray, data: st.Dat
     after = trees.written(tree, cells)
     assert trees.heights(after) == trees.heights(tree) | {place: leaf.value for place, leaf in cells.items()}
     assert values_hold(after)
-
-
-def test_a_node_without_unmarked_leaves_has_no_value() -> None:
-    tree = trees.written(trees.no_columns(2), {(0, 0): trees.Leaf(3, marked=True), (1, 0): trees.Leaf(5, marked=True)})
-    assert trees.heights(tree) == {(0, 0): 3, (1, 0): 5}
-    assert (tree.low, tree.high) == (None, None)
 
 
 @FEW

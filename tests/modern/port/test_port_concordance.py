@@ -45,12 +45,9 @@ def test_rules_of_the_text_give_the_same_hull_or_no_fourth_point(seed: int) -> N
     assert without < 15
 
 
-def test_four_points_can_have_no_fourth_point_by_the_rules_of_the_text() -> None:
+def test_rules_of_the_text_differ_only_for_points_in_space() -> None:
     corner = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)]
     assert convex_hull(corner).determined
     assert not convex_hull(corner, text=True, on_refusal="return").determined
-
-
-def test_rules_of_text_and_listing_agree_on_planar_and_collinear_points() -> None:
     for points in ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], [(0, 0, 0), (1, 1, 1), (3, 3, 3)]):
         assert convex_hull(points, text=True, on_refusal="return") == convex_hull(points)

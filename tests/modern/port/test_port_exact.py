@@ -146,14 +146,11 @@ def test_scaling_and_translation_change_no_decision(points: Triples, power: int,
     assert sorted(convex_hull(parts).vertices) == sorted(hull.vertices)
 
 
-def test_one_two_and_three_points_have_a_hull() -> None:
+def test_few_points_and_long_integers_have_a_hull() -> None:
     assert check([(1, 2, 3)]).vertices == (0,)
     assert check([(1, 2, 3), (1, 2, 3)]).duplicates == ((1, 0),)
     assert check([(1, 2, 3), (1, 2, 4)]).lines == (("1", "0", "0", "-1"), ("0", "1", "0", "-2"))
     assert len(check([(0, 0, 0), (1, 0, 0), (0, 0, 1)]).lines) == 6
-
-
-def test_machine_words_and_long_integers_agree() -> None:
     r = random.Random(62)
     points: Triples = [tuple(r.randint(-20_000, 20_000) for _ in range(3)) for _ in range(60)]
     short = check(points)

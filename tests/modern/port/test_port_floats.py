@@ -51,27 +51,21 @@ def test_numpy_doubles_and_53_bit_multiprecision_numbers_decide_alike() -> None:
         assert [face.coefficients for face in doubles.faces] == [face.coefficients for face in multiprecision.faces]
 
 
-def test_rounded_products_make_data_not_acceptable() -> None:
-    """Thesis p. 117: the three points of a plane do not satisfy its equation."""
+def test_rounding_and_overflow_are_reported() -> None:
+    # Thesis p. 117: the three points of a plane do not satisfy its equation.
     assert convex_hull(ball(50), "float64").status == NOT_ACCEPTABLE
     assert convex_hull(ball(50), "float32").status == NOT_ACCEPTABLE
     assert convex_hull(ball(50), "mp:200").status == DETERMINED
-
-
-def test_points_are_reported_as_the_exact_value_of_their_floats() -> None:
-    hull = convex_hull([(0.1, -0.0, 2.0**-60), (1.0, 0.0, 0.0)], "float64")
-    assert hull.points[0][:2] == ("0.1000000000000000055511151231257827021181583404541015625", "-0")
-    assert Fraction(hull.points[0][2]) == Fraction(1, 2**60)
-    assert convex_hull([("0.1", 0, 0)], "float32").points[0][0] == "0.100000001490116119384765625"
-
-
-def test_overflow_of_a_product_is_a_range_error() -> None:
     points = [(0, 0, 0), ("1e110", 0, 0), (0, "1e110", 0), (0, 0, "1e110")]
     with pytest.raises(RangeError, match=r"^float64: a product of coordinates exceeds the largest number$"):
         convex_hull(points, "float64")
     assert convex_hull(points, "mp:53").status == DETERMINED
 
 
-def test_points_that_differ_only_in_signs_of_zero_are_duplicates() -> None:
+def test_floats_have_their_exact_values_and_signed_zeros_are_duplicates() -> None:
+    hull = convex_hull([(0.1, -0.0, 2.0**-60), (1.0, 0.0, 0.0)], "float64")
+    assert hull.points[0][:2] == ("0.1000000000000000055511151231257827021181583404541015625", "-0")
+    assert Fraction(hull.points[0][2]) == Fraction(1, 2**60)
+    assert convex_hull([("0.1", 0, 0)], "float32").points[0][0] == "0.100000001490116119384765625"
     points = np.array([(0.0, 1.0, 2.0), (1.0, 0.0, 0.5), (-0.0, 1.0, 2.0), (1.0, -0.0, 0.5)])
     assert convex_hull(points, "float64").duplicates == ((2, 0), (3, 1))

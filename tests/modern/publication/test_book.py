@@ -34,11 +34,15 @@ def test_text_is_preserved(text: str) -> None:
     assert unescaped(string(text)) == text
 
 
-def test_no_character_is_interpreted_as_markup(tmp_path: Path) -> None:
+def test_characters_are_no_markup_and_pictures_use_the_fonts(tmp_path: Path) -> None:
     text = '= #let x = 1 ; *a* _b_ `c` $d$ <e> @f [g] // h \\ i "j" - k + l / m ~ 1. n'
     (tmp_path / "b.typ").write_text(f"{say(text)}\n#metadata({string(text)}) <it>\n")
     (metadata,) = json.loads(compiler.query(str(tmp_path / "b.typ"), "<it>"))
     assert metadata["value"] == text
+    text = '<text font-family="Helvetica, Arial, sans-serif">a</text>'
+    svg = f'<svg><a href="x">{text}</a><style>.m{{font-family:monospace}}</style></svg>'
+    sans = '<text font-family="IBM Plex Sans">a</text>'
+    assert fitted(svg) == f"<svg>{sans}<style>.m{{font-family:'IBM Plex Mono'}}</style></svg>"
 
 
 @given(st.text(max_size=20), st.text(max_size=20))
@@ -53,28 +57,24 @@ def typst(text: str, name: str = "how-to/x.md", known: tuple[str, ...] = ()) -> 
     return Markdown(name, known, 2, lambda file: "").typst(text)
 
 
-def test_markdown_is_translated_to_typst() -> None:
+def test_markdown_is_translated_with_titles_and_aligned_numbers() -> None:
     markup = typst("# A *b*\n\nSee `c` and [d](../e.md#f).\n\n- one\n- two\n\n| x | y |\n|---|---|\n| 1 | 2 |\n")
     title, paragraph, items, table_ = [part for part in markup.split("\n\n") if part]
     assert title == f'#[] <{label("how-to/x.md")}>\n== #"A b"; <{label("how-to/x.md", "a-b")}>'
     assert paragraph == '#"See ";#raw("c");#" and ";#"d";#".";', "a link that leads out of the book is plain text"
     assert items.split() == '#list([#"one"; ], [#"two"; ])'.split()
     assert table_.startswith("#tabular(8.5pt, (auto, auto,), ")
-
-
-def test_the_title_of_a_table_stays_with_it() -> None:
     assert typst("**Sizes**\n\n| a |\n|---|\n| 1 |\n").startswith("#block(sticky: true, [#strong[")
     for paragraph in ("**Sizes** of sets\n", "Of **sizes**\n", "Sizes\n"):
         assert "sticky" not in typst(paragraph)
+    markup = typst("| set | share | note |\n|---|---|---|\n| a | 1.5 (1.2 to 1.8) % | x |\n| b | - | 3 |\n")
+    assert "(left, right, left,)" in markup
 
 
-def test_a_link_within_the_book_is_a_reference() -> None:
+def test_links_and_roles_are_references_within_the_book() -> None:
     known = (label("e.md", "f"), label("e.md"))
     assert f"#to(<{label('e.md', 'f')}>)" in typst("See [d](../e.md#f).", known=known)
     assert f"#to(<{label('e.md')}>)" in typst("See [d](../e.md#gone).", known=known)
-
-
-def test_a_role_is_a_reference_or_plain_text() -> None:
     known = (label("card", "program3", "147+2"),)
     assert f"#to(<{known[0]}>)" in typst("At {card}`program3 147+2` it stands.", known=known)
     markup = typst("At {card}`program3 9+9` it stands.", known=known)
@@ -100,11 +100,13 @@ def test_no_column_is_narrower_than_its_longest_word(columns: list[tuple[int, in
         assert all(room * part / sum(parts) > word for part, word in zip(parts, words, strict=True))
 
 
-def test_a_wide_table_breaks_its_widest_column_or_is_set_smaller() -> None:
+def test_wide_tables_are_broken_set_smaller_or_refused() -> None:
     assert "#tabular(8.5pt, (7.0fr, 97.0fr,)" in table(["a", "b"], [["x", "y"]], (5, 200))
     assert "#tabular(8.5pt, (auto, auto,)" in table(["a", "b"], [["x", "y"]], (5, 20))
     assert "#tabular(6.8pt, (32fr, 32fr, 32fr, 32fr,)" in table("abcd", ["abcd"], (30, 30, 30, 30))
     assert "#tabular(8.5pt" in table("ab", ["xy"], (60, 60)), "a sentence is broken"
+    with pytest.raises(ValueError, match=r"the table a \| b needs letters of 4\.6 pt; the smallest are 6\.5 pt"):
+        table(["a", "b"], [["x", "y"]], (96, 96), (93, 93))
 
 
 def test_a_table_that_is_too_wide_is_split_and_both_halves_name_the_rows() -> None:
@@ -115,18 +117,6 @@ def test_a_table_that_is_too_wide_is_split_and_both_halves_name_the_rows() -> No
         True
     ] * 2
     assert all(float(half[1:4]) >= 6.5 for half in halves)
-
-
-def test_a_table_that_would_need_too_small_letters_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"the table a \| b needs letters of 4\.6 pt; the smallest are 6\.5 pt"):
-        table(["a", "b"], [["x", "y"]], (96, 96), (93, 93))
-
-
-def test_pictures_use_the_fonts_of_the_book() -> None:
-    text = '<text font-family="Helvetica, Arial, sans-serif">a</text>'
-    svg = f'<svg><a href="x">{text}</a><style>.m{{font-family:monospace}}</style></svg>'
-    sans = '<text font-family="IBM Plex Sans">a</text>'
-    assert fitted(svg) == f"<svg>{sans}<style>.m{{font-family:'IBM Plex Mono'}}</style></svg>"
 
 
 def test_every_card_row_comment_and_variable_of_the_listings_occurs_once() -> None:
@@ -141,57 +131,40 @@ def test_every_card_row_comment_and_variable_of_the_listings_occurs_once() -> No
         assert {f"{variable.name} ({name})" for variable in commentary(name).variables} <= indexed(markup)
 
 
-def test_of_a_variant_only_the_passages_that_differ_are_shown() -> None:
+def test_variants_statements_and_notes_are_shown_once() -> None:
     markup = "".join(listings())
     cards = facing("program1_examples").cards
     shown = [card for card in cards if f" <{label('card', 'program1_examples', card.place)}>" in markup]
     new = {card.text for card in cards} - {card.text for card in facing("program1").cards}
     assert new <= {card.text for card in shown}
     assert len(shown) < len(cards) / 2
+    markup = "".join(examples(lambda name, svg: name))
+    reason = "The OCR dropped a zero from a run of zeros."
+    rows = [row for row in texts()["chapter6"].rows if row.reason == reason]
+    assert len(rows) > 100
+    assert markup.count(reason) <= 6, "one note in each example"
+    markup = "".join(statements())
+    for name in DOCUMENTS:
+        for row in statements_of(name):
+            assert markup.count(f"<{label('row', row.id)}>") == 1
+    for _, chapter in book.CHAPTERS:
+        for name in chapter:
+            assert name.startswith("@") or (book.DOCS / name).is_file()
 
 
 def indexed(markup: str) -> set[str]:
     return set(re.findall(r'#idx\("([^"]+)"\);', markup))
 
 
-def test_notes_with_the_same_reason_are_grouped() -> None:
-    markup = "".join(examples(lambda name, svg: name))
-    reason = "The OCR dropped a zero from a run of zeros."
-    rows = [row for row in texts()["chapter6"].rows if row.reason == reason]
-    assert len(rows) > 100
-    assert markup.count(reason) <= 6, "one note in each example"
-
-
-def test_numbers_are_aligned_to_the_right() -> None:
-    markup = typst("| set | share | note |\n|---|---|---|\n| a | 1.5 (1.2 to 1.8) % | x |\n| b | - | 3 |\n")
-    assert "(left, right, left,)" in markup
-
-
-def test_terms_and_persons_are_indexed(whole: tuple[str, Path]) -> None:
+def test_the_book_indexes_terms_and_names_its_sources(whole: tuple[str, Path]) -> None:
     entries = indexed(whole[0])
     assert {"Butler, Karen Jensen", "Yau, M.-M.", "apparatus", "ATTN", "quickhull", "NE (program3)"} <= entries
-
-
-def test_the_front_matter_names_edition_licences_and_sources(whole: tuple[str, Path]) -> None:
     front = whole[0].partition("#outline")[0]
     for text in ("Edition 0.1.0", "CC0 1.0", "MIT licence", "have not seen its pages", "IBM Plex"):
         assert text in front
     bibliography = whole[0].partition('= #"Bibliography";')[2]
     assert all(document.title in bibliography for document in sources().documents)
     assert "doi:10.1147/rd.206.0590" in bibliography
-
-
-def test_every_statement_occurs_once() -> None:
-    markup = "".join(statements())
-    for name in DOCUMENTS:
-        for row in statements_of(name):
-            assert markup.count(f"<{label('row', row.id)}>") == 1
-
-
-def test_every_document_of_a_chapter_exists() -> None:
-    for _, chapter in book.CHAPTERS:
-        for name in chapter:
-            assert name.startswith("@") or (book.DOCS / name).is_file()
 
 
 @pytest.fixture(scope="module")

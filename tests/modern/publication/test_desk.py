@@ -338,16 +338,13 @@ def halted(desk: Desk) -> Answer:
     return next(answer for answer in iter(lambda: desk.run(1000), None) if answer["ended"] or answer["waits"])
 
 
-def test_a_run_that_returns_to_an_earlier_state_is_stopped() -> None:
+def test_endless_runs_are_recognised_and_their_logs_repeated() -> None:
     desk = Desk()
     answer = ended(desk, ["loop.f", "      I=1\n    1 I=I+1\n      GO TO 1\n      END\n"])
     assert (answer["repeats"], answer["stands"][:19]) == (20_000, "stopped (attention)")
     assert 1 < answer["seconds"] < 1000, "the worker needs the time on a 1620 for the speed"
     desk.act("START")
     assert desk.run(1)["repeats"] == 0, "an action of the operator may change the rest of the run"
-
-
-def test_the_log_of_an_endless_run_is_repeated_with_the_same_log() -> None:
     desk, again = Desk(), Desk()
     answer = ended(desk, ["loop.f", "   10 GO TO 10\n      END\n"])
     again.replay(desk.log())

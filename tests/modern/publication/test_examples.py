@@ -46,15 +46,12 @@ def test_every_line_of_the_witness_is_shown_once_with_its_text(number: int) -> N
         assert bool(sources) != part.stated
 
 
-def test_exactly_the_changes_of_rows_are_marked() -> None:
+def test_changes_and_rows_of_chapter_6_are_shown_in_their_examples() -> None:
     card = example(1)[0].cards[1]
     (source,) = card.sources
     assert source.text == "- +.20000000E+01-.50000000E+01+.20000000E+02"
     assert source.changed == ((0, 2),)
     assert source.at == 1823
-
-
-def test_a_row_of_chapter_6_is_shown_in_its_example() -> None:
     touched = {row.id for number in EXAMPLES for part in example(number) for row in part.rows}
     assert set(homes()) == touched
     others = {row.id for row in rest()}
@@ -117,13 +114,18 @@ def test_numbered_items_are_complete(file: str) -> None:
     assert len(make("texts", file).targets) == len(items)
 
 
-def test_a_fault_shows_its_deck() -> None:
+def test_faults_show_their_decks_and_the_wrong_hull_its_card() -> None:
     _, items, _ = numbered("fortran_src/KNOWN-FAULTS.md")
     assert items[0].decks == ("lastpair",)
     html = "".join(part.html for part in make("texts", "fortran_src/KNOWN-FAULTS.md").parts)
     for item in items:
         for deck in item.decks:
             assert read(f"fortran_src/grounds/{deck}.deck").splitlines()[1] in html
+    made = make("console", "wrong")
+    html = "".join(part.html for part in made.parts)
+    parsed(html)
+    assert "missed: point 1, point 2, point 3" in html
+    assert re.search(r'href="@/program3\.html#\S+">program 3, ', html)
 
 
 def test_items_out_of_order_are_rejected(tmp_path: object, monkeypatch) -> None:
@@ -136,11 +138,3 @@ def test_items_out_of_order_are_rejected(tmp_path: object, monkeypatch) -> None:
     monkeypatch.setattr(module, "ROOT", place)
     with pytest.raises(ValueError, match=r"x\.md: the items are not numbered 1, 2, 3 and so on"):
         numbered("x.md")
-
-
-def test_the_page_of_the_wrong_hull_names_the_card() -> None:
-    made = make("console", "wrong")
-    html = "".join(part.html for part in made.parts)
-    parsed(html)
-    assert "missed: point 1, point 2, point 3" in html
-    assert re.search(r'href="@/program3\.html#\S+">program 3, ', html)

@@ -27,19 +27,16 @@ def test_every_cell_exists(name: str) -> None:
     assert read_cell(DOCS, CELLS[name])
 
 
-def test_every_figure_named_on_a_page_exists(values: dict[str, str]) -> None:
+def test_every_figure_is_named_quoted_and_filled(values: dict[str, str]) -> None:
     names = {name for page in documents.PAGES for name in named(page.read_text(encoding="utf-8"))}
     assert names - {*values, *MADE} == set()
-
-
-def test_every_cell_is_quoted_on_a_page() -> None:
     quoted = {name for page in documents.PAGES for name in named(page.read_text(encoding="utf-8"))}
     assert sorted(set(CELLS) - quoted) == []
-
-
-def test_no_page_has_a_place_that_is_not_filled() -> None:
     texts = {page.name: page.read_text(encoding="utf-8") for page in documents.PAGES}
     assert [name for name, text in texts.items() if "{{" in filled(text, dict.fromkeys(named(text), ""))] == []
+    text = (DOCS / "article.md").read_text(encoding="utf-8")
+    assert typed(text) == []
+    assert len(named(text)) > 30
 
 
 def test_figures_agree_with_other_reports(values: dict[str, str]) -> None:
@@ -53,12 +50,6 @@ def test_figures_agree_with_other_reports(values: dict[str, str]) -> None:
     assert values["statements.table"].splitlines()[-1].startswith(f"| all | {values['statements.all.count']} |")
     assert values["examples.run-exact"] == values["examples.run-results"]
     assert (values["seventy.sets"], values["capacity.listed"]) == ("140,000", "98")
-
-
-def test_the_article_quotes_results_by_name_only() -> None:
-    text = (DOCS / "article.md").read_text(encoding="utf-8")
-    assert typed(text) == []
-    assert len(named(text)) > 30
 
 
 REFERENCES = (
@@ -99,12 +90,9 @@ def test_a_typed_result_is_detected(text: str, numbers: list[str]) -> None:
     assert typed(text) == numbers
 
 
-def test_names_are_replaced_by_figures() -> None:
+def test_names_are_replaced_by_figures_and_unknown_ones_rejected() -> None:
     assert filled("a {{ x.y-z }} b {{n}} {no} {{ X }}", {"x.y-z": "1 %", "n": "2"}) == "a 1 % b 2 {no} {{ X }}"
     assert named("{{ b }} {{ a.c }} {{ b }}") == ("b", "a.c", "b")
-
-
-def test_an_unknown_name_is_rejected() -> None:
     with pytest.raises(FigureError, match=r"unknown figure 'seventy\.mean'"):
         filled("{{ seventy.mean }}", {"seventy.sets": "1"})
 

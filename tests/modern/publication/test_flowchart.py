@@ -89,10 +89,13 @@ def test_a_go_to_is_a_line_without_a_number_and_a_step_with_one() -> None:
     assert control_flow.boxes[0].exits[0].target == 2
 
 
-def test_a_computed_go_to_names_the_values_of_each_statement() -> None:
+def test_computed_go_tos_and_long_statements_are_written_in_boxes() -> None:
     control_flow = flow(program("1 I=2", "GO TO (1,2,1),I", "2 STOP", "END"))
     assert [(way.taken, way.target) for way in control_flow.boxes[1].exits] == [("1, 3", 0), ("2", 2)]
     assert control_flow.boxes[1].lines == ("I",)
+    rows = wrapped("C3 = (Y(I2) - Y(I1)) *Z(I1) + (Z(I1) - Z(I2)) *Y(I1)")
+    assert all(len(row) <= 39 for row in rows)
+    assert "".join("".join(rows).split()) == "C3=(Y(I2)-Y(I1))*Z(I1)+(Z(I1)-Z(I2))*Y(I1)"
 
 
 def _shifted(drawn: Chart, x: int) -> Chart:
@@ -124,12 +127,6 @@ def test_the_collision_checks_detect_a_bad_chart() -> None:
     assert any("too long" in fault for fault in faults(replace(drawn, pages=(replace(page, boxes=wide),))))
 
 
-def test_long_statements_are_broken_after_an_operator() -> None:
-    rows = wrapped("C3 = (Y(I2) - Y(I1)) *Z(I1) + (Z(I1) - Z(I2)) *Y(I1)")
-    assert all(len(row) <= 39 for row in rows)
-    assert "".join("".join(rows).split()) == "C3=(Y(I2)-Y(I1))*Z(I1)+(Z(I1)-Z(I2))*Y(I1)"
-
-
 def test_the_picture_is_xml_with_every_statement_as_text() -> None:
     drawn = chart(flow(built_in("program2")))
     text = chart_svg(drawn)
@@ -143,13 +140,10 @@ def test_the_picture_is_xml_with_every_statement_as_text() -> None:
     assert len(root.findall(f"{SVG}g")) == len(drawn.pages)
 
 
-def test_a_box_links_to_the_address_of_the_caller() -> None:
+def test_boxes_have_links_and_pages_add_up_to_the_chart() -> None:
     drawn = chart(flow(program(*LOOP)))
     root = ET.fromstring(chart_svg(drawn, link=lambda box: f"x.html#{box.name}" if box.label else ""))
     assert [a.get("href") for a in root.iter(f"{SVG}a")] == ["x.html#10", "x.html#20"]
-
-
-def test_single_pages_add_up_to_the_whole_chart() -> None:
     drawn = chart(flow(built_in("program1")))
     sheets = [chart_svg(drawn, k) for k in range(1, len(drawn.pages) + 1)]
     heights = [int(ET.fromstring(text).get("height", "0")) for text in sheets]

@@ -57,15 +57,12 @@ def _length(plate: Plate, *kinds: str) -> float:
     return sum(math.dist(s.start, s.end) for s in plate.strokes if s.kind in kinds)
 
 
-def test_the_next_step_lacks_what_a_step_removes() -> None:
+def test_steps_lack_what_is_removed_and_end_with_the_drawing() -> None:
     _, (everything, facing, nearer, result) = steps.hidden_lines()
     assert _length(everything, SEEN) == pytest.approx(_length(facing, SEEN, EDGE_OF_CONTOUR, REMOVED))
     assert _length(facing, SEEN, EDGE_OF_CONTOUR) == pytest.approx(_length(nearer, SEEN, REMOVED))
     assert _length(nearer, SEEN) == pytest.approx(_length(result, SEEN, REMOVED))
     assert all(plate.count(REMOVED) for plate in (facing, nearer, result))
-
-
-def test_the_last_step_is_the_drawing() -> None:
     house = scene("house")
     drawing = draw(house.make, house.sight.observer(house.make))
     _, plates = steps.hidden_lines()

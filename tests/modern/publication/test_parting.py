@@ -45,10 +45,13 @@ def test_the_hull_equals_the_exact_hull_for_full_data_sets(seed: int) -> None:
     agree([(draw.randint(-99, 99), draw.randint(-99, 99), draw.randint(-99, 99)) for _ in range(MOST)])
 
 
-def test_the_corners_of_a_face_are_in_order() -> None:
+def test_corners_are_in_order_and_equal_points_are_one_vertex() -> None:
     _, faces = true_hull([(0, 0, 0), (2, 2, 0), (2, 0, 0), (0, 2, 0), (1, 1, 0), (1, 0, 0)])
     assert sorted(faces[0]) == [0, 1, 2, 3]
     assert abs(faces[0].index(0) - faces[0].index(1)) == 2, "opposite corners are not neighbours"
+    answer = parted("1 2 3\n1 2 3")
+    assert answer["says"][0] == "1 vertex, one of them repeated, 2 equations"
+    assert (answer["true"]["text"], answer["found"]["vertices"]) == ("a point", [0])
 
 
 @pytest.mark.parametrize("example", range(1, 7))
@@ -102,27 +105,18 @@ def agreement(text: str, folder: Path, capsys) -> str:
     return "refused" if answer["reason"] else "hull"
 
 
-def test_a_rejection_of_points_of_three_digits_names_the_branch_that_exact_arithmetic_takes_differently() -> None:
+def test_rejections_name_the_branch_and_the_sets_have_three_outcomes() -> None:
     answer = parted(point_sets()["six points of three digits: rejected"])
     assert answer["says"] == ["DATA NOT ACCEPTABLE"]
     assert answer["reason"][0].startswith("program 3, decided by card 51, IF(E(J))119,117,119 for the point")
     assert "program 3, card 51, IF(E(J))119,117,119; with eight digits the value is 10" in answer["part"]
     assert (answer["found"]["faces"], answer["true"]["text"]) == ([], "a polyhedron with 6 vertices and 8 faces")
-
-
-def test_the_sets_of_the_page_give_a_rejection_a_wrong_hull_and_the_true_hull() -> None:
     answers = [parted(text) for text in point_sets().values()]
     outcomes = [
         "rejected" if answer["reason"] else sorted(answer["found"]["vertices"]) == answer["true"]["vertices"]
         for answer in answers
     ]
     assert outcomes == [False, True, "rejected", "rejected", True]
-
-
-def test_equal_points_are_one_vertex() -> None:
-    answer = parted("1 2 3\n1 2 3")
-    assert answer["says"][0] == "1 vertex, one of them repeated, 2 equations"
-    assert (answer["true"]["text"], answer["found"]["vertices"]) == ("a point", [0])
 
 
 @pytest.mark.parametrize(

@@ -44,10 +44,14 @@ def bare(text: str) -> list[str]:
     ]
 
 
-def test_a_time_without_interval_is_noticed() -> None:
+def test_times_without_intervals_are_noticed_in_texts_and_listings(capsys) -> None:
     rough = "hundredth of a second"
     assert bare(f"in 20.9 s, 1,364 minutes, about a {rough}") == ["20.9 s", "1,364 minutes", rough]
     assert bare(f"{modelled(20.9)}, {nominal(PUNCH_SECONDS)}, {modelled(0.001)} and {modelled(400)}") == []
+    assert main(["listing", "program1", "example1"]) == 0
+    first = capsys.readouterr().out.splitlines()[0]
+    assert TIME.search(first)
+    assert bare(first) == []
 
 
 def test_no_other_module_formats_a_time_of_the_model() -> None:
@@ -67,13 +71,6 @@ def test_the_profile_has_an_interval_in_every_row_except_zeros(capsys) -> None:
         assert re.fullmatch(
             rf"  [a-z ]+? +\d* +(?:0\.0|(?!0\.0 ){INTERVAL.replace(' ', ' +', 1)})(, less with overlap|  ~)?", line
         ), line
-
-
-def test_listings_with_statistics_have_intervals(capsys) -> None:
-    assert main(["listing", "program1", "example1"]) == 0
-    first = capsys.readouterr().out.splitlines()[0]
-    assert TIME.search(first)
-    assert bare(first) == []
 
 
 @pytest.mark.parametrize(("page", "argument"), [("example", "6"), ("machine", "time"), ("facing", "program3")])

@@ -38,13 +38,18 @@ def run(program: Path, *words: str) -> tuple[int, str, str]:
     return done.returncode, done.stdout, done.stderr
 
 
-def test_the_one_file_reproduces_every_card_of_chapter_6(program: Path, empty: Path) -> None:
+def test_the_one_file_reproduces_chapter_6_and_reads_an_operator_file(program: Path, empty: Path) -> None:
     code, out, err = run(program, "reproduce", "1", "2", "3", "4", "5", "6")
     text = " ".join(out.split())
     assert (code, err) == (0, "")
     assert "312 of 312 cards" in text
     assert text.endswith("Every printed result is reproduced.")
     assert list(empty.iterdir()) == []
+    Path("a.f").write_text(
+        "      ACCEPT 1,I\n      PUNCH 1,I\n      STOP\n    1 FORMAT (I5)\n      END\n", encoding="utf-8"
+    )
+    Path("answers").write_text("ENTER    77\n", encoding="utf-8")
+    assert run(program, "run", "a.f", "--operator=answers")[:2] == (0, "   77\n")
 
 
 @pytest.mark.parametrize(
@@ -60,14 +65,6 @@ def test_the_one_file_prints_what_the_installed_program_prints(words, program, e
     monkeypatch.setenv("COLUMNS", "100")  # the width without a terminal, whatever an earlier test has set
     Path("chapter4.xml").write_text(tei("chapter4", "0.1.0"), encoding="utf-8")
     assert run(program, *words.split()) == call(capsys, *words.split())
-
-
-def test_the_operator_of_the_one_file_answers_from_a_file(program: Path, empty: Path) -> None:
-    Path("a.f").write_text(
-        "      ACCEPT 1,I\n      PUNCH 1,I\n      STOP\n    1 FORMAT (I5)\n      END\n", encoding="utf-8"
-    )
-    Path("answers").write_text("ENTER    77\n", encoding="utf-8")
-    assert run(program, "run", "a.f", "--operator=answers")[:2] == (0, "   77\n")
 
 
 def test_reproduce_without_numpy_names_what_it_leaves_out(program: Path, empty: Path) -> None:

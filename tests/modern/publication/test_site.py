@@ -210,23 +210,17 @@ def test_unknown_names_and_arguments_are_rejected() -> None:
         make("facing", "program4")
 
 
-def test_markup_is_escaped() -> None:
+def test_cells_escapes_and_ids_are_written_correctly() -> None:
     assert element("p", escape('a<b & "c"')) == "<p>a&lt;b &amp; &quot;c&quot;</p>"
     assert element("input", type="radio", checked=True, id="", value="") == '<input type="radio" checked value="">'
     assert code("  I=J+1", ((4, 5),), "ins") == '<code><span class="lead">  I</span>=<ins>J</ins>+1</code>'
     assert relative('<a href="@/a.html">', 2) == '<a href="../../a.html">'
-
-
-def test_ids_of_a_picture_get_its_key() -> None:
     head = '<?xml version="1.0"?><svg aria-labelledby="t"><style>a{}</style>'
     svg = head + '<title id="t">x</title><use href="#f"/><g id="f"/></svg>'
     assert inline(svg, "k", "c") == (
         '<svg class="c" aria-labelledby="t-k"><title id="t-k">x</title><use href="#f-k"/><g id="f-k"/></svg>'
     )
-
-
-def test_cells_may_break_after_a_no_break_space_but_their_attributes_stay() -> None:
-    """A percent sign stays with its number."""
+    # A percent sign stays with its number.
     wide = "".join(f"<th>{'w' * 30}{n}</th>" for n in range(2))
     gap, cell = "\N{NO-BREAK SPACE}", "<td><a title='1{0}2'>3{0}4</a></td><td>5{0}%</td>"
     html = stacked(f"<table><tr>{wide}</tr><tr>{cell.format(gap)}</tr></table>")

@@ -104,24 +104,29 @@ def test_the_deck_is_restored(name: str) -> None:
     assert reading.corrected(root(name)) == read(f"fortran_src/{name}.f")
 
 
-def test_the_state_of_the_examples_is_restored() -> None:
+def test_states_and_cards_are_restored_from_tei() -> None:
     layers = next(b.layers for b in BUILT_INS if b.name == "program1_examples")
     assert reading.corrected(root("program1"), layers) == read("fortran_src/program1_examples.f")
-
-
-def test_the_cards_of_chapter_6_are_restored() -> None:
     files = [file for _, _, _, file in device_files(load_chapter())]
     assert list(reading.parts(root("chapter6"))) == files
     for file in files:
         assert reading.part(root("chapter6"), file) == read(f"transcripts/chapter6/{file}")
+    changed = written("program2").replace("GO TO", "GO TQ", 1)
+    decks = [reading.corrected(reading.parsed("x", source)) for source in (written("program2"), changed)]
+    assert sum(a != b for a, b in zip(*decks, strict=True)) == 1
 
 
-def test_tokens_of_cards_refer_to_lines_of_the_print() -> None:
+def test_rows_and_tokens_refer_to_the_print() -> None:
     document = fromstring(written("chapter6"))
     lines = {ab.get("{http://www.w3.org/XML/1998/namespace}id") for ab in document.iter(TEI + "ab")}
     ties = [seg.get("corresp", "") for seg in document.iter(TEI + "seg") if not seg.get(ID)]
     assert len(ties) > 1000
     assert {tie.removeprefix("#") for tie in ties} <= lines
+    source = written("program1")
+    assert re.search('<rdg type="rejected"', "".join(map(written, NAMES)))
+    before = reading.corrected(reading.parsed("x", source))
+    after = reading.corrected(reading.parsed("x", re.sub(r'(<rdg type="rejected"[^>]*>)[^<]*', r"\1NOT", source)))
+    assert before == after
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -185,20 +190,6 @@ def test_every_verdict_points_to_the_words_of_its_statement(document: str) -> No
         (f"#{row.id}", row.verdict) for row in statements_of(document)
     ]
     assert quotations == {f"#{row.id}": row.words for row in statements_of(document)}
-
-
-def test_a_changed_character_changes_one_character_of_the_deck() -> None:
-    changed = written("program2").replace("GO TO", "GO TQ", 1)
-    decks = [reading.corrected(reading.parsed("x", source)) for source in (written("program2"), changed)]
-    assert sum(a != b for a, b in zip(*decks, strict=True)) == 1
-
-
-def test_rejected_readings_do_not_enter_the_text() -> None:
-    source = written("program1")
-    assert re.search('<rdg type="rejected"', "".join(map(written, NAMES)))
-    before = reading.corrected(reading.parsed("x", source))
-    after = reading.corrected(reading.parsed("x", re.sub(r'(<rdg type="rejected"[^>]*>)[^<]*', r"\1NOT", source)))
-    assert before == after
 
 
 def test_the_command_writes_reads_and_validates(tmp_path: Path, capsys) -> None:

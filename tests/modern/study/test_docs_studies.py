@@ -99,14 +99,11 @@ def test_how_to_describes_every_key_family_and_measure(head: str, names: set[str
     assert rows_of(head) == names
 
 
-def test_how_to_describes_every_parameter_of_a_family() -> None:
+def test_how_to_describes_parameters_and_defaults() -> None:
     for name, family in FAMILIES.items():
         (line,) = re.findall(rf"^\| `{name}` \| (.*?) \|", HOW_TO, re.MULTILINE)
         parameters = [parameter for parameter in signature(family).parameters if parameter != "draw"]
         assert sorted(re.findall(r"`(\w+)`", line)) == sorted(parameters), name
-
-
-def test_how_to_states_the_defaults_of_a_route() -> None:
     for made in (Programs, Port):
         for field in fields(made):
             if field.name in ("limit", "core", "arithmetic", "state", "bounds"):

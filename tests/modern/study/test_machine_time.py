@@ -35,16 +35,10 @@ def test_times_on_the_library_lie_within_the_bounds(modelled: dict[tuple[str, st
     assert len(modelled) > 30
 
 
-def test_bounds_are_no_wider_than_the_runs_require(modelled: dict[tuple[str, str], timing.Timing]) -> None:
-    """Program 3 computes most; its times are reproduced to two per cent."""
+def test_modelled_times_agree_with_the_runs(modelled: dict[tuple[str, str], timing.Timing]) -> None:
+    # Program 3 computes most; its times are reproduced to two per cent.
     ratios = [RUNS[key] / table.processor_time.seconds for key, table in modelled.items() if key[1] == "program3"]
     assert 0.98 < min(ratios) < max(ratios) < 1.02
-
-
-def test_another_compiler_was_up_to_twice_as_fast(modelled: dict[tuple[str, str], timing.Timing]) -> None:
     assert 1 < modelled["example 6", "program3"].processor_time.seconds / PDQ < 2
-
-
-def test_committed_table_has_every_run() -> None:
     assert len(RUNS) > 60
     assert {f"{family}, {n} points" for family, n in times.SETS} <= {deck for deck, _ in RUNS}

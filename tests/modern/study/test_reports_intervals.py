@@ -136,14 +136,14 @@ def test_seventy_reports_the_interval_of_sets_in_space(tmp_path, failures, slabs
     assert claim in seventies(tmp_path, failures, slabs)
 
 
-def test_seventy_reports_the_difference_of_the_means(tmp_path: Path) -> None:
-    """3, 4, 3 and 4 failures as listed and one with the card: 3.5 - 1."""
+def test_seventy_reports_means_and_sets_in_space(tmp_path: Path) -> None:
+    # 3, 4, 3 and 4 failures as listed and one with the card: 3.5 - 1.
     assert "2.50 fewer than with the programs as listed." in seventies(tmp_path, [3, 4, 3, 4], mended=1)
-
-
-def test_seventy_counts_failures_of_sets_in_space_with_the_listed_programs(tmp_path: Path) -> None:
-    """Both slabs fail as listed and none with the card; .158 is the square root of .025."""
-    assert "Of the sets of points in space, 100.0 (15.8 to 100.0) % fail with" in seventies(tmp_path, [2, 2], slabs=2)
+    (tmp_path / "slabs").mkdir()
+    # Both slabs fail as listed and none with the card; .158 is the square root of .025.
+    assert "Of the sets of points in space, 100.0 (15.8 to 100.0) % fail with" in seventies(
+        tmp_path / "slabs", [2, 2], slabs=2
+    )
 
 
 # The study divergence.
@@ -185,16 +185,13 @@ def test_divergence_sorts_statements_by_frequency_and_gives_their_shares(twenty:
     assert twenty.tables[0].rows[0][4] == "40.0 (5.3 to 85.3) %"
 
 
-def test_divergence_separates_faults_of_the_arithmetic_from_faults_of_the_programs(twenty: Report) -> None:
-    """3 of 7 sets with a difference are right (.099 to .816); 3 of 13 without one fail (.050 to .538)."""
+def test_divergence_separates_faults_and_counts_undecided_runs(twenty: Report) -> None:
+    # 3 of 7 sets with a difference are right (.099 to .816); 3 of 13 without one fail (.050 to .538).
     assert (
         "Of the sets with a different decision, 3 of 7, 42.9 (9.9 to 81.6) %, still give the right hull."
         in twenty.conclusions[1]
     )
     assert "3 of 13, 23.1 (5.0 to 53.8) %, fail because of faults of the programs." in twenty.conclusions[1]
-
-
-def test_divergence_counts_runs_that_exact_arithmetic_cannot_follow(twenty: Report) -> None:
     assert "In 2 runs, exact arithmetic had to stop before any decision differed." in twenty.conclusions[2]
 
 

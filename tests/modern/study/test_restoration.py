@@ -67,14 +67,15 @@ def test_a_card_is_restored_by_its_form(card: int, damaged: str, expected: tuple
     assert {r.card for r in result} == {card}
 
 
-def test_sound_cards_are_left_alone() -> None:
+def test_sound_cards_and_exchanges_that_only_improve_the_print_are_left_alone() -> None:
     assert restore([Job(CARDS)], WEIGHTS) == [[]]
-
-
-def test_the_printed_results_hold_for_the_originals() -> None:
     for group in (listings(), others(DATA / "period")):
         for cards, trials in zip(group.originals, group.trials, strict=True):
             assert score(cards, trials) == sum(1000 + len(trial.printed) for trial in trials)
+    # Two numbers are wrong, and the table corrects one of them, so that the result is still not the printed one.
+    cards = ("      X=1.", "      Y=3.", "      PUNCH 20,X", "      PUNCH 20,Y", "   20 FORMAT(F4.1)", "      END")
+    trial = Trial((), ("  I.0", "  2.0"))
+    assert restore([Job(cards, (trial,))], WEIGHTS) == [[]]
 
 
 def run_sealed(code: str) -> str:
@@ -122,13 +123,6 @@ def test_an_insertion_that_only_siblings_support_is_probable() -> None:
     ]
 
 
-def test_an_exchange_that_only_improves_the_print_is_not_made() -> None:
-    """Two numbers are wrong, and the table corrects one of them, so that the result is still not the printed one."""
-    cards = ("      X=1.", "      Y=3.", "      PUNCH 20,X", "      PUNCH 20,Y", "   20 FORMAT(F4.1)", "      END")
-    trial = Trial((), ("  I.0", "  2.0"))
-    assert restore([Job(cards, (trial,))], WEIGHTS) == [[]]
-
-
 def vars_of(restored: object) -> dict[str, object]:
     return {name: getattr(restored, name) for name in ("card", "text", "certainty", "ground")}
 
@@ -154,13 +148,16 @@ def test_the_table_counts_errors_with_exact_intervals() -> None:
     assert lines["signs lost", "probable", "all"][:2] == ("9", "0")
 
 
-def test_the_committed_copies_follow_from_the_seed() -> None:
-    """One copy of each kind is damaged and restored again."""
+def test_committed_copies_follow_from_the_seed_and_the_present_rules() -> None:
+    # One copy of each kind is damaged and restored again.
     copies = {copy.key: copy for copy in read_restoration(ROOT / "docs" / "restoration")}
     group = others(DATA / "period")
     with blind_restorer() as restorer:
         for damage in ROUND:
             assert copies[damage, group.name, 0] == restored_copy(damage, group, 0, restorer)
+    head = json.loads((ROOT / "docs" / "restoration" / "copies.jsonl").read_text(encoding="utf-8").splitlines()[0])
+    assert head["rules"] == rules()
+    assert head["originals"] == _digest((listings(), others(DATA / "period")))
 
 
 def test_the_committed_copies_are_complete_rounds() -> None:
@@ -174,12 +171,6 @@ def test_the_committed_copies_are_complete_rounds() -> None:
     }
     assert len(rounds) == 1
     assert all(sorted(of_group) == list(range(len(of_group))) for of_group in numbers.values())
-
-
-def test_the_committed_copies_were_made_by_the_present_rules() -> None:
-    head = json.loads((ROOT / "docs" / "restoration" / "copies.jsonl").read_text(encoding="utf-8").splitlines()[0])
-    assert head["rules"] == rules()
-    assert head["originals"] == _digest((listings(), others(DATA / "period")))
 
 
 @pytest.mark.parametrize(

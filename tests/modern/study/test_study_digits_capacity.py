@@ -57,37 +57,35 @@ def test_port_and_corrected_program_use_the_same_number_of_table_entries(family:
         assert plane_table(sample, hull) == {"planes_at_once": _table_places(machines[-1])}
 
 
-def test_plane_table_has_no_figure_without_a_history_or_for_flat_sets() -> None:
+def test_cells_and_plane_tables_are_selected() -> None:
     sample = _sample("ball", 0, digits=2, n=8)
     assert plane_table(sample, convex_hull(sample.drawn.points)) == {}
     flat = [["0", "0", "0"], ["5", "0", "0"], ["0", "5", "0"], ["5", "5", "0"]]
     assert plane_table(sample, convex_hull(flat, history=True)) == {}
+    # docs/explanation/eight-digits.md: with 3d + 1 digits every test for zero is exact for integers of d digits.
+    size = 10**3 - 1
+    assert 8 * size**3 < 10 ** digits.exact_zeros(3)
+    assert 4 * (16 * size**3) < 10 ** digits.enough(3)
+    plan = capacity.plan(1, 1)
+    assert values(plan, "sets") == ("ball", "cube, solid", "cube, surface", "prism", "sphere")
+    assert [cell.key["n"] for _, cell in cells(plan, sets="prism")] == [n for n in capacity.POINTS if n % 2 == 0]
+    assert cells(plan, sets="nothing") == ()
 
 
 def _run(sample: Sample) -> HullRun:
     return run_hull(sample.deck, programs.program)
 
 
-def test_decisions_agree_with_exact_arithmetic_for_two_digits_and_not_for_three() -> None:
+def test_divergence_depends_on_the_digits_of_the_points() -> None:
     for index in range(3):
         small = _sample("integers", index, digits=2, n=10)
         assert divergence_of(small, _run(small)) == {"diverges": ""}
         large = _sample("integers", index, digits=3, n=10)
         assert divergence_of(large, _run(large))["diverges"] != ""
-
-
-def test_divergence_names_cards_whose_planes_miss_their_points() -> None:
-    """The D of a plane of three-digit points can have nine digits, of which program 1 punches eight."""
+    # The D of a plane of three-digit points can have nine digits, of which program 1 punches eight.
     samples = [_sample("integers", index, digits=3, n=10) for index in range(8)]
     places = {str(divergence_of(sample, _run(sample))["diverges"]) for sample in samples}
     assert "cards to program3" in places
-
-
-def test_greatest_intermediate_value_has_the_derived_number_of_digits() -> None:
-    """docs/explanation/eight-digits.md: with 3d + 1 digits every test for zero is exact for integers of d digits."""
-    size = 10**3 - 1
-    assert 8 * size**3 < 10 ** digits.exact_zeros(3)
-    assert 4 * (16 * size**3) < 10 ** digits.enough(3)
 
 
 @pytest.fixture(scope="module")
@@ -98,13 +96,10 @@ def digits_study(tmp_path_factory) -> tuple[Plan, Path, Report]:
     return plan, folder, _finished(plan, folder, digits)
 
 
-def test_digits_finds_3d_plus_1_for_random_sets(digits_study: tuple[Plan, Path, Report]) -> None:
+def test_digits_counts_every_set_and_finds_3d_plus_1(digits_study: tuple[Plan, Path, Report]) -> None:
     _, _, report = digits_study
     assert [row[4] for row in report.tables[0].rows] == ["4", "7", "10"]
     assert report.tables[0].rows[0][5] == "4"
-
-
-def test_digits_counts_every_set_once(digits_study: tuple[Plan, Path, Report]) -> None:
     plan, _, report = digits_study
     for row in report.tables[2].rows:
         assert sum(map(int, row[2:])) == plan.cells[0].samples
@@ -196,13 +191,6 @@ def test_divergence_report_follows_changed_rows(tmp_path: Path) -> None:
     assert after.tables[0].rows[0][:2] == ("program3 116", "6")
     assert after.conclusions[0].endswith("All decisions agreed for all sets of these families: none.")
     assert after.conclusions[1].endswith("all decisions agree, 0 of 0, fail because of faults of the programs.")
-
-
-def test_cells_are_selected_by_their_keys() -> None:
-    plan = capacity.plan(1, 1)
-    assert values(plan, "sets") == ("ball", "cube, solid", "cube, surface", "prism", "sphere")
-    assert [cell.key["n"] for _, cell in cells(plan, sets="prism")] == [n for n in capacity.POINTS if n % 2 == 0]
-    assert cells(plan, sets="nothing") == ()
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])

@@ -42,8 +42,14 @@ def numbers(drawn: Drawn) -> list[tuple[Fraction, ...]]:
     return [tuple(map(Fraction, point)) for point in drawn.points]
 
 
-def test_every_family_has_a_case() -> None:
+def test_families_have_cases_and_equally_frequent_kinds() -> None:
     assert DRAWN.keys() == FAMILIES.keys()
+    seen = [str(draw("thesis", 1, index).tags["kind"]) for index in range(1200)]
+    # Each is binomial of 1200 and 1/6: 200 with a standard deviation of 13.
+    assert all(abs(seen.count(kind) - 200) < 6 * 13 for kind in KINDS)
+    found = [x for k in range(200) for p in numbers(draw("thesis", 1, k, kinds={SHEET: 1}, decimals=333)) for x in p]
+    # Binomial of 4,800 and .333: 1,598 with a standard deviation of 33.
+    assert abs(sum(x.denominator > 1 for x in found) - 1598) < 6 * 33
 
 
 @given(st.sampled_from(sorted(DRAWN)), seeds, st.integers(0, 40))
@@ -129,12 +135,6 @@ def test_kinds_of_the_thesis_have_their_dimensions(seed: int) -> None:
     assert any(all(1 <= p[k] <= 4 for p in slab) for k in range(3))
 
 
-def test_kinds_are_equally_frequent() -> None:
-    seen = [str(draw("thesis", 1, index).tags["kind"]) for index in range(1200)]
-    # Each is binomial of 1200 and 1/6: 200 with a standard deviation of 13.
-    assert all(abs(seen.count(kind) - 200) < 6 * 13 for kind in KINDS)
-
-
 @given(seeds, st.integers(0, 1000))
 def test_data_sheet_has_eight_points_of_integers_and_decimals(seed: int, share: int) -> None:
     parameters = {"kinds": {SHEET: 1}, "decimals": share}
@@ -148,18 +148,20 @@ def test_data_sheet_has_eight_points_of_integers_and_decimals(seed: int, share: 
         assert all((x.denominator == 1) is whole for point in points for x in point)
 
 
-def test_a_third_of_a_data_sheets_coordinates_are_decimals() -> None:
-    found = [x for k in range(200) for p in numbers(draw("thesis", 1, k, kinds={SHEET: 1}, decimals=333)) for x in p]
-    # Binomial of 4,800 and .333: 1,598 with a standard deviation of 33.
-    assert abs(sum(x.denominator > 1 for x in found) - 1598) < 6 * 33
-
-
-def test_published_sets_follow_one_another() -> None:
+def test_published_and_user_defined_families_are_drawn() -> None:
     names = list(published_sets())
     assert names[:6] == [f"example {k}" for k in range(1, 7)]
     assert [draw("published", 0, k).tags["kind"] for k in range(len(names) + 1)] == [*names, names[0]]
     shuffled = draw("published", 0, 4, sets=["example 5"], shuffle=True)
     assert sorted(shuffled.points) == sorted(published_sets()["example 5"])
+    with pytest.raises(FamilyError, match="distinct points"):
+        Draw(random_of("ab")).distinct(3, lambda: (0, 0, 0))
+    assert draw("modern.study.families.scattered:integers", 3, digits=2, n=4).points
+    with pytest.raises(PlanError):
+        draw("modern.study.families.scattered:nothing", 3, n=4)
+    for name in (":f", ".x:f"):
+        with pytest.raises(PlanError, match=f"family {name}: "):
+            draw(name, 3, n=4)
 
 
 @pytest.mark.parametrize(
@@ -201,17 +203,3 @@ def test_impossible_parameters_give_a_one_line_error(family: str, parameters: di
         drawn()
     assert message in str(rejection.value)
     assert "\n" not in str(rejection.value)
-
-
-def test_family_with_too_few_distinct_points_raises_family_error() -> None:
-    with pytest.raises(FamilyError, match="distinct points"):
-        Draw(random_of("ab")).distinct(3, lambda: (0, 0, 0))
-
-
-def test_family_can_be_a_user_defined_function() -> None:
-    assert draw("modern.study.families.scattered:integers", 3, digits=2, n=4).points
-    with pytest.raises(PlanError):
-        draw("modern.study.families.scattered:nothing", 3, n=4)
-    for name in (":f", ".x:f"):
-        with pytest.raises(PlanError, match=f"family {name}: "):
-            draw(name, 3, n=4)

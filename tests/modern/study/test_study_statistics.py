@@ -53,17 +53,20 @@ def test_interval_of_a_count_lies_between_zero_and_the_total(of: int, data: st.D
     assert (interval.low, interval.high) == pytest.approx((low, high), abs=1e-6)
 
 
-def test_interval_of_a_mean_is_truncated_at_the_bounds_of_the_quantity() -> None:
-    """1 and 3 by Student's t: 2 +- 12.706."""
+def test_intervals_of_means_use_students_t_and_bounds() -> None:
+    # 1 and 3 by Student's t: 2 +- 12.706.
     assert (mean([1, 3]).low, mean([1, 3]).high) == pytest.approx((-10.706, 14.706), abs=5e-4)
     assert mean([1, 3], least=0.0, most=4.0) == Interval(2.0, 0.0, 4.0)
     assert mean([1, 3], least=-20.0, most=20.0) == mean([1, 3])
-
-
-def test_students_t_agrees_with_published_values() -> None:
-    """NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.2, upper critical values of Student's t."""
+    # NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.2, upper critical values of Student's t.
     for degrees, level, value in ((1, 0.95, 12.706), (5, 0.95, 2.571), (10, 0.90, 1.812), (100, 0.99, 2.626)):
         assert round(student(degrees, level), 3) == value
+    for hits, of in ((1, 0), (-1, 5), (6, 5)):
+        with pytest.raises(ValueError, match="expected hits from 0 to the number of samples"):
+            exact(hits, of)
+    with pytest.raises(ValueError, match="at least one value"):
+        mean([])
+    assert mean([3.0]) == mean_of(1, 3.0, 0.0) == Interval(3.0, -math.inf, math.inf)
 
 
 @given(st.integers(1, 500), st.data(), st.sampled_from([0.8, 0.95, 0.99]))
@@ -89,12 +92,3 @@ def test_interval_of_a_mean_agrees_with_the_standard_library(values: list[float]
     assert math.isclose(interval.value, plain.fmean(values), rel_tol=1e-9, abs_tol=1e-6)
     half = student(len(values) - 1) * plain.stdev(values) / math.sqrt(len(values))
     assert math.isclose(interval.high - interval.low, 2 * half, rel_tol=1e-6, abs_tol=1e-6)
-
-
-def test_impossible_counts_and_empty_samples_raise_value_error() -> None:
-    for hits, of in ((1, 0), (-1, 5), (6, 5)):
-        with pytest.raises(ValueError, match="expected hits from 0 to the number of samples"):
-            exact(hits, of)
-    with pytest.raises(ValueError, match="at least one value"):
-        mean([])
-    assert mean([3.0]) == mean_of(1, 3.0, 0.0) == Interval(3.0, -math.inf, math.inf)

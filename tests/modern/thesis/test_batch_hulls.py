@@ -71,12 +71,9 @@ def chain(data: Sequence[Deck], layers: tuple[str, ...], options: Options, first
     return endings
 
 
-def test_both_engines_agree_on_the_six_examples() -> None:
+def test_both_engines_agree_on_the_examples_and_the_decks_of_the_machine_runs() -> None:
     for first in ("program1", "program1_examples"):
         chain([chapter6.input_deck(n) for n in range(1, 7)], (), Options(), first)
-
-
-def test_both_engines_agree_on_the_decks_of_the_machine_runs() -> None:
     data = [read_deck(str(folder / "deck.cards")) for folder in sorted(RUNS.iterdir()) if folder.is_dir()]
     for layers in ((), ("corrected",)):
         chain(data, layers, SETTINGS[0])

@@ -60,12 +60,9 @@ def test_if_the_listing_is_right_the_layer_changes_no_card() -> None:
     assert same > 30
 
 
-def test_the_larger_tables_need_a_core_of_60000() -> None:
+def test_layers_compile_and_the_larger_tables_need_a_core_of_60000() -> None:
     with pytest.raises(DeckError, match="OVERLAP"):
         run([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], "corrected", options=Options())
-
-
-def test_every_combination_of_layers_compiles_from_72_columns() -> None:
     for name in ("program1", "program2", "program3"):
         for included in product((False, True), repeat=3):
             layers = [layer for layer, on in zip(("epsilon", "translation", "corrected"), included, strict=True) if on]

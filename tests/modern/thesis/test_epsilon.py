@@ -75,15 +75,12 @@ def test_an_e_classifies_points_of_rotated_solids(name: str, counts: tuple[int, 
     assert read_hull(through(without, "epsilon", "corrected").final.result.punched) != hull
 
 
-def test_an_e_recognises_points_on_a_line_to_three_decimals() -> None:
+def test_an_e_recognises_lines_and_includes_the_ends_of_its_interval() -> None:
     deck = ground_deck("epsline")
     assert deck is not None
     assert "POINTS ARE COLLINEAR" in [card.strip() for card in through(deck, "epsilon").final.result.punched]
     assert "POINTS ARE COLLINEAR" not in [card.strip() for card in through(deck).final.result.punched]
-
-
-def test_values_at_the_ends_of_the_interval_count_as_zero() -> None:
-    """Point 5 has the value e, or just more, in the plane of the first three, which is z = 0 times 16."""
+    # Point 5 has the value e, or just more, in the plane of the first three, which is z = 0 times 16.
     base = ["0", "0", "0"], ["4", "0", "0"], ["0", "4", "0"], ["1", "1", "-4"]
     for height, vertices in ((".5", 4), (".5625", 5)):
         done = run([*base, ["1", "1", height]], "epsilon", "corrected", e="8")
@@ -107,14 +104,11 @@ def test_an_e_of_a_thousandth_makes_sets_of_three_decimals_right() -> None:
     assert refused > 20
 
 
-def test_too_large_an_e_loses_vertices() -> None:
-    """Chapter 7 warns of this on p. 118: a point that is not on a plane may count as being on it."""
+def test_too_large_an_e_loses_vertices_but_no_core() -> None:
+    # Chapter 7 warns of this on p. 118: a point that is not on a plane may count as being on it.
     points = [(-9, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9), (0, 1, -1)]
     assert differences(points, run(points, "epsilon", "corrected", e="999"))
     assert not differences(points, run(points, "epsilon", "corrected", e=".1"))
-
-
-def test_the_layer_needs_no_larger_core() -> None:
     points = [[str(k), str(k * k % 7), str(k % 5)] for k in range(4)]
     assert through(deck_of(points), "epsilon", options=Options()).final.result.ending.normal
 

@@ -75,9 +75,13 @@ def test_the_named_correction_removes_the_fault(name: str) -> None:
     assert explain_run(partial(run_hull, ground(name), corrected, Options(core=60_000)))[1] is None
 
 
-def test_a_long_search_stopped_by_the_limit_is_not_a_fault() -> None:
+def test_limits_unmet_equations_and_hulls_are_told_apart() -> None:
     found = cause_of(ground("table"), limit=100_000)
     assert (found.kind, found.fault) == ("endless", 0)
+    found = cause_of(data_deck(FOUR, "points"))
+    assert (found.program, found.kind, found.fault, found.message) == (3, "unmet", 6, "ERROR IN PROGRAM")
+    points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1", "1", "1")]
+    assert explain_run(partial(run_hull, data_deck(points, "points"), programs.loader(())))[1] is None
 
 
 @pytest.mark.parametrize(("points", "program"), [(SOLID, 3), (FLAT, 2)])
@@ -105,13 +109,3 @@ def test_the_cause_with_an_epsilon_of_zero_is_that_without_epsilon(points: list[
     listed, with_zero = cause_of(deck), cause_of(with_epsilon(deck, "0"), ("epsilon",))
     assert with_zero.fault == 6
     assert replace(with_zero, decision=None) == replace(listed, decision=None)
-
-
-def test_points_that_satisfy_no_three_equations_are_identified() -> None:
-    found = cause_of(data_deck(FOUR, "points"))
-    assert (found.program, found.kind, found.fault, found.message) == (3, "unmet", 6, "ERROR IN PROGRAM")
-
-
-def test_a_hull_has_no_cause() -> None:
-    points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1", "1", "1")]
-    assert explain_run(partial(run_hull, data_deck(points, "points"), programs.loader(())))[1] is None

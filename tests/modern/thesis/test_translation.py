@@ -77,15 +77,12 @@ def test_points_are_punched_with_their_original_coordinates(flat: bool) -> None:
         assert Counter(hull.inside + hull.boundary + hull.vertices) == Counter(points)
 
 
-def test_a_point_with_too_many_digits_for_the_translation_is_truncated() -> None:
+def test_translation_truncates_long_numbers_and_needs_more_core() -> None:
     points = [["0", "0", "1"], ["100", "1", "1"], ["1", "100", "1"], [".12345678", ".87654321", "1"]]
     hull = read_hull(run(points, "epsilon", "translation", "corrected", e="1").final.result.punched)
     inside = (*hull.inside, *hull.boundary, *hull.vertices)
     assert not any(p[0].denominator == 50_000_000 for p in inside)
     assert len(inside) == 4
-
-
-def test_the_layer_needs_more_than_40000_positions() -> None:
-    """Thesis p. 118: "the translation might not be advisable since it would require more storage"."""
+    # Thesis p. 118: "the translation might not be advisable since it would require more storage".
     with pytest.raises(DeckError, match="OVERLAP"):
         run([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], "translation", options=Options())
