@@ -161,8 +161,9 @@ def check_everything(
 ) -> Iterator[Proof]:
     """Run all checks and return the proofs in the order in which they are printed.
 
-    If ``transcripts`` is false, check only the ``rows`` of the listings. If ``whole``, the name and the text of a
-    file, is given, also compare the excerpts with it.  Raise ApparatusError if it is not the text of a document.
+    ``rows`` are the rows of the listings. With ``transcripts``, the transcripts of the documents are checked too.
+    ``whole`` is the name and the content of a file with the whole text of a document; the excerpts in the transcript of
+    that document are then compared with it. Raise ApparatusError if the file is not the text of a document.
     """
     pair_uses = count_pair_uses(texts())
     if workers == 1 or len(rows) < _MANY:

@@ -8,11 +8,11 @@ from itertools import combinations, product
 from random import Random
 
 from modern.claims.evidence import Check, Generator, claim, search, searched
-from modern.claims.nakamae_nishita.tables import side
+from modern.claims.nakamae_nishita.tables import overlap, side
 from modern.claims.sampled_sets import CASES, SETS, sampled_sets
 from modern.drawing.visible import sign
 from modern.geometry.vectors import dot
-from modern.papers.nakamae_nishita.hidden import Drawing, Piece, Relation, draw
+from modern.papers.nakamae_nishita.hidden import Drawing, Piece, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron
 from modern.papers.nakamae_nishita.projection import parallel
@@ -67,10 +67,10 @@ def point_of(drawing: Drawing, piece: Piece, share: Fraction) -> list[Fraction]:
     return [a + share * (b - a) for a, b in zip(vertices[piece.start], vertices[piece.end], strict=True)]
 
 
-def samples(drawing: Drawing) -> Iterator[tuple[bool, list[Fraction]]]:
-    """Yield, for each piece of an edge in a drawing, whether it is visible, and its midpoint in space."""
-    for piece in drawing.pieces:
-        yield piece.visible, point_of(drawing, piece, (piece.first + piece.last) / 2)
+def samples(drawing: Drawing) -> Iterator[tuple[Piece, list[Fraction]]]:
+    """Yield each piece of an edge in a drawing with its midpoint in space, and with points next to both of its ends."""
+    for piece, percent in product(drawing.pieces, (1, 50, 99)):
+        yield piece, point_of(drawing, piece, piece.first + (piece.last - piece.first) * Fraction(percent, 100))
 
 
 @cache
@@ -80,31 +80,37 @@ def _drawn(boxes: tuple[Box, ...]) -> Drawing:
 
 @cache
 def _agrees(boxes: tuple[Box, ...]) -> bool:
-    drawing = _drawn(boxes)
-    return all(visible != any(_behind(at, box) for box in boxes) for visible, at in samples(drawing))
+    return all(piece.visible != any(_behind(at, box) for box in boxes) for piece, at in samples(_drawn(boxes)))
 
 
-@claim("nakamae-nishita.11", "nakamae-nishita.49", "appel-will.151", full=600)
+@claim("nakamae-nishita.11", "appel-will.151", full=600)
 def pieces_against_rays(cases: int = 3) -> Check:
-    """Check that a piece of an edge is visible if and only if no box hides its midpoint."""
-    return search(SCENES, _agrees, cases, "a piece is visible if and only if no box hides its midpoint")
+    """Check that a piece of an edge is visible if and only if no box hides its midpoint and points next to its ends.
+
+    All edges of the boxes are divided into pieces. Those of edges between two back faces are never visible.
+    """
+    return search(SCENES, _agrees, cases, "a piece is visible if and only if no box hides three of its points")
 
 
 @claim("nakamae-nishita.15", full=600)
 def unrelated_polyhedra(cases: int = 3) -> Check:
-    """Check that boxes whose contours do not overlap hide nothing of each other, so that no comparison is needed."""
+    """Check that no line of sight meets two boxes with separate images, and that the program compares all others."""
 
     def hide_nothing(boxes: tuple[Box, ...]) -> bool:
-        drawing = _drawn(boxes)
-        related = {(r.v, r.w) for r in drawing.relations}
-        return not any(
-            _behind(at, box)
-            for piece, (_, at) in zip(drawing.pieces, samples(drawing), strict=True)
-            for other, box in enumerate(boxes)
-            if other != piece.solid and not {(other, piece.solid), (piece.solid, other)} & related
-        )
+        compared = {frozenset((relation.v, relation.w)) for relation in _drawn(boxes).relations}
+        for v, w in combinations(range(len(boxes)), 2):
+            is_common = overlap(_image(boxes[v]), _image(boxes[w]))
+            if ({v, w} in compared) != is_common or any(True for _ in _orders(boxes[v], boxes[w]) if not is_common):
+                return False
+        return True
 
     return search(SCENES, hide_nothing, cases, "boxes whose contours do not overlap hide nothing of each other")
+
+
+def _image(box: Box) -> tuple[tuple[int, int], ...]:
+    """Return the images of the corners of a box, by two linear functions that are 0 in the direction of the eye."""
+    a, b, c = EYE
+    return tuple((b * x - a * y, c * y - b * z) for x, y, z in product(*zip(*box, strict=True)))
 
 
 def order_on_lines_of_sight(cases: int) -> Check:
@@ -115,14 +121,13 @@ def order_on_lines_of_sight(cases: int) -> Check:
 
     def have_one_order(boxes: tuple[Box, ...]) -> bool:
         relations = [relation for relation in _drawn(boxes).relations if relation.by == BY_CROSSING]
-        return all(relation.nearer == order for relation in relations for order in _orders(boxes, relation))
+        return all(r.nearer == order for r in relations for order in _orders(boxes[r.v], boxes[r.w]))
 
     return search(SCENES, have_one_order, cases, "the order of two boxes is the same on all their lines of sight")
 
 
-def _orders(boxes: tuple[Box, ...], relation: Relation) -> Iterator[int]:
+def _orders(*pair: Box) -> Iterator[int]:
     """Yield, for each sampled line of sight through V and V', 1 if V is nearer, -1 if V' is, and 0 if they mix."""
-    pair = boxes[relation.v], boxes[relation.w]
     for low, high in pair:
         for point in product(*(range(a, b + 1) for a, b in zip(low, high, strict=True))):
             (first_v, last_v), (first_w, last_w) = (_inside([*map(Fraction, point)], box) for box in pair)
@@ -156,12 +161,8 @@ def divided_box(cases: int = 2) -> Check:
 
 
 def _visible_length(drawing: Drawing) -> Fraction:
-    total = Fraction(0)
-    for piece in drawing.pieces:
-        vertices = drawing.solids[piece.solid].polyhedron.vertices
-        length = sum(abs(b - a) for a, b in zip(vertices[piece.start], vertices[piece.end], strict=True))
-        total += piece.visible * (piece.last - piece.first) * length
-    return total
+    ends = ((point_of(drawing, p, p.first), point_of(drawing, p, p.last)) for p in drawing.pieces if p.visible)
+    return sum((abs(b - a) for start, end in ends for a, b in zip(start, end, strict=True)), Fraction(0))
 
 
 @claim("nakamae-nishita.18", full=400)

@@ -16,7 +16,6 @@ from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
 from modern.geometry.vectors import dot
 from modern.papers.nakamae_nishita.contours import Tables
-from modern.papers.nakamae_nishita.results import contour_tables
 from modern.papers.nakamae_nishita.solids import height, plane_through
 
 Place = tuple[int, int]
@@ -71,11 +70,11 @@ def inside(p: Place, v: tuple[Place, ...]) -> bool:
     )
 
 
-def _apart(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
-    """Return True if no inner points of two polygons coincide: 0 is no inner point of the hull of all differences."""
+def overlap(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
+    """Return True if the hulls of two sets have common inner points: 0 is an inner point of the hull of differences."""
     differences = sorted({(q[0] - p[0], q[1] - p[1], 0) for p in v for q in w})
     ring = [differences[k][:2] for k in exact_hull(differences).polygon]
-    return not all(_area((0, 0), a, b) > 0 for a, b in pairwise((*ring, ring[0])))
+    return all(_area((0, 0), a, b) > 0 for a, b in pairwise((*ring, ring[0])))
 
 
 # A pyramid over an upright pentagon that is seen edge-on along z.
@@ -84,10 +83,10 @@ ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2)
 
 @claim("nakamae-nishita.12", full=400)
 def convex_contour(cases: int = CASES) -> Check:
-    """Check that the edges that belong to exactly one front face form one ring that turns clockwise.
+    """Check that the edges that belong to exactly one front face form one ring, a clockwise convex polygon.
 
-    The hulls are seen from oblique directions, and one along a face. The corners of the ring are those of the hull of
-    all images; the ring may have straight corners if a face is seen edge-on.
+    No image is to the left of a side of the ring. Sampled hulls are seen from one oblique direction, and one hull along
+    a face; only the ring of that hull has a vertex within a side of the polygon.
     """
     checks, straight = [], 0
     for points, judge, (u, v) in (
@@ -105,13 +104,10 @@ def convex_contour(cases: int = CASES) -> Check:
             ring.append(after[ring[-1]])
         contour = [images[k] for k in ring]
         turns = [side(contour[k - 2], contour[k - 1], contour[k]) for k in range(len(contour))]
-        around = sorted({*images})
-        corners = {around[k] for k in exact_hull([(x, y, 0) for x, y in around]).polygon}
         checks.append(len(ring) == len(after) and {*turns} <= {-1, 0} and (0 in values or 0 not in turns))
-        checks.append({contour[k - 1] for k, turn in enumerate(turns) if turn} == corners)
+        checks.append(all(side(p, q, image) <= 0 for p, q in pairwise((*contour, contour[0])) for image in images))
         straight += turns.count(0)
-    message = f"the contours of {len(checks) // 2} hulls turn only clockwise"
-    message += "; one is straight at a corner of a face seen edge-on"
+    message = f"the contours of {len(checks) // 2} hulls are convex and clockwise; one hull has a face seen edge-on"
     return searched(SETS[3], 1 + cases, [*checks, straight], message)
 
 
@@ -153,22 +149,6 @@ def formula_1() -> Check:
     return identity(difference, (2, 2, 2, 2, 1, 1), "the value is proportional to the distance to the right")
 
 
-@claim("nakamae-nishita.22", full=25)
-def formula_2(cases: int = CASES) -> Check:
-    """Check that the program's tables PL and LP of polygons that overlap have the side of each vertex and segment."""
-    overlapping = [
-        (v, w) for v, w in pairs(cases) if any(crosses(v, i, w, j) for i in range(len(v)) for j in range(len(w)))
-    ]
-    outcomes = []
-    for v, w in overlapping:
-        segments = [[*zip(contour, (*contour[1:], contour[0]), strict=True)] for contour in (v, w)]
-        # A vertex to the right of a segment has the sign 1.
-        pl = tuple(tuple(-side(*segment, p) for segment in segments[0]) for p in w)
-        lp = tuple(tuple(-side(*segment, p) for p in v) for segment in segments[1])
-        outcomes.append(contour_tables(v, w) == tables_by_2(v, w) == Tables(pl, lp))
-    return searched(POLYGONS, 2 * cases, outcomes, f"the tables of {len(outcomes)} pairs of polygons follow (2)")
-
-
 @claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", full=25)
 def formula_3(cases: int = CASES) -> Check:
     """Check that the number d of formula (3) tells how two segments meet: each of its four values occurs."""
@@ -188,22 +168,30 @@ def formula_3_in_line(cases: int = CASES) -> Check:
 @claim("nakamae-nishita.60", "nakamae-nishita.37")
 def formula_5() -> Check:
     """Prove that the program computes the determinant of formula (5), whose sign tells the side of a face."""
-    x, *corners = (algebra.point(name, 3) for name in "xpqr")
+    x, p, q, r = (algebra.point(name, 3) for name in "xpqr")
     unit = algebra.polynomial(1)
-    a, b, c = (algebra.minus(corner, x) for corner in corners)
-    computed = height(plane_through(*((*corner, unit) for corner in corners)), (*x, unit))  # type: ignore[arg-type]
-    step = algebra.Step("both are equal", {}, algebra.zero(algebra.dot(a, algebra.cross(b, c)) - computed))
+    computed = height(plane_through(*((*corner, unit) for corner in (p, q, r))), (*x, unit))  # type: ignore[arg-type]
+    # The determinant of (5), expanded along the column of ones, with the printed minus sign.
+    minors = [algebra.dot(a, algebra.cross(b, c)) for a, b, c in ((p, q, r), (x, q, r), (x, p, r), (x, p, q))]
+    printed = minors[0] - minors[1] + minors[2] - minors[3]
+    outward = algebra.cross(algebra.minus(r, p), algebra.minus(q, p))
+    steps = (
+        algebra.Step("the program computes (5)", {}, algebra.zero(printed - computed)),
+        algebra.Step("it is (x - p) n", {}, algebra.zero(printed - algebra.dot(algebra.minus(x, p), outward))),
+    )
     argument = (
-        "The value is the determinant of (5): six times the signed volume of the tetrahedron on the face. If a vertex "
-        "of V' were in front of V and another one behind it, the segment between them would meet V, because V is "
-        "convex and its contour encloses that of V'. So one vertex decides for all."
+        "The value is (x - p) n with n = (r - p) x (q - p), which points outward because the corners run clockwise as "
+        "seen from outside. So it is positive in front of the face. A vertex behind the front face around its image is "
+        "behind V, because it is not inside V. If a vertex of V' were in front of V and another one behind it, the "
+        "segment between them would meet V, because V is convex and its contour encloses that of V'. So one vertex "
+        "decides for all."
     )
     # The corners of this face run clockwise as seen from above.
     face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))
-    signs = height(face, (1, 2, 1, 1)) > 0 > height(face, (1, 2, -1, 1))
+    above, on, below = (sign(height(face, (1, 2, z, 1))) for z in (1, 0, -1))
     message = "the value is positive outside the face, negative on its other side"
-    check = proved(argument, [step.is_valid(), signs], message)
-    return check.unless(height(face, (1, 2, 0, 1)) == 0, "a vertex in the face, for which the value is 0")
+    check = proved(argument, [*(step.is_valid() for step in steps), above > 0 > below], message)
+    return check.unless(on == 0, "a vertex in the face, for which the value is 0")
 
 
 @cache
@@ -213,7 +201,7 @@ def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tupl
     for i, j in product(range(len(v)), range(len(w))):
         a, b, c, d = v[i], v[(i + 1) % len(v)], w[j], w[(j + 1) % len(w)]
         # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.
-        touching = [p for p in {a, b} if _between(c, d, p)] + [p for p in {c, d} if _between(a, b, p)]
+        touching = [p for p in {a, b} if between(c, d, p)] + [p for p in {c, d} if between(a, b, p)]
         in_line = side(a, b, c) == side(a, b, d) == 0
         same = {a, b} & {c, d}
         expected = 0 if in_line else -1 if same else -2 if touching else -4 if crosses(v, i, w, j) else 0
@@ -226,7 +214,7 @@ def tables_by_2(v: tuple[Place, ...], w: tuple[Place, ...]) -> Tables:
     return Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
 
 
-def _between(p: Place, q: Place, r: Place) -> bool:
+def between(p: Place, q: Place, r: Place) -> bool:
     along = (r[0] - p[0]) * (r[0] - q[0]) + (r[1] - p[1]) * (r[1] - q[1])
     return side(p, q, r) == 0 and along <= 0
 
@@ -278,7 +266,7 @@ def _property(
     ``of_lines`` has the signs of the vertices of w for each line of v, and ``met`` the values of d for the lines of w.
     """
     if number == "1":
-        return [all(1 in line for line in of_lines) or _apart(v, w)], False
+        return [all(1 in line for line in of_lines) or not overlap(v, w)], False
     if number == "2":
         return [(not any(-1 in line for line in of_lines)) == all(inside(p, v) for p in w)], False
     if number == "4":

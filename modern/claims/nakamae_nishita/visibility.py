@@ -2,18 +2,29 @@
 
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, permutations, product
+from itertools import combinations, pairwise, permutations, product
 
 from modern.claims import algebra
 from modern.claims.evidence import Check, claim, exhausted, exhibited, proved, refuted, searched, slip
 from modern.claims.nakamae_nishita.drawings import order_on_lines_of_sight, pieces_against_rays, point_of, samples
-from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, crosses, inside, lines_of, pairs, side, tables_of
+from modern.claims.nakamae_nishita.tables import (
+    POLYGONS,
+    SQUARE,
+    between,
+    crosses,
+    inside,
+    lines_of,
+    pairs,
+    side,
+    tables_of,
+)
 from modern.claims.sampled_sets import CASES, counterexample, counterexample_points
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
 from modern.geometry.vectors import dot, minus
 from modern.papers.nakamae_nishita.contours import values
 from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, as_printed, clipped
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
+from modern.papers.nakamae_nishita.nearness import BY_CROSSING
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.scenes import parse
@@ -27,7 +38,10 @@ def _cuboid(way: tuple[int, int, int] = (3, -5, 2)) -> Drawing:
 
 @claim("nakamae-nishita.20")
 def faces_and_edges() -> Check:
-    """Check the kinds of a cuboid's edges by the front faces that contain them, for 26 directions of view."""
+    """Check the kinds of a cuboid's edges by the front faces that contain them, for 26 directions of view.
+
+    The contour edges are the sides of the closed chain that the program follows.
+    """
     outcomes = []
     for way in product((-1, 0, 1), repeat=3):
         if any(way):
@@ -35,11 +49,11 @@ def faces_and_edges() -> Check:
             front = [{*face} for face, sign_ in zip(solid.polyhedron.faces, solid.signs, strict=True) if sign_ > 0]
             kinds = {frozenset((edge.start, edge.end)): edge.kind for edge in solid.edges}
             counts = {ends: sum(ends <= face for face in front) for ends in kinds}
-            outcomes.append(
-                all((kinds[e] == INNER, kinds[e] == CONTOUR) == (n == 2, n == 1) for e, n in counts.items())
-            )
-            outcomes.append(len(front) == sum(map(abs, way)))
-    message = "edges of two front faces are inner edges, and edges of one front face are contour edges"
+            right = all((kinds[e] == INNER, kinds[e] == CONTOUR) == (n == 2, n == 1) for e, n in counts.items())
+            ring = {frozenset(ends) for ends in pairwise((*solid.contour, solid.contour[0]))}
+            closed = ring == {ends for ends, kind in kinds.items() if kind == CONTOUR}
+            outcomes.append(right and closed and len(front) == sum(map(abs, way)))
+    message = "edges of two front faces are inner edges, and edges of one front face form the contour"
     return exhausted("a cuboid seen from 26 directions", outcomes, message)
 
 
@@ -59,10 +73,17 @@ def hidden_contour_edges(cases: int = 3) -> Check:
     """Check that the nearer of two boxes also hides contour edges, and edges wholly inside its own contour."""
     drawing = _two_boxes((1, 3, -1))
     check = pieces_against_rays(cases)
-    both = _hidden(drawing, INNER) and _hidden(drawing, CONTOUR)
+    both = drawing.relations[0].by == BY_CROSSING and _hidden(drawing, INNER) and _hidden(drawing, CONTOUR)
     behind = edges_wholly_behind()
     case = f"contour edges of the farther box, which are hidden, and a box partly behind a wall: {behind.message}"
     return check.unless(both and not behind.holds, case)
+
+
+@claim("nakamae-nishita.49", full=600)
+def order_of_invisibility(cases: int = 3) -> Check:
+    """Check where visible parts begin, and that this is wrong if edges wholly behind a contour are not counted."""
+    behind = edges_wholly_behind()
+    return pieces_against_rays(cases).unless(not behind.holds, f"a box partly behind a wall: {behind.message}")
 
 
 def _two_boxes(at: tuple[int, int, int]) -> Drawing:
@@ -114,25 +135,27 @@ def indices(index: int = 0) -> Check:
     checks, alone = [], set()
     ways = set()
     for a, b in permutations([(x, y) for x in (-3, 1, 2, 8) for y in (-2, 1, 3, 6)], 2):
-        of_square = values(lines_of(SQUARE), [(*a, 0, 1), (*b, 0, 1)])
-        if of_square is None or any(0 in column for column in of_square) or 0 in {side(a, b, p) for p in SQUARE}:
+        if any(between(a, b, p) for p in SQUARE):
             continue
         met = []
-        for k, column in enumerate(of_square):
+        for k, line in enumerate(lines_of(SQUARE)):
             (xi, yi), (xj, yj) = SQUARE[k], SQUARE[(k + 1) % 4]
             if crosses(SQUARE, k, (a, b), 0):
                 # Formula (6): the sign of the determinant tells whether the segment enters or leaves.
                 determinant = (xj - xi) * (a[1] - b[1]) - (yj - yi) * (a[0] - b[0])
-                met.append((Fraction(column[0], column[0] - column[1]), sign(determinant)))
+                at_a, at_b = value(line, (*a, 1)), value(line, (*b, 1))
+                met.append((Fraction(at_a, at_a - at_b), sign(determinant)))
         by_six = tuple((place, len(met) * index) for place, index in sorted(met))
-        passage = clipped(of_square, 0, 1)
+        of_square = values(lines_of(SQUARE), [(*a, 0, 1), (*b, 0, 1)])
+        passage = CLEAR if of_square is None else clipped(of_square, 0, 1)
         checks.append(passage.marks == by_six)
         alone |= {len(met) for _, index in by_six if index == -1}
         ways.add(tuple(index for _, index in passage.marks))
     expected = {(), (1,), (-1,), (2, -2)}
     message = f"{len(checks)} segments have the index 1 if they enter, -1 if they leave, and 2 and -2 if they do both"
-    domain = "segments between 16 points of a grid that pass no corner"
-    check = exhausted(domain, [*checks, ways == expected, not index or alone == {1}], message)
+    domain = "segments between 16 points of a grid that pass no corner of a square"
+    every_way = ways == expected and (not index or alone == {1})
+    check = exhausted(domain, checks if every_way else [False], message)
     # The diagonal of the square.
     ends, contour = ((-2, -2, 0, 1), (6, 6, 0, 1)), [(x, y, 0, 1) for x, y in SQUARE]
     diagonal = values(lines_of(SQUARE), ends)
@@ -154,7 +177,7 @@ def formula_4() -> Check:
     farther = algebra.Step("dr > 0 if s > t", signs, algebra.positive(value_of_4), (algebra.term("s nearer u"),))
     crossing = _two_boxes((1, 3, 0)).relations[0]
     argument = "dr = s (s - t) u u, which is negative if P_1 is nearer, and positive if P_2 is nearer."
-    decided = (crossing.by, crossing.nearer) == ("(4)", 1)
+    decided = (crossing.by, crossing.nearer) == (BY_CROSSING, 1)
     check = proved(argument, [nearer.is_valid(), farther.is_valid(), decided], "the sign of (4) tells the nearer point")
     case = "two boxes that touch: the value is 0, and only a separating plane decides"
     return check.unless(_undecided_if_touching(), case)
@@ -189,9 +212,7 @@ def three_conditions() -> Check:
                 index_patterns.append(tuple(index for _, index in passage.marks))
     possible = {(1,), (-1,), (2, -2)}
     outcomes = [{*index_patterns} == possible, *(pattern in possible for pattern in index_patterns)]
-    check = exhausted(
-        "segments between 16 points of a grid, and a square", outcomes, "segments enter, leave, or do both"
-    )
+    check = exhausted("segments between 16 points, and a square", outcomes, "segments enter, leave, or do both")
     return check.unless(touching, f"segments that only touch a corner ({touching})")
 
 
@@ -217,7 +238,7 @@ def edges_wholly_behind() -> Check:
     inner = {(edge.start, edge.end) for edge in scenes[0].solids[1].edges if edge.kind == INNER}
     wrong = shown - correct
     message = f"{len(wrong)} edges, {len(wrong & inner)} of them inner edges, would be visible through the wall"
-    return refuted(scenes[0].relations[0].by == "(4)" and wrong & inner, message)
+    return refuted(scenes[0].relations[0].by == BY_CROSSING and wrong & inner, message)
 
 
 @claim("nakamae-nishita.66")
@@ -231,9 +252,8 @@ def overlap_by_neighbours() -> Check:
             row, next_row = pl[j], pl[(j + 1) % 4]
             if row[i] == next_row[i] == 0:
                 axis = 0 if SQUARE[i][1] == SQUARE[(i + 1) % 4][1] else 1
-                side_interval = sorted((SQUARE[i][axis], SQUARE[(i + 1) % 4][axis]))
-                other_interval = sorted((rectangle[j][axis], rectangle[(j + 1) % 4][axis]))
-                overlap = max(side_interval[0], other_interval[0]) < min(side_interval[1], other_interval[1])
+                spans = [sorted((ring[k][axis], ring[(k + 1) % 4][axis])) for ring, k in ((SQUARE, i), (rectangle, j))]
+                overlap = max(first for first, _ in spans) < min(last for _, last in spans)
                 zeros.append(overlap)
                 apart = any(row[k] <= 0 >= next_row[k] for k in ((i - 1) % 4, (i + 1) % 4))
                 beside.append(overlap != apart)
@@ -273,7 +293,11 @@ def table_by_formula_4() -> Check:
 
 @claim("nakamae-nishita.61")
 def nearer_contour_inside() -> Check:
-    """Check that a box in front of a frustum hides the upper parts of its walls' edges, and all sides of its top."""
+    """Check a frustum seen from above, with a box in front of its top.
+
+    The contour of the box divides the four sloping edges of the frustum, whose upper parts are hidden. The four sides
+    of its top are hidden wholly, without meeting that contour.
+    """
     corners = [(x, y, z) for z, low, high in ((0, 0, 8), (2, 3, 5)) for x, y in _ring(low, high)]
     walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
     frustum = Polyhedron(
@@ -288,9 +312,9 @@ def nearer_contour_inside() -> Check:
     ]
     whole, met = passages.count(ENCLOSED), sum(bool(passage.marks) for passage in passages)
     # A point of the frustum is hidden if its image is inside the square contour of the box, from 2 to 6 in x and y.
-    pieces = [(piece, at) for piece, (_, at) in zip(drawing.pieces, samples(drawing), strict=True) if piece.solid == 0]
-    correct = [piece.visible != (max(abs(x - 4), abs(y - 4)) < 2) for piece, (x, y, _) in pieces]
-    divided = [piece for piece, _ in pieces if piece.last - piece.first < 1]
+    points = [(piece.visible, at) for piece, at in samples(drawing) if piece.solid == 0]
+    correct = [visible != (max(abs(x - 4), abs(y - 4)) < 2) for visible, (x, y, _) in points]
+    divided = [piece for piece in drawing.pieces if piece.solid == 0 and piece.last - piece.first < 1]
     marks = [point_of(drawing, piece, end) for piece in divided for end in (piece.first, piece.last) if 0 < end < 1]
     correct += [max(abs(x - 4), abs(y - 4)) == 2 for x, y, _ in marks]
     ends = sorted((*sorted((piece.start, piece.end)), piece.visible) for piece in divided)

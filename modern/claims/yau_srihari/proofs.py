@@ -8,7 +8,9 @@ from modern.claims.algebra import (
     Proof,
     Step,
     combination_satisfies,
+    cross,
     dot,
+    minus,
     not_negative,
     point,
     positive,
@@ -24,14 +26,10 @@ from modern.claims.yau_srihari.envelopes import algorithm_as_printed
 def combination_above() -> Step:
     """Return the step that a combination of points above a convex graph is not below the graph."""
     m, z_1, z_2, floor_1, floor_2 = variables("m z_1 z_2 floor_1 floor_2")
+    points = {"first": not_negative(z_1 - floor_1), "second": not_negative(z_2 - floor_2)}
     return Step(
         "a combination of points on or above the floor is on or above that of the floor",
-        {
-            "first": not_negative(z_1 - floor_1),
-            "second": not_negative(z_2 - floor_2),
-            "m": not_negative(m),
-            "rest": not_negative(1 - m),
-        },
+        {**points, "m": not_negative(m), "rest": not_negative(1 - m)},
         not_negative((1 - m) * z_1 + m * z_2 - (1 - m) * floor_1 - m * floor_2),
         (term("rest first"), term("m second")),
     )
@@ -41,17 +39,11 @@ def number_of_edges() -> Proof:
     """Prove that a convex polyhedron on n points has at most 3 n - 6 edges."""
     n, v, e, f = variables("n v e f")
     signs = {"V": not_negative(n - v), "Euler": zero(v - e + f - 2), "faces": not_negative(2 * e - 3 * f)}
+    terms = (term("V"), term("V"), term("V"), term("Euler", 3), term("faces"))
     return Proof(
         "a hull of n points has at most 3 n - 6 edges, so that adding n points examines O(n^2) edges",
         "By Euler's formula v - e + f = 2. Each face has at least three edges, and each edge is on two faces.",
-        (
-            Step(
-                "e <= 3 n - 6",
-                signs,
-                not_negative(3 * n - 6 - e),
-                (term("V"), term("V"), term("V"), term("Euler", 3), term("faces")),
-            ),
-        ),
+        (Step("e <= 3 n - 6", signs, not_negative(3 * n - 6 - e), terms),),
     )
 
 
@@ -59,19 +51,16 @@ def hull_is_convex() -> Proof:
     """Prove that the combinations of points are the smallest convex set that contains the points, their hull."""
     m, k, w = variables("m k w")
     weights = {"w": not_negative(w), "k": not_negative(k), "m": not_negative(m), "rest": not_negative(1 - m)}
+    new_weight = not_negative((1 - m) * w + m * k)
     return Proof(
         "the combinations of points form the smallest convex set that contains the points",
         "With the weights w and k of a point in the two combinations its new weight is (1 - m) w + m k. This is not "
         "negative, and the new weights have the sum (1 - m) + m = 1. So the segment between two combinations consists "
-        "of combinations. A convex set that contains the points contains all combinations of them, because more than "
-        "two points are combined one after the other.",
+        "of combinations. A convex set that contains the points contains all combinations of them: if m < 1 is the "
+        "weight of one point, the combination is between this point and the combination of the fewer other points with "
+        "their weights divided by 1 - m.",
         (
-            Step(
-                "the new weight is not negative",
-                weights,
-                not_negative((1 - m) * w + m * k),
-                (term("rest w"), term("m k")),
-            ),
+            Step("the new weight is not negative", weights, new_weight, (term("rest w"), term("m k"))),
             Step("the sum of the weights is 1", {}, zero((1 - m) + m - 1)),
         ),
     )
@@ -81,7 +70,8 @@ def convex_epigraph() -> Proof:
     """Prove that a function is convex if and only if its epigraph, the set on and above its graph, is convex."""
     return Proof(
         "a function is convex if and only if the set on and above its graph is convex",
-        "If f is convex, a point between two points of the epigraph is on or above the combination of two points of "
+        "By definition, f is convex if and only if no segment between two points of its graph is below the graph. If f "
+        "is convex, a point between two points of the epigraph is on or above the combination of two points of "
         "the graph, which is on or above the graph. Conversely, take two points of the graph itself: a point between "
         "them is in the epigraph, and so f is at most their combination. A concave function is treated in the same way "
         "with the opposite sign.",
@@ -92,23 +82,19 @@ def convex_epigraph() -> Proof:
 def negative_is_concave() -> Proof:
     """Prove that the negative of a convex function is concave, and the negative of a concave function convex."""
     m, f_x, f_y, f_between = variables("m f_x f_y f_between")
+    convex = {"convex": not_negative((1 - m) * f_x + m * f_y - f_between)}
+    concave = not_negative(-f_between - (1 - m) * -f_x - m * -f_y)
     return Proof(
         "the negative of a convex function is concave, and vice versa",
         "The definitions differ only in the direction of the inequality, and multiplying by -1 reverses it.",
-        (
-            Step(
-                "-f satisfies the inequality of concave functions",
-                {"convex": not_negative((1 - m) * f_x + m * f_y - f_between)},
-                not_negative(-f_between - (1 - m) * -f_x - m * -f_y),
-                (term("convex"),),
-            ),
-        ),
+        (Step("-f satisfies the inequality of concave functions", convex, concave, (term("convex"),)),),
     )
 
 
 def theorem_1() -> Proof:
     """Prove that the Euclidean hull consists of the points between the envelopes of the floor and of the ceiling."""
     low, high, z = variables("low high z")
+    between = zero((high - low) * z - (high - z) * low - (z - low) * high)
     return Proof(
         "the hull consists of the points on or above the convex envelope of the floor and on or below the concave "
         "envelope of the ceiling",
@@ -116,15 +102,11 @@ def theorem_1() -> Proof:
         "combination is on or above the same combination of floor points, and the envelope is the smallest of these. "
         "The ceiling is treated in the same way with the opposite sign. Conversely, the envelopes are attained by "
         "combinations of points of S, since S is finite, and so both of their points over X are in the hull. A point "
-        "over X between them is a combination of these two.",
+        "over X between them is a combination of these two with the weights high - z and z - low.",
         (
             *combination_satisfies(),
             combination_above(),
-            Step(
-                "a point between the envelopes is a combination of their points with the weights high - z and z - low",
-                {},
-                zero((high - low) * z - (high - z) * low - (z - low) * high),
-            ),
+            Step("a point between the envelopes is a combination of their points", {}, between),
             Step("the weights have the sum high - low", {}, zero((high - z) + (z - low) - (high - low))),
         ),
     )
@@ -132,34 +114,47 @@ def theorem_1() -> Proof:
 
 def theorem_2() -> Proof:
     """Prove theorem 2 for the interior dihedral angle, which is 180 degrees minus the angle of the outward normals."""
-    f, u, w = point("f", 2), point("u", 2), point("w", 2)
+    f, u, w, up = (point(name, 2) for name in ("f", "u", "w", "up"))
     # Cotangents decrease from 0 to 180 degrees; this is their difference times both positive denominators.
     cotangents = dot(f, w) * turn(f, u) - dot(f, u) * turn(f, w)
     outward_p, outward_q = (f[1], -f[0]), (-u[1], u[0])
+    smaller, inside = {"p": positive(dot(f, f)), "angles": not_negative(cotangents)}, not_negative(turn(w, u))
+    sides = {
+        "upright": positive(turn(f, up)),
+        "w": not_negative(turn(f, w)),
+        "u": not_negative(turn(f, u)),
+        "near": not_negative(turn(w, up)),
+        "far": positive(turn(up, u)),
+    }
+    coordinates = tuple(term("inside", coordinate) for coordinate in f)
     return Proof(
         "a plane through an edge of a face p supports if and only if its interior dihedral angle with p is the largest",
         "Project along the edge, so that p becomes the ray f and all points are on one side of it. The interior "
         "dihedral angle of the plane through u is the angle from f to u, and w is inside of that plane if w turns to "
         "u in the same sense. The two conditions differ by the factor f f, and so the largest angle has all points "
-        "inside, and conversely. The third corner of p is on one side, or in the plane only if the plane is that of p. "
-        "So the plane supports if and only if no point is on the opposite side. The outward normals make the "
-        "supplement of the angle, so that its smallest value, and not its largest, belongs to the next face.",
+        "inside, and conversely. The theorem compares only planes whose outward normal points down, those through "
+        "points on the far side of the edge, as seen from above. If p is not upright, points on the side of p have no "
+        "larger angles than those on the far side. If p is upright, no point is on its side. The third corner of p is "
+        "on one side, or in the plane only if the plane is that of p. So the plane supports if and only if no point is "
+        "on the opposite side. The outward normals make the supplement of the angle, so that its smallest value, and "
+        "not its largest, belongs to the next face.",
         (
-            Step(
-                "a point with a smaller angle than the plane is inside",
-                {"p": positive(dot(f, f)), "angles": not_negative(cotangents)},
-                not_negative(turn(w, u)),
-                (term("angles"),),
-                ("p",),
-            ),
-            Step(
-                "a point inside has a smaller angle than the plane",
-                {"inside": not_negative(turn(w, u))},
-                not_negative(cotangents),
-                tuple(term("inside", coordinate) for coordinate in f),
-            ),
+            Step("a point with a smaller angle than the plane is inside", smaller, inside, (term("angles"),), ("p",)),
+            Step("a point inside has a smaller angle", {"inside": inside}, not_negative(cotangents), coordinates),
+            Step("a far point has the larger angle", sides, inside, (term("w far"), term("u near")), ("upright",)),
             Step("the outward normals make the supplement", {}, zero(dot(outward_p, outward_q) + dot(f, u))),
         ),
+    )
+
+
+def normal_of_starting_face() -> Proof:
+    """Prove that the normal of a starting face, from an edge to a point above its first end, has integer components."""
+    start, end, (c,) = point("w", 3), point("u", 3), variables("c")
+    normal, (dx, dy, _) = cross(minus(end, start), (0 * c, 0 * c, c)), minus(end, start)
+    return Proof(
+        "the normal of a starting face has integer components",
+        "The components are polynomials with integer coefficients in coordinates that are integers.",
+        tuple(Step("a component", {}, zero(n - p)) for n, p in zip(normal, (c * dy, -c * dx, 0 * c), strict=True)),
     )
 
 
@@ -175,6 +170,7 @@ def angle_of_theorem_2() -> Check:
 @claim("yau-srihari.44", proof=negative_is_concave)
 @claim("yau-srihari.47", "yau-srihari.96", "yau-srihari.117", "yau-srihari.118", proof=convex_epigraph)
 @claim("yau-srihari.48", proof=theorem_1)
+@claim("yau-srihari.84", proof=normal_of_starting_face)
 @claim("yau-srihari.101", proof=theorem_2)
 def proof_of_theorem(proof: Callable[[], Proof]) -> Check:
     return proof().check()
