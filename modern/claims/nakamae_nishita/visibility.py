@@ -211,8 +211,9 @@ def three_conditions() -> Check:
             if passage.marks:
                 index_patterns.append(tuple(index for _, index in passage.marks))
     possible = {(1,), (-1,), (2, -2)}
-    outcomes = [{*index_patterns} == possible, *(pattern in possible for pattern in index_patterns)]
-    check = exhausted("segments between 16 points, and a square", outcomes, "segments enter, leave, or do both")
+    outcomes = [pattern in possible for pattern in index_patterns] if {*index_patterns} == possible else [False]
+    domain = "the segments between 16 points of a grid that intersect the contour of a square"
+    check = exhausted(domain, outcomes, "segments enter, leave, or do both")
     return check.unless(touching, f"segments that only touch a corner ({touching})")
 
 
@@ -269,7 +270,7 @@ def segments_within(cases: int = CASES) -> Check:
     checks, partly_inside = [], 0
     for v, w in pairs(cases):
         for i, (p, q) in product(range(len(v)), combinations(range(len(w)), 2)):
-            if crosses(v, i, (w[p], w[q]), 0):
+            if 1 < q - p < len(w) - 1 and crosses(v, i, (w[p], w[q]), 0):
                 a, b = v[i], v[(i + 1) % len(v)]
                 values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
                 checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)

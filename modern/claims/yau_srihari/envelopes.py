@@ -103,7 +103,7 @@ def algorithm_as_printed(name: str) -> Check:
 
 @claim("yau-srihari.1")
 def minimum_not_unique() -> Check:
-    """Check that two voxels with a common corner are in two smallest digitally convex solids of three voxels."""
+    """Check that two voxels with a common edge are in two smallest digitally convex solids of three voxels."""
     both: list[Point] = [(0, 0, 0), (1, 1, 0)]
     least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
     return exhibited(all(least) and not is_simple(array_of(both)), "either of two voxels makes a convex solid of three")
@@ -272,5 +272,5 @@ def epigraph_at_inner_nodes() -> Check:
     epigraph = count(graph_side(tree, above=True))
     columns = sum(z >= top for top in tops.values() for z in (0, 1))
     check = exhibited(epigraph == columns == 5, "at leaves of one column the epigraph is full from the height upward")
-    case = f"as printed the root has {voxels_as_printed} voxels, and the epigraph has {epigraph}"
+    case = f"the root as printed, which has {voxels_as_printed} voxels although the epigraph has {epigraph}"
     return check.unless(voxels_as_printed == 8 > epigraph and tree.high == 1, case)

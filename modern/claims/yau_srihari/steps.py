@@ -12,18 +12,10 @@ from modern.claims.sampled_sets import Point, counterexample_points
 from modern.claims.yau_srihari.envelopes import SOLIDS, array_of, hull_of
 from modern.digital.solids import VERTEX, ball
 from modern.papers.yau_srihari import Printed
-from modern.papers.yau_srihari.convexity import is_digitally_convex, is_midpoint_convex, is_simple
+from modern.papers.yau_srihari.convexity import is_simple
 from modern.papers.yau_srihari.envelope import envelope, reduced_tree
 from modern.papers.yau_srihari.quadtree import Leaf, Place, heights, no_columns, written
 from modern.papers.yau_srihari.search import Search
-
-
-@claim("yau-srihari.6")
-def definitions_differ() -> Check:
-    """Check that two definitions differ: two voxels with a common corner are midpoint convex but no convex solid."""
-    corner = array_of([(0, 0, 0), (1, 1, 0)])
-    message = "two voxels with a common corner are convex by 3.2.2 and not by 3.2.3"
-    return exhibited(is_midpoint_convex(corner) and not is_digitally_convex(corner), message)
 
 
 @claim("yau-srihari.29")
