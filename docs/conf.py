@@ -55,8 +55,7 @@ def values() -> dict[str, str]:
 
 def fill(app: Sphinx, name: str, source: list[str]) -> None:
     """Replace the names of figures in a page that Sphinx has read."""
-    if named(source[0]):
-        source[0] = filled(source[0], values())
+    source[0] = filled(source[0], values() if named(source[0]) else {})
 
 
 def setup(app: Sphinx) -> None:

@@ -7,7 +7,21 @@ boxes can be links, and nothing depends on colour.
 from collections.abc import Callable, Iterator, Sequence
 
 from modern.drawing.svg import escape
-from modern.publication.chart import BOX, LEFT, MARGIN, RADIUS, RIGHT, ROW, SPINE, ZONE, Chart, Page, Path, Placed
+from modern.publication.chart import (
+    BOX,
+    LEFT,
+    LETTER,
+    MARGIN,
+    RADIUS,
+    RIGHT,
+    ROW,
+    SPINE,
+    ZONE,
+    Chart,
+    Page,
+    Path,
+    Placed,
+)
 from modern.publication.flow import Box
 
 # A function that returns the address to which a box links, or an empty string for no link.
@@ -149,5 +163,7 @@ def _taken(box: Box, path: Path, middle: int) -> Iterator[str]:
 
 def _connector(centre: tuple[int, int], label: str, title: str) -> Iterator[str]:
     x, y = centre
-    yield f'<circle class="b" cx="{x}" cy="{y}" r="{RADIUS}"><title>{escape(title)}</title></circle>'
+    # A circle, wider if the label is long.
+    wide = max(RADIUS, round(LETTER * len(label) / 2) + 4)
+    yield f'<ellipse class="b" cx="{x}" cy="{y}" rx="{wide}" ry="{RADIUS}"><title>{escape(title)}</title></ellipse>'
     yield f'<text class="c" x="{x}" y="{y + 3}">{escape(label)}</text>'

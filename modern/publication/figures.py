@@ -25,6 +25,7 @@ from modern.study.report import raised
 from modern.study.restoration import CLASSES, read_restoration, summary
 
 _PLACE = re.compile(r"\{\{\s*([a-z][\w.-]*)\s*\}\}")
+_PERCENT = re.compile(r"(?<=[\d)]) %")
 
 
 class FigureError(ValueError):
@@ -44,14 +45,17 @@ _CHECKS = ("print", "machine", "equation", "sibling")
 
 
 def filled(text: str, values: Mapping[str, str]) -> str:
-    """Replace every ``{{ name }}`` in a text by its value.  Raise FigureError for an unknown name."""
+    """Replace every ``{{ name }}`` in a text by its value, and keep percent signs with their numbers.
+
+    Raise FigureError for an unknown name.
+    """
 
     def value(match: re.Match[str]) -> str:
         if match[1] not in values:
             raise FigureError(f"unknown figure {match[1]!r}")
         return values[match[1]]
 
-    return _PLACE.sub(value, text)
+    return _PERCENT.sub("\N{NO-BREAK SPACE}%", _PLACE.sub(value, text))
 
 
 def named(text: str) -> tuple[str, ...]:

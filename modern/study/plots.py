@@ -92,7 +92,9 @@ def draw(chart: Chart, folder: Path, kinds: Sequence[str] = ("svg", "png")) -> N
         figure = drawn(chart)
         for kind in kinds:
             file = io.BytesIO()
-            figure.savefig(file, format=kind, metadata={"Date": None} if kind == "svg" else {"Software": None})
+            metadata = {"Date": None} if kind == "svg" else {"Software": None}
+            # An SVG has no ground: the page shows through, which is white on paper.
+            figure.savefig(file, format=kind, metadata=metadata, facecolor="none" if kind == "svg" else PAPER)
             put(folder / f"{chart.name}.{kind}", _themed(file.getvalue()) if kind == "svg" else file.getvalue())
 
 
@@ -103,8 +105,8 @@ def _themed(svg: bytes) -> bytes:
         for light, dark in DARK.items()
         for kind in ("fill", "stroke")
     )
-    style = f'<style type="text/css">@media (prefers-color-scheme: dark){{{rules}}}</style>'
-    return svg.replace(b"</defs>", f" {style}\n </defs>".encode(), 1)
+    rules = f":root{{color-scheme: light dark}}@media (prefers-color-scheme: dark){{{rules}}}"
+    return svg.replace(b"</defs>", f' <style type="text/css">{rules}</style>\n </defs>'.encode(), 1)
 
 
 def drawn(chart: Chart) -> Any:

@@ -13,7 +13,7 @@ from modern.publication.facing import facing
 
 # Saves a picture, given its name and SVG, and returns the name by which Typst finds it.
 SavePicture = Callable[[str, str], str]
-# The largest size of a stage in a row of four, in pixels.
+# The largest size of a stage in a row, in pixels.
 FRAME = 212, 230
 
 
@@ -93,8 +93,8 @@ def _table(caption: str, head: tuple[str, ...], rows: list[list[str]], widths: t
     return f"#figure([{content}], caption: [{say(caption)}])\n\n"
 
 
-def _picture(file: str, caption: str, width: str) -> str:
-    return f"#picture({string(file)}, {string(caption)}, width: {width})\n\n"
+def _picture(file: str, caption: str, width: str, placement: str = "none") -> str:
+    return f"#picture({string(file)}, {string(caption)}, width: {width}, placement: {placement})\n\n"
 
 
 def _card(save: SavePicture) -> str:
@@ -104,7 +104,7 @@ def _card(save: SavePicture) -> str:
 
 def _growth(save: SavePicture) -> str:
     caption = f"The hull of example {essay.EXAMPLE} grows in the order of program 3"
-    return _picture(save("essay-growth", strip(essay.growth(None, *FRAME), columns=4)), caption, "100%")
+    return _picture(save("essay-growth", strip(essay.growth(None, *FRAME), columns=2)), caption, "62%", "auto")
 
 
 def _truncation(save: SavePicture) -> str:

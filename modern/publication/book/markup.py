@@ -30,7 +30,7 @@ _LINE, _LONG, _CELL, _WORD, _GAP, _NAME = 104, 90, 40, 12, 2, 16
 _USUAL, _SMALL = 8.5, 6.5
 # The size of lines of a program in points, the smallest, and the size of a letter times the letters that fit on a line.
 _CODE, _LEAST, _LETTERS = 7.8, 6.2, 725
-# What lets Typst move a picture of a report to the top or the bottom of a page.
+# What lets Typst move a chart to the top or the bottom of a page.
 _FLOAT = ", placement: auto"
 
 
@@ -276,8 +276,8 @@ class Markdown:
                     out.append(ends.pop())
                 case "image":
                     file = self.picture(posixpath.normpath(posixpath.join(self._folder, str(child.attrs["src"]))))
-                    alt = string(child.content)
-                    place = _FLOAT if self._is_report else ""
+                    alt = string(child.content[:1].upper() + child.content[1:])
+                    place = _FLOAT if self._has_charts else ""
                     out.append(f"#picture({string(file)}, {alt}{place})" if file else say(child.content))
         return "".join(out)
 
@@ -298,8 +298,8 @@ class Markdown:
         return to(place, markup) if place in self.known else markup
 
     @property
-    def _is_report(self) -> bool:
-        return self.name.endswith("/report.md")
+    def _has_charts(self) -> bool:
+        return self.name.endswith(("/report.md", "article.md"))
 
     @property
     def _folder(self) -> str:

@@ -93,8 +93,8 @@ _TABLE = re.compile(r"<table\b([^>]*)>(.*?)</table>", re.DOTALL)
 _ROW = re.compile(r"<tr\b.*?</tr>", re.DOTALL)
 _CELL = re.compile(r"<(t[dh])\b([^>]*)>(.*?)</\1>", re.DOTALL)
 _TAG = re.compile(r"<[^>]+>")
-# A no-break space in the text of a cell, but not in an attribute of a tag.
-_NO_BREAK = re.compile("\N{NO-BREAK SPACE}(?!%)(?![^<>]*>)")
+# A no-break space in the text of a cell, but not before a unit or in an attribute of a tag.
+_NO_BREAK = re.compile("(?<![)])\N{NO-BREAK SPACE}(?!%)(?![^<>]*>)")
 # What separates words; a no-break space does not.
 _WORD = re.compile(r"[ \n]+")
 # The letters that fit side by side into a window of 360 pixels.

@@ -91,7 +91,8 @@ def test_a_typed_result_is_detected(text: str, numbers: list[str]) -> None:
 
 
 def test_names_are_replaced_by_figures_and_unknown_ones_rejected() -> None:
-    assert filled("a {{ x.y-z }} b {{n}} {no} {{ X }}", {"x.y-z": "1 %", "n": "2"}) == "a 1 % b 2 {no} {{ X }}"
+    text = filled("a {{ x.y-z }} b {{n}} {no} {{ X }}", {"x.y-z": "1 %", "n": "2"})
+    assert text == "a 1\N{NO-BREAK SPACE}% b 2 {no} {{ X }}"
     assert named("{{ b }} {{ a.c }} {{ b }}") == ("b", "a.c", "b")
     with pytest.raises(FigureError, match=r"unknown figure 'seventy\.mean'"):
         filled("{{ seventy.mean }}", {"seventy.sets": "1"})

@@ -162,8 +162,8 @@ def _time(number: int) -> str:
     for name in ("program1_examples", "program2", "program3"):
         for run in runs(name):
             if run.example == number:
-                times = (f"{run.statements:,}", str(run.processor), str(run.total))
-                rows.append((link(name, "", program(name).source), *times))
+                times = (str(time).replace(") ", ")\N{NO-BREAK SPACE}") for time in (run.processor, run.total))
+                rows.append((link(name, "", program(name).source), f"{run.statements:,}", *times))
     whole = "with reader, punch and typewriter, without overlap"
     head = ("program", "statements", "processor", whole)
     accuracy = (("how sure", "in parentheses: bounds by the ratios to runs on IBM's library of 1962"),)
