@@ -19,13 +19,13 @@ from modern.claims.nakamae_nishita.tables import (
     tables_of,
 )
 from modern.claims.sampled_sets import CASES, counterexample, counterexample_points
-from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
+from modern.drawing.visible import CONTOUR, INNER, facing, line_through, sign, value
 from modern.geometry.vectors import dot, minus
 from modern.papers.nakamae_nishita.contours import values
 from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, as_printed, clipped
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING
-from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked, outward
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.scenes import parse
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
@@ -111,18 +111,18 @@ def _hidden(drawing: Drawing, kind: str) -> int:
 @claim("nakamae-nishita.19")
 def first_three_corners() -> Check:
     """Check that formula (1) for three corners of a face tells front from back faces, unless they are collinear."""
-    (solid,) = _cuboid().solids
     outcomes = []
-    for face, front in zip(solid.polyhedron.faces, solid.signs, strict=True):
-        a, b, c = ((solid.points[k][0], solid.points[k][1], solid.points[k][3]) for k in face[:3])
-        outcomes.append(sign(value(line_through(a, b), c)) == front != 0)
-    # A triangle is clockwise if its third corner is to the right of its first side.
-    for ring in permutations([(x, y) for x in range(3) for y in range(3)], 3):
-        outcomes.append(sign(value(line_through(*((*place, 1) for place in ring[:2])), (*ring[2], 1))) == -side(*ring))
-    domain = "faces of a cuboid, and triangles of a 3 x 3 lattice in both senses"
-    check = exhausted(domain, outcomes, "the sign decides")
-    collinear = value(line_through((0, 0, 1), (1, 1, 1)), (2, 2, 1))
-    return check.unless(collinear == 0, "three collinear corners, for which the value is 0")
+    for way in product((-1, 0, 1), repeat=3):
+        if any(way):
+            (solid,) = _cuboid(way).solids
+            for face in solid.polyhedron.faces:
+                a, b, c = ((x, y, w) for x, y, _, w in (solid.points[k] for k in face[:3]))
+                towards_eye = sign(sum(n * w for n, w in zip(outward(solid.polyhedron, face), way, strict=True)))
+                outcomes.append(sign(value(line_through(a, b), c)) == towards_eye)
+    check = exhausted("the faces of a cuboid seen from 26 directions", outcomes, "the sign decides")
+    corners = [(0, 0, 1), (1, 1, 1), (2, 2, 1), (2, 0, 1)]
+    is_undecided = value(line_through(*corners[:2]), corners[2]) == 0 < facing(corners)
+    return check.unless(is_undecided, "a front face whose first three corners are collinear, so that the value is 0")
 
 
 @claim("nakamae-nishita.45")

@@ -223,7 +223,9 @@ def first_and_last_heights(cases: int = 5) -> Check:
             side = hull.side >> level
             leaves += [(at, z, z + side - 1) for at in product(range(x, x + side), range(y, y + side))]
         floor = {at: low for at, low, _ in reversed(leaves)}
-        return (floor, {at: high for at, _, high in leaves}) == (hull.floor, hull.ceiling)
+        points = sorted(_placed(voxels), key=lambda point: point[2])
+        least, greatest = {(x, y): z for x, y, z in reversed(points)}, {(x, y): z for x, y, z in points}
+        return (floor, {at: high for at, _, high in leaves}) == (least, greatest)
 
     return search(SOLIDS, agree, cases, "the first leaf gives the floor of each column, and the last one its ceiling")
 

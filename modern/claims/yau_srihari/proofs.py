@@ -7,7 +7,6 @@ from collections.abc import Callable
 from modern.claims.algebra import (
     Proof,
     Step,
-    combination_satisfies,
     cross,
     dot,
     minus,
@@ -32,18 +31,6 @@ def combination_above() -> Step:
         {**points, "m": not_negative(m), "rest": not_negative(1 - m)},
         not_negative((1 - m) * z_1 + m * z_2 - (1 - m) * floor_1 - m * floor_2),
         (term("rest first"), term("m second")),
-    )
-
-
-def number_of_edges() -> Proof:
-    """Prove that a convex polyhedron on n points has at most 3 n - 6 edges."""
-    n, v, e, f = variables("n v e f")
-    signs = {"V": not_negative(n - v), "Euler": zero(v - e + f - 2), "faces": not_negative(2 * e - 3 * f)}
-    terms = (term("V"), term("V"), term("V"), term("Euler", 3), term("faces"))
-    return Proof(
-        "a hull of n points has at most 3 n - 6 edges, so that adding n points examines O(n^2) edges",
-        "By Euler's formula v - e + f = 2. Each face has at least three edges, and each edge is on two faces.",
-        (Step("e <= 3 n - 6", signs, not_negative(3 * n - 6 - e), terms),),
     )
 
 
@@ -104,7 +91,6 @@ def theorem_1() -> Proof:
         "combinations of points of S, since S is finite, and so both of their points over X are in the hull. A point "
         "over X between them is a combination of these two with the weights high - z and z - low.",
         (
-            *combination_satisfies(),
             combination_above(),
             Step("a point between the envelopes is a combination of their points", {}, between),
             Step("the weights have the sum high - low", {}, zero((high - z) + (z - low) - (high - low))),
@@ -165,7 +151,6 @@ def angle_of_theorem_2() -> Check:
     return theorem_2().check().misprinted(not as_printed.holds, "psi as the interior dihedral angle of p and q")
 
 
-@claim("yau-srihari.16", proof=number_of_edges)
 @claim("yau-srihari.40", "yau-srihari.41", proof=hull_is_convex)
 @claim("yau-srihari.44", proof=negative_is_concave)
 @claim("yau-srihari.47", "yau-srihari.96", "yau-srihari.117", "yau-srihari.118", proof=convex_epigraph)
