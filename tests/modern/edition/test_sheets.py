@@ -21,6 +21,7 @@ from modern.edition.sheets import Sheet, questions, sheets, silent_readings
 from modern.publication import proof_sheets
 from modern.publication.numbered import numbered
 from tests.support import editions
+from tests.support.commands import one_processor
 from tests.support.paths import ROOT
 
 SHEETS = sheets()
@@ -40,14 +41,9 @@ def filled(sheet: Sheet = PAGE, **answers: str) -> str:
 def hull1620(*words: str) -> tuple[int, str, str]:
     """Run the command in a new process, because a state replaces the data of the package."""
     env = {**os.environ, "PYTHONPATH": str(ROOT)}
-    run = subprocess.run(
-        [sys.executable, "-m", "hull1620", *words],
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        env=env,
-        check=False,
-    )
+    command = [sys.executable, "-m", "hull1620", *words]
+    with one_processor():
+        run = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", env=env, check=False)
     return run.returncode, run.stdout, run.stderr
 
 
