@@ -166,7 +166,7 @@ def _numbered(file: str, title: str, name: str) -> Iterator[str]:
         if item.section != section:
             section = item.section
             text += f"## {section}\n\n{item.preamble}\n\n"
-        text += f"### {item.number}. {item.title}\n\n{item.text}\n\n"
+        text += f"**{item.number}. {item.title}** {item.text}\n\n"
     if closing[0]:
         text += f"## {closing[0]}\n\n{closing[1]}\n"
     yield Markdown(name, (), 2, lambda file: "").typst(text)

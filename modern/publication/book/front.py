@@ -144,7 +144,7 @@ def bibliography(literature: str, persons: Mapping[str, str]) -> Iterator[str]:
     yield heading("The five documents", 2, label("bibliography", "documents"))
     for document in sources().documents:
         marks = "".join(f"#idx({string(entry)});" for name, entry in persons.items() if name in document.author)
-        yield f"#source[{marks}{say(_cited(document))} {say(document.held + '.')}]\n\n"
+        yield f"#source[{marks}{say(_cited(document))} {say(document.held[:1].upper() + document.held[1:] + '.')}]\n\n"
     yield heading("Other literature", 2, label("bibliography", "literature"))
     yield literature
 

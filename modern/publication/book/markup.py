@@ -30,8 +30,6 @@ _LINE, _LONG, _CELL, _WORD, _GAP, _NAME = 104, 90, 40, 12, 2, 16
 _USUAL, _SMALL = 8.5, 6.5
 # The size of lines of a program in points, the smallest, and the size of a letter times the letters that fit on a line.
 _CODE, _LEAST, _LETTERS = 7.8, 6.2, 725
-# What lets Typst move a chart to the top or the bottom of a page.
-_FLOAT = ", placement: auto"
 
 
 def string(text: str) -> str:
@@ -277,8 +275,8 @@ class Markdown:
                 case "image":
                     file = self.picture(posixpath.normpath(posixpath.join(self._folder, str(child.attrs["src"]))))
                     alt = string(child.content[:1].upper() + child.content[1:])
-                    place = _FLOAT if self._has_charts else ""
-                    out.append(f"#picture({string(file)}, {alt}{place})" if file else say(child.content))
+                    # Typst moves the picture to the top or the bottom of a page.
+                    out.append(f"#picture({string(file)}, {alt}, placement: auto)" if file else say(child.content))
         return "".join(out)
 
     def _role(self, out: list[str], content: str) -> str:
@@ -296,10 +294,6 @@ class Markdown:
         place = names.get(before[1], "") or self._target(f"{target}.md" if before[1] == "doc" else "")
         markup = say(shown) if rest or before[1] in ("doc", "ref") else code(shown)
         return to(place, markup) if place in self.known else markup
-
-    @property
-    def _has_charts(self) -> bool:
-        return self.name.endswith(("/report.md", "article.md"))
 
     @property
     def _folder(self) -> str:

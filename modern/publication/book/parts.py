@@ -179,7 +179,7 @@ def charts(save: SavePicture) -> Iterator[str]:
 def examples(save: SavePicture) -> Iterator[str]:
     """Yield the printed examples: verdicts, pictures, the printed cards, and the rows of the apparatus."""
     for number in EXAMPLES:
-        yield "#pagebreak(weak: true)\n" + heading(f"Example {number}", 2, label(f"example{number}.md"))
+        yield "#place.flush()\n#pagebreak(weak: true)\n" + heading(f"Example {number}", 2, label(f"example{number}.md"))
         parts = example(number)
         rows = []
         for part in parts:
@@ -220,9 +220,9 @@ def _pictures(number: int, save: SavePicture) -> Iterator[str]:
         stages = frames(hull, None, *FRAME)
     except ExportError:
         return
-    file = save(f"stages-{number}", strip(stages, columns=3))
-    title, width = f"The construction of example {number}, H1 to Hf", 33 * min(3, len(stages))
-    yield f"#picture({string(file)}, {string(title)}, width: {width}%)\n\n"
+    file = save(f"stages-{number}", strip(stages, columns=2))
+    title = f"The construction of example {number}, H1 to Hf"
+    yield f"#picture({string(file)}, {string(title)}, width: 62%, placement: auto)\n\n"
 
 
 def statements() -> Iterator[str]:
