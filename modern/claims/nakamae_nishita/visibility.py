@@ -259,7 +259,7 @@ def overlap_by_neighbours() -> Check:
                 apart = any(row[k] <= 0 >= next_row[k] for k in ((i - 1) % 4, (i + 1) % 4))
                 beside.append(overlap != apart)
     message = f"the adjacent columns tell which of {len(zeros)} pairs of collinear sides overlap"
-    return exhausted("78 rectangles beside a square", beside, message).unless(
+    return exhausted("78 rectangles and a square", beside, message).unless(
         False in zeros, f"zeros alone, which {zeros.count(False)} pairs have that do not overlap"
     )
 

@@ -56,7 +56,7 @@ def hull_is_convex() -> Proof:
 def convex_epigraph() -> Proof:
     """Prove that a function is convex if and only if its epigraph, the set on and above its graph, is convex."""
     return Proof(
-        "a function is convex if and only if the set on and above its graph is convex",
+        "a function is convex if and only if the set on and above its graph is, and similarly for concave functions",
         "By definition, f is convex if and only if no segment between two points of its graph is below the graph. If f "
         "is convex, a point between two points of the epigraph is on or above the combination of two points of "
         "the graph, which is on or above the graph. Conversely, take two points of the graph itself: a point between "
