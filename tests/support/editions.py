@@ -106,6 +106,14 @@ _SIMILAR = re.compile(r"((program|chart)(1|1_examples|3)|example[13-5])\.html|st
 """Pages that one generator makes from the same code and template as a page that is not listed here."""
 
 
+READ_CLOSELY = (
+    *("index.html", "program2.html", "chart2.html", "example4.html", "errors.html", "get.html", "parting.html"),
+    *("reference/storage.html", "statements/yau-srihari.html", "papers/appel_will.html", "explanation/studies.html"),
+    *("console.html", "search.html", "article.html", "studies/alarms/report.html"),
+)
+"""The pages whose layout is checked; with ``HULL1620_PAGES=all``, the check reads all pages."""
+
+
 def page_of_each_kind(site: Path) -> tuple[str, ...]:
     """Return the pages for expensive checks: all pages, except those that differ from another page in data only.
 

@@ -55,9 +55,10 @@ def opened(
 
 
 def test_pages_load_without_an_error_and_fit_a_small_window(chromium: Browser, site: Path) -> None:
+    """The test of the layout does the same for the pages that it opens."""
     too_wide = []
     with opened(chromium, site, "index.html", width=360) as (tab, errors):
-        for name in page_of_each_kind(site):
+        for name in [name for name in page_of_each_kind(site) if name not in editions.READ_CLOSELY]:
             tab.goto(f"{site.as_uri()}/{name}")
             width = tab.evaluate("document.documentElement.scrollWidth")
             if width > 360:
