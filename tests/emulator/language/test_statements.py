@@ -118,10 +118,13 @@ def test_cards_that_are_not_continuations(card: str, texts: list[str]) -> None:
     assert [s.text for s in sources(source("      X = A +", card))] == texts
 
 
-def test_a_format_numbered_in_column_6() -> None:
-    """A statement may start in any column, and the parentheses in a Hollerith field need not match."""
+def test_formats_in_column_6_and_capitals_keep_their_characters() -> None:
+    # A statement may start in any column, and the parentheses in a Hollerith field need not match.
     cards = source("1 FORMAT(I4)", "     5 FORMAT(4H(A)))", "END")
     assert [(s.label, s.kind) for s in sources(cards)] == [("1", "format"), ("5", "format"), ("", "end")]
+    assert capitals("x=\u00df\u00e9\n") == "X=\u00df\u00e9\n"
+    with pytest.raises(CardError, match="column 3: '\u00df' is not in the card code"):
+        deck_from_text("small.f", capitals("x=\u00df\n"))
 
 
 @pytest.mark.parametrize(
@@ -183,9 +186,3 @@ def test_lower_case_becomes_capitals_except_in_comments() -> None:
 def test_capitals_keep_every_line(text: str) -> None:
     converted = capitals(text)
     assert converted == "C" + text[1:] if text.startswith(("c", "C")) else converted == text
-
-
-def test_capitals_change_ascii_letters_only() -> None:
-    assert capitals("x=\u00df\u00e9\n") == "X=\u00df\u00e9\n"
-    with pytest.raises(CardError, match="column 3: '\u00df' is not in the card code"):
-        deck_from_text("small.f", capitals("x=\u00df\n"))

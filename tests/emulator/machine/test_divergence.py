@@ -73,8 +73,8 @@ def test_a_difference_of_close_numbers_loses_digits() -> None:
     assert (first.line.place.card, first.names[0], first.values) == (1, "A", ("1234567.8", "1234567.8599"))
 
 
-def test_losses_have_a_worst_and_a_median() -> None:
-    """Three of five quotients are truncated."""
+def test_losses_and_earlier_ends_of_loops_are_counted() -> None:
+    # Three of five quotients are truncated.
     lines = ["READ 1,N", "DO 5 I=1,5", "READ 2,X", "5 Y=1./X", "1 FORMAT(I2)", "2 FORMAT(F6.0)", "END"]
     divergence = compared(*lines, data=[" 5", "1.", "2.", "9.", "11.", "3."], names=("truncating:2", "exact"))
     loss = next(loss for loss in divergence.losses if loss.line.label == 5)
@@ -84,6 +84,14 @@ def test_losses_have_a_worst_and_a_median() -> None:
     zero = compared(*lines, data=[" 5", "1.", "2.", "6.", "7.", "13."], names=("truncating:2", "exact")).losses[0]
     # Relative differences: 4 % for .16 (1/6), which is .6 of a digit, 2 % for .14 (1/7), 1.2 % for .076 (1/13).
     assert (zero.worst, zero.median) == (0.6, 0.1)
+    # N is 3 in one run and 2 in the other. The DO decides differently, and the runs join after it.
+    lines = ["A=1./3.", "B=A*9.", "N=B", "DO 5 I=1,N", "5 K=I", "M=7", "END"]
+    divergence = compared(*lines)
+    decision = divergence.first_decision
+    assert decision is not None
+    assert (decision.line.place.card, decision.time, decision.values) == (4, 2, ("3", "3"))
+    assert [target and target.place.card for target in decision.targets] == [6, 5]
+    assert (divergence.decisions, divergence.apart) == (1, "")
 
 
 def test_decisions_include_joined_branches_and_computed_go_tos() -> None:
@@ -100,17 +108,6 @@ def test_decisions_include_joined_branches_and_computed_go_tos() -> None:
     decision = compared(*lines).first_decision
     assert decision is not None
     assert (decision.line.place.card, decision.values) == (4, ("1", "2"))
-
-
-def test_a_loop_that_ends_earlier_in_one_run_is_a_decision() -> None:
-    """N is 3 in one run and 2 in the other. The DO decides differently, and the runs join after it."""
-    lines = ["A=1./3.", "B=A*9.", "N=B", "DO 5 I=1,N", "5 K=I", "M=7", "END"]
-    divergence = compared(*lines)
-    decision = divergence.first_decision
-    assert decision is not None
-    assert (decision.line.place.card, decision.time, decision.values) == (4, 2, ("3", "3"))
-    assert [target and target.place.card for target in decision.targets] == [6, 5]
-    assert (divergence.decisions, divergence.apart) == (1, "")
 
 
 def test_endings_of_exact_numbers_missing_cards_and_limits_are_reported() -> None:
@@ -154,11 +151,15 @@ def test_bad_cards_and_large_programs_raise_their_errors() -> None:
         compared("DIMENSION X(3900)", "X(1)=1.", "END")
 
 
-def test_without_values_only_the_first_decision_is_compared() -> None:
+def test_comparisons_without_values_and_reads_at_the_end_are_possible() -> None:
     made, deck = program(*THIRD), deck_from_lines("d", [])
     divergence = diverge(made, deck, numbers("truncating"), numbers("exact"), values=False)
     assert divergence.first_decision == compared(*THIRD).first_decision
     assert (divergence.first_value, divergence.compared, divergence.losses) == (None, 0, ())
+    made = program("1 READ 2,A", "GO TO 1", "2 FORMAT(E14.8)", "END")
+    follow = successors(made)
+    assert any(len(made.code) in after for after in follow)
+    assert post_dominators(follow)[0] >= 0
 
 
 # Laws, checked on random programs.
@@ -287,10 +288,3 @@ def test_post_dominators_agree_with_their_definition(size: int, seed: int) -> No
             if reaches(m, -1):
                 both = (every | {n}) & ({d for d in range(size) if d != m and not reaches(m, d)} | {m})
                 assert (meeting(parents, n, m) in both) == bool(both)
-
-
-def test_a_read_may_be_followed_by_the_end_of_the_run() -> None:
-    made = program("1 READ 2,A", "GO TO 1", "2 FORMAT(E14.8)", "END")
-    follow = successors(made)
-    assert any(len(made.code) in after for after in follow)
-    assert post_dominators(follow)[0] >= 0

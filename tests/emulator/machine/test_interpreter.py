@@ -156,7 +156,7 @@ def test_undefined_numbers_and_elements_outside_end_the_run() -> None:
     assert results("float64", *start, "I=5", "Y=X(I)", "END").ending.kind == "bounds"
 
 
-def test_a_trace_shows_all_digits() -> None:
+def test_traces_and_batches_support_every_arithmetic() -> None:
     file = io.StringIO()
     machine = Machine(program("A=1./3.", "B=1./8.", "END"), deck_from_lines("d", []), Options(numbers=numbers("exact")))
     tracer = Tracer(file)
@@ -165,9 +165,6 @@ def test_a_trace_shows_all_digits() -> None:
     tracer.close()
     assert "A = 0.33333333333333333333..." in file.getvalue()
     assert "B = 0.125\n" in file.getvalue()
-
-
-def test_a_batch_supports_every_arithmetic() -> None:
     made = program("READ 1,A", "B=A/3.*3.", "PUNCH 1,B", "1 FORMAT(E14.8)", "END")
     decks = [deck_from_lines("d", [text]) for text in ("2.", "1.")]
     options = Options(numbers=numbers("float64"))

@@ -28,17 +28,14 @@ def test_a_run_ends_normally_by_its_statements_or_an_empty_hopper() -> None:
         run("READ 90,K", F, "END")
 
 
-def test_an_empty_hopper_at_the_first_read_is_a_normal_end() -> None:
-    """The first READ executed begins a data set, so that an empty hopper there ends the job normally."""
+def test_an_empty_hopper_ends_a_run_only_between_data_sets() -> None:
+    # The first READ executed begins a data set, so that an empty hopper there ends the job normally.
     lines = ["1 READ 90,N", "DO 2 I=1,N", "2 READ 90,K", OUT, "GO TO 1", F, "END"]
     result = run(*lines, data=["   2", "   5", "   6", "   1", "   7"])
     assert result.ending.kind == "hopper"
     assert result.punched == ("   6", "   7")
     assert [event.what for event in result.events].count("begin") == 3
     assert result.cards_read == 5
-
-
-def test_an_empty_hopper_within_a_data_set_is_an_error() -> None:
     lines = ["1 READ 90,N", "DO 2 I=1,N", "2 READ 90,K", OUT, "GO TO 1", F, "END"]
     with pytest.raises(DeckError) as caught:
         run(*lines, data=["   2", "   5"])
@@ -120,10 +117,19 @@ def test_a_do_may_end_with_input_output_or_pause(last: str) -> None:
     assert result.punched[-1] == "   4"
 
 
-def test_a_computed_go_to_branches_by_its_value() -> None:
+def test_branches_and_pauses_continue_by_value() -> None:
     lines = ["READ 90,K", "GO TO (11,12,13),K", "11 K=100", "GO TO 20", "12 K=200", "GO TO 20", "13 K=300", f"20 {OUT}"]
     for index in (1, 2, 3):
         assert punched(*lines, F, "END", data=[f"   {index}"]) == (f" {index}00",)
+    # OPEN-QUESTIONS 11.
+    result = run("7 PAUSE", "K=5", OUT, F, "END")
+    assert result.punched == ("   5",)
+    assert [notice.message for notice in result.notices] == [
+        "deck.f: PAUSE at statement 7 (card 1): the operator presses START"
+    ]
+    result = run("DO 5 I=1,3", "5 K=I", "END")
+    assert result.statements == 1 + 3 + 1
+    assert result.numbers == ()
 
 
 @pytest.mark.parametrize("index", [0, 4, -1, 9999])
@@ -154,15 +160,6 @@ def test_a_pause_halts_with_its_number(statement: str, number: int) -> None:
     assert (halt.what, halt.number) == ("pause", number)
 
 
-def test_a_pause_without_an_operator_continues_with_a_warning() -> None:
-    """OPEN-QUESTIONS 11."""
-    result = run("7 PAUSE", "K=5", OUT, F, "END")
-    assert result.punched == ("   5",)
-    assert [notice.message for notice in result.notices] == [
-        "deck.f: PAUSE at statement 7 (card 1): the operator presses START"
-    ]
-
-
 # Lists.
 
 
@@ -178,12 +175,16 @@ def test_lists_transfer_elements_in_order() -> None:
     assert punched(*lines, data=["  2  8  9  3  7"]) == ("  8  9  7",)
 
 
-def test_a_list_nested_too_deeply_is_an_error() -> None:
+def test_undefined_fields_are_copied_and_deep_lists_rejected() -> None:
     items = "I"
     for _ in range(5):
         items = f"({items},I=1,2)"
     (message,) = errors(f"PUNCH 90,{items}", F, "END")
     assert "the parentheses of this list are nested too deep" in message.message
+    # Part two 5: a copy is one transmit field. The thesis copies element N+1 in this way (OPEN-QUESTIONS 22).
+    made = machine("DIMENSION X(3)", "X(1)=X(2)", "A=B", "I=J", "END")
+    assert made.run().ending.kind == "end"
+    assert (number(made, "A"), number(made, "I")) == ("undefined", "undefined")
 
 
 # Typewriter.
@@ -250,13 +251,6 @@ def test_an_undefined_value_in_any_statement_ends_the_run(lines: list[str], mess
     assert message in result.ending.message
 
 
-def test_an_undefined_field_may_be_copied() -> None:
-    """Part two 5: a copy is one transmit field. The thesis copies element N+1 in this way (OPEN-QUESTIONS 22)."""
-    made = machine("DIMENSION X(3)", "X(1)=X(2)", "A=B", "I=J", "END")
-    assert made.run().ending.kind == "end"
-    assert (number(made, "A"), number(made, "I")) == ("undefined", "undefined")
-
-
 # The machine as a whole.
 
 
@@ -283,12 +277,6 @@ def test_only_ibm1962_types_error_codes() -> None:
     assert result.typed == ("ERROR F8",)
     assert result.punched == (f"{'ERROR F8  .12345670E+07':77}001",)
     assert run(*lines).typed == ()
-
-
-def test_the_result_counts_statements() -> None:
-    result = run("DO 5 I=1,3", "5 K=I", "END")
-    assert result.statements == 1 + 3 + 1
-    assert result.numbers == ()
 
 
 HEADED = ["READ 1,N", "5 READ 1,I", "PUNCH 1,I", "GO TO 5", "1 FORMAT(I4)", "END"]

@@ -60,7 +60,7 @@ def test_a_bad_line_must_be_typed_again_and_has_no_effect(bad: str) -> None:
     assert texts(made.take())[-2:] == ["accept    3   4", "type    3   4"]
 
 
-def test_only_the_bad_line_of_a_list_is_typed_again() -> None:
+def test_bad_lines_are_typed_again_alone_or_raise_an_error() -> None:
     lines = ["DIMENSION M(4)", "ACCEPT 90,(M(I),I=1,4)", "TYPE 91,M,I", "90 FORMAT(2I2)", "91 FORMAT(5I2)", "END"]
     made = session(*lines, retypes=True)
     for line in (" 1 2", " 3 +", " 3 4"):
@@ -68,9 +68,6 @@ def test_only_the_bad_line_of_a_list_is_typed_again() -> None:
         made.act(Action("ENTER", text=line))
     assert made.advance(1_000) == Ending("end")
     assert texts(made.take())[-1] == "type  1 2 3 4 5"
-
-
-def test_a_bad_line_is_an_error_if_nobody_can_type_it_again() -> None:
     made = session(*GAME)
     made.advance(1_000)
     made.act(Action("ENTER", text="   X"))

@@ -27,26 +27,20 @@ def test_a_run_that_ends_for_lack_of_cards_names_the_read_and_its_card(cards: li
     assert result.ending.normal
 
 
-def test_a_job_that_ends_at_the_read_of_a_data_set_has_no_note() -> None:
-    """The programs of the thesis end this way, one data set after the other."""
+def test_comparisons_and_jobs_report_their_endings() -> None:
+    # The programs of the thesis end this way, one data set after the other.
     result = Machine(READS, deck_from_lines("d", ["   0"])).run()
     assert (result.ending.kind, list(notes(READS, result))) == ("hopper", [])
-
-
-def test_a_comparison_says_how_both_runs_ended_and_the_last_line_typed() -> None:
     refused = compared("TYPE 9", "STOP", "9 FORMAT(8HREJECTED)", "END")
     assert refused.outcomes == ("both runs ended: STOP, after typing 'REJECTED'",)
     left = compared("A=1./3.*3.-1.", "IF (A) 1,2,1", "1 STOP", "2 X=0.", "END")
     assert left.outcomes == ("truncating ended: STOP", "exact ended: the end of the program")
+    assert no_deck(program("A=1.", "END")).cards == ()
+    with pytest.raises(DeckError, match=r"deck\.f: the program reads cards: a data deck is required"):
+        no_deck(READS)
 
 
 @pytest.mark.parametrize("statement", ["A=EXP(1.5)", "A=SQRT(SQRT(2.)+1.)"])
 def test_a_function_that_exact_arithmetic_cannot_hold_names_an_arithmetic_that_can(statement: str) -> None:
     assert compared(statement, "STOP", "END").apart.endswith("; --against mp:200 compares with 200 bits instead")
     assert compared(statement, "STOP", "END", against="mp:200").apart == ""
-
-
-def test_a_program_without_read_needs_no_deck() -> None:
-    assert no_deck(program("A=1.", "END")).cards == ()
-    with pytest.raises(DeckError, match=r"deck\.f: the program reads cards: a data deck is required"):
-        no_deck(READS)

@@ -21,7 +21,7 @@ def values(*lines: str, **setting: object) -> list[str]:
     return [line[52:].strip() for line in traced(*lines, **setting)[1:]]
 
 
-def test_a_trace_shows_stored_and_tested_values() -> None:
+def test_values_copies_lists_and_loops_are_traced() -> None:
     assert traced("DIMENSION X(3)", "I=2", "10 X(I)=1.5*2.", "IF(X(2))20,20,20", "20 IF(I-5)30,30,30", "30 STOP") == [
         "* deck.f: card, number, statement, value",
         "   2       I=2                                       I = 2",
@@ -30,9 +30,6 @@ def test_a_trace_shows_stored_and_tested_values() -> None:
         "   5    20 IF(I-5)30,30,30                           -3",
         "   6    30 STOP",
     ]
-
-
-def test_copies_and_conversions_are_traced() -> None:
     assert values("A=1.", "B=A", "J=B", "C=J", "D=-A", "Z=0.", "Y=-Z", "END")[:7] == [
         "A = .10000000E+01",
         "B = .10000000E+01",
@@ -42,9 +39,6 @@ def test_copies_and_conversions_are_traced() -> None:
         "Z = .00000000E-99",
         "Y = -.00000000E-99",
     ]
-
-
-def test_copies_lists_loops_and_the_last_statement_are_traced() -> None:
     assert values("DIMENSION X(3)", "X(1)=X(2)", "END")[0] == "X(1) = undefined"
     assert values("READ 1,I,A", "1 FORMAT(I2,E14.8)", "END", data=(" 5 .20000000E+01",))[0] == (
         "I = 5, A = .20000000E+01"

@@ -44,8 +44,8 @@ def triples(count: int) -> list[tuple[int, int, int]]:
     return radicands
 
 
-def test_sign_of_al_plus_bl_minus_cl_is_exact() -> None:
-    """Card 169 of program 2 with 6,000 triples, compared with (sqrt a + sqrt b)**2 - c in integers."""
+def test_signs_are_exact_where_double_precision_is_wrong() -> None:
+    # Card 169 of program 2 with 6,000 triples, compared with (sqrt a + sqrt b)**2 - c in integers.
     zero = 0
     for a, b, c in triples(6_000):
         rest = c - a - b
@@ -53,9 +53,6 @@ def test_sign_of_al_plus_bl_minus_cl_is_exact() -> None:
         assert EXACT.sign(EXACT.subtract(EXACT.add(root(a), root(b)), root(c))) == expected
         zero += expected == 0
     assert zero >= 2_000
-
-
-def test_double_precision_gets_some_signs_wrong() -> None:
     wrong = 0
     for a, b, c in triples(600):
         exact = EXACT.sign(EXACT.subtract(EXACT.add(root(a), root(b)), root(c)))

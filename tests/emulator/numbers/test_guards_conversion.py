@@ -81,8 +81,8 @@ def test_integer_with_five_digits_after_filling_blanks_gives_a_warning(columns: 
     assert found.remark.message.startswith(f"{columns.replace(' ', '0')} has more than four digits")
 
 
-def test_blanks_in_an_integer_are_reported_as_zeros() -> None:
-    """Without point and exponent, blanks after the number count as zeros.  Those before it do not."""
+def test_blanks_and_signs_in_integers_are_reported() -> None:
+    # Without point and exponent, blanks after the number count as zeros.  Those before it do not.
     for columns in ("12 ", "1 2"):
         found = read_fixed(columns)
         assert found.remark is not None
@@ -90,9 +90,6 @@ def test_blanks_in_an_integer_are_reported_as_zeros() -> None:
         floating(columns, AS_ZEROS)
     assert read_fixed(" 12").remark is None
     floating(" 12", "")
-
-
-def test_negative_number_in_a_single_column_is_a_minus_sign() -> None:
-    """The sign takes the only column, and every digit is lost (p. 38).  The field before is unchanged."""
+    # The sign takes the only column, and every digit is lost (p. 38).  The field before is unchanged.
     lines = ["I=12", "J=-7", "K=3", "PUNCH 1,I,J,K", "1 FORMAT(I2,I1,I1)", "END"]
     assert punched(*lines) == ("12-3",)

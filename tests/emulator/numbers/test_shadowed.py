@@ -72,7 +72,7 @@ def test_unrounded_number_has_the_bound_zero(name: str) -> None:
     assert system.error(system.subtract(third, third)) == 0
 
 
-def test_decimal_input_not_representable_in_binary_has_an_error() -> None:
+def test_bounds_follow_decimal_input_loops_and_infinities() -> None:
     for name, off in (("float64", True), ("mp:100", True), ("truncating", False)):
         system = shadowed(name)
         tenth = system.constant(".1")
@@ -82,6 +82,18 @@ def test_decimal_input_not_representable_in_binary_has_an_error() -> None:
         value = system.exact(tenth, 0)
         assert value is not None
         assert bound == pytest.approx(2 * float(abs(Fraction(value) - Fraction(1, 10))))
+    # X = X/2 + 1/3 a thousand times: each step halves the error.
+    system = shadowed("float64")
+    x, half, third = system.constant(".7"), system.constant(".5"), system.divide(*map(system.from_integer, (1, 3)))
+    for _ in range(1000):
+        x = system.add(system.subtract(x, system.multiply(x, half)), third)
+    bound = system.error(x)
+    assert bound is not None
+    assert 0 < bound < Fraction(1, 10**15)
+    system = shadowed("float64")
+    with pytest.raises(Trap) as trap:
+        system.divide(system.from_integer(1), system.from_integer(0))
+    assert system.error(trap.value.value) is None
 
 
 @pytest.mark.parametrize("name", ["float32", "float64", "truncating", "mp:60"])
@@ -98,21 +110,3 @@ def test_functions_of_thirds(name: str, function: str, third: int) -> None:
     assert bound is not None
     assert value is not None
     assert 0 < abs(Fraction(value) - Fraction(int(over), int(under))) <= bound
-
-
-def test_bound_stays_small_in_a_contracting_loop() -> None:
-    """X = X/2 + 1/3 a thousand times: each step halves the error."""
-    system = shadowed("float64")
-    x, half, third = system.constant(".7"), system.constant(".5"), system.divide(*map(system.from_integer, (1, 3)))
-    for _ in range(1000):
-        x = system.add(system.subtract(x, system.multiply(x, half)), third)
-    bound = system.error(x)
-    assert bound is not None
-    assert 0 < bound < Fraction(1, 10**15)
-
-
-def test_infinity_has_no_error_bound() -> None:
-    system = shadowed("float64")
-    with pytest.raises(Trap) as trap:
-        system.divide(system.from_integer(1), system.from_integer(0))
-    assert system.error(trap.value.value) is None

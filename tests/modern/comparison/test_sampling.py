@@ -33,8 +33,8 @@ def runs(name: str) -> SampledNumbers:
 SAMPLE = [Fraction(text) for text in ("1.001", "1.002", "0.998", "1.0005", "0.9995", "1.003")]
 
 
-def test_estimates_are_those_of_parker_cestac_and_sohier() -> None:
-    """Student's t for 5 degrees is 2.571, chi-square's 2.5 % quantile 0.8312, and the normal quantile 1.960."""
+def test_estimates_agree_with_published_formulas_and_the_package() -> None:
+    # Student's t for 5 degrees is 2.571, chi-square's 2.5 % quantile 0.8312, and the normal quantile 1.960.
     estimated = estimate(SAMPLE, 8)
     assert estimated is not None
     ratio = stdev(map(float, SAMPLE)) / fmean(map(float, SAMPLE))
@@ -76,7 +76,7 @@ QUADRATIC = (
 CARD = ("       1.0     -99.9      0.01",)
 
 
-def test_statement_that_cancels_keeps_few_digits() -> None:
+def test_statements_that_cancel_keep_few_digits_and_intervals_around_zero_no_sign() -> None:
     program, deck = made(*QUADRATIC, data=CARD)
     sampling = in_step(program, deck, runs("stochastic:8:1-10"), Options(hopper="any"))
     digits = {row.line.text: row.worst for row in sampling.statements}
@@ -85,6 +85,15 @@ def test_statement_that_cancels_keeps_few_digits() -> None:
     (number,) = sampling.printed
     assert (number.record, len(number.values)) == (1, 10)
     assert sampling.records == (number.columns.rstrip(),)
+    system = numbers("interval:8")
+    third = system.divide(system.from_integer(1), system.from_integer(3))
+    rest = system.subtract(system.multiply(third, system.from_integer(3)), system.from_integer(1))
+    with pytest.raises(Undecided, match=r"the sign of \[.*\] is unknown"):
+        system.sign(rest)
+    with pytest.raises(Undecided, match=r"the divisor .* may be zero"):
+        system.divide(third, rest)
+    program, deck = made(*UNSTABLE, *REST)
+    assert Machine(program, deck, Options(numbers=system)).run().ending.kind == "undecided"
 
 
 def test_values_of_a_run_in_step_are_those_of_the_run_with_its_seed() -> None:
@@ -172,18 +181,6 @@ def test_runs_have_the_digits_of_the_arithmetic_studied(studied: str, name: str)
 def test_runs_in_step_need_a_range_of_seeds(name: str) -> None:
     with pytest.raises(ArgumentError, match="runs in step"):
         numbers(name)
-
-
-def test_interval_around_zero_has_no_sign() -> None:
-    system = numbers("interval:8")
-    third = system.divide(system.from_integer(1), system.from_integer(3))
-    rest = system.subtract(system.multiply(third, system.from_integer(3)), system.from_integer(1))
-    with pytest.raises(Undecided, match=r"the sign of \[.*\] is unknown"):
-        system.sign(rest)
-    with pytest.raises(Undecided, match=r"the divisor .* may be zero"):
-        system.divide(third, rest)
-    program, deck = made(*UNSTABLE, *REST)
-    assert Machine(program, deck, Options(numbers=system)).run().ending.kind == "undecided"
 
 
 def test_sensitivity_is_the_relative_change_of_the_result_for_one_unit_of_a_card() -> None:

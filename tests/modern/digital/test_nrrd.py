@@ -138,7 +138,7 @@ def _folder(tmp_path_factory, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path_factory.mktemp("nrrd"))
 
 
-def test_a_saved_hull_keeps_its_position() -> None:
+def test_saved_hulls_and_lists_keep_their_position() -> None:
     array = np.zeros((3, 3, 3), np.uint8)
     array[0, 0, 0] = array[2, 2, 2] = array[2, 0, 1] = 1
     hull = digital_hull(array, spacing=("0.1", 2, "-0.25"), origin=(1, "2.5", 0))
@@ -148,9 +148,6 @@ def test_a_saved_hull_keeps_its_position() -> None:
     assert np.array_equal(read_volume("hull.nrrd").array, hull.filled)
     with pytest.raises(VolumeError, match=r"hull\.off: the name must end with \.npy or \.nrrd"):
         hull.save("hull.off")
-
-
-def test_coordinates_of_a_list_are_stored_as_an_origin() -> None:
     volume = listed([(5, -2, 7), (6, -2, 7)])
     write_array("a.nrrd", volume.array, volume)
     world = read_volume("a.nrrd").world
@@ -159,9 +156,6 @@ def test_coordinates_of_a_list_are_stored_as_an_origin() -> None:
     whole = listed([(0, 0, 0), (0, 0, 1)])
     write_array("b.nrrd", whole.array, whole)
     assert read_volume("b.nrrd").world is None
-
-
-def test_written_bytes_are_reproducible() -> None:
     volume = Volume(STEPS > 0, (0, 0, 0), world=world_of(3, (1, 2, 3)))
     write_nrrd("a.nrrd", volume.array, volume)
     first = Path("a.nrrd").read_bytes()

@@ -56,8 +56,8 @@ def test_thresholds_are_compared_exactly_with_floats(kind: str) -> None:
         chosen(scan(np.full((1, 1, 1), np.float64(0.3), "f8" if kind == "f4" else kind)), Choice(Fraction(3, 10)))
 
 
-def test_a_threshold_between_two_numbers_of_a_wide_type() -> None:
-    """The double next to 5/3 is above it, and a wider type has numbers between the two."""
+def test_wide_thresholds_and_values_that_are_not_integers() -> None:
+    # The double next to 5/3 is above it, and a wider type has numbers between the two.
     threshold = Fraction(5, 3)
     value = np.longdouble(float(threshold))
     while Fraction(*np.nextafter(value, np.longdouble(0)).as_integer_ratio()) >= threshold:
@@ -65,6 +65,13 @@ def test_a_threshold_between_two_numbers_of_a_wide_type() -> None:
     below = np.nextafter(value, np.longdouble(0))
     selection = chosen(scan(np.array([[below, value]])), Choice(threshold))
     assert selection.volume.array.tolist() == [[False, True]]
+    volume = Scan(np.array([[0, 1, 1.25], [2.25, 1.25, np.inf]]), (0, 0), "scan")
+    note = "scan: voxels left out because their values are not integers: 4 (distinct values: 3, such as 1.25)"
+    assert label_notes(volume) == (note,)
+    assert chosen(volume, Choice(labels=(1,))).volume.notes == (note,)
+    assert chosen(volume).volume.notes == ()
+    assert label_notes(Scan(np.array([[0.0, 1.0, 3.0]]), (0, 0), "scan")) == ()
+    assert label_notes(Scan(np.array([[0, 1, 3]]), (0, 0), "scan")) == ()
 
 
 @settings(deadline=None)
@@ -132,13 +139,3 @@ def test_read_volume_selects_by_threshold_and_by_label(tmp_path: Any) -> None:
         read_volume(path, threshold="x")
     with pytest.raises(VolumeError, match="spacing: expected 3 numbers, found 2"):
         read_volume(path, spacing=(1, 2))
-
-
-def test_voxels_whose_values_are_not_integers_are_counted_in_a_note() -> None:
-    scan = Scan(np.array([[0, 1, 1.25], [2.25, 1.25, np.inf]]), (0, 0), "scan")
-    note = "scan: voxels left out because their values are not integers: 4 (distinct values: 3, such as 1.25)"
-    assert label_notes(scan) == (note,)
-    assert chosen(scan, Choice(labels=(1,))).volume.notes == (note,)
-    assert chosen(scan).volume.notes == ()
-    assert label_notes(Scan(np.array([[0.0, 1.0, 3.0]]), (0, 0), "scan")) == ()
-    assert label_notes(Scan(np.array([[0, 1, 3]]), (0, 0), "scan")) == ()

@@ -87,8 +87,8 @@ def test_measures_are_those_of_the_judge(seed: int, world: World) -> None:
             assert measures.deficiency == judged.volume - measures.volume >= 0
 
 
-def test_reversing_an_axis_with_its_step_leaves_the_faces_unchanged() -> None:
-    """The array is reversed along x, the step is negative and the origin is at the other end."""
+def test_axes_corners_and_spaces_are_converted_exactly() -> None:
+    # The array is reversed along x, the step is negative and the origin is at the other end.
     solid = random_solid(random.Random(7), side=6)
     size = solid.shape[0]
     forward = world_of(3, (2, 3, "0.5"), (5, 5, 5))
@@ -96,9 +96,6 @@ def test_reversing_an_axis_with_its_step_leaves_the_faces_unchanged() -> None:
     mesh = voxel_hull(Volume(solid, (0, 0, 0), world=forward)).mesh(straight=True)
     reversed_mesh = voxel_hull(Volume(solid[::-1], (0, 0, 0), world=backward)).mesh(straight=True)
     assert faces(mesh.numbers(), mesh.faces) == faces(reversed_mesh.numbers(), reversed_mesh.faces)
-
-
-def test_corners_are_half_a_voxel_from_centres() -> None:
     voxel = np.ones((1, 1, 1), np.bool_)
     spaced = hull_of_voxels(voxel, spacing=("0.5", "0.5", 2), origin=(10, 0, -1))
     assert sorted(map(tuple, spaced.points.tolist()))[0] == (9.75, -0.25, -2.0)
@@ -107,9 +104,6 @@ def test_corners_are_half_a_voxel_from_centres() -> None:
     assert hull_of_voxels(voxel, centres=True, spacing=(1, 1, 1), origin=(7, 8, 9)).points.tolist() == [[7, 8, 9]]
     bare = hull_of_voxels(voxel)
     assert (bare.points.min(), bare.points.max()) == (0, 1)
-
-
-def test_positions_are_converted_between_anatomical_spaces() -> None:
     world = World(((ONE, NONE, NONE), (NONE, -2 * ONE, NONE), (NONE, NONE, 3 * ONE)), (5 * ONE,) * 3, LPS)
     turned = world.turned(RAS)
     assert turned.origin == (-5, -5, 5)

@@ -183,7 +183,7 @@ def test_boundary_and_inside_points_are_drawn_and_explained() -> None:
     assert "inside point" not in draw(CUBE)[1].legend()
 
 
-def test_faces_in_one_plane_have_no_edge_between_them() -> None:
+def test_edges_within_a_plane_are_drawn_only_on_two_sides_of_a_sheet() -> None:
     hull = convex_hull(CUBE)
     faces = []
     for face in hull.faces:
@@ -192,10 +192,7 @@ def test_faces_in_one_plane_have_no_edge_between_them() -> None:
     whole, split = (Picture(draw_svg(h, (24, -55, 29))) for h in (hull, replace(hull, faces=tuple(faces))))
     assert whole.edges("seen") == split.edges("seen")
     assert whole.edges("hidden") == split.edges("hidden")
-
-
-def test_two_sides_of_a_flat_sheet_have_edges_between_them() -> None:
-    """Rounded arithmetic can leave such a thin solid."""
+    # Rounded arithmetic can leave such a thin solid.
     hull = convex_hull(CUBE)
     face = hull.faces[0]
     sheet = replace(

@@ -39,7 +39,7 @@ def numbers(text: str) -> set[str]:
     return {name for element in groups(text).get("numbers", []) for name in str(element.text).split(",")}
 
 
-def test_vertices_are_numbered_by_program_or_by_input_or_not_at_all() -> None:
+def test_vertices_hidden_parts_and_other_points_are_drawn_on_request() -> None:
     hull = convex_hull(SOLID)
     assert hull.vertices != tuple(sorted(hull.vertices))
     count = len(hull.vertices)
@@ -47,9 +47,6 @@ def test_vertices_are_numbered_by_program_or_by_input_or_not_at_all() -> None:
     assert numbers(draw_svg(hull, show=Show("input"))) == {str(index + 1) for index in hull.vertices}
     assert numbers(draw_svg(hull, show=Show("none"))) == set()
     assert "not numbered" not in draw_svg(hull, show=Show("none"))
-
-
-def test_hidden_parts_and_other_points_can_be_omitted() -> None:
     hull = convex_hull(BOX)
     whole = groups(draw_svg(hull))
     assert {"hidden", "vertices-hidden", "inside"} <= whole.keys()

@@ -46,16 +46,13 @@ def test_every_row_has_a_place(name: str) -> None:
     assert row_ids == {row.id for row in TEXTS[name].rows}
 
 
-def test_two_layers_can_change_the_same_statement_independently() -> None:
+def test_layers_change_a_statement_independently_and_misfits_are_named() -> None:
     line = next(line for line in segments(TEXTS["program3"]) if line.id == "121")
     ours = ("ocr", "print", "lacuna")
     assert reading(line.pieces, ours) == "      IF(E(I))135,133,134"
     assert reading(line.pieces, (*ours, "corrected")) == "      IF(E(I))135,216,134"
     assert reading(line.pieces, (*ours, "translation")) == "      IF(D(I))135,133,134"
     assert reading(line.pieces, (*ours, "translation", "corrected")) == "      IF(D(I))135,216,134"
-
-
-def test_a_row_that_does_not_fit_is_named() -> None:
     text = TEXTS["program1"]
     row = text.rows[1]
     strange = replace(row, changes=(replace(row.changes[0], witness="NOT THERE"),))

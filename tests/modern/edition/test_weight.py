@@ -130,7 +130,7 @@ def test_committed_answers_equal_computed_ones(known: dict[str, Bench]) -> None:
     assert {v.key: judged(v, known) for v in sample} == {v.key: answers[v.key] for v in sample}
 
 
-def test_cards_that_no_check_confirms_are_listed() -> None:
+def test_cards_without_confirmation_and_their_siblings_are_listed() -> None:
     answers = committed()
     named = report(answers).partition("## Cards that no check confirms")[2]
     assert all(f"{v.place} `{v.was.strip()}`" in named for v in unvouched(answers))
@@ -138,10 +138,7 @@ def test_cards_that_no_check_confirms_are_listed() -> None:
     for card in unvouched(answers):
         of_it = {answers[v.key] for v in every if (v.program, v.card) == (card.program, card.card)}
         assert of_it <= {"compiler", "nothing"}
-
-
-def test_a_sibling_has_the_form_of_two_other_cards() -> None:
-    """Cards with exchanged names have the same form, and every card of EQUATIONS computes its formula."""
+    # Cards with exchanged names have the same form, and every card of EQUATIONS computes its formula.
     assert alike("X(L)=X(L+1)") >= 2
     assert alike("X(L)=X(L+1)") == alike("Y(I)=Y(I+1)")
     assert alike("X(L)=Y(I+2)") == 0

@@ -63,7 +63,7 @@ def test_every_single_change_of_a_hull_is_refused(name: str) -> None:
     assert tried > (30 if name == "point" else 100)
 
 
-def test_a_hull_of_other_points_is_refused() -> None:
+def test_hulls_of_other_points_are_refused() -> None:
     hull = exact_hull(GRID)
     for index, point in enumerate(GRID):
         for moved in ((point[0] + 1, *point[1:]), (Fraction(1, 2) + point[0], *point[1:])):
@@ -71,6 +71,9 @@ def test_a_hull_of_other_points_is_refused() -> None:
                 certify([*GRID[:index], moved, *GRID[index + 1 :]], hull)
     with pytest.raises(CertificateError, match="scaled points, found"):
         certify(GRID[:-1], hull)
+    # The result is consistent, but a point is outside.
+    for points, hull in one_vertex_short():
+        refused(points, hull, "point 4 is outside of facet")
 
 
 TOP = (0, 0, 1, -2)
@@ -238,14 +241,8 @@ def test_a_point_inside_an_edge_is_refused_as_a_vertex_of_both_faces() -> None:
     refused(GRID, replace(hull, facets=tuple(facets)), f"point {middle} is called a vertex")
 
 
-def test_the_hull_of_all_points_except_one_vertex_is_refused() -> None:
-    """The result is consistent, but a point is outside."""
-    for points, hull in one_vertex_short():
-        refused(points, hull, "point 4 is outside of facet")
-
-
-def test_two_closed_surfaces_violate_eulers_relation() -> None:
-    """Earlier checks refuse every such hull, so this check is called directly."""
+def test_two_surfaces_and_polygons_outside_their_plane_are_refused() -> None:
+    # Earlier checks refuse every such hull, so this check is called directly.
     hull = exact_hull(OCTAHEDRON)
     assert checks._check_polyhedron(hull) == 12
     shift = len(hull.scaled)
@@ -253,10 +250,7 @@ def test_two_closed_surfaces_violate_eulers_relation() -> None:
     both = SimpleNamespace(vertices=range(2 * shift), scaled=tuple(hull.scaled) * 2, facets=(*hull.facets, *other))
     with pytest.raises(CertificateError, match="Euler's relation does not hold: 12 vertices, 24 edges, 16 facets"):
         checks._check_polyhedron(both)
-
-
-def test_a_polygon_with_a_point_outside_its_plane_is_refused() -> None:
-    """The point is inside the plane of every edge, but not in that of the polygon, which the rank shows first."""
+    # The point is inside the plane of every edge, but not in that of the polygon, which the rank shows first.
     hull = exact_hull([*SQUARE, (1, 1, 0)])
     refused([*SQUARE, (1, 1, 1)], replace(hull, scaled=(*hull.scaled[:4], (1, 1, 1))), "but the points have rank 3")
     with pytest.raises(CertificateError, match="point 4 is not in the polygon's plane"):

@@ -96,16 +96,13 @@ def double_pyramid(step: int) -> ExactHull:
     return surface(points, [(a, b, 5) for a, b in around] + [(b, a, 6) for a, b in around])
 
 
-def test_a_surface_that_goes_around_twice_is_refused() -> None:
-    """The surface passes all other checks, and only the ray shows that it is not convex."""
+def test_surfaces_that_overlap_or_have_a_dent_are_refused() -> None:
+    # The surface passes all other checks, and only the ray shows that it is not convex.
     hull = double_pyramid(1)
     assert certify(hull.scaled, hull).facets == 10
     hull = double_pyramid(2)
     refused(hull.scaled, hull, "a ray from inside meets two facets")
-
-
-def test_a_surface_with_a_dent_is_refused() -> None:
-    """The triangles of a point above a face of the octahedron, with the point moved below it."""
+    # The triangles of a point above a face of the octahedron, with the point moved below it.
     points = [*((9 * x, 9 * y, 9 * z) for x, y, z in OCTAHEDRON), (4, 4, 4)]
     triangles = [facet.polygon for facet in exact_hull(points).facets]
     assert len(triangles) == 10
@@ -114,6 +111,13 @@ def test_a_surface_with_a_dent_is_refused() -> None:
     refused(points, surface(points, triangles), "is outside of facet")
     points[6] = (3, 3, 3)
     refused(points, surface(points, triangles), "a plane occurs twice")
+    # Each surface is valid on its own.
+    points = [*OCTAHEDRON, *((x + 9, y, z) for x, y, z in OCTAHEDRON)]
+    one = exact_hull(OCTAHEDRON)
+    shifted = exact_hull(points[6:])
+    other = [Facet(facet.plane, tuple(k + 6 for k in facet.polygon)) for facet in shifted.facets]
+    facets = sorted([*one.facets, *other], key=lambda facet: facet.plane)
+    refused(points, replace(one, scaled=tuple(points), vertices=tuple(range(12)), facets=tuple(facets)), "Euler")
 
 
 def test_a_surface_turned_inside_out_is_refused(monkeypatch) -> None:
@@ -147,32 +151,16 @@ def test_changed_arrays_of_facets_are_refused(least: int, monkeypatch) -> None:
     assert pickle.loads(pickle.dumps(hull)) == hull == replace(hull, facets=tuple(hull.facets))
 
 
-def test_a_facet_in_the_order_seen_from_inside_is_refused() -> None:
-    """The plane of the triangle is right, but its corners have the opposite order."""
+def test_reversed_missing_and_invalid_faces_are_refused() -> None:
+    # The plane of the triangle is right, but its corners have the opposite order.
     hull = exact_hull(OCTAHEDRON)
     refused(OCTAHEDRON, exchanged(hull, 0, Facet(hull.facets[0].plane, rotated(hull.facets[0].polygon[::-1]))), "edge")
     every = [Facet(facet.plane, rotated(facet.polygon[::-1])) for facet in hull.facets]
     refused(OCTAHEDRON, replace(hull, facets=tuple(every)), "does not turn left|outside of facet")
-
-
-def test_a_missing_or_repeated_face_is_refused() -> None:
     hull = exact_hull(GRID)
     refused(GRID, exchanged(hull, 0), "belongs to only one facet")
     refused(GRID, replace(hull, facets=(*hull.facets, hull.facets[-1])), "same direction")
     refused(GRID, replace(hull, facets=()), "there are no facets")
-
-
-def test_two_surfaces_are_refused() -> None:
-    """Each surface is valid on its own."""
-    points = [*OCTAHEDRON, *((x + 9, y, z) for x, y, z in OCTAHEDRON)]
-    one = exact_hull(OCTAHEDRON)
-    shifted = exact_hull(points[6:])
-    other = [Facet(facet.plane, tuple(k + 6 for k in facet.polygon)) for facet in shifted.facets]
-    facets = sorted([*one.facets, *other], key=lambda facet: facet.plane)
-    refused(points, replace(one, scaled=tuple(points), vertices=tuple(range(12)), facets=tuple(facets)), "Euler")
-
-
-def test_polygons_of_invalid_indices_are_refused() -> None:
     hull = exact_hull(OCTAHEDRON)
     polygon = hull.facets[0].polygon
     for wrong in ((*polygon[:2], 17), (*polygon[:2], -1), (*polygon[:2], 1.0 * polygon[2]), polygon[:2], ()):

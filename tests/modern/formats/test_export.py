@@ -151,12 +151,22 @@ def test_stl_is_closed_and_has_the_volume_of_the_faces(points: list[tuple[int, i
         assert triple((Fraction(normal[0]), Fraction(normal[1]), Fraction(normal[2])), u, v) > 0
 
 
-def test_the_faces_of_a_cube_remain_squares() -> None:
+def test_squares_remain_one_face_in_the_orientation_of_their_plane() -> None:
     hull = convex_hull([*CUBE, (1, 1, 1), (0, 1, 1)])
     _, faces = tiny_off(export_text(hull, "off"))
     assert [len(face) for face in faces] == [4] * 6
     assert export_text(hull, "off").splitlines()[1] == "8 6 12"
     assert len(tiny_stl(export_text(hull, "stl"))) == 12
+    hull = convex_hull(SQUARE)
+    for form, reader in READERS.items():
+        points, faces = reader(export_text(hull, form))
+        assert (len(points), [len(face) for face in faces]) == (4, [4]), form
+        a, b, c = (points[k] for k in faces[0][:3])
+        assert hull.plane is not None
+        assert triple(exact(hull.plane[:3]), less(b, a), less(c, a)) > 0
+    assert len(tiny_stl(export_text(hull, "stl"))) == 2
+    turned = replace(hull, plane=("0", "0", "-16", "16"))
+    assert mesh(turned).faces[0][1:] == mesh(hull).faces[0][:0:-1]
 
 
 @pytest.mark.parametrize(
@@ -234,19 +244,6 @@ def test_large_faces_integers_and_triangles_are_written() -> None:
     bare = mesh(replace(hull, faces=()))
     assert len(bare.faces[0]) == 3
     assert bare == mesh(hull)
-
-
-def test_a_polygon_is_one_face_in_the_orientation_of_its_plane() -> None:
-    hull = convex_hull(SQUARE)
-    for form, reader in READERS.items():
-        points, faces = reader(export_text(hull, form))
-        assert (len(points), [len(face) for face in faces]) == (4, [4]), form
-        a, b, c = (points[k] for k in faces[0][:3])
-        assert hull.plane is not None
-        assert triple(exact(hull.plane[:3]), less(b, a), less(c, a)) > 0
-    assert len(tiny_stl(export_text(hull, "stl"))) == 2
-    turned = replace(hull, plane=("0", "0", "-16", "16"))
-    assert mesh(turned).faces[0][1:] == mesh(hull).faces[0][:0:-1]
 
 
 def test_a_segment_and_a_point_are_written_without_faces() -> None:

@@ -236,9 +236,13 @@ def test_export_reports_a_hull_that_was_not_determined(room: Path, capsys, monke
     assert (code, json.loads(out)["status"]) == (1, ERROR)
 
 
-def test_invalid_points_raise_an_emulator_error() -> None:
+def test_decks_of_points_have_these_points_and_invalid_points_raise_an_error() -> None:
     with pytest.raises(EmulatorError):
         parse_input("1 2", "a")
+    points = (("1", "-2.5", "0.000003"), ("12.345678", "0", "9E+90"))
+    deck = with_epsilon(data_deck(points, "d"), ".5")
+    assert deck.cards[0].text == " 2+.50000000E+00"
+    assert tuple(exact_points(deck)[0].values()) == points
 
 
 @pytest.mark.parametrize(
@@ -274,10 +278,3 @@ def test_coordinates_that_no_card_holds_are_rejected() -> None:
         data_deck([("1", "2", "3"), ("1", "2", "1.23456789")], "d")
     with pytest.raises(ValueError, match=r"^100 points; the number of points has two columns"):
         data_deck([("1", "2", "3")] * 100, "d")
-
-
-def test_a_deck_made_of_points_has_these_points() -> None:
-    points = (("1", "-2.5", "0.000003"), ("12.345678", "0", "9E+90"))
-    deck = with_epsilon(data_deck(points, "d"), ".5")
-    assert deck.cards[0].text == " 2+.50000000E+00"
-    assert tuple(exact_points(deck)[0].values()) == points

@@ -120,7 +120,7 @@ def test_the_next_distance_joins_one_more_face() -> None:
     assert len(still.groups) == len(first.groups)
 
 
-def test_points_within_a_joined_face_are_left_out() -> None:
+def test_joined_faces_leave_points_out_and_are_written_in_every_format() -> None:
     cube = [(x, y, z) for x in (0, 100) for y in (0, 100) for z in (0, 100)]
     bumps = [(50, 50, Fraction(100001, 1000)), (40, 60, Fraction(1000009, 10000)), (50, Fraction(-1, 1000), 50)]
     found, joined = read([*cube, *bumps], Fraction(1, 100))
@@ -131,6 +131,14 @@ def test_points_within_a_joined_face_are_left_out() -> None:
     # The largest triangle on top runs up to the bump in the middle, and its plane on to twice that height.
     words = "a vertex lies at most 0.002 from its plane; 3 vertices inside joined faces are left out"
     assert coplanar.join_summary(joined).startswith(f"14 faces are joined into 6 within 0.01; {words}; the next")
+    found, _ = read(dodecahedron(), "1e-9")
+    sizes = [line.split()[0] for line in export_text(found, "off").splitlines()[22:]]
+    assert sizes == ["5"] * 12
+    assert export_text(found, "obj").count("\nf ") == 12
+    assert export_text(found, "stl").count("facet normal") == 36
+    assert json.loads(export_text(found, "json"))["coplanar"]["within"] == "1E-9"
+    assert json.loads(export_text(exact(dodecahedron()), "json"))["coplanar"] is None
+    assert all(a < b for a, b in pairwise(sorted(found.vertices)))
 
 
 OCTAHEDRON = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
@@ -218,14 +226,3 @@ def test_the_public_hull_has_joined_faces() -> None:
     assert square.coplanar(1).faces == square.faces
     with pytest.raises(hull1620.ExportError, match="the plane of the largest face"):
         hull.coplanar(9)
-
-
-def test_every_format_has_the_joined_faces() -> None:
-    found, _ = read(dodecahedron(), "1e-9")
-    sizes = [line.split()[0] for line in export_text(found, "off").splitlines()[22:]]
-    assert sizes == ["5"] * 12
-    assert export_text(found, "obj").count("\nf ") == 12
-    assert export_text(found, "stl").count("facet normal") == 36
-    assert json.loads(export_text(found, "json"))["coplanar"]["within"] == "1E-9"
-    assert json.loads(export_text(exact(dodecahedron()), "json"))["coplanar"] is None
-    assert all(a < b for a, b in pairwise(sorted(found.vertices)))

@@ -50,16 +50,13 @@ def test_figures_7_and_8_faces_are_merged_and_extended() -> None:
     assert list(hull.faces) == judged([*pyramid, (3, 3, 0)])
 
 
-def test_a_point_on_the_line_of_an_edge_extends_both_of_its_faces() -> None:
-    """Two faces of a tetrahedron contain the point, and two edges of each then lie in one line."""
+def test_points_on_an_edge_extend_both_faces_and_flat_points_are_rejected() -> None:
+    # Two faces of a tetrahedron contain the point, and two edges of each then lie in one line.
     points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)]
     hull = coplanar_hull(points, EXTENDED)
     assert hull.extended == 2
     assert hull.straightened >= 2
     assert list(hull.faces) == judged(points)
-
-
-def test_flat_points_and_unknown_treatments_are_rejected() -> None:
     with pytest.raises(ValueError, match="in one plane"):
         coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], EXTENDED)
     with pytest.raises(ValueError, match="found 'visible'"):

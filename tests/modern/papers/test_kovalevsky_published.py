@@ -95,7 +95,7 @@ def test_triangles_are_reported_only_if_an_order_is_requested(capsys) -> None:
     assert {tuple(lines[:2] + lines[-4:]) for lines in output.values()} == {tuple(output[""][:2] + output[""][-4:])}
 
 
-def test_straight_merges_edges_in_one_line(capsys) -> None:
+def test_straight_merges_edges_and_cells_are_printed_as_tables(capsys) -> None:
     options = ("half-ball:8", "--corners", "6", "--coplanar", "invisible", "-o")
     call(capsys, "voxel-hull", *options, "kept.off")
     call(capsys, "voxel-hull", *options, "straight.off", "--straight")
@@ -103,9 +103,6 @@ def test_straight_merges_edges_in_one_line(capsys) -> None:
         len(parse_off(Path(f"{name}.off").read_text(encoding="utf-8"), name).points) for name in ("kept", "straight")
     ]
     assert sizes == [48, 44]
-
-
-def test_cells_are_printed_as_tables(capsys) -> None:
     Path("one.csv").write_text("0,0,0\n", encoding="utf-8")
     code, out, _ = call(capsys, "voxel-hull", "one.csv", "--cells", "--order", "raster")
     assert code == 0
