@@ -72,8 +72,9 @@ def lines_and_planes() -> Proof:
     ends = [(axis, a + length * c - b, length * c - (b - a)) for axis, a, b, c in zip("xyz", p, q, n, strict=True)]
     return Proof(
         "t is the distance on a line with a unit direction, and the value that from a plane with a unit normal",
-        "A unit direction times the length of a line leads from its start to its end, and times t to the point at the "
-        "distance t. The equation of a plane is 0 at its points, and t at the distance t along its normal.",
+        "The squares of a, b and c have the sum 1, because the square of the length is that of the differences. The "
+        "direction times the length leads from the start to the end, and times t to the point at the distance t. The "
+        "equation of a plane is 0 at its points, and t at the distance t along its normal.",
         (
             *(Step("t = l is the end", {axis: zero(printed)}, zero(end), (term(axis),)) for axis, end, printed in ends),
             Step("t is the distance", unit, zero(dot(way, way) - t * t), (term("unit", t * t),)),

@@ -12,12 +12,7 @@ from modern.claims.hulls import exact_hull
 from modern.claims.invariants import is_sphere
 from modern.claims.kovalevsky_schulz.proofs import vertex_is_no_combination
 from modern.claims.published import PAPERS, findings, printed_lines
-from modern.claims.sampled_sets import (
-    Point,
-    counterexample,
-    counterexample_points,
-    plane_value,
-)
+from modern.claims.sampled_sets import Point, counterexample, counterexample_points, plane_value
 from modern.formats.off import parse_off
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
@@ -235,10 +230,12 @@ def vertex_without_supporting_surface() -> Check:
 
 @claim("appel-will.83")
 def product_of_directions() -> Check:
-    """Check that the dot product of two directions may be negative although their angle is below 180 degrees."""
+    """Check that the dot product of two directions may be negative or 0 although their angle is below 180 degrees."""
     p, corner, r = counterexample_points("obtuse.csv")
     u, v = minus(p, corner), minus(r, corner)
-    return refuted(any(cross(u, v)) and dot(u, v) < 0, f"the product is {dot(u, v)} for an obtuse angle")
+    products = dot(u, v), dot(u, (0, 1, 0))
+    is_refuted = any(cross(u, v)) and products[0] < 0 == products[1]
+    return refuted(is_refuted, f"the product is {products[0]} for an obtuse angle, and {products[1]} for a right one")
 
 
 @claim("appel-will.85", full=2_000)

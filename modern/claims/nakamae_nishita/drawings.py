@@ -83,7 +83,7 @@ def _agrees(boxes: tuple[Box, ...]) -> bool:
     return all(piece.visible != any(_behind(at, box) for box in boxes) for piece, at in samples(_drawn(boxes)))
 
 
-@claim("nakamae-nishita.11", "appel-will.151", full=600)
+@claim("nakamae-nishita.11", full=600)
 def pieces_against_rays(cases: int = 3) -> Check:
     """Check that a piece of an edge is visible if and only if no box hides its midpoint and points next to its ends.
 
