@@ -92,12 +92,12 @@ def closed_boundary(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.73")
 def section_angles() -> Check:
-    """Check that the angles of Fig. 9 are right if the point Q is the foot of the perpendicular from P on the edge.
+    """Check that the angles of Fig. 9 are right if Q is the foot of the perpendicular and the edge is not sharp.
 
-    They are not if Q is an end of the edge. Only squares of cosines are compared: beta is 90 - alpha or alpha - 90 if
-    the squares add up to 1.
+    The angle beta is 90 - alpha or alpha - 90 if it is acute and the squares of the two cosines add up to 1.
     """
     right: list[bool] = []
+    sharp: list[bool] = []
     elsewhere: list[bool] = []
     for new, visible, hidden, plane, vertices, edge in _horizons():
         sign = -1 if max(plane_value(plane, p) for p in vertices) > 0 else 1
@@ -106,12 +106,16 @@ def section_angles() -> Check:
         share = Fraction(dot(along, minus(new, edge[0])), dot(along, along))
         # The foot of the perpendicular from P on the line of the edge.
         foot = [a + share * d for a, d in zip(edge[0], along, strict=True)]
-        for q, sums in ((foot, right), ([*map(Fraction, edge[0])], elsewhere)):
+        # An edge is sharp if the faces form an acute angle, so that the angle of their normals is obtuse.
+        at_foot = right if dot(visible[:3], hidden[:3]) >= 0 else sharp
+        for q, sums in ((foot, at_foot), ([*map(Fraction, edge[0])], elsewhere)):
             line = [p - c for p, c in zip(new, q, strict=True)]
             for normal in (visible[:3], hidden[:3]):
-                sums.append(_cosine(normal, line) + _cosine(normal, outward) == 1)
+                acute = dot(normal, outward) > 0  # type: ignore[arg-type]
+                sums.append(acute and _cosine(normal, line) + _cosine(normal, outward) == 1)
     check = searched(SETS[3], CASES, right, f"{len(right)} angles are right with Q at the foot of the perpendicular")
-    return check.unless(not all(elsewhere), f"Q at an end of the edge, where only {sum(elsewhere)} angles are right")
+    case = f"Q at an end of the edge, with {elsewhere.count(False)} wrong angles, and sharp edges, {sharp.count(False)}"
+    return check.unless(False in elsewhere and False in sharp, case)
 
 
 def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fraction:

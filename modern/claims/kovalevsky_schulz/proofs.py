@@ -62,7 +62,7 @@ def vertex_is_no_combination() -> Proof:
     return Proof(
         "a point of a convex polyhedron is a vertex if and only if it is a combination of no other points of it",
         "A vertex is the only point with the largest value of some linear function, so that a combination of other "
-        "points has a smaller value. So a polyhedron whose other vertices are moved to points of the old one does not "
+        "points has a smaller value. So a polyhedron whose vertices are other points of the old one does not "
         "contain the vertex. By Minkowski's theorem every point is a combination of vertices. So a convex polyhedron "
         "that contains all vertices contains the whole polyhedron, and a smaller one does not contain all vertices.",
         (largest_value(), combination_satisfies()[0]),
