@@ -166,7 +166,8 @@ def _numbered(file: str, title: str, name: str) -> Iterator[str]:
         if item.section != section:
             section = item.section
             text += f"## {section}\n\n{item.preamble}\n\n"
-        text += f"**{item.number}. {item.title}** {item.text}\n\n"
+        stop = "." if item.text[:1].isupper() else ""  # some titles begin their first sentence
+        text += f"**{item.number}. {item.title}{stop}** {item.text}\n\n"
     if closing[0]:
         text += f"## {closing[0]}\n\n{closing[1]}\n"
     yield Markdown(name, (), 2, lambda file: "").typst(text)
