@@ -15,7 +15,7 @@ reproduce: $(VENV)/.run
 # The processes that tests start read the bytecode of earlier ones, also if the user turned bytecode off.
 test: export PYTHONDONTWRITEBYTECODE =
 test: $(VENV)/.dev lint
-	$(BIN)/python -m pytest -q -n $(JOBS) --dist loadfile --no-loadscope-reorder
+	$(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check .
@@ -28,7 +28,7 @@ format: $(VENV)/.dev
 	$(BIN)/ruff format .
 
 coverage: $(VENV)/.dev
-	$(BIN)/python -m pytest -q -n $(JOBS) --dist loadfile --no-loadscope-reorder --cov --cov-report term:skip-covered
+	$(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal --cov --cov-report term:skip-covered
 
 wheel: $(VENV)/.dev
 	rm -rf build/lib

@@ -7,7 +7,6 @@ import gc
 import locale
 import os
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -23,39 +22,9 @@ settings.load_profile("ci" if os.environ.get("CI") else "dev")
 gc.set_threshold(50_000, 20, 50)
 
 
-LONGEST = (
-    "test_console_",
-    "test_documents",
-    "test_site_browser",
-    "test_site_layout",
-    "test_site.py",
-    "test_cli_operator",
-)
-"""The beginnings of the names of the files whose tests take longest."""
-
-
-def _rank(name: str) -> int:
-    return next((rank for rank, beginning in enumerate(LONGEST) if f"/{beginning}" in name), len(LONGEST))
-
-
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Run the longest files first: a worker that starts with one at the end would work long after the others."""
-    items.sort(key=lambda item: _rank(item.nodeid))
-
-
-@pytest.hookimpl(optionalhook=True)
-def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Give each file to one worker, which then makes the fixtures and caches of the file only once.
-
-    The three files on the page of the emulator share one worker, because starting the emulator takes ten seconds.
-    """
-    from xdist.scheduler import LoadScopeScheduling
-
-    class ByFile(LoadScopeScheduling):
-        def _split_scope(self, nodeid: str) -> str:
-            return "console" if "/test_console_" in nodeid else nodeid.partition("::")[0]
-
-    return ByFile(config, log)
+    """Run the documents first: a worker that starts with one of them at the end would work long after the others."""
+    items.sort(key=lambda item: "test_the_blocks_of_a_document_run" not in item.name)
 
 
 def pytest_collection_finish() -> None:

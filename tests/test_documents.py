@@ -5,7 +5,6 @@ from pathlib import Path
 import pytest
 
 from tests.support import documents
-from tests.support.commands import one_processor
 from tests.support.paths import ROOT
 
 SKIPPED = {
@@ -39,8 +38,7 @@ def name(path: Path) -> str:
 def test_the_blocks_of_a_document_run(path: Path, tmp_path: Path, monkeypatch) -> None:
     documents.prepare_folder(tmp_path)
     monkeypatch.chdir(tmp_path)
-    with one_processor():
-        ran, skipped = documents.run(path)
+    ran, skipped = documents.run(path)
     languages = documents.languages(path)
     assert ran + skipped == sum(language in documents.RUN for language in languages)
     assert skipped == SKIPPED.get(name(path), 0)

@@ -1,9 +1,5 @@
 """The command line called in this process, as the tests of commands do it."""
 
-import os
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 from modern.cli.main import main
 
 DECK = " 4\n" + "".join(
@@ -28,20 +24,3 @@ def call(capsys, *arguments: str) -> tuple[int, str, str]:
         code = int(left.code or 0)
     out, err = capsys.readouterr()
     return code, out, err
-
-
-@contextmanager
-def one_processor() -> Iterator[None]:
-    """Let this process and those that it starts use one processor, so that commands start no further processes.
-
-    Starting and loading them would take longer than the small tasks of the tests.
-    """
-    if not hasattr(os, "sched_setaffinity"):
-        yield
-        return
-    allowed = os.sched_getaffinity(0)
-    os.sched_setaffinity(0, {sorted(allowed)[os.getpid() % len(allowed)]})
-    try:
-        yield
-    finally:
-        os.sched_setaffinity(0, allowed)

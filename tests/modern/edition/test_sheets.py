@@ -20,8 +20,6 @@ from modern.edition.page_readings import read_sheet, write_state
 from modern.edition.sheets import Sheet, questions, sheets, silent_readings
 from modern.publication import proof_sheets
 from modern.publication.numbered import numbered
-from tests.support import editions
-from tests.support.commands import one_processor
 from tests.support.paths import ROOT
 
 SHEETS = sheets()
@@ -41,9 +39,14 @@ def filled(sheet: Sheet = PAGE, **answers: str) -> str:
 def hull1620(*words: str) -> tuple[int, str, str]:
     """Run the command in a new process, because a state replaces the data of the package."""
     env = {**os.environ, "PYTHONPATH": str(ROOT)}
-    command = [sys.executable, "-m", "hull1620", *words]
-    with one_processor():
-        run = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", env=env, check=False)
+    run = subprocess.run(
+        [sys.executable, "-m", "hull1620", *words],
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        env=env,
+        check=False,
+    )
     return run.returncode, run.stdout, run.stderr
 
 
@@ -168,26 +171,21 @@ def test_a_second_sheet_is_added_to_the_state_and_repeated_answers_are_rejected(
     )
 
 
-def test_the_form_saves_its_answers_as_a_table(tmp_path: Path) -> None:
-    playwright = pytest.importorskip("playwright.sync_api")
-    if not editions.CHROMIUM:
-        pytest.skip("Chromium is not installed")
+def test_the_form_saves_its_answers_as_a_table(tmp_path: Path, chromium) -> None:
     form = tmp_path / "page.html"
     form.write_text(proof_sheets.html(PAGE), encoding="utf-8")
-    with playwright.sync_playwright() as program:
-        browser = program.chromium.launch(executable_path=editions.CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
-        page = browser.new_page()
-        page.goto(form.as_uri())
-        page.fill("[name=reader]", 'A. "B" Librarian')
-        page.fill("[name=date]", "2027-03-31")
-        page.check("[name='1-064-1'][value=B]")
-        page.check("[name=Q24][value='=']")
-        page.fill("[name='Q24 other']", "only I1=1")
-        with page.expect_download() as download:
-            page.click("button")
-        text = Path(download.value.path()).read_text(encoding="utf-8")
-        name = download.value.suggested_filename
-        browser.close()
+    page = chromium.new_page()
+    page.goto(form.as_uri())
+    page.fill("[name=reader]", 'A. "B" Librarian')
+    page.fill("[name=date]", "2027-03-31")
+    page.check("[name='1-064-1'][value=B]")
+    page.check("[name=Q24][value='=']")
+    page.fill("[name='Q24 other']", "only I1=1")
+    with page.expect_download() as download:
+        page.click("button")
+    text = Path(download.value.path()).read_text(encoding="utf-8")
+    name = download.value.suggested_filename
+    page.close()
     assert name == "proof-sheet-for-page-66.csv"
     answers = [(reading.item, reading.answer, reading.reader) for reading in read_sheet(name, text)]
     assert answers == [("1-064-1", "B", 'A. "B" Librarian'), ("Q24", "only I1=1", 'A. "B" Librarian')]

@@ -32,22 +32,6 @@ def site(shared: Path) -> Path:
     return editions.built(shared)
 
 
-@pytest.fixture(scope="session")
-def chromium() -> Iterator[Browser]:
-    """Start a headless Chromium."""
-    if not editions.CHROMIUM:
-        pytest.skip("chromium is missing (Debian: apt install chromium)")
-    pytest.importorskip("playwright", reason="playwright controls the browser (extra test)")
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as play:
-        browser = play.chromium.launch(
-            executable_path=editions.CHROMIUM, args=["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
-        )
-        yield browser
-        browser.close()
-
-
 class Quiet(SimpleHTTPRequestHandler):
     """A server of a folder that does not log requests."""
 
