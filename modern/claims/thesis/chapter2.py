@@ -32,7 +32,8 @@ def weights_of_combination() -> Check:
     weights = [(4 - x - y, x, y) for x in range(-3, 8) for y in range(-3, 8)]
     outcomes = [(min(w) >= 0) == all(plane_value(side, (w[1], w[2], 0)) <= 0 for side in sides) for w in weights]
     message = "a combination is in the triangle exactly if no weight is negative"
-    check = exhausted("three weights in quarters from -10/4 to 10/4 with the sum 1", outcomes, message)
+    domain = "combinations of three points: two weights are quarters from -3/4 to 7/4, and the sum of all is 1"
+    check = exhausted(domain, outcomes, message)
     beyond = any(plane_value(side, (-1, 0, 0)) > 0 for side in sides)
     return check.misprinted(beyond, "weights that are not negative and have the sum 1")
 
@@ -158,12 +159,8 @@ def planes_from_triples(cases: int = CASES) -> Check:
             if any(plane[:3]) and (max(values) <= 0 or min(values) >= 0):
                 planes.add(reduced_plane(plane if max(values) <= 0 else tuple(-x for x in plane)))  # type: ignore[arg-type]
         agreeing += planes == {facet.plane for facet in sampled.judge.facets}
-    return searched(
-        SETS[3],
-        cases,
-        [agreeing == len(sets)],
-        f"the supporting planes of {agreeing} of {len(sets)} sets are the facets",
-    )
+    message = f"the supporting planes of {agreeing} of {len(sets)} sets are the facets"
+    return searched(SETS[3], cases, [agreeing == len(sets)], message)
 
 
 @claim("thesis.25", full=400)
@@ -179,6 +176,5 @@ def lines_from_pairs(cases: int = CASES) -> Check:
             if max(sides) <= 0 or min(sides) >= 0:
                 lines.add(frozenset(k for k, side in enumerate(sides) if not side))
         agreeing += lines == {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
-    return searched(
-        SETS[2], cases, [agreeing == len(sets)], f"the supporting lines of {agreeing} of {len(sets)} sets are the edges"
-    )
+    message = f"the supporting lines of {agreeing} of {len(sets)} sets are the edges"
+    return searched(SETS[2], cases, [agreeing == len(sets)], message)

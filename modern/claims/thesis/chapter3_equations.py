@@ -68,7 +68,7 @@ LINES: Generator[tuple[Point, ...]] = Generator(
 )
 
 
-@claim("thesis.7", "thesis.8", "thesis.48", full=2_000)
+@claim("thesis.1", "thesis.7", "thesis.8", "thesis.48", full=2_000)
 def collinear_points(cases: int = 8) -> Check:
     """Check that the procedure finds the two ends and two equations for the points of a line."""
 
@@ -76,7 +76,9 @@ def collinear_points(cases: int = 8) -> Check:
         hull = convex_hull(points)
         equations = [tuple(map(int, line)) for line in hull.lines]
         on = all(not plane_value((a, b, c, d), p) for a, b, c, d in equations for p in points)
-        return on and len(equations) == 2 and {points[k] for k in hull.vertices} == {min(points), max(points)}
+        found_by_judge = {points[k] for k in exact_hull(points).vertices}
+        ends = {points[k] for k in hull.vertices}
+        return on and len(equations) == 2 and ends == found_by_judge == {min(points), max(points)}
 
     return search(LINES, ends_and_equations, cases, "the points of all lines have the right ends and equations")
 

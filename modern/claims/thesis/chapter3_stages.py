@@ -33,8 +33,7 @@ from modern.geometry.vectors import cross, dot, minus
 @claim("thesis.31", "thesis.78", "thesis.100", kind="finite", full=300)
 @claim("thesis.216", "thesis.72", "thesis.220", "thesis.225", kind="counts", full=300)
 @claim("thesis.75", kind="decreasing", full=300)
-@claim("thesis.68", "thesis.76", "thesis.79", "thesis.101", kind="accepted_planes", full=300)
-@claim("thesis.255", "thesis.265", kind="accepted_planes", full=300)
+@claim("thesis.68", "thesis.76", "thesis.79", "thesis.101", "thesis.255", "thesis.265", kind="accepted", full=300)
 @claim("thesis.70", kind="farthest_outside", full=300)
 @claim("thesis.73", kind="replaced_line", full=300)
 @claim("thesis.224", kind="replaced_plane", full=300)
@@ -49,17 +48,11 @@ from modern.geometry.vectors import cross, dot, minus
 @claim("thesis.278", kind="two_new_lines", full=300)
 def stage_property(kind: str, cases: int = CASES) -> Check:
     """Check one property, a key of ``_PROPERTIES``, of all stages H_1, H_2, ... in the construction of sampled sets."""
-    sets = (
-        sampled_sets(2, cases)
-        if kind in _FLAT
-        else sampled_sets(3, cases)
-        if kind in _SPACE
-        else flat_and_spatial_sets(cases)
-    )
+    dimension = 2 if kind in _FLAT else 3 if kind in _SPACE else 0
+    sets = sampled_sets(dimension, cases) if dimension else flat_and_spatial_sets(cases)
     checks = [right for sampled in sets for right in _PROPERTIES[kind](sampled)]
     message = f"true in {sum(checks)} of {len(checks)} cases in the construction of {len(sets)} sets"
-    generator = SETS[2] if kind in _FLAT else SETS[3] if kind in _SPACE else BOTH
-    return searched(generator, len(sets), checks, message)
+    return searched(SETS.get(dimension, BOTH), len(sets), checks, message)
 
 
 @claim("thesis.264", "thesis.239")
@@ -77,13 +70,13 @@ def replaced_plane(cases: int = CASES) -> Check:
     If the point is outside several planes, the step must replace all of them.
     """
     several = [
-        len({*map(frozenset, before.defining)} - {*map(frozenset, after.defining)}) > 1
+        len({*map(frozenset, before.defining)} - {*map(frozenset, after.defining)}) == record.outside
         for sampled in sampled_sets(3, cases)
         for before, after, record, _ in _steps(sampled)
         if record.outside > 1
     ]
     message = f"a point that is outside several planes ({len(several)} steps), all of which are replaced"
-    return stage_property("replaced_plane", cases).unless(any(several), message)
+    return stage_property("replaced_plane", cases).unless(several and all(several), message)
 
 
 @claim("thesis.227", full=300)
@@ -157,20 +150,21 @@ def _struck_inside(sampled: SampledSet) -> Iterator[bool]:
 def _contained_points(sampled: SampledSet) -> Iterator[bool]:
     """Yield, for each point in the hull H_j except its vertices, whether it is not a vertex of the last hull either."""
     for stage in sampled.stages():
+        judge = exact_hull([sampled.points[k] for k in stage.vertices])
+        corners = {stage.vertices[k] for k in judge.vertices}
         for k, point in enumerate(sampled.points):
-            if k not in stage.vertices and all(plane_value(plane, point) <= 0 for plane in stage.equations):
+            if k not in corners and all(plane_value(plane, point) <= 0 for plane in stage.equations):
                 yield k not in sampled.judge.vertices
 
 
 def _decreasing(sampled: SampledSet) -> Iterator[bool]:
-    """Yield whether N_j, the number of remaining points, never grows, and whether no eliminated point is used again."""
-    remaining = len(sampled.points)
-    eliminated_so_far: set[int] = set()
-    for stage in sampled.hull.history:
-        yield not eliminated_so_far & ({*stage.struck} | {*stage.added})
-        eliminated_so_far.update(stage.struck)
-        yield len(sampled.points) - len(eliminated_so_far) <= remaining
-        remaining = len(sampled.points) - len(eliminated_so_far)
+    """Yield whether N_j, the number of points not inside H_j, never grows, and is N less the eliminated points."""
+    before, eliminated = len(sampled.points), 0
+    for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
+        remaining = sum(max(plane_value(e, point) for e in stage.equations) >= 0 for point in sampled.points)
+        eliminated += len(record.struck)
+        yield remaining == len(sampled.points) - eliminated <= before
+        before = remaining
 
 
 def _finite(sampled: SampledSet) -> Iterator[bool]:
@@ -211,11 +205,8 @@ def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
             replaced = {*before.defining[record.checked - 1]}
             kept_lines = [d for k, d in enumerate(before.defining) if k != record.checked - 1]
             new_facets = [{*d} for d in after.defining if {*d} not in [{*k} for k in kept_lines]]
-            yield (
-                len(after.defining)
-                == len(kept_lines) + len(new_facets)
-                == len(before.defining) + sampled.judge.dimension - 1
-            )
+            expected = len(before.defining) + sampled.judge.dimension - 1
+            yield len(after.defining) == len(kept_lines) + len(new_facets) == expected
             yield sorted(map(sorted, new_facets)) == sorted(sorted({added} | (replaced - {k})) for k in replaced)
 
 
@@ -327,7 +318,7 @@ _PROPERTIES = {
     "contained_points": _contained_points,
     "decreasing": _decreasing,
     "finite": _finite,
-    "accepted_planes": _accepted_planes,
+    "accepted": _accepted_planes,
     "farthest_outside": _farthest_outside,
     "largest_of_all": _largest_of_all,
     "replaced_line": _replaced_facet,

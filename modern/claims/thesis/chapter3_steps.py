@@ -40,12 +40,8 @@ def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], 
 @claim("thesis.49", full=400)
 def third_point(cases: int = CASES) -> Check:
     """Check that no point is farther from the line through the first two points than the third point of H_1."""
-    return all_hold(
-        BOTH,
-        2 * cases,
-        list(_farthest(flat_and_spatial_sets(cases))),
-        "sets: no point is farther from the line of the first two than the third point",
-    )
+    message = "sets: no point is farther from the line of the first two than the third point"
+    return all_hold(BOTH, 2 * cases, _farthest(flat_and_spatial_sets(cases)), message)
 
 
 def _farthest(sets: tuple[SampledSet, ...]) -> Iterator[bool]:

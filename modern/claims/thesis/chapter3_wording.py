@@ -179,7 +179,7 @@ def first_hull_against_extremes(cases: int = 4) -> Check:
     passed = [volume >= 0 for volume in within] + [any(within), *fewer]
     larger = all(own[0] > of_six[0] == 0 for own, of_six in flat) and first[0] > six_extremes[0] > 0
     message = f"in {len(within)} of {len(fewer)} sets H_1 uses only extreme points and is not larger than their hull"
-    case = f"points of H_1 that are not extreme: 6 volumes are {first[0]}, and {six_extremes[0]} for the extremes"
+    case = f"a set with six times the volume {first[0]} for H_1, and {six_extremes[0]} for the hull of the extremes"
     return searched(SETS[3], cases, passed, message).unless(larger, case)
 
 

@@ -156,8 +156,7 @@ def _punched(result: Print) -> tuple[str, ...]:
 
 
 def _heading(item: object) -> str:
-    """Return the text of a FORMAT item, or an empty text if it is no longer than a column heading."""
-    return item.text if isinstance(item, Literal) and len(item.text.strip()) > len("NO.") else ""
+    return item.text.strip() if isinstance(item, Literal) else ""
 
 
 @claim("thesis.279", "thesis.160", "thesis.162")

@@ -18,7 +18,7 @@ from modern.edition import programs
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import coordinate_field, data_deck, exact_points
 from modern.geometry.vectors import dot
-from modern.port.arithmetic import at, plane
+from modern.port.arithmetic import at, distance_squared, plane
 from modern.port.points import take
 from modern.thesis.cards import read_hull
 from modern.thesis.job import HullRun, run_hull
@@ -77,14 +77,19 @@ def program_sizes() -> Check:
 
 @claim("thesis.14")
 def fifty_one_points() -> Check:
-    """Check that the arrays of coordinates hold 51 points, and that a deck of fewer overflows the plane table."""
+    """Check that the programs find a hull of 51 points, their arrays' size; a deck of fewer overflows a table."""
     points, _ = exact_points(deck_of("table.deck"))
     arrays = [{entry.name: entry.size for entry in programs.program(name).storage.arrays()} for name in THREE]
     most = entries_of_plane_table()
     coordinates = {
         of_program[axis] for of_program, axes in zip(arrays, ("XYZ", "RST", "XYZ"), strict=True) for axis in axes
     }
-    check = exhibited(coordinates == {51} and arrays[2]["KK"] == PLACES, "the arrays of the programs hold 51 points")
+    tetrahedron = [(0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60)]
+    many = [*tetrahedron, *((k, 1, 1) for k in range(1, 48))]
+    hull = read_hull(run_hull(data_deck([[*map(str, p)] for p in many], "many"), programs.program).final.result.punched)
+    right = {tuple(map(int, p)) for p in hull.vertices} == {*tetrahedron} and len(many) == 51
+    right = right and coordinates == {51} and arrays[2]["KK"] == PLACES
+    check = exhibited(right, "the arrays hold 51 points, and the programs find the hull of a set of 51 points")
     message = f"{len(points)} points that need {most} entries of the plane table at once; program 3 has {PLACES}"
     return check.unless(len(points) <= 51 and most > PLACES, message)
 
@@ -113,11 +118,18 @@ def plane_through_c() -> Check:
 
 @claim("thesis.83", "thesis.84")
 def truncated_roots() -> Check:
-    """Check that truncated square roots make the listing punch wrong vertices for the deck of KNOWN-FAULTS 14."""
+    """Check that distances in eight digits can add up wrongly, and that the listing omits a vertex of a deck."""
+    sums = {}
+    for name in ("exact", "truncating"):
+        # The first of these three points is not the middle one.
+        arithmetic, (x, y, _) = take(((0, 0, 0), (1, 0, 0), (10**8, 0, 0)), name)
+        squares = [distance_squared(x[i], y[i], x[j], y[j]) for i, j in ((0, 1), (0, 2), (1, 2))]
+        sums[name] = arithmetic.distances_add_up(*squares)
     punched, judge = vertices_of("between.deck")
-    message = f"{len(punched ^ judge)} points are either punched or exact vertices, not both"
-    check = between_by_distances()
-    return check.unless(punched != judge, f"square roots of eight digits: {message}")
+    case = "eight digits: the distances of (0, 0) from (1, 0) and (100000000, 0) add up to that of these two points; "
+    case += f"other distances do not add up, and {len(judge - punched)} vertex of between.deck is not punched"
+    wrong = not sums["exact"] and sums["truncating"] and judge - punched and punched - judge
+    return between_by_distances().unless(wrong, case)
 
 
 def vertices_of(name: str) -> tuple[set[int], set[int]]:
@@ -138,13 +150,12 @@ def silent_loss() -> Check:
 
 @claim("thesis.65")
 def notation() -> Check:
-    """Check that programs 2 and 3 use the names of chapter 3; KK is only in program 3, which needs three points."""
-    texts = [programs.deck(name).text() for name in THREE[1:]]
-    names = ("NETC", "NE", "NV", "MM", "NN", "KK")
-    in_both = all(re.search(rf"\b{name}\b", text) for text in texts for name in names[:5])
-    return exhibited(
-        in_both and re.search(r"\bKK\(", texts[1]), f"the listings use the names {', '.join(names)} of chapter 3"
-    )
+    """Check that programs 2 and 3 use most symbols of pages 17 to 31, among them NE, NETC, NV, MM, NN and KK."""
+    text = "".join(programs.deck(name).text() for name in THREE[1:])
+    symbols = "NETC NE NV MM NN KK N A B C C1 C2 U N1 D1 D2 D3".split()
+    names = [symbol for symbol in symbols if re.search(rf"\b{symbol} *[(=]", text)]
+    passed = symbols[:6] == names[:6] and 2 * len(names) > len(symbols)
+    return exhibited(passed, f"{len(names)} of {len(symbols)} symbols are names in the listings: {', '.join(names)}")
 
 
 @claim("thesis.263")

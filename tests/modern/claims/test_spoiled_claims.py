@@ -14,7 +14,6 @@ import pytest
 import modern.claims.kovalevsky_schulz.sizes as sizes
 import modern.claims.nakamae_nishita.tables as contours
 import modern.claims.thesis.chapter3_stages as stages
-import modern.claims.thesis.chapter3_wording as wording
 from modern.claims.algebra import IMPOSSIBLE, Proof, Step
 from modern.claims.evidence import Decision
 from modern.claims.register import decisions
@@ -181,12 +180,6 @@ def test_wrong_crossing_number_fails(number: int, wrong: int, monkeypatch) -> No
     with cleared(contours):
         monkeypatch.setattr(Tables, "crossing_number", spoiled)
         assert not contours.formula_3().holds
-
-
-def test_first_hull_is_often_larger_than_the_hull_of_the_extremes() -> None:
-    """As the row says, it is larger in over a fifth of random sets whose six extreme points are not coplanar."""
-    measures = [wording._volumes_and_planes(sampled.points, sampled) for sampled in sampled_sets(3, 120)]
-    assert sum(first[0] > six[0] > 0 for first, six in measures) > len(measures) / 5
 
 
 def test_first_sampled_sets_contain_the_cases_that_claims_are_about() -> None:
