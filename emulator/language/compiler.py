@@ -310,7 +310,10 @@ class _Translation:
         return self.emitter.variable(reference)
 
     def _loop(self, loop: tree.Do | tree.Loop, place: tree.Place) -> tuple[int, int, int]:
-        """Emit code that gives the variable of a DO its first value.  Return the fields of variable, step and limit."""
+        """Emit the instructions that store the first value of a DO in its variable.
+
+        Return the addresses of the fields that hold the variable, the step and the limit.
+        """
         variable = self._fixed_variable(loop.variable, "the variable of a DO")
         bounds = []
         for bound in (loop.first, loop.last, loop.step or tree.Number("1", place)):

@@ -49,7 +49,9 @@ def disk(source: str, target: str) -> None:
             if int(sector) != expected:
                 raise ValueError(f"{place}: expected sector {expected}, found {int(sector)}; a sector is lost or moved")
             if len(text) != SECTOR:
-                raise ValueError(f"{place}: expected {SECTOR} digits, found {len(text)}; a line is truncated or joined")
+                raise ValueError(
+                    f"{place}: expected {SECTOR} digits, found {len(text)}; a line is truncated, or two are joined"
+                )
             for column, character in enumerate(text, len(sector) + 2):
                 if character not in DIGITS:
                     raise ValueError(f"{place}, column {column}: invalid digit {character!r}")

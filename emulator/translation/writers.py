@@ -16,6 +16,7 @@ from importlib.resources import files
 from emulator.language import objectcode as op
 from emulator.language.cards import Deck
 from emulator.language.compiler import compile_deck
+from emulator.language.expressions import is_fixed_name
 from emulator.language.formats import FormatSpec, Literal, Slash
 from emulator.language.objectcode import Program
 from emulator.language.storage import Entry
@@ -36,10 +37,6 @@ _ZERO_CONSTANT = re.compile(r"(?<![0-9])0*\.0*(d[+-]?\d+)?(?![0-9])")
 
 # Precedences of expressions: a sum or a negated expression, a product, and an operand without operators.
 _SUM, _PRODUCT, _OPERAND = range(3)
-
-
-def is_fixed_name(name: str) -> bool:
-    return name[0] in "IJKLMN"
 
 
 def layout(spec: FormatSpec, is_read: bool) -> tuple[str, int]:

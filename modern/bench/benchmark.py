@@ -5,8 +5,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from collections.abc import Iterator, Sequence
 from itertools import islice
@@ -21,6 +19,7 @@ from modern.bench.decisions import PROGRAMS, Decision, run_with_decisions, sampl
 from modern.bench.formulas import formulas, fpcore
 from modern.edition import programs
 from modern.edition.chapter6 import input_deck
+from modern.formats.columns import csv_text
 
 EXACT, STUDIED = "exact", {"float64": "float64", "decimal8": "truncating"}
 _EXAMPLES = 6
@@ -132,14 +131,12 @@ def _judged(case: _Case) -> tuple[str, dict[str, object]]:
     result, exact = run_with_decisions(case.program, case.deck, numbers(EXACT))
     runs = {column: _compared(case, name, exact) for column, name in STUDIED.items()}
     lines = {line.place.card: line.text for line in case.program.statements}
-    file = io.StringIO()
-    table = csv.writer(file, lineterminator="\n")
     header = ["number", "card", "statement", "kind", "outcome", "value"]
-    table.writerow(header + [f"{column}_{what}" for column in runs for what in ("outcome", "value", "verdict")])
+    header += [f"{column}_{what}" for column in runs for what in ("outcome", "value", "verdict")]
+    table: list[Sequence[object]] = [header]
     for n, decision in enumerate(exact):
         row = [n + 1, decision.card, lines[decision.card], decision.kind, decision.outcome]
-        row.append(_text(numbers(EXACT), decision))
-        table.writerow(row + [cell for run in runs.values() for cell in run[n]])
+        table.append([*row, _text(numbers(EXACT), decision), *(cell for run in runs.values() for cell in run[n])])
     firsts = {
         column: next((n + 1 for n, row in enumerate(run) if row[2] == WRONG), None) for column, run in runs.items()
     }
@@ -151,7 +148,7 @@ def _judged(case: _Case) -> tuple[str, dict[str, object]]:
         "exact_zeros": sum(d.kind == "IF" and d.outcome == 0 for d in exact),
         "first_wrong": firsts,
     }
-    return file.getvalue(), verdict
+    return csv_text(table), verdict
 
 
 def _compared(case: _Case, name: str, exact: Sequence[Decision]) -> list[tuple[object, str, str]]:

@@ -25,6 +25,7 @@ from modern.edition.page_answers import READINGS, page_readings
 from modern.edition.page_readings import read_sheet, write_state
 from modern.edition.sheets import sheets
 from modern.edition.sources import place
+from modern.formats.columns import aligned
 
 _MOST_PROCESSES = 4
 """The greatest number of processes for ``--check``; more processes do not make it faster."""
@@ -45,11 +46,11 @@ def main(args: argparse.Namespace) -> int:
         print(write_weight(Path(args.weigh), answers), end="")
         return OK
     if args.restore:
-        from modern.study.restoration import listings, measure, others, summary, table_text
+        from modern.study.restoration import listings, measure, others, summary
 
         groups = (listings(), *((others(Path(args.runs)),) if args.runs else ()))
         copies = measure(Path(args.restore), groups, max(args.most, 1), max(args.workers, 1))
-        print(table_text(summary(copies)), end="")
+        print("\n".join(aligned(summary(copies))))
         return OK
     if args.collate is not None:
         return _collate(args)

@@ -36,7 +36,7 @@ from modern.papers.appel_will.corners import Preprocessing, Rule
 from modern.papers.appel_will.loops import Loop
 from modern.papers.appel_will.pictures import as_mesh, joined_points, joined_surfaces, solid_svg, star_svg
 from modern.papers.appel_will.planar import map_svg
-from modern.papers.appel_will.star import as_printed, in_one_pass
+from modern.papers.appel_will.star import as_printed
 from modern.papers.appel_will.surfaces import Fates, Surface, fates_by_points
 
 KINDS = ("a point", "a segment", "a polygon", "a polyhedron")
@@ -61,8 +61,6 @@ def main(args: argparse.Namespace) -> int:
     if args.inside_corners and not surfaces:
         raise UsageError(f"{source.source}: --inside-corners needs the surfaces of the polyhedron; use an OFF file")
     method = _method(args)
-    if args.star is not None:
-        method = replace(method, star=as_printed if args.star == "printed" else in_one_pass)
     try:
         hull = appel_will(source.points, surfaces, replace(method, inside_corners=args.inside_corners))
         mesh = None if hull.fault else as_mesh(hull, source.points)

@@ -7,7 +7,6 @@ runs, and the run in interval arithmetic.  :class:`Table` holds each part of the
 from __future__ import annotations
 
 import argparse
-import csv
 import io
 import math
 import re
@@ -38,6 +37,7 @@ from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.programs import load_program, machine_options, number_system
 from modern.comparison.sampling import DecisionShares, Independent, Printed, Sampling, in_step, independent, sampled
 from modern.comparison.sensitivity import NUMBER, Sensitivity, records_of, sensitivities, shape_of
+from modern.formats.columns import csv_text
 
 _NARROWEST, _WIDEST = 60, 120
 # The fewest characters in a line of a statement or verdict.
@@ -318,13 +318,13 @@ def _aligned(cell: str, head: str, size: int) -> str:
 
 def _csv(tables: Sequence[Table]) -> str:
     """Return the report as one CSV table whose rows name the part, the row, the column and the cell."""
-    output = io.StringIO()
-    writer = csv.writer(output, lineterminator="\n")
-    writer.writerow(("part", "row", "column", "value"))
-    for table in tables:
-        for number, row in enumerate(table.rows, 1):
-            writer.writerows((table.title, number, head, cell) for head, cell in zip(table.heads, row, strict=True))
-    return output.getvalue()
+    cells = (
+        (table.title, number, head, cell)
+        for table in tables
+        for number, row in enumerate(table.rows, 1)
+        for head, cell in zip(table.heads, row, strict=True)
+    )
+    return csv_text((("part", "row", "column", "value"), *cells))
 
 
 _NUMBER = re.compile(r"-|[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]\d+)?")

@@ -27,7 +27,8 @@ from modern.edition.chapter6_cards import (
     printed_lines,
     write_files,
 )
-from modern.edition.chapter6_grounds import incidences, numbers, of_role, plane_at, planes, row_faults, solid, vertices
+from modern.edition.chapter6_grounds import incidences, numbers, of_role, plane_at, planes, row_faults, vertices
+from modern.edition.readings import solid
 
 Point = tuple[Decimal, ...]
 

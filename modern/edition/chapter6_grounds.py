@@ -26,6 +26,7 @@ from typing import Any
 from modern.edition.apparatus import ApparatusError, Line, Row, build
 from modern.edition.chapter6 import Device, Layout, Role
 from modern.edition.chapter6_cards import E14, Card, Chapter, TranscriptError, cards, printed_lines, without_row
+from modern.edition.readings import solid
 
 _SIGNED = re.compile(r"[+-]\.\d{8}E[+-]\d\d")
 _STRAY = re.compile(r"\d{4}|\.\d|\d\.|(?<!\S)[.,]|[+-]\s*\d|[^A-Z0-9+\-=.,\s]")
@@ -63,10 +64,6 @@ def _lines(chapter: Chapter, ids: Sequence[str]) -> tuple[Line, ...]:
 
 def _touched(chapter: Chapter, row: Row) -> tuple[Line, ...]:
     return _lines(chapter, [change.line for change in row.changes])
-
-
-def solid(text: str) -> str:
-    return "".join(text.split())
 
 
 def well_formed(text: str, signed: bool) -> bool:

@@ -14,9 +14,7 @@ table of confusables.  A pair is not used if the transcription has the original 
 at least twice.
 """
 
-import csv
 import hashlib
-import io
 import json
 import re
 from collections import Counter
@@ -33,6 +31,7 @@ from modern.edition.readings import Pair, explains, table
 from modern.edition.sources import read, sources
 from modern.edition.tokens import Rival, rivals, row_rivals, spans
 from modern.edition.transcription import align, edition_cards, read_lines
+from modern.formats.columns import csv_text
 
 Verdict = Literal["confirms", "supports a rival", "contradicts", "unreadable"]
 VERDICTS: tuple[Verdict, ...] = ("confirms", "supports a rival", "contradicts", "unreadable")
@@ -246,15 +245,15 @@ def _edition() -> str:
 
 def to_csv(collation: Collation) -> str:
     """Return a collation as a table with a row for each reading."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(("program", "card", "place", "lines", "reading", "edition", "transcription", "verdict", "rival"))
+    rows: list[tuple[object, ...]] = [
+        ("program", "card", "place", "lines", "reading", "edition", "transcription", "verdict", "rival")
+    ]
     for card in collation.cards:
         entry, lines = edition_cards()[card.card], " ".join(map(str, card.lines))
         for k, r in enumerate(card.readings, 1):
-            row = (r.edition, r.transcription, r.verdict, r.rival)
-            writer.writerow((entry.program, entry.number, entry.place, lines, k, *row))
-    return out.getvalue()
+            verdict = (r.edition, r.transcription, r.verdict, r.rival)
+            rows.append((entry.program, entry.number, entry.place, lines, k, *verdict))
+    return csv_text(rows)
 
 
 def report(collation: Collation, text: str) -> Iterator[str]:

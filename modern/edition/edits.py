@@ -25,11 +25,6 @@ class Edit:
     moved: int = 0
 
 
-def solid(text: str) -> str:
-    """Return a text with all blanks removed."""
-    return "".join(text.split())
-
-
 def common_prefix(a: str, b: str) -> int:
     """Return the number of characters with which both texts begin."""
     return next((n for n, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), min(len(a), len(b)))

@@ -24,6 +24,7 @@ from modern.edition import sources as provenance
 from modern.edition.apparatus import ApparatusError, Line, Text, build, load
 from modern.edition.page_answers import COLUMNS, DATE, READER, READINGS, Reading, stored_readings
 from modern.edition.sheets import Item, Question, sheets
+from modern.formats.columns import csv_text
 
 UNREADABLE = "?"
 
@@ -127,11 +128,8 @@ def write_state(folder: str, readings: Sequence[Reading]) -> tuple[Reading, ...]
             new = Path(room) / "new"
             _copy(base or programs.sources(), new / "fortran_src")
             stored = (*earlier, *_applied(new / "fortran_src", readings))
-            table = StringIO(newline="")
-            writer = csv.writer(table, lineterminator="\n")
-            writer.writerow([field.name for field in fields(Reading)])
-            writer.writerows(map(astuple, stored))
-            (new / "fortran_src" / READINGS).write_text(table.getvalue(), encoding="utf-8")
+            table = csv_text(([field.name for field in fields(Reading)], *map(astuple, stored)))
+            (new / "fortran_src" / READINGS).write_text(table, encoding="utf-8")
             if target.exists():
                 target.rename(Path(room) / "before")
             new.rename(target)

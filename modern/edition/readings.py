@@ -72,6 +72,7 @@ def table() -> tuple[Pair, ...]:
 
 
 def solid(text: str) -> str:
+    """Return a text without its blanks."""
     return "".join(text.split())
 
 

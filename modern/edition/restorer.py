@@ -96,7 +96,7 @@ def restore(jobs: Sequence[Job], weights: Mapping[str, int]) -> list[list[Restor
 
 
 def _solid(card: str) -> str:
-    """Return a card without blanks; a comment and a FORMAT, whose literals count blanks, keep theirs."""
+    """Return a card without blanks.  Comments and FORMATs, whose blanks may count, are returned unchanged."""
     return card if card.startswith("C  ") or "RMAT" in card.replace(" ", "") else "".join(card.split())
 
 

@@ -13,7 +13,8 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
 from modern.edition.apparatus import Change, Row, RowMisfit, Text, on_form
-from modern.edition.edits import Edit, blank_edits, common_prefix, moving_edits, solid, word_edits
+from modern.edition.edits import Edit, blank_edits, common_prefix, moving_edits, word_edits
+from modern.edition.readings import solid
 
 
 @dataclass(frozen=True, slots=True)

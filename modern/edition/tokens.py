@@ -15,7 +15,8 @@ from functools import cache
 
 from modern.edition import programs
 from modern.edition.apparatus import Row, build
-from modern.edition.edits import common_prefix, solid
+from modern.edition.edits import common_prefix
+from modern.edition.readings import solid
 from modern.edition.transcription import EditionCard, edition_cards
 
 _KEYWORD = re.compile(r"GOTO|(?:DO|READ|PUNCH|PRINT)(?=\d)|IF(?=\()|DIMENSION|CONTINUE|END$|FORMAT")

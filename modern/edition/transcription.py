@@ -23,8 +23,7 @@ from functools import cache
 from modern.edition import programs
 from modern.edition.alignment import distance, divide, folded
 from modern.edition.apparatus import PAGE_MARK
-from modern.edition.edits import solid
-from modern.edition.readings import table
+from modern.edition.readings import solid, table
 
 # A jump costs JUMP.  Skipping k cards costs SKIP + k * SKIP_CARD, for at most FARTHEST cards.
 JUMP, SKIP, SKIP_CARD, FARTHEST = 14.0, 0.7, 0.3, 25

@@ -1,7 +1,5 @@
 """Write the results of the weight of evidence: a report, a table of cards and the undetected variants."""
 
-import csv
-import io
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from importlib.resources import files
@@ -11,6 +9,7 @@ from emulator.files import write_text
 from modern.edition.programs import TEXTS
 from modern.edition.variants import Variant
 from modern.edition.weight import EQUATIONS, NOTICED, alike, by_card, equation_of, ordered, silent
+from modern.formats.columns import csv_text
 
 # The checks, other than the compiler, that confirm a reading.
 CONFIRMING = ("print", "machine", "equation", "sibling")
@@ -23,16 +22,10 @@ def write_weight(folder: Path, answers: Mapping[str, str]) -> str:
     """
     text = report(answers)
     write_text(str(folder / "report.md"), text)
-    write_text(str(folder / "cards.csv"), _table(cards_table(answers)))
+    write_text(str(folder / "cards.csv"), csv_text(cards_table(answers)))
     rows = ((v.program, str(v.card), v.place, v.how, v.was, v.reads) for v in silent(answers))
-    write_text(str(folder / "silent.csv"), _table([("program", "card", "place", "how", "was", "reads"), *rows]))
+    write_text(str(folder / "silent.csv"), csv_text([("program", "card", "place", "how", "was", "reads"), *rows]))
     return text
-
-
-def _table(rows: Iterator[tuple[str, ...]] | list[tuple[str, ...]]) -> str:
-    file = io.StringIO()
-    csv.writer(file, lineterminator="\n").writerows(rows)
-    return file.getvalue()
 
 
 def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:

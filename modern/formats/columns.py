@@ -1,5 +1,7 @@
-"""Align text in columns, for tables on a terminal."""
+"""Tables as text: columns aligned for a terminal, and CSV."""
 
+import csv
+import io
 from collections.abc import Iterable, Iterator, Sequence
 
 
@@ -14,3 +16,10 @@ def aligned(rows: Iterable[Sequence[str]], right: Sequence[bool] | bool = False)
             text.rjust(width) if is_right else text.ljust(width)
             for text, width, is_right in zip(row, widths, to_right, strict=True)
         ).rstrip()
+
+
+def csv_text(rows: Iterable[Iterable[object]]) -> str:
+    """Return the rows as CSV text, each ended by a line feed."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()

@@ -76,11 +76,10 @@ class TooManyDigits(ArgumentError):
 
 
 def coordinate_field(text: str, truncate: bool = False) -> str:
-    """Format a decimal number for the 14 columns of a field E14.8, as on the thesis's data sheet:
-    ``+.20000000E+01``.
+    """Return a decimal number as the 14 columns of a field E14.8, such as ``+.20000000E+01``.
 
-    Raise TooManyDigits for more than eight significant digits unless ``truncate`` is true, and ValueError for other
-    text and an exponent outside -99 to 99.
+    Raise TooManyDigits for more than eight significant digits, which ``truncate`` truncates instead.  Raise ValueError
+    if the text is not a decimal number, or if its exponent is outside -99 to 99.
     """
     minus, whole, fraction, exponent = split_decimal(text.strip())
     digits = (whole + fraction).lstrip("0")

@@ -58,7 +58,10 @@ def decimal(text: str) -> Exact:
 
 
 def number(text: str) -> Fraction:
-    """Return the value of text that is a decimal or a fraction ``p/q``.  Raise ValueError with a short message."""
+    """Return the number that a text denotes: a decimal number or a fraction ``p/q``.
+
+    Raise ValueError for any other text.
+    """
     stripped = text.strip()
     quotient = _QUOTIENT.fullmatch(stripped)
     try:
@@ -68,6 +71,7 @@ def number(text: str) -> Fraction:
             raise ValueError(f"{quoted(stripped)} has the denominator 0")
         return Fraction(int(quotient[1]), int(quotient[2]))
     except ValueError as error:
+        # The message may quote the whole text, which can have thousands of digits.
         if len(stripped) <= _SHOWN or len(str(error)) <= 2 * _SHOWN:
             raise
         raise ValueError(f"{quoted(stripped)} is not a decimal number of at most 4000 digits") from None

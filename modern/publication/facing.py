@@ -78,8 +78,8 @@ class Card:
     also: tuple[str, ...] = ()
 
     @property
-    def concerned(self) -> tuple[str, ...]:
-        """The rows that change this card, or would change it if their layers were applied."""
+    def applicable_rows(self) -> tuple[str, ...]:
+        """The ids of the emendations that change this card, now or with further layers applied."""
         return tuple(dict.fromkeys([*self.rows, *(row for variant in self.variants for row in variant.rows)]))
 
 
@@ -99,13 +99,13 @@ class Facing:
 
     def rows(self) -> tuple[Row, ...]:
         """Return the rows that change this deck, in any layer, in the order of the apparatus."""
-        ids = {row for card in self.cards for row in card.concerned}
+        ids = {row for card in self.cards for row in card.applicable_rows}
         ids |= {row.id for row in self.everywhere} | {row for row, _ in self.dropped}
         return tuple(row for row in self.text.rows if row.id in ids)
 
     def cards_of(self, row: str) -> tuple[Card, ...]:
         """Return the cards that a row changes, or would change if its layer were applied."""
-        return tuple(card for card in self.cards if row in card.concerned)
+        return tuple(card for card in self.cards if row in card.applicable_rows)
 
     def pages(self) -> Iterator[tuple[str, tuple[Card, ...]]]:
         """Return the pages of the thesis in order, each with its cards."""

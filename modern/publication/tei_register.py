@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element, SubElement
 from modern.claims.apparatus_checks import texts
 from modern.claims.register import DOCUMENTS, VERDICTS, Statement, statements_of
 from modern.edition.apparatus import build
-from modern.edition.edits import solid
+from modern.edition.readings import solid
 from modern.edition.sources import Document, sources
 from modern.publication.tei_header import ID, Heading, add, header
 

@@ -12,6 +12,7 @@ from math import inf, isfinite
 from pathlib import Path
 from typing import Any
 
+from emulator.files import reason
 from modern.study.plan import StudyFileError
 from modern.study.report import Bars, Chart, Lines, Mark, Series
 from modern.study.statistics import Interval
@@ -34,7 +35,7 @@ def read_charts(folder: Path) -> tuple[Chart, ...]:
     try:
         return tuple(_chart(data) for data in json.loads(path.read_text(encoding="utf-8")))
     except OSError as error:
-        raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
+        raise StudyFileError(f"{path}: {reason(error)}") from None
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError, OverflowError):
         raise StudyFileError(f"{path}: expected a file charts.json that a study has written") from None
 

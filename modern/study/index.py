@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NotRequired, TypedDict
 
+from emulator.files import reason
 from modern.study.plan import StudyFileError
 
 NAME = "index.sqlite"
@@ -63,10 +64,10 @@ def open_index(folder: Path) -> sqlite3.Connection:
             return _opened(path)
     except sqlite3.Error as error:
         busy = error.sqlite_errorcode in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
-        reason = "another run is using this folder; wait until it ends" if busy else str(error)
-        raise StudyFileError(f"{path}: {reason}") from None
+        why = "another run is using this folder; wait until it ends" if busy else str(error)
+        raise StudyFileError(f"{path}: {why}") from None
     except OSError as error:
-        raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
+        raise StudyFileError(f"{path}: {reason(error)}") from None
 
 
 def _opened(path: Path) -> sqlite3.Connection:

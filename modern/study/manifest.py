@@ -10,6 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from emulator.files import reason
 from modern.study.plan import Plan, Programs, StudyFileError
 from modern.study.routes import programs_of
 from modern.study.store import put
@@ -100,7 +101,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
         if not isinstance(document, dict) or not all(isinstance(document.get(name), dict) for name in _REQUIRED):
             raise ValueError
     except OSError as error:
-        raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
+        raise StudyFileError(f"{path}: {reason(error)}") from None
     except ValueError:
         raise StudyFileError(f"{path}: expected the manifest of a study") from None
     return document

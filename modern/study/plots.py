@@ -166,7 +166,8 @@ def _panels(figure: Any, chart: Chart) -> None:
         axes.set_title(typeset(chart.series[k].name), loc="left", fontsize=9)
         if isinstance(chart, Lines):
             for series in chart.series[:k] + chart.series[k + 1 :]:
-                _pale(axes, series)
+                xs, ys = [x for x, _ in series.points], [e.value for _, e in series.points]
+                axes.plot(xs, ys, color=_PALE, linewidth=1, zorder=1.2)
             _line(axes, chart, k, 0.0)
             _scales(axes, chart)
         else:
@@ -261,10 +262,6 @@ def _line(axes: Any, chart: Lines, k: int, shift: float) -> None:
         capsize=2,
         transform=shifted,
     )
-
-
-def _pale(axes: Any, series: Series) -> None:
-    axes.plot([x for x, _ in series.points], [e.value for _, e in series.points], color=_PALE, linewidth=1, zorder=1.2)
 
 
 def _scales(axes: Any, chart: Lines, margin: float = 0.0) -> None:

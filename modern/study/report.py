@@ -1,7 +1,5 @@
 """Reports of studies: tables, charts and sentences as data, and the texts and files made from them."""
 
-import csv
-import io
 import re
 import textwrap
 from collections.abc import Iterable
@@ -9,7 +7,7 @@ from dataclasses import dataclass, field
 from math import isinf
 from pathlib import Path
 
-from modern.formats.columns import aligned
+from modern.formats.columns import aligned, csv_text
 from modern.study.plan import Plan
 from modern.study.statistics import Interval, exact
 from modern.study.store import Store, put
@@ -39,9 +37,7 @@ class Table:
         return "\n".join([self.title, *lines, *self.notes]) + "\n"
 
     def csv(self) -> str:
-        file = io.StringIO()
-        csv.writer(file, lineterminator="\n").writerows([self.head, *self.rows])
-        return file.getvalue()
+        return csv_text([self.head, *self.rows])
 
     def markdown(self) -> str:
         rule = ["--:" if is_numeric else ":--" for is_numeric in self._numeric()]

@@ -32,6 +32,7 @@ from modern.claims.full import definitions
 from modern.edition import chapter6, programs
 from modern.edition.damage import damaged, rates, with_lost_signs
 from modern.edition.readings import attested, table
+from modern.edition.readings import solid as _solid
 from modern.edition.trials import Job, Trial
 from modern.study.statistics import exact
 
@@ -262,10 +263,6 @@ def restored_copy(damage: str, group: Group, number: int, restore: Restorer) -> 
     return Copy(damage, group.name, number, damaged_cards, tuple(kinds[kind] for kind in KINDS))
 
 
-def _solid(text: str) -> str:
-    return "".join(text.split())
-
-
 @contextmanager
 def blind_restorer() -> Iterator[Restorer]:
     """Start a process that knows only what it is sent, and yield a function that restores damaged programs in it.
@@ -333,14 +330,6 @@ def _total(copies: Sequence[Copy]) -> Counter[tuple[str, str, str]]:
 
 def _wrong(total: Mapping[tuple[str, str, str], int], kinds: Sequence[tuple[str, str, str]]) -> int:
     return sum(total[kind] for kind in kinds if kind[2] == "wrong")
-
-
-def table_text(table: Sequence[Sequence[str]]) -> str:
-    """Return a table in columns."""
-    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
-    return "".join(
-        "  ".join(cell.ljust(w) for cell, w in zip(line, widths, strict=True)).rstrip() + "\n" for line in table
-    )
 
 
 def read_restoration(folder: Path) -> list[Copy]:

@@ -12,7 +12,7 @@ from typing import Any
 from emulator.compiled.replay import must_compile_repetitions
 from emulator.compiled.runner import must_compile, why_plain
 from emulator.errors import expect, quoted
-from emulator.files import UNFINISHED
+from emulator.files import UNFINISHED, reason
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.numbers import numbers
@@ -217,7 +217,7 @@ def _begin(plan: Plan, folder: Path, resume: bool, command: Sequence[str]) -> di
             raise StudyFileError(f"{folder}: exists and is not empty; --out chooses another folder")
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise StudyFileError(f"{folder}: {(error.strerror or str(error)).lower()}") from None
+        raise StudyFileError(f"{folder}: {reason(error)}") from None
     write_manifest(folder, current)
     return current
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from emulator.errors import FileError
-from emulator.files import UNFINISHED, writing_bytes
+from emulator.files import UNFINISHED, reason, writing_bytes
 from modern.study.index import JUDGE, Row, clear, enter, open_index
 from modern.study.plan import Chunk, Plan, StudyFileError
 
@@ -52,7 +52,7 @@ class Store:
         try:
             (folder / ROWS).mkdir(exist_ok=True)
         except OSError as error:
-            raise StudyFileError(f"{folder / ROWS}: {(error.strerror or str(error)).lower()}") from None
+            raise StudyFileError(f"{folder / ROWS}: {reason(error)}") from None
         store = cls(folder, plan, open_index(folder))
         sweep(folder)
         sweep(folder / ROWS)
@@ -134,7 +134,7 @@ class Store:
         try:
             lines = path.read_bytes().splitlines(keepends=True)
         except OSError as error:
-            raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
+            raise StudyFileError(f"{path}: {reason(error)}") from None
         cell = self.plan.cells[chunk.cell]
         routes = {route.name for route in cell.routes}
         for number, (line, index) in enumerate(zip_longest(lines, range(chunk.start, chunk.stop)), 1):

@@ -58,9 +58,10 @@ def _results(program: Program, decks: Sequence[Deck], options: Options) -> Seque
 def run_hulls(
     decks: Sequence[Deck], load: Load, options: Options | None = None, first: str = "program1", runs: Runs | None = None
 ) -> list[HullRun | EmulatorError]:
-    """Run the hull programs on each deck like :func:`modern.thesis.job.run_hull`.  Return results or errors.
+    """Run program 1 on each deck, and then program 2 or 3 on the cards that program 1 punched.
 
-    Calls that pass the same ``runs`` reuse each other's results.
+    Return for each deck its run, as :func:`modern.thesis.job.run_hull` does for one deck, or the error that made the
+    deck unreadable.  Calls that pass the same ``runs`` do not repeat a run.
     """
     options, runs = options or Options(), runs or Runs()
     program = load(first)

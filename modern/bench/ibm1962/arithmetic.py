@@ -23,7 +23,7 @@ from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.numbers import accumulator, arithmetic
 from emulator.numbers.arithmetic import IBM1962, MINUS_ZERO, ZERO
-from modern.bench.ibm1962.emulated import OPTIONS
+from modern.bench.ibm1962.emulated import OPTIONS, floating_text
 from modern.bench.ibm1962.simulator import Job, run_jobs
 
 # The object program begins at CODE; its two operands and its result are below TOP.
@@ -93,7 +93,7 @@ def emulated(case: Case) -> tuple[str, str]:
         m, e, event = accumulator.whole_power(*pair(first), int(second), rules)
     else:
         m, e, event = _EMULATED[operation](*pair(first), *pair(second), rules)
-    return number_text(m, e), f"E{event}" if event else ""
+    return floating_text(m, e), f"E{event}" if event else ""
 
 
 @cache
@@ -111,13 +111,6 @@ def pair(number: str) -> tuple[int, int]:
     return (-size if negative else size), int(number[-3:])
 
 
-def number_text(mantissa: int, exponent: int) -> str:
-    """Return a floating-point number in the notation of a storage field, such as ``-.25000000E+01``."""
-    minus = "-" if mantissa < 0 or exponent == MINUS_ZERO else ""
-    exponent = ZERO if mantissa == 0 else exponent
-    return f"{minus}.{abs(mantissa):08}E{'-' if exponent < 0 else '+'}{abs(exponent):02}"
-
-
 def at_random(seed: int, count: int) -> list[Case]:
     """Return random operations with difficult operands: equal or opposite ones, signed zeros, extreme exponents."""
     r = random.Random(seed)
@@ -126,7 +119,7 @@ def at_random(seed: int, count: int) -> list[Case]:
         operation = r.choice(_DRAWN)
         near = r.choice([r.randint(-5, 5), r.randint(-5, 5), r.randint(-5, 5), r.randint(-99, 99), -98, 98])
         first = _number(r, near)
-        second = r.choice([_number(r, near), first, number_text(*accumulator.negate(*pair(first)))])
+        second = r.choice([_number(r, near), first, floating_text(*accumulator.negate(*pair(first)))])
         if operation == "FLOAT" or operation in FIXED:
             first = _integer(r)
         if operation == "POWERX" or operation in FIXED:
@@ -143,7 +136,7 @@ def _number(r: random.Random, near: int) -> str:
     if r.random() < 0.05:
         return r.choice(["", "-"]) + ".00000000E-99"
     size = r.choice([r.randint(10**7, 10**8 - 1), r.randint(1, 9) * 10**7, 10**7 + r.randint(0, 99), 10**8 - 1])
-    return number_text(r.choice([1, -1]) * size, max(-99, min(99, near + r.randint(-2, 2))))
+    return floating_text(r.choice([1, -1]) * size, max(-99, min(99, near + r.randint(-2, 2))))
 
 
 def different(cases: Sequence[Case], deck: Sequence[str]) -> Iterator[tuple[Case, tuple[str, str], tuple[str, str]]]:

@@ -5,9 +5,7 @@ The programs are those that produced the examples.  Programs 2 and 3 read the ca
 library.  The verdicts are in ``docs/ibm1962``, together with the hashes with which they can be verified.
 """
 
-import csv
 import hashlib
-import io
 import subprocess
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -21,6 +19,7 @@ from modern.bench.ibm1962.objectdecks import CORE, execute, library, punched
 from modern.bench.ibm1962.simulator import Failed, simulator
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, Print, input_deck, prints
+from modern.formats.columns import csv_text
 
 FOLDER = "docs/ibm1962"
 NAMES = ("program1_examples", "program2", "program3")
@@ -69,16 +68,10 @@ def results() -> dict[str, str]:
     cards = [(row.example, row.program, row.card, row.verdict) for row in verdicts()]
     rows = [(name, *answer) for name in NAMES for answer in confirmed(name)]
     return {
-        "chapter6.csv": _table(("example", "program", "card", "verdict"), cards),
-        "apparatus.csv": _table(("program", "row", "answer"), rows),
+        "chapter6.csv": csv_text((("example", "program", "card", "verdict"), *cards)),
+        "apparatus.csv": csv_text((("program", "row", "answer"), *rows)),
         "means.toml": _means(),
     }
-
-
-def _table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows((head, *rows))
-    return text.getvalue()
 
 
 def digest(cards: Sequence[str]) -> str:

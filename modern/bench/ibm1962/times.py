@@ -4,8 +4,6 @@ A simulator with ``instruction_times.patch`` adds the published time of each ins
 kept in ``docs/ibm1962/times.csv``; :data:`emulator.machine.timing.MODEL` is the range of their ratios.
 """
 
-import csv
-import io
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -19,6 +17,7 @@ from modern.bench.ibm1962.objectdecks import CORE, OPTIONS, SECONDS, library
 from modern.bench.ibm1962.simulator import run
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, input_deck
+from modern.formats.columns import csv_text
 from modern.formats.deck import data_deck
 from modern.study.families import draw_sample
 from modern.study.plan import SEED, Cell, Port
@@ -75,6 +74,4 @@ def timed() -> Iterator[TimedRun]:
 
 def table(runs: Iterator[TimedRun]) -> str:
     """Return the measured runs as the text of a CSV table."""
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows((HEAD, *(each.row() for each in runs)))
-    return text.getvalue()
+    return csv_text((HEAD, *(each.row() for each in runs)))

@@ -45,7 +45,7 @@ def triangle_area() -> Proof:
     p, u = point("p", 2), point("u", 2)
     along, height = variables("along height")
     q = tuple(a + b for a, b in zip(p, u, strict=True))
-    # A point r at a multiple of the side u, to the left of it.
+    # The third corner: p plus a multiple of u, plus another multiple of u turned left by 90 degrees.
     r = (p[0] + along * u[0] - height * u[1], p[1] + along * u[1] + height * u[0])
 
     def determinant(a: Point, b: Point, c: Point) -> Polynomial:
@@ -53,8 +53,9 @@ def triangle_area() -> Proof:
 
     return Proof(
         "the determinant is positive counterclockwise, negative clockwise, and 0 for collinear points",
-        "The third corner is at a multiple of the first side, to the left of it. The determinant is this multiple "
-        "times the square of the side, which is the base times the signed height.",
+        "Let the vector u be the first side. The third corner is the first corner plus a multiple of u plus h times "
+        "the vector u turned left by 90 degrees. The determinant equals h times the square of the length of u. This "
+        "product is the base times the signed height, because the turned vector is as long as u.",
         (
             Step("the determinant is base times height", {}, zero(determinant(p, q, r) - height * dot(u, u))),
             Step("the determinant is 0 if the first two corners coincide", {}, zero(determinant(p, p, r))),

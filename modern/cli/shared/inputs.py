@@ -56,7 +56,10 @@ def deck_of(name: str, points: bool = False) -> Deck:
 
 
 def punch_epsilon(deck: Deck, epsilon: str) -> Deck:
-    """Return the deck with the tolerance of ``--epsilon`` on its first card.  Raise UsageError if it does not fit."""
+    """Return a deck with the tolerance of ``--epsilon`` punched on its first card.
+
+    Raise UsageError if the card has no room for the number.
+    """
     try:
         return with_epsilon(deck, epsilon)
     except ValueError as error:

@@ -5,8 +5,6 @@ Lines and tables show numbers to twelve digits.  CSV has fifty digits, and the e
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal
@@ -15,7 +13,7 @@ from fractions import Fraction
 from modern.cli.shared.volumes import printable
 from modern.digital.hull import DigitalHull
 from modern.digital.measures import Measures
-from modern.formats.columns import aligned
+from modern.formats import columns
 from modern.geometry.numbers import AREA_DIGITS, finite_decimal
 
 TABLE_DIGITS = 12
@@ -82,7 +80,7 @@ def table(rows: Sequence[Row], unit: str) -> Iterator[str]:
     """Yield the lines of a table of measures with headings, and a line about the units."""
     lines = [[cell.name.replace("_", " ") for cell in rows[0]]]
     lines += [[_to_digits(cell.number, TABLE_DIGITS) for cell in row] for row in rows]
-    yield from aligned(lines, right=True)
+    yield from columns.aligned(lines, right=True)
     plural = "s" if unit == "voxel" else ""
     lengths = f"lengths in {printable(unit)}{plural}" if unit else "unit of length not stated"
     yield f"{lengths}; numbers to {TABLE_DIGITS} digits (--csv: {AREA_DIGITS} digits and exact fractions)"
@@ -90,15 +88,14 @@ def table(rows: Sequence[Row], unit: str) -> Iterator[str]:
 
 def csv_text(rows: Iterable[Row], unit: str) -> str:
     """Return the rows as CSV: decimals of fifty digits, then the exact fractions ``p/q``, then the unit."""
-    file = io.StringIO()
-    writer = csv.writer(file, lineterminator="\n")
-    for index, row in enumerate(rows):
+    lines: list[list[str]] = []
+    for row in rows:
         exact = [cell for cell in row if cell.with_fraction]
-        if not index:
-            writer.writerow([c.name for c in row] + [f"{c.name}_exact" for c in exact] + ["unit"])
+        if not lines:
+            lines.append([c.name for c in row] + [f"{c.name}_exact" for c in exact] + ["unit"])
         decimals = [_to_digits(c.number, AREA_DIGITS) for c in row]
-        writer.writerow(decimals + [str(c.number) for c in exact] + [printable(unit)])
-    return file.getvalue()
+        lines.append(decimals + [str(c.number) for c in exact] + [printable(unit)])
+    return columns.csv_text(lines)
 
 
 def _to_digits(number: int | Fraction | Decimal, digits: int) -> str:

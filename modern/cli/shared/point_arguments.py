@@ -78,8 +78,6 @@ def draw(parser: ArgumentParser) -> None:
 def appel_will(parser: ArgumentParser) -> None:
     points_argument(parser, "FILE", " (points and surfaces)")
     printed_arguments(parser, "rule", "star, step3, step5, step7, step9, step10")
-    star = "choose the star polygon test independently of the other rules (default: corrected; with --literal: printed)"
-    add(parser, {"--star": star}, choices=("printed", "corrected"))
     inside_corners = (
         "delete points on inside corners first, by the rule any (valid if no point is on more than three planes), two "
         "or concave (always valid)"

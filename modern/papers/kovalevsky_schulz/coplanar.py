@@ -26,13 +26,14 @@ Edge = tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Treated:
+class MergedHull:
     """A hull whose coplanar faces are merged, and counts of the steps that computed it.
 
-    Each face is the cycle of its vertices, counterclockwise as seen from outside, beginning with the smallest.
-    ``created`` counts the faces created from a new point, ``larger`` those of them with more than three vertices,
-    ``merged`` the mergers of a new face with a face of its plane, ``extended`` the extensions of a face to a point, and
-    ``straightened`` the vertices removed because two edges of a face lay in one line.
+    Each face lists its vertices counterclockwise as seen from outside, beginning with the smallest index.
+    ``created`` counts the faces that were created when a point was inserted.  ``larger`` counts the created faces with
+    more than three vertices.  ``merged`` counts how often a new face was merged with a face of the same plane.
+    ``extended`` counts how often an existing face was extended to a new point of its plane.  ``straightened`` counts
+    the vertices that were removed because two consecutive edges of a face lay on one line.
     """
 
     faces: tuple[tuple[int, ...], ...]
@@ -43,7 +44,7 @@ class Treated:
     straightened: int
 
 
-def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> Treated:
+def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> MergedHull:
     """Compute the hull of points with integer coordinates by one of the two treatments, ``quadrangles`` or
     ``extended``.
 
@@ -62,7 +63,7 @@ def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> Trea
         if number not in simplex:
             hull.extend(number, treatment)
     counts = (hull.created, hull.larger, hull.merged, hull.extended, hull.straightened)
-    return Treated(tuple(sorted(hull.faces.values())), *counts)
+    return MergedHull(tuple(sorted(hull.faces.values())), *counts)
 
 
 class _Growing:

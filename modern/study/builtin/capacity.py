@@ -26,7 +26,8 @@ CORE = (20_000, 40_000, 60_000)
 LISTED, EXACT = "as listed", "exact"
 _INTERVALS = (
     "The numbers in parentheses are 95 % intervals: Student's for means, truncated at 0, and exact ones (Clopper and "
-    "Pearson) for proportions. A place is an entry of the plane table that is in use."
+    "Pearson) for proportions. The columns *entries* give the entries of the plane table that are in use at once: the"
+    " mean and the largest number over all sets."
 )
 _NAMES = {"integers": "cube, solid", "cube": "cube, surface"}
 
@@ -102,7 +103,7 @@ def _main(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> Table:
             continue
         mean, share = with_interval(peaks[last].mean, 1), counts.share(last, LISTED, (TABLE,))
         rows.append(row(name, over[0] if over else None, int(n), mean, peaks[last].most, share))
-    head = ("sets", "more than 98 from N =", "largest N", "places there, mean", "most", "table full, as listed")
+    head = ("sets", "more than 98 from N =", "largest N", "entries, mean", "entries, most", "table full, as listed")
     return Table("table", "Entries of the 98-entry plane table in use at once", head, tuple(rows), (_INTERVALS,))
 
 
@@ -111,21 +112,25 @@ def _sizes(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> Table:
     for k, peak in peaks.items():
         key, shares = plan.cells[k].key, (counts.share(k, LISTED, (TABLE,)), counts.share(k, LISTED))
         rows.append(row(key["sets"], key["n"], counts.of(k, LISTED), with_interval(peak.mean, 1), peak.most, *shares))
-    head = ("sets", "N", "number", "places at once, mean", "most", "table full, as listed", "hull found, as listed")
+    head = ("sets", "N", "number", "entries, mean", "entries, most", "table full, as listed", "hull found, as listed")
     return Table("sizes", "Entries in use at once at each N", head, tuple(rows), (_INTERVALS,))
 
 
 def _core(peaks: dict[int, _Peak]) -> Table:
     most = max((peak.most for peak in peaks.values()), default=PLACES)
-    sizes = (("as listed", PLACES), ("most places seen", most), ("never full: 4N - 11 at N = 51", 4 * POINTS[-1] - 11))
+    sizes = (
+        ("as listed", PLACES),
+        ("most entries observed", most),
+        ("never full: 4N - 11 at N = 51", 4 * POINTS[-1] - 11),
+    )
     rows = tuple(
         row(name, places, positions(places), next((core for core in CORE if positions(places) <= core), "none"))
         for name, places in sizes
     )
-    head = ("table", "places", "positions, about", "smallest core")
+    head = ("table", "entries", "positions, about", "smallest core")
     notes = (
-        "The table applies to program 3 as listed, but with longer arrays. Places are the entries of the plane "
-        "table. The length of program 3's object code is an estimate (docs/reference/machine.md).",
+        "Program 3 is as listed, except that its plane table has the number of entries in the second column. The "
+        "length of its object code is an estimate (docs/reference/machine.md).",
     )
     return Table("storage", "Positions of core needed by program 3", head, rows, notes)
 

@@ -261,10 +261,11 @@ def _verdicts(tested: Mapping[str, _Pairs], widened: Mapping[str, _Pairs]) -> Ta
         for way, compared in pairs.items()
     )
     notes = (
-        "With the exact test, the columns *better* and *worse* count the sets whose hull is found only by this "
-        "arithmetic, or only by truncation. With the interval, they count the sets whose hull is found at more, or "
-        "at fewer, widths than by truncation. The verdict follows from the exact 95 % interval (Clopper and Pearson) "
-        "of the share that is better.",
+        "The column *better* counts the sets for which the arithmetic does better than truncation, and *worse* those "
+        "for which truncation does better. With the exact test, one of the two does better if it alone finds the "
+        "hull. With the interval, it does better if it finds the hull at more widths. Of the sets in both columns, "
+        "the verdict is *better* if significantly more than half are better, and *worse* if significantly fewer are: "
+        "the exact 95 % interval (Clopper and Pearson) of the share does not contain one half.",
     )
     return Table(
         "pairs", "Compared with truncation, set by set", ("way", "test", "better", "worse", "verdict"), rows, notes

@@ -339,8 +339,9 @@ def _digit_conclusion(plan: Plan, counts: Summary) -> str:
         plain, moved = counts.share(number, PLAIN), counts.share(number, MOVED)
         verdicts["loses" if plain.low > moved.high else "gains" if moved.low > plain.high else "same"].append(name)
     return (
-        "For these kinds of sets, some number of digits P is enough if the origin is kept, but no tested P is enough "
-        f"if the origin is moved: {listed(never)}. With the origin moved, the programs with eight digits find fewer "
-        f"hulls for these kinds: {listed(verdicts['loses'])}. They find more hulls for these kinds: "
-        f"{listed(verdicts['gains'])}. The difference is not significant for these kinds: {listed(verdicts['same'])}."
+        f"For these kinds, some sets fail even with {WORKING[-1]} digits if the origin is moved, although none fails "
+        f"with {WORKING[-1]} digits if the origin is kept: {listed(never)}. With the origin moved, the programs with "
+        f"eight digits find fewer hulls for these kinds: {listed(verdicts['loses'])}. They find more hulls for these "
+        f"kinds: {listed(verdicts['gains'])}. The difference is not significant for these kinds: "
+        f"{listed(verdicts['same'])}."
     )

@@ -27,6 +27,7 @@ to 12, of which a given share is replaced by such decimals, from .0100 to .0999.
 from collections.abc import Callable, Mapping
 
 from emulator.errors import quoted
+from modern.geometry.vectors import minus
 from modern.study.families.draws import Count, Draw, Drawn, FamilyError, Whole, drawn
 
 N = (4, 17)
@@ -80,7 +81,7 @@ def data_sheet(draw: Draw, decimals: int, form: str) -> list[Whole]:
 def three_points(draw: Draw, _: int) -> list[Whole]:
     while True:
         p, q, r = draw.distinct(3, lambda: _in_box(draw, _LARGE))
-        u, v = _minus(q, p), _minus(r, p)
+        u, v = minus(q, p), minus(r, p)
         if any(u[i] * v[j] != u[j] * v[i] for i, j in ((0, 1), (0, 2), (1, 2))):
             return [p, q, r]
 
@@ -140,10 +141,6 @@ def _in_box(draw: Draw, size: int) -> Whole:
 def _replaced(point: Whole, axis: int, value: int) -> Whole:
     x, y, z = (value if k == axis else c for k, c in enumerate(point))
     return x, y, z
-
-
-def _minus(p: Whole, q: Whole) -> Whole:
-    return p[0] - q[0], p[1] - q[1], p[2] - q[2]
 
 
 def _plus(p: Whole, u: Whole, times: int) -> Whole:

@@ -181,8 +181,8 @@ def test_check_joins_decks_and_converts_a_disk(tmp_path: Path) -> None:
     for line, message in (
         ("    1,0x9" + zeros[3:], ", column 8: invalid digit 'x'"),
         ("    1 019", ": expected a sector number, a comma and 105 digits"),
-        ("    1,019", ": expected 105 digits, found 3; a line is truncated or joined"),
-        (f"    1,{zeros}0", ": expected 105 digits, found 106; a line is truncated or joined"),
+        ("    1,019", ": expected 105 digits, found 3; a line is truncated, or two are joined"),
+        (f"    1,{zeros}0", ": expected 105 digits, found 106; a line is truncated, or two are joined"),
         (f"    2,{zeros}", ": expected sector 1, found 2; a sector is lost or moved"),
         (f"    0,{zeros}", ": expected sector 1, found 0; a sector is lost or moved"),
     ):

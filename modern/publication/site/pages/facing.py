@@ -161,7 +161,7 @@ def _variant(listing: Facing, variant: Variant) -> str:
 def _details(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
     """Return the details of a card for the page of a listing: its emendations, jumps, names and weight of evidence."""
     inner, there = "", []
-    for name in card.concerned:
+    for name in card.applicable_rows:
         if first_cards[name] is card:
             places = [changed.place for changed in listing.cards_of(name)]
             inner += entry(listing.text.row(name), places, listing.program)
