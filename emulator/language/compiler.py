@@ -310,10 +310,7 @@ class _Translation:
         return self.emitter.variable(reference)
 
     def _loop(self, loop: tree.Do | tree.Loop, place: tree.Place) -> tuple[int, int, int]:
-        """Emit the instructions that store the first value of a DO in its variable.
-
-        Return the addresses of the fields that hold the variable, the step and the limit.
-        """
+        """Emit code that stores a DO's first value, and return the addresses of its variable, step and limit."""
         variable = self._fixed_variable(loop.variable, "the variable of a DO")
         bounds = []
         for bound in (loop.first, loop.last, loop.step or tree.Number("1", place)):

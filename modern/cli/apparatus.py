@@ -32,6 +32,7 @@ _MOST_PROCESSES = 4
 
 
 def main(args: argparse.Namespace) -> int:
+    _check_options(args)
     if args.sheet:
         return _read_sheets(args)
     if args.state:
@@ -42,14 +43,14 @@ def main(args: argparse.Namespace) -> int:
         from modern.edition.weight import weigh
         from modern.edition.weight_report import write_weight
 
-        answers = weigh(Path(args.weigh), args.runs or "", max(args.workers, 1), args.most)
+        answers = weigh(Path(args.weigh), args.runs or "", args.workers, args.most)
         print(write_weight(Path(args.weigh), answers), end="")
         return OK
     if args.restore:
         from modern.study.restoration import listings, measure, others, summary
 
         groups = (listings(), *((others(Path(args.runs)),) if args.runs else ()))
-        copies = measure(Path(args.restore), groups, max(args.most, 1), max(args.workers, 1))
+        copies = measure(Path(args.restore), groups, args.most or 1, args.workers)
         print("\n".join(aligned(summary(copies))))
         return OK
     if args.collate is not None:
@@ -79,6 +80,21 @@ def main(args: argparse.Namespace) -> int:
     failed = sum(not proof.holds for proof in proofs)
     print(f"{len(proofs) - failed} of {len(proofs)} checks hold" + (f"; {failed} FAIL" if failed else ""))
     return DIFFERS if failed else OK
+
+
+def _check_options(args: argparse.Namespace) -> None:
+    """Raise UsageError for options that have no effect together, and for numbers that are too small."""
+    tasks = [name for name in ("sheet", "sheets", "weigh", "restore", "collate", "check") if getattr(args, name)]
+    if len(tasks) > 1:
+        raise UsageError(f"--{tasks[0]} and --{tasks[1]} cannot be combined; choose one")
+    for name, least in (("workers", 1), ("most", 0)):
+        if (value := getattr(args, name)) < least:
+            raise UsageError(f"--{name}: expected at least {least}, found {value}")
+    unused = [name for name, value in (("runs", args.runs), ("workers", args.workers > 1), ("most", args.most)) if value]
+    if unused and not (args.weigh or args.restore):
+        raise UsageError(f"--{unused[0]} needs --weigh or --restore")
+    if (args.program or args.layer) and tasks not in ([], ["check"]):
+        raise UsageError(f"--program and --layer cannot be combined with --{tasks[0]}")
 
 
 def _collate(args: argparse.Namespace) -> int:
