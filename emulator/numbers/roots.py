@@ -70,9 +70,9 @@ class RootSum:
             total += size if over > 0 else -size - 1
         return total
 
-    def floor(self, over: int = 1, under: int = 1) -> int:
-        """Return the largest integer that does not exceed ``value * over / under``."""
-        scaled = self * Fraction(over, under)
+    def floor(self, factor: int = 1) -> int:
+        """Return the largest integer that does not exceed ``value * factor``."""
+        scaled = self * factor
         assert isinstance(scaled, RootSum)
         bits = _FIRST_BITS
         while True:

@@ -55,11 +55,9 @@ class Decision:
     value: Number
 
 
-def run_with_decisions(
-    program: Program, deck: Deck, arithmetic: Numbers, limit: int = _LIMIT
-) -> tuple[Result, list[Decision]]:
+def run_with_decisions(program: Program, deck: Deck, arithmetic: Numbers) -> tuple[Result, list[Decision]]:
     """Run a program; return its result and decisions.  An invalid deck becomes an ending of the kind ``input``."""
-    machine = Machine(program, deck, Options(arithmetic, limit=limit), journal=Journal(False))
+    machine = Machine(program, deck, Options(arithmetic, limit=_LIMIT), journal=Journal(False))
     assert machine.journal is not None
     try:
         result = machine.run()

@@ -32,9 +32,9 @@ class Figure:
         return f"{self.what:<58} {self.median:8.3f} s  ({least:.3f} to {most:.3f})  {self.note}".rstrip()
 
 
-def timed_once(what: str, work: Callable[[], object], note: str = "") -> Figure:
+def timed_once(what: str, work: Callable[[], object]) -> Figure:
     """Time ``work`` once, because it cannot be repeated or takes too long for five runs."""
-    return Figure(what, (_seconds(work),), note)
+    return Figure(what, (_seconds(work),))
 
 
 def timed(what: str, work: Callable[[], object], note: str = "") -> Figure:

@@ -90,7 +90,8 @@ def _check_options(args: argparse.Namespace) -> None:
     for name, least in (("workers", 1), ("most", 0)):
         if (value := getattr(args, name)) < least:
             raise UsageError(f"--{name}: expected at least {least}, found {value}")
-    unused = [name for name, value in (("runs", args.runs), ("workers", args.workers > 1), ("most", args.most)) if value]
+    values = {"runs": args.runs, "workers": args.workers > 1, "most": args.most}
+    unused = [name for name, value in values.items() if value]
     if unused and not (args.weigh or args.restore):
         raise UsageError(f"--{unused[0]} needs --weigh or --restore")
     if (args.program or args.layer) and tasks not in ([], ["check"]):

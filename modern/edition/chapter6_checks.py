@@ -33,15 +33,14 @@ from modern.edition.readings import solid
 Point = tuple[Decimal, ...]
 
 
-def check_chapter(chapter: Chapter, folder: Traversable | None = None) -> tuple[str, ...]:
+def check_chapter(chapter: Chapter) -> tuple[str, ...]:
     """Run every check of this module and return all faults."""
-    data = folder or chapter6_folder()
     return (
         *check_tie(chapter),
         *check_rows(chapter),
         *check_layout(chapter),
         *check_arithmetic(chapter),
-        *check_files(chapter, data),
+        *check_files(chapter, chapter6_folder()),
     )
 
 

@@ -120,12 +120,12 @@ def _without_identification(lines: list[tuple[int, str]]) -> Iterator[list[tuple
         yield [(n, card[1] if card else line) for (n, line), card in zip(lines, cards, strict=True)]
 
 
-def align(text: str, cards: Sequence[EditionCard] | None = None) -> dict[int, tuple[str, tuple[int, ...]]]:
+def align(text: str) -> dict[int, tuple[str, tuple[int, ...]]]:
     """Return the characters and the line numbers of the transcription for each card, by its index in the edition.
 
     A card that the transcription lacks is absent from the result.  The characters are not blank.
     """
-    every = edition_cards() if cards is None else tuple(cards)
+    every = edition_cards()
     index = _Index(every)
     best: tuple[float, list[tuple[int, str]], list[str], list[Span]] = (0.0, [], [], [])
     for form in _forms(read_lines(text)):

@@ -46,6 +46,8 @@ from modern.thesis.job import punched_deck, run_hull
 
 NOTICED = ("compiler", "print", "machine", "equation", "sibling", "nothing")
 CORE = 60_000
+# The variants that a process judges before it returns their answers.
+_CHUNK = 20
 # The run of a variant is stopped after LIMIT_FACTOR times the statements of the listing's run, plus LIMIT_EXTRA.
 LIMIT_FACTOR, LIMIT_EXTRA = 3, 5_000
 
@@ -262,7 +264,7 @@ def _judge(chunk: Sequence[Variant]) -> list[str]:
     return [judged(variant, _KNOWN) for variant in chunk]
 
 
-def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int = 20) -> dict[str, str]:
+def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0) -> dict[str, str]:
     """Judge every variant, or the first ``most`` of them, and map the key of each to the check that detects it.
 
     Answers are kept in ``folder/variants.jsonl``.  Raises FileError if ``runs`` contains no deck, if the folder
@@ -285,7 +287,7 @@ def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int =
             file.writelines(json.dumps([key, answer]) + "\n" for key, answer in done.items())
             file.flush()
             remaining = [variant for variant in sample if variant.key not in done]
-            parts = [remaining[k : k + chunk] for k in range(0, len(remaining), chunk)]
+            parts = [remaining[k : k + _CHUNK] for k in range(0, len(remaining), _CHUNK)]
             progress = Progress(len(sample), len(sample) - len(remaining))
             with ProcessPoolExecutor(workers, initializer=_begin, initargs=(runs,)) as pool:
                 for part, answers in zip(parts, pool.map(_judge, parts), strict=True):

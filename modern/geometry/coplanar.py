@@ -13,7 +13,6 @@ E is too large for the solid, and raises CoplanarError, if all points lie within
 fewer than four faces remain, or if a joined face is not a simple polygon that is convex to within E.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, ROUND_HALF_EVEN, Context, Decimal
@@ -22,7 +21,7 @@ from fractions import Fraction
 from modern.geometry.hull import Coplanar, Face, Hull
 from modern.geometry.mesh import ExportError, Mesh, mesh, sides
 from modern.geometry.numbers import finite_decimal, real
-from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
+from modern.geometry.vectors import area_vector, cross, dot, lowest, minus, whole
 
 IntVector = tuple[int, int, int]
 # The smallest number of faces of a solid.
@@ -77,7 +76,7 @@ def parse_distance(value: object) -> Fraction:
 
 def join(surface: Mesh, within: Fraction) -> Joined:
     """Join the faces that are coplanar to within a distance. Raise CoplanarError if the distance is too large."""
-    points, scale = _integers(surface)
+    scale, points = whole(surface.numbers())
     normals = [area_vector(points, face) for face in surface.faces]
     sizes = [dot(normal, normal) for normal in normals]
     if not all(sizes):
@@ -222,16 +221,6 @@ def _plain(value: Decimal) -> str:
     """Return the number without trailing zeros.  Only a long number has an exponent: 40, 0.002, 1e-9."""
     short = value.normalize()
     return f"{short:f}" if -5 < short.adjusted() < _LONGEST else f"{short:g}"
-
-
-def _integers(surface: Mesh) -> tuple[list[IntVector], int]:
-    numbers = surface.numbers()
-    scale = math.lcm(*(value.denominator for point in numbers for value in point))
-    points = []
-    for x, y, z in numbers:
-        a, b, c = (value.numerator * (scale // value.denominator) for value in (x, y, z))
-        points.append((a, b, c))
-    return points, scale
 
 
 def _depth(points: Sequence[IntVector], normal: IntVector, base: int, indices: Sequence[int]) -> int:

@@ -53,10 +53,10 @@ def on_sphere(count: int, seed: int = 3) -> list[tuple[int, int, int]]:
     return [tuple(p) for p in eight_digits(directions / np.linalg.norm(directions, axis=1)[:, None]).tolist()]
 
 
-def on_grid(count: int, seed: int = 4) -> list[tuple[int, int, int]]:
+def on_grid(count: int) -> list[tuple[int, int, int]]:
     """Return distinct points of a 5 x 5 x 5 grid, many of them collinear or coplanar."""
     cells = [(x, y, z) for x in range(5) for y in range(5) for z in range(5)]
-    return random.Random(seed).sample(cells, count)
+    return random.Random(4).sample(cells, count)
 
 
 def convex_edges() -> Iterator[Figure]:
@@ -75,10 +75,10 @@ def convex_edges() -> Iterator[Figure]:
     yield timed(f"Appel & Will, {ON_SPHERE} points on a sphere", lambda: appel_will(many, method=CORRECTED))
 
 
-def cell_lists(largest: int = LARGEST_BALL) -> Iterator[Figure]:
+def cell_lists() -> Iterator[Figure]:
     """Measure the cell lists of balls with diameters 32, 64, ..., and their local corners alone."""
     diameter = BAR
-    while diameter <= largest:
+    while diameter <= LARGEST_BALL:
         volume = solids.ball(diameter)
         for of, neighbours, coplanar in WAYS:
             yield cell_list(volume, of, neighbours, coplanar, "bar 2 s" if diameter == BAR else "")

@@ -25,7 +25,7 @@ CORES = 2
 _POLL = 0.02
 
 
-def rows_per_second(name: str, samples: int = SAMPLES) -> float:
+def rows_per_second(name: str) -> float:
     """Return how many rows of a study two cores compute in a second, on average over its samples."""
     module = study(name)
     plan = module.plan(module.SAMPLES, 1963)
@@ -34,7 +34,7 @@ def rows_per_second(name: str, samples: int = SAMPLES) -> float:
         chunk_text(plan.cells[number], plan.seed, Chunk(number, 0, 1))  # load the compiled code
     total = 0.0
     for number, cell in enumerate(plan.cells):
-        count = min(samples, cell.samples)
+        count = min(SAMPLES, cell.samples)
         start = time.process_time()
         chunk_text(cell, plan.seed, Chunk(number, 0, count))
         total += cell.samples * (time.process_time() - start) / count
@@ -45,18 +45,8 @@ def first_rows(name: str) -> tuple[float, float]:
     """Return the elapsed and the processor seconds from a cold start of ``hull1620 study`` to its first rows."""
     with tempfile.TemporaryDirectory() as folder:
         out, environment = Path(folder) / "out", {**os.environ, "NUMBA_CACHE_DIR": f"{folder}/numba"}
-        command = [
-            sys.executable,
-            "-m",
-            "hull1620",
-            "study",
-            name,
-            "--quiet",
-            "--workers",
-            str(CORES),
-            "--out",
-            str(out),
-        ]
+        command = [sys.executable, "-m", "hull1620", "study", name, "--quiet"]
+        command += ["--workers", str(CORES), "--out", str(out)]
         before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
         process = subprocess.Popen(command, env=environment, start_new_session=True)
         while process.poll() is None and not any(out.glob("rows/0*.jsonl")):

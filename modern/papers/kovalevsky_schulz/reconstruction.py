@@ -18,7 +18,7 @@ from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES, Of
 Places = NDArray[np.int64]
 
 
-def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "reconstruction") -> Volume:
+def reconstructed(encoding: Economical, of: Of = VERTICES) -> Volume:
     """Return the voxels of the digital object whose hull is encoded.
 
     ``of`` is ``centres`` or ``vertices``, the points whose hull is encoded. Raise CellListError for an encoding that is
@@ -31,7 +31,9 @@ def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "recons
     low = tuple(min(column) for column in columns)
     sizes = [max(column) - least + 1 - extra for column, least in zip(columns, low, strict=True)]
     if min(sizes) < 1 or np.prod(sizes, dtype=object) > MAX_CELLS:
-        raise VolumeError(f"{source}: a box of {' x '.join(map(str, sizes))} voxels: expected 1 to {MAX_CELLS} voxels")
+        raise VolumeError(
+            f"reconstruction: a box of {' x '.join(map(str, sizes))} voxels: expected 1 to {MAX_CELLS} voxels"
+        )
     # All corners of a voxel are inside a plane if the corner that is farthest along its normal is inside.
     planes = [
         (a, b, c, d + a * low[0] + b * low[1] + c * low[2] + extra * (max(a, 0) + max(b, 0) + max(c, 0)))
@@ -41,8 +43,8 @@ def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "recons
     z = np.arange(sizes[2])
     array = (first[:, :, None] <= z) & (z <= last[:, :, None])
     if not array.any():
-        raise VolumeError(f"{source}: the hull contains no whole voxel")
-    return Volume(np.asarray(array, dtype=np.bool_), low, source)
+        raise VolumeError("reconstruction: the hull contains no whole voxel")
+    return Volume(np.asarray(array, dtype=np.bool_), low, "reconstruction")
 
 
 def _intervals(planes: list[Plane], sizes: list[int]) -> tuple[Places, Places]:

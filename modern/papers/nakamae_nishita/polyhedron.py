@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from pathlib import PurePath
 
 from emulator.errors import EmulatorError
-from modern.geometry.coplanar import Joined
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import mesh, sides
 from modern.geometry.vectors import N, Vector, area_vector, cross, dot, lowest, minus, six_volumes, whole
@@ -137,8 +136,8 @@ def turns_once(points: Sequence[tuple[N, N, N]], normal: tuple[N, N, N]) -> bool
     return all(dot(cross(steps[a], minus(q, corners[a])), up) >= 0 for a, _ in lines for q in corners)
 
 
-def polyhedron_of_hull(hull: Hull, name: str = "hull", joined: Joined | None = None) -> Polyhedron:
-    """Convert a hull to a polyhedron of a scene, or a polygon to a plate, with the faces of ``joined`` merged.
+def polyhedron_of_hull(hull: Hull, name: str = "hull") -> Polyhedron:
+    """Convert a hull to a polyhedron of a scene, or a polygon to a plate.
 
     Raise ExportError without a hull, and SceneError for a hull that is a line or not convex.
     """
@@ -150,5 +149,4 @@ def polyhedron_of_hull(hull: Hull, name: str = "hull", joined: Joined | None = N
     faces = tuple(face[::-1] for face in surface.faces)
     if surface.dimension == 2:
         faces = (faces[0], surface.faces[0])
-    groups = () if joined is None else joined.group_of()
-    return checked(Polyhedron(PurePath(name).name, surface.numbers(), faces, joined=groups))
+    return checked(Polyhedron(PurePath(name).name, surface.numbers(), faces))
