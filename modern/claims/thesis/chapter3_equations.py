@@ -103,7 +103,7 @@ def few_points(cases: int = 24) -> Check:
     return search(FEW, vertices_are_right, cases, "the procedure finds the vertices of all sets")
 
 
-@claim("thesis.211", full=400)
+@claim("thesis.138", "thesis.211", full=400)
 def first_two_points(cases: int = CASES) -> Check:
     """Check that the first two points have the largest and smallest x; if all x are equal, y; if all y are too, z."""
     checks = []

@@ -37,7 +37,7 @@ def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], 
     return searched(generator, cases, checks, f"{sum(map(bool, checks))} of {len(checks)} {message}")
 
 
-@claim("thesis.49", full=400)
+@claim("thesis.49", "thesis.138", full=400)
 def third_point(cases: int = CASES) -> Check:
     """Check that no point is farther from the line through the first two points than the third point of H_1."""
     message = "sets: no point is farther from the line of the first two than the third point"

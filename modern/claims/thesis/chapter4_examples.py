@@ -17,7 +17,7 @@ from modern.claims.sampled_sets import counterexample
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
-from modern.edition.chapter4 import Point, Theorem, load_text, load_theorems, theorem_faults
+from modern.edition.chapter4 import Plane, Point, Theorem, load_text, load_theorems, theorem_faults
 from modern.exact_hull.certificate import rank
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import data_deck
@@ -52,7 +52,7 @@ def _computed(theorem: str) -> Mapping[str, Check]:
 
 @claim("thesis.233", theorem="4.1", claim="six_extremes")
 @claim("thesis.112", theorem="4.2", claim="not_supporting")
-@claim("thesis.146", theorem="4.8", claim="last_outside")
+@claim("thesis.146", "thesis.151", theorem="4.8", claim="last_outside")
 @claim("thesis.111", theorem="4.1", claim="programs")
 @claim("thesis.109", "thesis.110", "thesis.111", theorem="4.1", claim="equations")
 @claim("thesis.118", theorem="4.2", claim="programs")
@@ -62,7 +62,6 @@ def _computed(theorem: str) -> Mapping[str, Check]:
 @claim("thesis.147", theorem="4.8", claim="growing")
 @claim("thesis.150", theorem="4.8", claim="supporting")
 @claim("thesis.149", "thesis.152", theorem="4.8", claim="equations")
-@claim("thesis.151", theorem="4.8", claim="signs")
 def worked_example(theorem: str, claim: str) -> Check:
     """Return the check of a claim such as ``4.1 six_extremes``: a theorem, and the function that checks its example."""
     return _computed(theorem)[claim]
@@ -80,7 +79,7 @@ EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
 def _equations(theorem: Theorem) -> Check:
     """Check that each equation of the example is 0 at the points named in its row, and the extreme points are right."""
     faults = theorem_faults(theorem, load_text())
-    message = "each printed equation is 0 at the points named in its row, and all stated extremes are right"
+    message = f"{theorem.points_stated} points; each equation is 0 at the points of its row, and all extremes are right"
     return exhibited(not faults, faults[0] if faults else message)
 
 
@@ -194,9 +193,10 @@ def _programs(theorem: Theorem, load: Load) -> Check:
 
 @claim("thesis.245")
 def procedure_of_4_8() -> Check:
-    """Check that the procedure makes H_1, H_2 and H_5 as in the text, but adds other points for H_3 and H_4.
+    """Check that the procedure makes H_1, H_2 and H_5 of page 56, and that each added point is farthest from a plane.
 
-    By the wording of page 29 it makes no H_1.
+    The procedure tests old planes before new ones, and adds other points for H_3 and H_4.  By the wording of page 29 it
+    makes no H_1.
     """
     theorem = theorem_of("4.8")
     points = [point.at for point in theorem.points]
@@ -205,7 +205,15 @@ def procedure_of_4_8() -> Check:
     same = [set(used[:n]) == set(ADDED[:n]) for n in range(4, 9)]
     as_worded = convex_hull(points, text=True, on_refusal="return")
     outside_six = same[-1] and used[8:] == ["Q9"] and hull.history[-1].outside == 6
-    check = exhibited(outside_six and [same[0], same[1], same[4]] == [True] * 3, "the procedure makes H_1, H_2 and H_5")
+    at = {point.name: point for point in theorem.points}
+    farthest = []
+    for n, name in enumerate(ADDED[4:], 4):
+        judge = exact_hull([[*at[before].at] for before in ADDED[:n]])
+        planes = [Plane(0, tuple(map(Fraction, judge.plane_of(facet))), (), "", "") for facet in judge.facets]
+        farthest.append(any(0 < plane.at(at[name]) == max(map(plane.at, theorem.points)) for plane in planes))
+    right = outside_six and [same[0], same[1], same[4]] == [True] * 3 and all(farthest)
+    message = f"the procedure makes H_1, H_2 and H_5; {sum(farthest)} added points are farthest from a plane"
+    check = exhibited(right, message)
     others = not same[2] and not same[3] and not as_worded.determined
     return check.unless(others, "H_3 and H_4, which use other points, and the wording of page 29, which makes no H_1")
 

@@ -19,19 +19,10 @@ from modern.claims.algebra import (
     variables,
     zero,
 )
-from modern.claims.evidence import Check, claim, exhibited, proved, refuted, searched, slip
+from modern.claims.evidence import Check, claim, exhibited, proved, refuted, slip
 from modern.claims.hulls import convex_hull, exact_hull
-from modern.claims.sampled_sets import (
-    CASES,
-    SETS,
-    SampledSet,
-    counterexample_points,
-    plane_value,
-    sampled_sets,
-)
+from modern.claims.sampled_sets import SampledSet, counterexample_points, plane_value
 from modern.claims.thesis import proofs
-from modern.claims.thesis.chapter3_equations import first_two_points
-from modern.claims.thesis.chapter3_steps import third_point
 from modern.claims.thesis.chapter4_examples import theorem_of, worked_example, worked_example_checks
 from modern.edition.chapter4 import load_theorems
 
@@ -104,11 +95,9 @@ def choice_of_first_triangle() -> Check:
     """Check that theorem 4.7 needs the rule for H_1: a point may be outside two lines of another triangle."""
     triangle, point = [(0, 0, 0), (2, 0, 0), (0, 2, 0)], (-1, -1, 0)
     outside = sum(plane_value(facet.plane, point) > 0 for facet in exact_hull(triangle).facets)
-    is_chosen = first_two_points().holds and third_point().holds
-    message = (
-        "(-1, -1) is outside two lines of the triangle (0, 0), (2, 0), (0, 2); the procedure chooses no such triangle"
-    )
-    return exhibited(outside == 2 and is_chosen, message)
+    chosen = convex_hull([*triangle, point], history=True).history[0].added
+    message = "(-1, -1) is outside two lines of the triangle (0, 0), (2, 0), (0, 2), which is not H_1"
+    return exhibited(outside == 2 and {*chosen} != {0, 1, 2}, message)
 
 
 @claim("thesis.145")
@@ -150,27 +139,6 @@ def outside_unreplaced_line() -> Check:
     return refuted(unreplaced, f"{message}; the line replaced is line {checked}")
 
 
-@claim("thesis.244", full=400)
-def origin_is_third_point(cases: int = CASES) -> Check:
-    """Check that no point has a negative x if P_3 is the origin and the line P_1 P_2 is parallel to the y axis."""
-    checks = []
-    for sampled in sampled_sets(2, cases):
-        p, q, r = sampled.hull.history[0].added
-        (line,) = (
-            e
-            for e, d in zip(sampled.stages()[0].equations, sampled.hull.history[0].equations, strict=True)
-            if r not in d
-        )
-        checks += [plane_value(line, point) >= plane_value(line, sampled.points[r]) for point in sampled.points]
-        checks.append(
-            plane_value(line, sampled.points[p])
-            == plane_value(line, sampled.points[q])
-            == 0
-            > plane_value(line, sampled.points[r])
-        )
-    return searched(SETS[2], cases, checks, f"{len(checks)} conditions on points and their x hold")
-
-
 # The coordinates of Fig. 3: P_3 is the origin, P_1 = (x_1, y_1) and P_2 = (x_1, y_2), with y_1 < y_2.
 X1, Y1, Y2 = variables("x_1 y_1 y_2")
 
@@ -202,6 +170,15 @@ def outside_of_two_lines() -> Check:
     terms = tuple(Term((name,), polynomial(1)) for name in ("line 2", "line 3"))
     step = Step("x is negative", signs, positive(-x), terms, ("order",))
     return proved("The values of lines 2 and 3 add up to (y_1 - y_2) x", [step.is_valid()], "x is negative")
+
+
+@claim("thesis.244")
+def no_negative_x() -> Check:
+    """Prove that no given point has a negative x in Fig. 3: none is farther from the line x = x_1 than P_3."""
+    (x,) = variables("x")
+    signs = {"x_1": positive(2 * X1), "third": not_negative(X1 * X1 - (x - X1) * (x - X1))}
+    step = Step("x is not negative", signs, not_negative(x), (term("third"), term("", x)), ("x_1",))
+    return proved("2 x_1 x is the sum of x^2 and x_1^2 - (x - x_1)^2", [step.is_valid()], "x is not negative")
 
 
 @claim("thesis.142", "thesis.143")

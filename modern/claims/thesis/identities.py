@@ -138,10 +138,11 @@ def coordinates_of_figure_3() -> Proof:
         "a rotation puts P_3 at the origin and P_1 P_2 parallel to the y axis",
         "The new coordinates of a point x, times the distance of P_1 and P_2, are products of the way from P_1 to P_2 "
         "with the way from P_3 to x. They keep distances, because the sum of the squares of both products is the "
-        "product of the squares of both ways.",
+        "product of the squares of both ways. If P_1 has a negative x, -x takes the place of x.",
         (
             *_all_zero("P_3 is the origin", moved["r"]),
             *_all_zero("P_1 and P_2 have the same x", [moved["p"][0] - moved["q"][0]]),
+            *_all_zero("y_2 - y_1 is a square", [moved["q"][1] - moved["p"][1] - dot(way, way)]),
             *_all_zero("distances are kept", [dot(image, image) - dot(way, way) * dot(original, original)]),
         ),
     )
