@@ -358,5 +358,5 @@ def data_sheet(part: str) -> Check:
     # The first and the last sample card, with the number 3 as thesis.163 corrects it.
     fields = "+.12000000E+02+.30000000E+01+.14600000E-01", "+.00000000E+02+.26100000E-01+.60000000E+01"
     run = run_hull(deck_from_lines("data sheet", ["02", *fields]), programs.program)
-    points = [tuple(map(float, point)) for point in read_hull(run.final.result.punched).vertices]
-    return exhibited(points == [(12, 3, 0.0146), (0, 0.0261, 6)], f"program 1 reads the sample cards as {points}")
+    vertices = [tuple(map(float, point)) for point in read_hull(run.final.result.punched).vertices]
+    return exhibited(vertices == [(12, 3, 0.0146), (0, 0.0261, 6)], f"program 1 reads the sample cards as {vertices}")
