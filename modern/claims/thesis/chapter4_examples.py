@@ -62,6 +62,7 @@ def _computed(theorem: str) -> Mapping[str, Check]:
 @claim("thesis.147", theorem="4.8", claim="growing")
 @claim("thesis.150", theorem="4.8", claim="supporting")
 @claim("thesis.149", "thesis.152", theorem="4.8", claim="equations")
+@claim("thesis.151", theorem="4.8", claim="signs")
 def worked_example(theorem: str, claim: str) -> Check:
     """Return the check of a claim such as ``4.1 six_extremes``: a theorem, and the function that checks its example."""
     return _computed(theorem)[claim]
