@@ -17,7 +17,7 @@ DIAMETERS = (8, 10, 12, 14, 16, 18, 20, 22)
 
 @claim("kovalevsky-schulz.78", full=400)
 def formula_5(cases: int = CASES) -> Check:
-    """Check that formula (5) is only 6 integers too low, because a triangulation has 2 V - 4 triangles and not 2 V."""
+    """Check that formula (5) gives 6 integers too few: it counts 2 V triangles, but a triangulation has 2 V - 4."""
     lists = [polyhedron(points) for points, _ in hulls(cases)]
     excess = [3 * len(c.vertices) + 3 * len(c.faces) - triangulation_size(len(c.faces)) for c in lists]
     return searched(SETS[3], cases, [e == 6 for e in excess], "hulls of triangles need 6 integers more than (5) gives")

@@ -1,4 +1,4 @@
-"""Checks of chapters 5 and 6 and of the bibliography: messages, table sizes, printed hulls, and cited pages."""
+"""Checks of chapters 5 to 7: messages, table sizes, printed hulls, steps marked by comments, and the translation."""
 
 import re
 from fractions import Fraction

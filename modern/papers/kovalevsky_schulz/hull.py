@@ -67,7 +67,7 @@ def _cycle(successor: dict[int, int]) -> list[int]:
 
 
 def _renumbered(cells: CellList, cycles: list[list[int]]) -> CellList:
-    """Build a cell list from faces given as cycles of vertices, without the vertices that no face uses."""
+    """Build a cell list from faces given as cycles of vertices.  Vertices that no face uses are left out."""
     # The paper numbers the cells of the merged list consecutively.
     used = sorted({vertex for cycle in cycles for vertex in cycle})
     numbers = {old: new for new, old in enumerate(used, 1)}

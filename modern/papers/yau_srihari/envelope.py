@@ -282,7 +282,7 @@ def _polygon(start: Point, end: Point, in_plane: list[Point]) -> tuple[Point, ..
 
 
 def _leaves(face: Face, printed: Printed) -> dict[Place, Leaf]:
-    """Return the heights of a face in its columns, marked as done except at its vertices, which other faces share."""
+    """Return the heights of a face, one for each column; all but those of its vertices are marked as done."""
     unmarked = () if printed.marks else [vertex[:2] for vertex in face.vertices]
     return {
         place: Leaf(_rounded(*face.height(*place), printed), marked=place not in unmarked) for place in face.places()

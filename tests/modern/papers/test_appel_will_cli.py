@@ -159,7 +159,7 @@ def test_flat_input_has_a_summary(folder: Path, capsys, text: str, summary: str)
         (["points.csv", "--inside-corners", "any"], "points.csv: --inside-corners needs the surfaces"),
         (["crown.off", "--printed", "step4"], "--printed: 'step4' is not one of star, step3, step5,"),
         (["crown.off", "--literal", "--printed", "star"], "not allowed with argument --literal"),
-        (["open.off", "--inside-corners", "two"], "open.off: surface 1: line 1-2 is on 1 surface,"),
+        (["open.off", "--inside-corners", "two"], "open.off: surface 1: line 1-2 lies on 1 surface,"),
         (["fig4.off", "-o", "nosuch/hull.off"], "nosuch/hull.off: no such file or directory"),
         (["fig4.off", "-o", "."], ".: is a directory"),
     ],
