@@ -65,7 +65,7 @@ def vertex_is_no_combination() -> Proof:
         "points has a smaller value. So a polyhedron whose vertices are other points of the old one does not "
         "contain the vertex. By Minkowski's theorem every point is a combination of vertices. So a convex polyhedron "
         "that contains all vertices contains the whole polyhedron, and a smaller one does not contain all vertices.",
-        (largest_value(), combination_satisfies()[0]),
+        (largest_value(), *combination_satisfies()),
     )
 
 

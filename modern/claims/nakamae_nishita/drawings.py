@@ -7,11 +7,8 @@ from functools import cache
 from itertools import combinations, product
 from random import Random
 
-from modern.claims.evidence import Check, Generator, claim, search, searched
-from modern.claims.nakamae_nishita.tables import overlap, side
-from modern.claims.sampled_sets import CASES, SETS, sampled_sets
-from modern.drawing.visible import sign
-from modern.geometry.vectors import dot
+from modern.claims.evidence import Check, Generator, claim, search
+from modern.claims.nakamae_nishita.tables import overlap
 from modern.papers.nakamae_nishita.hidden import Drawing, Piece, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron
@@ -163,15 +160,3 @@ def divided_box(cases: int = 2) -> Check:
 def _visible_length(drawing: Drawing) -> Fraction:
     ends = ((point_of(drawing, p, p.first), point_of(drawing, p, p.last)) for p in drawing.pieces if p.visible)
     return sum((abs(b - a) for start, end in ends for a, b in zip(start, end, strict=True)), Fraction(0))
-
-
-@claim("nakamae-nishita.18", full=400)
-def front_faces_turn_clockwise(cases: int = CASES) -> Check:
-    """Check that a face is in front if and only if its projected corners turn as they do seen from outside."""
-    outcomes = []
-    for sampled in sampled_sets(3, cases):
-        images = [(x + 31 * z, y + 17 * z) for x, y, z in sampled.points]
-        for face in sampled.judge.facets:
-            a, b, c = (images[k] for k in face.polygon[:3])
-            outcomes.append(side(a, b, c) == sign(dot(face.plane[:3], (-31, -17, 1))))
-    return searched(SETS[3], cases, outcomes, f"true for {len(outcomes)} faces")

@@ -100,28 +100,6 @@ def choice_of_first_triangle() -> Check:
     return exhibited(outside == 2 and {*chosen} != {0, 1, 2}, message)
 
 
-@claim("thesis.145")
-def gap_in_4_7() -> Check:
-    """Check a case that the proof of theorem 4.7 overlooks: a point outside one line of H_k, but two lines of H_k+1."""
-    square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
-    lines = [facet.plane for facet in exact_hull(square).facets]
-    after = [facet.plane for facet in exact_hull([*square, (5, 2, 0)]).facets]
-    new = [plane for plane in after if plane not in lines]
-    # Search for a point outside at most one line of the square, but outside a new line and another line.
-    point = next(
-        (x, y, 0)
-        for x in range(-9, 14)
-        for y in range(-9, 14)
-        if sum(plane_value(plane, (x, y, 0)) > 0 for plane in lines) <= 1
-        and any(plane_value(plane, (x, y, 0)) > 0 for plane in new)
-        and sum(plane_value(plane, (x, y, 0)) > 0 for plane in after) > 1
-    )
-    # Some vertex is then inside the hull of all points, contrary to the condition.
-    inside = exact_hull([*square, (5, 2, 0), point]).inside
-    case = f"({point[0]}, {point[1]}), outside at most one line of a square, and outside two after (5, 2) is added"
-    return proofs.theorem_4_7().check().unless(inside, case)
-
-
 @claim("thesis.260")
 def outside_unreplaced_line() -> Check:
     """Check the counterexample: a point is outside a line of H_1 that is not replaced and so is a line of H_2 too."""

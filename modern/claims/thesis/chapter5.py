@@ -1,8 +1,11 @@
 """Checks of chapters 5 to 7: messages, table sizes, printed hulls, steps marked by comments, and the translation."""
 
 import re
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
+from itertools import combinations
+from operator import mul
 
 from emulator.errors import DeckError
 from emulator.language.cards import deck_from_lines
@@ -116,18 +119,45 @@ def line_table_size() -> Check:
 
 @claim("thesis.285")
 def printed_hulls() -> Check:
-    """Check that the hulls of examples 1 to 6, as printed in chapter 6, are the exact hulls."""
+    """Check that the hulls of examples 1 to 6, as printed in chapter 6, are the exact hulls.
+
+    Compare the vertices, and in examples 4 to 6 the other points and the equations, with those of the exact hull. Check
+    that exactly the vertices listed for an equation satisfy it, and that program 1 prints two planes for each line.
+    """
     checks = []
     for example in EXAMPLES:
         points = [tuple(map(Fraction, point)) for point in exact_points(input_deck(example))[0].values()]
         last = [result for result in prints(example) if result.device == "punch"][-1]
-        printed_outcome = from_card_hull("print", f"program{last.program}", read_hull(last.lines), points)
-        checks.append(disagreement(printed_outcome, from_judge(exact_hull(points), points), points).agrees)
-    return exhibited(
-        all(checks),
-        f"{sum(checks)} of {len(checks)} printed hulls have the exact vertices, boundary points, inside "
-        "points and equations",
-    )
+        hull = read_hull(last.lines)
+        outcome = from_card_hull("print", f"program{last.program}", hull, points)
+        difference = disagreement(outcome, from_judge(exact_hull(points), points), points)
+        on_equation = [
+            (tuple(k for k, vertex in enumerate(hull.vertices, 1) if not sum(map(mul, e, (*vertex, 1)))), number)
+            for number, e in enumerate(hull.equations, 1)
+        ]
+        # For a single line, the vertices of its equations are not listed: both must be on them.
+        listed = hull.satisfied or [((1, 2), number) for _, number in on_equation]
+        planes: dict[tuple[int, ...], list[tuple[Fraction, ...]]] = {}
+        for vertices, number in on_equation:
+            planes.setdefault(vertices, []).append(hull.equations[number - 1])
+        if last.program == 1:
+            lines = {*combinations(range(1, len(hull.vertices) + 1), 2)}
+            complete = planes.keys() == lines and all(len(pair) == 2 and _differ(*pair) for pair in planes.values())
+        else:
+            complete = difference.error == 0
+        checks.append(
+            difference.agrees
+            and not outcome.strange
+            and complete
+            and on_equation == [(tuple(sorted(vertices)), number) for vertices, number in listed]
+        )
+    message = f"{sum(checks)} of {len(checks)} printed hulls are exact in everything that is printed"
+    return exhibited(all(checks), message)
+
+
+def _differ(first: Sequence[Fraction], second: Sequence[Fraction]) -> bool:
+    """Return True if two planes through a line are not the same plane."""
+    return any(a * d != b * c for (a, b), (c, d) in combinations(zip(first, second, strict=True), 2))
 
 
 @claim("thesis.17")

@@ -105,7 +105,6 @@ def entries_of_plane_table() -> int:
     return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairwise(hull.history))
 
 
-@claim("thesis.93")
 def plane_through_c() -> Check:
     """Check that a run ends with an error (KNOWN-FAULTS 3) if a plane contains the inside point C; a hull exists."""
     message = typed(run_of("throughc.deck"))
@@ -292,7 +291,7 @@ def value_against_distance() -> Check:
     return identity(difference, (4, 4, 4, 2), "the value is the distance times the length of (A, B, C)")
 
 
-@claim("thesis.189", full=300)
+@claim("thesis.93", "thesis.189", full=300)
 def orientation_by_c(cases: int = CASES) -> Check:
     """Check that all planes of each H_j, oriented outward, are negative at the inside point C.
 

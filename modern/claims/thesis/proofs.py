@@ -335,6 +335,6 @@ def theorem_4_5() -> Proof:
 @claim("thesis.74", "thesis.131", "thesis.132", "thesis.133", "thesis.238", "thesis.240", proof=theorem_4_5)
 @claim("thesis.257", "thesis.258", proof=theorem_4_5)
 @claim("thesis.71", "thesis.135", "thesis.136", proof=theorem_4_6)
-@claim("thesis.137", "thesis.259", "thesis.278", proof=theorem_4_7)
+@claim("thesis.137", "thesis.145", "thesis.259", "thesis.278", proof=theorem_4_7)
 def proof_of_theorem(proof: Callable[[], Proof]) -> Check:
     return proof().check()

@@ -35,10 +35,12 @@ def as_printed(images: Sequence[Image]) -> bool:
     """Apply the test as printed: C is outside if a side turns clockwise *or if two projected points are on one ray*.
 
     The second condition ("In instances I and II ... the point being tested is considered as being outside") is wrong.
-    For a cube it makes the diagonals of all faces convex edges.
+    C is inside if it is between two successive opposite images (III). Equal images count as one.
     """
-    star = star_polygon(images)
-    return not star or any(vorticity(a, b) < 0 or on_one_ray(a, b) for a, b in _sides(star))
+    sides = _sides(star_polygon([*dict.fromkeys(images)]))
+    if any(vorticity(a, b) == 0 and not on_one_ray(a, b) for a, b in sides):
+        return False
+    return not sides or any(vorticity(a, b) < 0 or on_one_ray(a, b) for a, b in sides)
 
 
 def as_corrected(images: Sequence[Image]) -> bool:

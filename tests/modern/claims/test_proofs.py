@@ -11,6 +11,7 @@ from modern.claims import algebra
 from modern.claims.algebra import Proof, Step, not_negative, positive, term, variables, zero
 from modern.claims.appel_will import proofs as appel_will
 from modern.claims.kovalevsky_schulz import proofs as kovalevsky_schulz
+from modern.claims.nakamae_nishita import proofs as nakamae_nishita
 from modern.claims.thesis import existence, identities
 from modern.claims.thesis import proofs as thesis
 from modern.claims.yau_srihari import proofs as yau_srihari
@@ -18,7 +19,7 @@ from modern.claims.yau_srihari import proofs as yau_srihari
 # All functions of these modules that return a proof.
 PROOFS: dict[str, Proof] = {
     f"{module.__name__.split('.')[-2]} {name}": function()
-    for module in (thesis, identities, kovalevsky_schulz, yau_srihari, appel_will)
+    for module in (thesis, identities, kovalevsky_schulz, nakamae_nishita, yau_srihari, appel_will)
     for name, function in vars(module).items()
     if inspect.isfunction(function)
     and function.__module__ == module.__name__

@@ -71,7 +71,6 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "thesis.3": ("programs", _without_code),
     "thesis.65": ("programs", _listing_with("NETC", "NTC")),
     "thesis.129": ("_c_0", lambda original: lambda *points: original(*points) + 1),
-    "thesis.145": ("proofs", lambda _: SimpleNamespace(theorem_4_7=_failing_proof)),
     "thesis.155": ("programs", _without_code),
     "thesis.169": ("programs", _without_code),
     "thesis.194": ("Machine", lambda _: lambda *arguments: None),

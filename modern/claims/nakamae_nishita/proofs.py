@@ -1,0 +1,54 @@
+"""Proof of the front faces of Nakamae and Nishita; :mod:`modern.claims.algebra` checks the steps."""
+
+from collections.abc import Callable
+
+from modern.claims.algebra import Proof, Step, bracket, cross, dot, minus, point, positive, term, variables, zero
+from modern.claims.evidence import Check, claim
+
+
+def front_face() -> Proof:
+    """Prove that the eye sees the outer side of a face if and only if two edges turn clockwise in the projection."""
+    images = u, v, w = tuple(point(name, 2) for name in "uvw")
+    turn = bracket(u, v, w)
+    depths = variables("r s t")
+    # In the coordinates of the eye, a corner is its image (x, y, 1) times its depth.
+    central = [(depth * x, depth * y, depth) for (x, y), depth in zip(images, depths, strict=True)]
+    parallel = [(*image, depth) for image, depth in zip(images, depths, strict=True)]
+    (a, inward), (_, along) = (
+        (a, cross(minus(b, a), minus(c, a))) for a, b, c in (tuple(map(tuple, three)) for three in (central, parallel))
+    )
+    from_eye = dot(inward, a)
+    in_front = {name: positive(depth) for name, depth in zip("rst", depths, strict=True)}
+    return Proof(
+        "a convex face is a front face if and only if two successive edges turn clockwise in the projection",
+        "The eye is at the origin and looks along z, x points to the right and y down, so that a positive area is "
+        "clockwise. The corners of a face run clockwise seen from outside, and so the normal (b - a) x (c - a) points "
+        "inward. The eye sees the outer side if the product of this normal with the way from the eye to a is positive. "
+        "All corners are in front of the eye, so their depths are positive. In a parallel projection along z, the way "
+        "from the eye is z itself. All pairs of successive edges of a convex face turn in the same sense.",
+        (
+            *(
+                Step(
+                    f"seen from {side}, the corners turn {sense} in the projection",
+                    {side: positive(sign * from_eye), **in_front},
+                    positive(sign * turn),
+                    (term(side),),
+                    tuple("rst"),
+                )
+                for side, sense, sign in (("outside", "clockwise", 1), ("inside", "counterclockwise", -1))
+            ),
+            Step(
+                "seen in its own plane, the corners are on a line",
+                {"edgewise": zero(from_eye), **in_front},
+                zero(turn),
+                (term("edgewise"),),
+                tuple("rst"),
+            ),
+            Step("in a parallel projection, the normal has the sign of the turn", {}, zero(along[2] - turn)),
+        ),
+    )
+
+
+@claim("nakamae-nishita.18", proof=front_face)
+def proof_of_statement(proof: Callable[[], Proof]) -> Check:
+    return proof().check()
