@@ -68,9 +68,11 @@ archive: wheel pyz book edition
 serve:
 	$(BIN)/python -m http.server --bind 127.0.0.1 --directory dist/edition 1620
 
-# The newest versions that pyproject.toml allows, for every platform, with hashes: locks/run.lock what the command needs, dev.lock all.
+# The newest versions that pyproject.toml allows, for every platform, with hashes: locks/run.lock for the command alone,
+# dev.lock for everything. Extras stay in the lock: without them, pip 23 ignores the pin of `coverage` when pytest-cov
+# asks for `coverage[toml]`, and a newer release stops the installation.
 LOCK = $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --fork-strategy fewest --generate-hashes \
-	--no-header --no-annotate --no-emit-index-url --no-emit-find-links pyproject.toml locks/build.in
+	--no-header --no-annotate --no-emit-index-url --no-emit-find-links --no-strip-extras pyproject.toml locks/build.in
 upgrade: $(VENV)/.dev
 	$(LOCK) --output-file locks/run.lock
 	$(LOCK) --all-extras --constraints locks/run.lock --output-file locks/dev.lock
