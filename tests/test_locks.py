@@ -39,7 +39,7 @@ def test_the_lock_satisfies_every_requirement(name: str) -> None:
 @pytest.mark.parametrize("name", ["run", "dev"])
 def test_every_line_is_a_pinned_version_or_a_hash(name: str) -> None:
     lines = (ROOT / "locks" / f"{name}.lock").read_text(encoding="utf-8").splitlines()
-    pin = re.compile(r"[a-z0-9-]+==[0-9][0-9a-z.]*( ; [^/@]+?)? \\")
+    pin = re.compile(r"[a-z0-9-]+(\[[a-z0-9,-]+\])?==[0-9][0-9a-z.]*( ; [^/@]+?)? \\")
     digest = re.compile(r"    --hash=sha256:[0-9a-f]{64}( \\)?")
     assert [line for line in lines if not pin.fullmatch(line) and not digest.fullmatch(line)] == []
     assert all(digest.fullmatch(after) for line, after in pairwise(lines) if pin.fullmatch(line))
