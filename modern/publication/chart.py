@@ -52,15 +52,11 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """The line that leaves exit ``way`` of a box: its corners, its lane, and the centre of its connector, if any.
-
-    Lane 0 is next to the boxes; -1 means that the line uses no lane.
-    """
+    """The line that leaves exit ``way`` of a box: its corners, and the centre of the connector at its end, if any."""
 
     box: int
     way: int
     corners: tuple[tuple[int, int], ...]
-    lane: int = -1
     connector: tuple[int, int] | None = None
 
 
@@ -225,12 +221,12 @@ def _page(flow: Flow, first: int, end: int) -> Page:
             if lane < 0:
                 # The target is on another page, or every lane of the side is taken: the line ends in a connector.
                 centre = (edge + outward * (ZONE // 2), level)
-                paths.append(Path(place, k, (*corners, (centre[0] - outward * RADIUS, level)), -1, centre))
+                paths.append(Path(place, k, (*corners, (centre[0] - outward * RADIUS, level)), centre))
                 continue
             # The line leaves the box, follows its rail to the level above the target, and enters the target from above.
             x, join = edge + outward * (ZONE + lane * LANE), plan.joins[landing]
             corners += [(x, level), (x, join), (SPINE, join), (SPINE, plan.placed[landing].top)]
-            paths.append(Path(place, k, tuple(corners), lane))
+            paths.append(Path(place, k, tuple(corners)))
     x = LEFT - ZONE // 2
     landings = []
     for target in plan.landed:

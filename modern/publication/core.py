@@ -12,7 +12,7 @@ from itertools import groupby
 from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES, OBJECT_PROGRAM, Entry, core_address
 from emulator.objectdeck.extent import code_positions
 from modern.edition import programs
-from modern.thesis.capacity import array_lengths, largest
+from modern.thesis.capacity import largest
 
 # The positions of core storage in the machine of 1963.
 CORE = 40_000
@@ -44,16 +44,15 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class CoreMap:
-    """The storage of a program from address 0 up, and the lengths of its arrays as formulas of the number of points.
+    """The storage of a program from address 0 up.
 
-    ``points`` holds pairs of a size of core and the largest number of points for which the program fits into it, or 0
-    if it never fits.
+    ``points`` pairs each size of core storage with the largest number of points for which the program fits into it, or
+    with 0 if the program never fits.
     """
 
     program: str
     regions: tuple[Region, ...]
     points: tuple[tuple[int, int], ...]
-    lengths: tuple[str, ...]
 
     def positions(self, kind: str) -> int:
         """Return the number of positions in all regions of a kind."""
@@ -73,7 +72,7 @@ def core_map(name: str) -> CoreMap:
         Region(NAMES, CORE - FUNCTION_NAMES, CORE - 1),
     )
     points = tuple((core, largest(program, core)) for core in CORES)
-    return CoreMap(name, regions, points, array_lengths(program))
+    return CoreMap(name, regions, points)
 
 
 def _data(entries: tuple[Entry, ...]) -> Iterator[Region]:

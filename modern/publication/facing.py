@@ -32,9 +32,9 @@ Span = tuple[int, int]
 class Piece:
     """A line of the witness, or a part of one, that became a card.
 
-    ``line`` is its number in the witness, counted from 1 without page marks.  ``source`` is its number in the whole OCR
-    text of the document, or 0 if unknown.  ``changed`` are the characters that the deck does not have.  ``part`` is
-    True if the line became several cards.
+    ``line`` is the number of the line in the witness, counted from 1 without page marks.  ``source`` is its number in
+    the whole OCR text of the document, or 0 if it is unknown.  ``changed`` has the ranges of characters that the card
+    lacks.
     """
 
     page: str
@@ -42,7 +42,6 @@ class Piece:
     source: int
     text: str
     changed: tuple[Span, ...] = ()
-    part: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,7 +210,7 @@ def _pieces(
     for base, cards in cards_of_base.items():
         parts = _divided(witness[base].text, [texts[card] for card in cards])
         for card, part in zip(cards, parts, strict=True):
-            pieces = [_piece(text, witness[base], part, len(cards) > 1)]
+            pieces = [_piece(text, witness[base], part)]
             if card == cards[0]:
                 pieces += [_piece(text, witness[name], witness[name].text) for name in joined.get(base, ())]
             pieces_of[card] = tuple(sorted(pieces, key=lambda piece: piece.line))
@@ -250,9 +249,9 @@ def _emptying_row(text: Text, line: str, layers: Collection[str], everywhere: Co
     return ""
 
 
-def _piece(text: Text, line: Line, content: str, part: bool = False) -> Piece:
+def _piece(text: Text, line: Line, content: str) -> Piece:
     source = sources().excerpt(text.id).line(int(line.id)) or 0
-    return Piece(line.page, int(line.id), source, content, (), part)
+    return Piece(line.page, int(line.id), source, content)
 
 
 def _divided(line: str, cards: Sequence[str]) -> list[str]:

@@ -238,13 +238,12 @@ def _moved(cell: tuple[int, ...], axis: int, step: int) -> tuple[int, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Quadrant:
-    """A square of the quadtree of heights: ``height`` is None if it has no column; ``whole`` is True for a leaf."""
+    """A square of the quadtree of heights.  ``height`` is None if no column of the hull stands on the square."""
 
     x: int
     y: int
     side: int
     height: int | None
-    whole: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -287,10 +286,9 @@ def rods() -> tuple[OctreeHull, tuple[Level, ...]]:
 
 
 def _quadrants(tree: Quadtree, levels: int, x: int = 0, y: int = 0) -> Iterator[Quadrant]:
-    whole = tree.is_leaf() or not tree.there.any()
-    if levels and not whole:
-        half = tree.side // 2
-        for (i, j), son in zip(QUADRANTS, sons_of(tree), strict=True):
-            yield from _quadrants(son, levels - 1, x + i * half, y + j * half)
-    else:
-        yield Quadrant(x, y, tree.side, tree.high, whole)
+    if not levels or tree.is_leaf() or not tree.there.any():
+        yield Quadrant(x, y, tree.side, tree.high)
+        return
+    half = tree.side // 2
+    for (i, j), son in zip(QUADRANTS, sons_of(tree), strict=True):
+        yield from _quadrants(son, levels - 1, x + i * half, y + j * half)

@@ -21,7 +21,7 @@ from modern.claims.apparatus_checks import texts
 from modern.edition.apparatus import PAGE_MARK, Row, Text, build
 from modern.edition.chapter6_cards import Chapter, cards, device_files, device_layout, load_chapter
 from modern.edition.collation import verdicts_by_id
-from modern.edition.programs import BUILT_INS
+from modern.edition.programs import NAMES
 from modern.edition.segments import Piece, Place, Segments, segments
 from modern.edition.sources import read, sources
 from modern.publication.commentary import commentary
@@ -42,7 +42,6 @@ class _Edition:
     """
 
     text: Text
-    printed: frozenset[str]
     pieces: dict[tuple[str, int], tuple[Piece, ...]]
     notes: Mapping[str, Element]
     app_counts: dict[str, int] = field(default_factory=dict)
@@ -75,11 +74,11 @@ def archive(version: str) -> dict[str, str]:
 
 def _text(root: Element, name: str, version: str) -> None:
     text = texts()[name]
-    listed = [entry.layers for entry in BUILT_INS if entry.name == name]
+    listed = name in NAMES
     lines = segments(text)
     pieces = {key: piece for line in lines for key, piece in _pieces_of(line.pieces)}
     notes = _commentary(text) if listed else {}
-    edition = _Edition(text, frozenset(listed[0] if listed else text.default), pieces, notes)
+    edition = _Edition(text, pieces, notes)
     moves = Element("listTranspose")
     for moved, number in pieces:
         move = SubElement(moves, "transpose", corresp=f"#{moved}")

@@ -4,14 +4,13 @@ The module reads them from the syntax tree; no program is run.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from typing import Literal
 
 from emulator.language import tree
 from emulator.language.compiler import compile_deck
 from emulator.language.parser import parse
-from emulator.language.storage import Storage
 from modern.edition import programs
 
 # What a card does with a name.
@@ -38,14 +37,14 @@ class Jump:
 class Name:
     """A name in a program with the cards that declare, set and use it.
 
-    ``floating`` is its mode, ``shape`` has the dimensions of an array, ``fields`` is its size in fields, and
-    ``function`` is True for a library function.
+    ``floating`` is True for a floating-point name and False for an integer.  ``shape`` has the dimensions of an array;
+    it is empty for other names.  ``function`` is True for a library function.  ``declared``, ``set`` and ``used`` are
+    numbers of cards.
     """
 
     name: str
     floating: bool
     shape: tuple[int, ...]
-    fields: int
     function: bool
     declared: tuple[int, ...]
     set: tuple[int, ...]
@@ -54,9 +53,8 @@ class Name:
 
 @dataclass(frozen=True)
 class Uses:
-    """The jumps and names of a deck.  ``labels`` maps a statement number to its card."""
+    """The references between the cards of a deck, and the names on the cards."""
 
-    labels: dict[int, int]
     jumps: tuple[Jump, ...]
     names: tuple[Name, ...]
 
@@ -82,9 +80,12 @@ def uses(program: str) -> Uses:
             cards = cards_of.setdefault(name, {"declared": [], "set": [], "used": []})[how]
             if statement.place.card not in cards:
                 cards.append(statement.place.card)
-    storage = compile_deck(deck).storage
-    names = tuple(_name(name, how, storage) for name, how in sorted(cards_of.items()))
-    return Uses(labels, jumps, names)
+    shapes = {entry.name: entry.shape for entry in compile_deck(deck).storage.entries}
+    names = (
+        Name(name, name[0] not in "IJKLMN", shapes.get(name, ()), name not in shapes, *map(tuple, how.values()))
+        for name, how in sorted(cards_of.items())
+    )
+    return Uses(jumps, tuple(names))
 
 
 def _jumps(statement: tree.Statement, labels: dict[int, int]) -> Iterator[Jump]:
@@ -112,62 +113,33 @@ def _jumps(statement: tree.Statement, labels: dict[int, int]) -> Iterator[Jump]:
 def _names(body: tree.Body) -> Iterator[tuple[str, How]]:
     if isinstance(body, tree.Dimension):
         yield from ((name, "declared") for name, _, _ in body.arrays)
-    elif isinstance(body, tree.Assignment):
-        yield from _target(body.target)
-        yield from _read(body.value)
-    elif isinstance(body, tree.If):
-        yield from _read(body.value)
-    elif isinstance(body, tree.ComputedGoTo):
-        yield from _read(body.selector)
-    elif isinstance(body, tree.Do):
-        yield from _loop(body)
-    elif isinstance(body, tree.InputOutput):
-        is_input = body.verb in ("READ", "ACCEPT")
-        for item in body.items:
-            yield from _item(item, is_input)
+        return
+    assigned = [*_assigned(body)]
+    for reference in _references(body):
+        yield reference.name, "set" if any(reference is target for target in assigned) else "used"
 
 
-def _loop(loop: tree.Do | tree.Loop) -> Iterator[tuple[str, How]]:
-    yield loop.variable.name, "set"
-    for bound in (loop.first, loop.last, loop.step):
-        if bound is not None:
-            yield from _read(bound)
+def _assigned(part: tree.Body | tree.Item, is_input: bool = False) -> Iterator[tree.Reference]:
+    """Yield the variables and array elements that a statement, or an item of an input or output list, sets."""
+    if isinstance(part, tree.Assignment):
+        yield part.target
+    elif isinstance(part, tree.Do | tree.Loop):
+        yield part.variable
+    elif isinstance(part, tree.Reference) and is_input:
+        yield part
+    if isinstance(part, tree.InputOutput | tree.Loop):
+        is_input = is_input or (isinstance(part, tree.InputOutput) and part.verb in ("READ", "ACCEPT"))
+        for item in part.items:
+            yield from _assigned(item, is_input)
 
 
-def _item(item: tree.Item, is_input: bool) -> Iterator[tuple[str, How]]:
-    """Yield the names in an item of an input or output list: input sets them, output uses them."""
-    if isinstance(item, tree.Loop):
-        yield from _loop(item)
-        for inner in item.items:
-            yield from _item(inner, is_input)
-    elif is_input:
-        yield from _target(item)
-    else:
-        yield from _read(item)
-
-
-def _target(reference: tree.Reference) -> Iterator[tuple[str, How]]:
-    yield reference.name, "set"
-    for argument in reference.arguments:
-        yield from _read(argument)
-
-
-def _read(expression: tree.Expression) -> Iterator[tuple[str, How]]:
-    if isinstance(expression, tree.Reference):
-        yield expression.name, "used"
-        for argument in expression.arguments:
-            yield from _read(argument)
-    elif isinstance(expression, tree.Power):
-        yield from _read(expression.base)
-        yield from _read(expression.exponent)
-    elif isinstance(expression, (tree.Product, tree.Sum)):
-        yield from _read(expression.first)
-        for _, part in expression.rest:
-            yield from _read(part)
-
-
-def _name(name: str, how: dict[How, list[int]], storage: Storage) -> Name:
-    entry = next((entry for entry in storage.entries if entry.name == name), None)
-    shape, fields = (entry.shape, entry.size) if entry else ((), 0)
-    declared, assigned, used = tuple(how["declared"]), tuple(how["set"]), tuple(how["used"])
-    return Name(name, name[0] not in "IJKLMN", shape, fields, entry is None, declared, assigned, used)
+def _references(part: object) -> Iterator[tree.Reference]:
+    """Yield all references in a part of the syntax tree, also those in the arguments of another reference."""
+    if isinstance(part, tree.Reference):
+        yield part
+    if isinstance(part, tuple):
+        for inner in part:
+            yield from _references(inner)
+    elif is_dataclass(part):
+        for field in fields(part):
+            yield from _references(getattr(part, field.name))

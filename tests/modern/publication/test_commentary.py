@@ -1,6 +1,7 @@
 """The commentary: every card in one block, every variable explained, every name, number and range true."""
 
 import re
+import tomllib
 from contextlib import suppress
 from html import escape
 
@@ -33,6 +34,14 @@ def test_every_card_belongs_to_exactly_one_block(program: str) -> None:
 
 
 @pytest.mark.parametrize("program", programs.TEXTS)
+def test_the_first_and_last_cards_in_the_file_of_the_commentary_are_those_of_its_blocks(program: str) -> None:
+    rows = tomllib.loads((ROOT / "fortran_src/commentary" / f"{program}.toml").read_text(encoding="utf-8"))["block"]
+    cards = facing(program).cards
+    ends = [(cards[b.cards[0] - 1].place, cards[b.cards[-1] - 1].place) for b in commentary(program).blocks]
+    assert ends == [(row["first"], row["last"]) for row in rows]
+
+
+@pytest.mark.parametrize("program", programs.TEXTS)
 def test_every_variable_is_explained_and_every_integer_has_limits(program: str) -> None:
     names = {name.name: name.floating for name in uses(program).names if not name.function}
     explained = {gloss.name: gloss.limits is None for gloss in commentary(program).variables}
@@ -42,14 +51,14 @@ def test_every_variable_is_explained_and_every_integer_has_limits(program: str) 
 @pytest.mark.parametrize("program", programs.TEXTS)
 def test_names_statements_and_steps_in_the_text_exist(program: str) -> None:
     table = (ROOT / "docs/reference/concordance.md").read_text()
-    labels, names = uses(program).labels, {name.name for name in uses(program).names}
+    labels, names = {card.label for card in facing(program).cards}, {name.name for name in uses(program).names}
     remarks = commentary(program)
     for block in remarks.blocks:
         assert all(f"| {step} |" in table for step in block.steps), block.title
         assert 80 <= len(block.text) <= 600, block.title
     for text in (*(block.text for block in remarks.blocks), *(gloss.text for gloss in remarks.variables)):
         numbers = {int(number) for number in re.findall(r"\b[1-9]\d\d+\b(?!,)", text)}
-        assert numbers <= labels.keys(), text
+        assert numbers <= labels, text
         capitals = set(re.findall(r"\b[A-Z]{2,}\d*\b|\b[A-Z]\d\b", text))
         assert capitals <= names | WORDS, text
 

@@ -2,7 +2,6 @@
 
 import hashlib
 import re
-from collections import Counter
 
 import pytest
 
@@ -63,7 +62,6 @@ def test_every_line_of_the_witness_is_shown_once(name: str) -> None:
     for card in listing.cards:
         for piece in card.witness:
             parts.setdefault(piece.line, []).append(piece.text)
-            assert piece.part == (Counter(p.line for c in listing.cards for p in c.witness)[piece.line] > 1)
     for _, pieces in listing.dropped:
         for piece in pieces:
             parts.setdefault(piece.line, []).append(piece.text)

@@ -103,7 +103,7 @@ def _shifted(drawn: Chart, x: int) -> Chart:
     page = drawn.pages[0]
     paths = tuple(
         replace(path, corners=tuple((x, b) if 0 < k < 3 else (a, b) for k, (a, b) in enumerate(path.corners)))
-        if path.lane >= 0
+        if len(path.corners) > 4  # the line of a jump within the page
         else path
         for path in page.paths
     )

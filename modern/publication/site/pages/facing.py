@@ -206,7 +206,7 @@ def _facts(listing: Facing, card: Card) -> str:
         return ", ".join(to(jump.target, jump.taken) for jump in jumps)
 
     names = ", ".join(link(listing.program, f"name-{name}", name) for name in known.of(card.number))
-    block = commentary(listing.program).block_of(card.number)
+    block = next(block for block in commentary(listing.program).blocks if card.number in block.cards)
     first = listing.cards[block.cards.start - 1].place
     facts = (
         ("purpose", f"{link(listing.program, f'about-{first}', block.title)}: {escape(block.text)}"),
