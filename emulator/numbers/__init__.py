@@ -6,26 +6,26 @@ To add a decimal arithmetic, for example one that keeps ten digits and rounds:
 
 1. If :data:`~emulator.numbers.arithmetic.Rules` can express it, add a :class:`~emulator.numbers.arithmetic.Profile`
    to ``PROFILES`` in ``arithmetic.py``, with its source, as ``ibm1962`` does: ``Profile("mine", "manual and page",
-   rules_of(10, guard=2, sticky=1, sums=1, products=1, quotients=1))``.  For any number of digits add a function to
+   rules_of(10, guard=2, sticky=1, sums=1, products=1, quotients=1))``.  For any number of digits add an entry to
    ``_FAMILIES`` there.  The programs and the port then accept the name, and so does the compiled engine up to nine
-   digits.  (Such a profile already exists as ``rounding:10``; it only serves as the example.)
+   digits.  (Such a profile already exists as ``rounding:10`` and only serves as an example.)
 2. A rule that ``Rules`` cannot express is a new field of it and a new argument of ``rules_of``.  Implement it in
    ``arithmetic.py`` (digits) or ``accumulator.py`` (zeros, signs, overflow), and nowhere else.
 3. Add the name to the help of ``--arithmetic`` in ``modern/cli/shared/arguments.py`` and to the tables in
    ``docs/reference/machine.md`` and ``docs/how-to/own-arithmetic.md``.
 4. Add tests: the name in ``tests/emulator/numbers/test_arithmetic_laws.py``, measured results with their source in
-   ``tests/data/vectors/``, the rules in ``tests/support/published/specification.py``, and lines that they compute.
+   ``tests/data/vectors/``, and the rules in ``tests/support/published/specification.py`` with lines of results that
+   follow from them.
 
 To add numbers that are not decimal, write a subclass of :class:`~emulator.numbers.base.Numbers` in a new module here,
 add its name to :data:`HOSTED` and create it in :func:`hosted`.  Continue with steps 3 and 4, where the test is
-``test_number_systems.py``.  For the port, add a subclass of ``Arithmetic`` to ``modern/port/binary.py``, ``decimal.py``
-or ``exact.py`` and its name to ``NAMES`` and ``fixed_arithmetic`` in ``modern/port/points.py``.
+``test_number_systems.py``.  ``modern/port/__init__.py`` explains how the port gets the arithmetic.
 """
 
 from __future__ import annotations
 
 from emulator.errors import ArgumentError, expect
-from emulator.numbers.arithmetic import Profile, profile
+from emulator.numbers.arithmetic import Profile, profile, size_in
 from emulator.numbers.base import Number, Numbers, Trap, Undecided
 from emulator.numbers.decimal import DecimalNumbers
 
@@ -65,17 +65,15 @@ def hosted(name: str) -> Numbers | None:
     if family == "mp" and colon:
         from emulator.numbers.multiprecision import MAX_BITS, MIN_BITS, MultiprecisionNumbers
 
-        if not (count.isdecimal() and count.isascii() and len(count) < 9 and MIN_BITS <= int(count) <= MAX_BITS):
-            raise ArgumentError(f"{name}: the number of bits must be {MIN_BITS} to {MAX_BITS}")
-        return MultiprecisionNumbers(int(count))
+        return MultiprecisionNumbers(size_in(name, count, MIN_BITS, MAX_BITS, "bits"))
     if family == "stochastic":
         from emulator.numbers.stochastic import stochastic
 
         return stochastic(name)
     if family == "interval" and colon:
-        from emulator.numbers.interval import interval
+        from emulator.numbers.interval import MAX_DIGITS, MIN_DIGITS, IntervalNumbers
 
-        return interval(count, name)
+        return IntervalNumbers(size_in(name, count, MIN_DIGITS, MAX_DIGITS, "digits"))
     return None
 
 

@@ -40,12 +40,12 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 
 
 def subtract(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return the accumulator (FAC) minus a number, by adding the number with its sign reversed, except a zero."""
+    """Return the accumulator (FAC) minus a number: the sum with the negated number, in which a zero keeps its sign."""
     return add(ma, ea, -mb, eb, rules)
 
 
 def subtract_reversed(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return a number minus the accumulator (FAC), computed like the subroutine FSBR as -(FAC - number)."""
+    """Return a number minus the accumulator (FAC), which the subroutine FSBR computes as -(FAC - number)."""
     # If the operands cancel, the reversal turns the zero into -0.  The thesis prints such zeros
     # (emulator/language/expressions.py).
     m, e, event = add(ma, ea, -mb, eb, rules)
@@ -126,7 +126,7 @@ def in_range(m: int, e: int, over: int, rules: Rules) -> State:
 
 
 def divide_fixed(dividend: int, divisor: int) -> tuple[int, int]:
-    """Divide two integers.  Return the truncated quotient and an event, 0 or an error; x/0 gives 9999."""
+    """Divide two integers.  Return the truncated quotient (9999 for x/0) and an event: 0, or the number of an error."""
     if divisor == 0:
         return 9999, FIXED_ZERO_DIVISOR
     size = abs(dividend) // abs(divisor)

@@ -61,7 +61,7 @@ class Rules(NamedTuple):
 
 
 def drawn(rules: Rules, count: int) -> Rules:
-    """Return the rules for operation number ``count`` of a run, with its random number for rounding."""
+    """Return the rules with the random number by which operation ``count`` of a run rounds its result."""
     digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, _ = rules
     number = draw(key, count)
     return Rules(digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, number)
@@ -117,9 +117,9 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
 
 
 def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
-    """Return the sum of two numbers that are not zero, computed with ``guard`` digits beyond P (rounding needs one).
+    """Return the sum of two numbers that are not zero, computed with ``guard`` digits beyond P.
 
-    With ``sticky`` the digits lost still count as a fraction, so that the sum is rounded like the exact sum.
+    With ``sticky`` the lost digits still count as a fraction, so that the sum is rounded like the exact sum.
     """
     digits, base, guard, sticky, rounding = rules.digits, rules.limit, rules.guard, rules.sticky, rules.round_sums
     if ea < eb:
@@ -172,9 +172,7 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, 
 
 
 def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
-    """Return the product of two numbers that are not zero.
-
-    All its 2P digits are formed, and then truncated to P digits or rounded half up in magnitude."""
+    """Return the product of two numbers that are not zero, truncated or rounded half up in magnitude."""
     base, low = rules.limit, rules.least
     product = ma * mb
     size = product if product > 0 else -product
@@ -234,7 +232,7 @@ def from_integer(value: int, rules: Rules) -> tuple[int, int]:
 
 
 def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
-    """Convert a floating-point number to an integer: keep the sign and four digits left of the point (p. 21)."""
+    """Convert a floating-point number to an integer: its sign and the four digits left of the point (p. 21)."""
     if exponent <= 0:
         return 0
     size: int = mantissa if mantissa > 0 else -mantissa
@@ -315,8 +313,8 @@ def rules_of(
 
 TRUNCATING = Profile(
     "truncating",
-    "thesis p. 116 (eight digits, no rounding occurs); signs of zero: the thesis, as printed; signs of what underflows "
-    "or is divided by zero, and whole powers: IBM FORTRAN II-D executed in a simulator",
+    "thesis p. 116 (eight digits, no rounding occurs); signs of zero: the thesis, as printed; signs of results that "
+    "underflow or are divided by zero, and integer powers: IBM FORTRAN II-D executed in a simulator",
     rules_of(8),
 )
 IBM1962 = Profile(
@@ -332,21 +330,26 @@ TRUNCATING1962 = Profile(
 PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962, TRUNCATING1962)}
 
 
-def _truncating(name: str, digits: int) -> Profile:
-    return Profile(name, TRUNCATING.source, rules_of(digits))
-
-
-def _guarded(name: str, digits: int) -> Profile:
-    return Profile(name, "truncating, with a guard digit in sums", rules_of(digits, guard=1))
-
-
-def _rounding(name: str, digits: int) -> Profile:
-    rules = rules_of(digits, guard=2, sticky=1, sums=1, products=1, quotients=1)
-    return Profile(name, "exact result, rounded half up", rules)
-
-
-_FAMILIES = {"truncating": _truncating, "guarded": _guarded, "rounding": _rounding}
+# The families of profiles with any number of digits P: the source and the rules of each.
+_FAMILIES: dict[str, tuple[str, dict[str, int]]] = {
+    "truncating": (TRUNCATING.source, {}),
+    "guarded": ("truncating, with a guard digit in sums", {"guard": 1}),
+    "rounding": (
+        "exact result, rounded half up",
+        {"guard": 2, "sticky": 1, "sums": 1, "products": 1, "quotients": 1},
+    ),
+}
 FAMILIES = tuple(f"{family}:P" for family in _FAMILIES)
+
+
+def size_in(name: str, count: str, least: int, most: int, unit: str) -> int:
+    """Return the number of digits or bits, ``count``, in the name of an arithmetic.
+
+    Raise ArgumentError if it is not an integer from ``least`` to ``most``; the message calls it by ``unit``.
+    """
+    if not (count.isdecimal() and count.isascii() and len(count) < 10 and least <= int(count) <= most):
+        raise ArgumentError(f"{name[:40]}: the number of {unit} must be {least} to {most}")
+    return int(count)
 
 
 def profile(name: str) -> Profile:
@@ -365,6 +368,5 @@ def profile(name: str) -> Profile:
         raise ArgumentError(
             f"no arithmetic is called {quoted(name)}; the names are {', '.join((*PROFILES, *FAMILIES))}"
         )
-    if len(count) > 9 or not MIN_DIGITS <= int(count) <= MAX_DIGITS:
-        raise ArgumentError(f"{name[:40]}: the number of digits must be {MIN_DIGITS} to {MAX_DIGITS}")
-    return _FAMILIES[family](name, int(count))
+    source, rules = _FAMILIES[family]
+    return Profile(name, source, rules_of(size_in(name, count, MIN_DIGITS, MAX_DIGITS, "digits"), **rules))

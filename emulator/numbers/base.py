@@ -12,10 +12,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
-from functools import lru_cache
 from typing import Any
 
-from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules, rules_of
+from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, rules_of
 from emulator.numbers.fields import FALLBACK, Field, Remark, read_floating, write_floating
 
 # A number of some number system.
@@ -26,10 +25,9 @@ SHOWN = 20
 
 
 class Trap(Exception):
-    """Raised for an operation that ends in an error code of the machine, numbered as in
-    emulator/numbers/accumulator.py.
+    """Raised for an operation for which the machine types an error code.
 
-    The run continues with ``value``.
+    ``event`` numbers the code as in emulator/numbers/accumulator.py.  The run continues with ``value``.
     """
 
     def __init__(self, event: int, value: Number) -> None:
@@ -39,12 +37,6 @@ class Trap(Exception):
 
 class Undecided(Exception):
     """Raised if an arithmetic cannot represent a value or determine a sign.  ``str`` is the explanation."""
-
-
-@lru_cache(maxsize=128)
-def lossless_rules(digits: int) -> Rules:
-    """Return rules for the given number of digits, with which reading and writing a card loses no digit."""
-    return rules_of(digits)
 
 
 class Numbers(ABC):
@@ -77,7 +69,10 @@ class Numbers(ABC):
         """Return the difference ``first - second``, or raise Trap with an error code."""
 
     def subtract_reversed(self, first: Number, second: Number) -> Number:
-        """Return ``second - first`` as the machine computed it: ``first - second``, sign reversed.  Raise Trap."""
+        """Return ``second - first`` as the machine computed it, ``first - second`` with its sign reversed.
+
+        Raise Trap with an error code.
+        """
         try:
             return self.negate(self.subtract(first, second))
         except Trap as trap:
@@ -117,9 +112,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def power(self, base: Number, exponent: Number) -> tuple[Number, str]:
-        """Return ``A ** B`` and an error code or "".  For a negative A: ``|A| ** B`` and code F6.  May raise
-        Undecided.
-        """
+        """Return ``A ** B``, or ``|A| ** B`` for a negative A, and an error code or "".  May raise Undecided."""
 
     @abstractmethod
     def integer_power(self, base: Number, count: int) -> tuple[Number, str]:
@@ -127,12 +120,14 @@ class Numbers(ABC):
 
     @abstractmethod
     def exact(self, value: Number, digits: int) -> Fraction | int | None:
-        """Return the exact value (at least ``digits`` digits if irrational), or None if it is not finite."""
+        """Return the exact value of a number, or None if it is not finite.
+
+        Of an irrational value, at least ``digits`` digits are returned.
+        """
 
     @abstractmethod
     def cut(self, value: Number, digits: int) -> tuple[int, int]:
-        """Truncate a number to ``digits`` decimal digits.  Return mantissa and exponent as in
-        emulator/numbers/arithmetic.py.
+        """Truncate a number to ``digits`` decimal digits.  Return a mantissa of ``digits`` digits and its exponent.
 
         Raise Undecided if the number is not finite.
         """
@@ -174,10 +169,10 @@ class Numbers(ABC):
     def read(self, field: Field, columns: str) -> tuple[Number, Remark | None]:
         """Read a number from the columns of a card field, with all of its digits.
 
-        Return it, and a remark about the columns or None.  Raise FieldError if they hold no number.
+        Return the number, and a remark about its columns or None.  Raise FieldError if the columns hold no number.
         """
         digits = max(len(columns), 2)
-        number = read_floating(field, columns, lossless_rules(digits))
+        number = read_floating(field, columns, rules_of(digits))
         minus = number.exponent == MINUS_ZERO
         return self.decimal(number.mantissa, number.exponent - digits if number.mantissa else 0, minus), number.remark
 
@@ -194,7 +189,7 @@ class Numbers(ABC):
         mantissa, exponent = self.cut(value, digits)
         if mantissa and not MIN_EXPONENT <= exponent <= MAX_EXPONENT:
             raise Undecided(f"{self.text(value)} is out of a card's range, E-99 to E+99")
-        return write_floating(field, mantissa, exponent, lossless_rules(digits))
+        return write_floating(field, mantissa, exponent, rules_of(digits))
 
 
 def cut_decimal(whole: int, power: int, digits: int) -> tuple[int, int]:

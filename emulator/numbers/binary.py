@@ -28,10 +28,6 @@ def _single(value: float) -> float:
     return c_float(value).value
 
 
-def _double(value: float) -> float:
-    return value
-
-
 @dataclass(frozen=True)
 class FloatNumbers(Numbers):
     """The arithmetic of IEEE double or single precision.  Every number is a Python float."""
@@ -50,9 +46,8 @@ class FloatNumbers(Numbers):
     def digits(self) -> float:
         return (24 if self._single else 53) * math.log10(2)
 
-    @cached_property
-    def _rounded(self) -> Callable[[float], float]:
-        return _single if self._single else _double
+    def _rounded(self, value: float) -> float:
+        return _single(value) if self._single else value
 
     def decimal(self, whole: int, power: int, minus: bool = False) -> float:
         if whole == 0:

@@ -14,8 +14,8 @@ from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, 
 # ASCII codes of the characters of a number. DIGIT is the code of 0.
 BLANK, PLUS, MINUS, POINT, DIGIT, LETTER_E = 32, 43, 45, 46, 48, 69
 
-# The status of a field that was read: below zero an error, above zero a warning.  CUT + n: the number has n digits, and
-# some of them were lost.
+# The status of a field that was read: an error if it is below zero, a warning if it is above zero.  The status CUT + n
+# means that the number has n digits, some of which were lost.
 NO_NUMBER, OUT_OF_RANGE = -1, -2
 FINE, BLANK_FIELD, BLANKS_INSIDE, BLANKS_AS_ZEROS, FOUR_KEPT, CUT = range(6)
 
@@ -26,10 +26,11 @@ E_COLUMNS, E_DECIMALS = 14, 8
 def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
     """Move the characters of a number to the left end of its field and remove blanks.  Return length and status.
 
-    Leading blanks are ignored.  A number without point and exponent counts all its other blanks as zeros.  In a number
-    with a point or an exponent, trailing blanks are ignored.  Its inner blanks are dropped if one of them may belong to
-    an exponent, that is, follows the first E or later sign, or stands between the point and the last one.  Otherwise
-    they count as zeros (OPEN-QUESTIONS 6).
+    Leading blanks are ignored.  In a number without point and exponent, all other blanks count as zeros.  In a number
+    with a point or an exponent, trailing blanks are ignored.  Inner blanks are dropped if one of them may belong to an
+    exponent; otherwise they count as zeros (OPEN-QUESTIONS 6).  An exponent may begin at an E, or at a sign after the
+    first character.  A blank may belong to it if the blank follows the first such character, or stands between the
+    point and the last such character.
     """
     first = 0
     while first < width and columns[first] == BLANK:
@@ -283,7 +284,7 @@ def write_floating(
 
 
 def write_fixed(columns: MutableSequence[int], at: int, width: int, value: int) -> int:
-    """Write an integer (I field), right-justified, with its minus sign.  Leading digits that do not fit are lost."""
+    """Write an integer (I field), right-justified, with its minus sign, and return the column after the field."""
     size = -value if value < 0 else value
     # A minus sign takes one column.  High-order digits that do not fit are lost (C26-5619 p. 38).
     room = width - 1 if value < 0 else width

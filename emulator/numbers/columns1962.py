@@ -16,7 +16,7 @@ DOLLAR, CLOSE, STAR = 36, 41, 42
 # The letters of fields.
 E_FIELD, F_FIELD, I_FIELD = range(3)
 
-# The status of a field for which the library types ERROR F7.  That of any other field is FINE.
+# The status of a field for which the library types ERROR F7.  Any other field has the status FINE.
 REJECTED = -3
 
 # The part of a number that a scan of its characters has reached: leading zeros, the mantissa, the exponent.
@@ -26,7 +26,8 @@ LEADING, MANTISSA, EXPONENT = range(3)
 def low_digit(code: int) -> int:
     """Return the digit that IBM's library reads from a character inside a number, or -1 if it rejects the character.
 
-    The library uses the low digit of every character whose code is below that of the minus sign: a blank, $, ) and *.
+    The two-digit code of a blank, of $, ) or * is below the code of the minus sign.  Of these codes the library uses
+    the low digit.
     """
     if DIGIT <= code <= DIGIT + 9:
         return code - DIGIT
@@ -42,9 +43,8 @@ def read_number(
 ) -> tuple[int, int, int]:
     """Read a number from a field as IBM's library does.  Return mantissa, exponent and status.
 
-    The mantissa of an I field is its value, and its exponent is 0, or MINUS_ZERO for a minus zero.
-
-    Every blank inside or after a number is a zero.  An exponent keeps its last two digits.
+    Every blank inside or after a number is a zero.  Only the last two digits of an exponent count.  For an I field the
+    mantissa is the integer, and the exponent is 0, or MINUS_ZERO for a minus zero.
     """
     negative, below = False, False
     # A sign that precedes the point and the first digit that is not zero is the sign of the number.
@@ -111,7 +111,7 @@ def write_e(
 ) -> int:
     """Write an E field from column ``at`` on.  Return the column after it, or -1 if the field cannot hold the number.
 
-    A field of at least fourteen columns shows eight digits, a narrower field of w columns w - 6.
+    A field of at least fourteen columns shows eight digits.  A narrower field of w columns shows w - 6 digits.
     """
     if decimals + 6 > width:
         return -1
@@ -203,10 +203,9 @@ def write_floating(
 
 
 def write_fixed(columns: MutableSequence[int], at: int, width: int, size: int, negative: bool) -> int:
-    """Write an integer into a field of w columns.
+    """Write an integer into a field of w columns, of which the first is reserved for the sign.  Return the next column.
 
-    The first column is reserved for the sign.  The field shows the last four digits of the integer, or the last w - 1
-    digits if w < 5.
+    The field shows the last four digits of the integer, or the last w - 1 digits if w < 5.
     """
     end = at + width
     for k in range(at, end):

@@ -1,7 +1,7 @@
 """Random rounding: the random numbers of stochastic arithmetic, and the rounding of an integer with one of them.
 
-Each operation of a run that may round takes one number, whether it rounds or not.  Operation n (from 1 on) of a run
-with seed s takes
+Each operation of a run that may round uses one random number, whether it rounds or not.  Operation n (from 1 on) of a
+run with seed s uses
 
     draw(s, n) = floor(10**8 * mix(mix(n) xor mix(s xor 0x9E3779B9)) / 2**32),
 
@@ -58,7 +58,7 @@ def draw(key: int, count: int) -> int:
 def randomly(size: int, unit: int, lost: int, rule: int, drawn: int) -> int:
     """Return ``size / unit``, rounded at random to one of the neighbouring integers.  ``size`` must not be negative.
 
-    ``lost`` is 1 if the exact value is larger than size, but below the next multiple of ``unit / DRAWS``.
+    ``lost`` is 1 if the exact value to be rounded is larger than ``size``, by less than ``unit / DRAWS``.
     """
     whole = size // unit
     rest = size - whole * unit
@@ -66,6 +66,6 @@ def randomly(size: int, unit: int, lost: int, rule: int, drawn: int) -> int:
         return whole
     if rule != PROPORTIONAL:
         return whole + (1 if (2 * drawn >= DRAWS) == (rule == CESTAC) else 0)
-    # The part f exceeds drawn / DRAWS.  With a lost part, equality of the integers means that f is larger.
+    # Round away from zero if f > drawn / DRAWS.  If both are equal and digits were lost, f is larger.
     over = rest * DRAWS - drawn * unit
     return whole + (1 if over > 0 or (over == 0 and lost) else 0)

@@ -20,12 +20,12 @@ Exact = Rational | RootSum
 
 
 class _SignedZero(int):
-    """Zero with a minus sign.  Any operation on it except negation gives a number without this sign."""
+    """Zero with a minus sign.  The result of any operation except negation is a number without this sign."""
 
 
 _MINUS = _SignedZero(0)
 
-# The largest total length of a stored number, in bits.  Without this limit, repeated squaring would fill the memory.
+# The largest total number of bits of a stored number.  Without this limit, repeated squaring would fill the memory.
 MAX_BITS = 100_000
 
 _TOO_LONG = f"exact arithmetic does not hold a number of more than {MAX_BITS} bits"
@@ -167,7 +167,6 @@ class ExactNumbers(Numbers):
 
 
 def _too_long(base: Exact, count: int) -> bool:
-    """Return True if the power ``base ** count`` certainly has too many bits to be computed."""
     return not isinstance(base, RootSum) and (_longest(base) - 1) * abs(count) > MAX_BITS
 
 
@@ -176,7 +175,7 @@ def _parts(value: Exact) -> tuple[tuple[int, Rational], ...]:
 
 
 def _length(value: Exact) -> int:
-    """Return the total number of bits of all integers that make up a number."""
+    """Return the total number of bits of all integers of which a number consists."""
     return sum(n.bit_length() + c.numerator.bit_length() + c.denominator.bit_length() for n, c in _parts(value))
 
 
@@ -186,7 +185,6 @@ def _longest(value: Exact) -> int:
 
 
 def _root_steps(operation: str, first: Exact, second: Exact) -> int:
-    """Estimate the steps of an operation on sums of square roots, which compares each pair of terms with each root."""
     a, b, terms_first, terms_second = _longest(first), _longest(second), len(_parts(first)), len(_parts(second))
     radicands = [n.bit_length() for n, _ in (*_parts(first), *_parts(second))]
     # To find the kind of a term, one integer square root is computed for each root that the sum already contains.

@@ -77,7 +77,7 @@ class FieldError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class FieldNumber:
-    """A number that was read from a field: mantissa and exponent (integers: value and 0), and a remark or None."""
+    """A number that was read from a field, and a remark or None.  An integer is a mantissa with the exponent 0."""
 
     mantissa: int
     exponent: int
@@ -149,7 +149,7 @@ def write_as_1962(field: Field, mantissa: int, exponent: int, rules: Rules) -> t
 
 
 def exponent_as_1962(field: Field, mantissa: int, exponent: int) -> str:
-    """Return the exponent that IBM's library of 1962 has already written when it finds an E field too narrow."""
+    """Return the exponent that IBM's library of 1962 writes into an E field before it finds the field too narrow."""
     digits = 8 if field.width >= FALLBACK.width else field.width - 6
     shown = max((exponent if mantissa else ZERO) - digits + field.decimals, MIN_EXPONENT)
     return f"E{'-' if shown < 0 else '+'}{abs(shown):02}" if shown <= MAX_EXPONENT else ""
@@ -168,7 +168,7 @@ def read_fixed_as_1962(text: str) -> FieldNumber:
 
 
 def read_as_1962(field: Field, text: str, rules: Rules) -> FieldNumber:
-    """Read a field of any kind as IBM's library of 1962 does.  Raise FieldError if the library would type ERROR F7."""
+    """Read an E, F or I field as IBM's library of 1962 does.  Raise FieldError if the library would type ERROR F7."""
     kind = "EFI".index(field.kind)
     codes = text.encode("ascii", "replace")
     mantissa, exponent, status = columns1962.read_number(bytearray(codes), len(codes), field.decimals, kind, rules)

@@ -1,8 +1,8 @@
 """The library functions SIN, COS, ATAN, EXP, LOG and SQRT, and powers, in decimal arithmetic.
 
-The result is the exact value, truncated to the profile's digits, or rounded if the profile rounds products (SQRT: if it
-rounds quotients) or at random.  SIN, COS, ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  Executing
-IBM's code showed that SQRT truncates the exact value.  For the other functions this is an assumption (OPEN-QUESTIONS
+The result is the exact value, truncated to the profile's digits, or rounded if the profile rounds products (for SQRT:
+quotients) or rounds at random.  SIN, COS, ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  Executing
+IBM's code showed that SQRT truncates the exact value.  That the other functions do so is an assumption (OPEN-QUESTIONS
 9).  Error codes and results for invalid arguments follow GOTRAN's table F1 to F6 (C26-5594 p. 28), and IBM FORTRAN II-D
 for SQRT of a negative number.
 """
@@ -13,13 +13,11 @@ import decimal
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, lru_cache, reduce
+from functools import lru_cache, reduce
 from itertools import repeat
 from operator import mul
 from typing import Any
 
-from emulator.jit.functions import Compiled, NotInstalled
-from emulator.numbers import work
 from emulator.numbers.accumulator import PRODUCT_OVER, State, in_range, whole_power
 from emulator.numbers.arithmetic import (
     MAX_EXPONENT,
@@ -32,6 +30,7 @@ from emulator.numbers.arithmetic import (
 )
 from emulator.numbers.base import cut_decimal, decimal_length
 from emulator.numbers.draws import randomly
+from emulator.numbers.work import multiplied
 
 # The number of digits that intermediate products of an integer power keep beyond those of the result, and a number of
 # digits so large that the products keep all digits.
@@ -39,8 +38,8 @@ GUARD, _ALL = 20, 10**9
 # The digits beyond those of the result that random rounding needs.
 _RANDOM = 8
 
-# The number of products from which a chain is long, and the number of long chains after which numba compiles them.
-LONG, MANY = 24, 500
+# The exponent from which the module decimal computes a chain of products faster than Python's integers.
+LONG = 24
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,10 +54,10 @@ class Value:
 @lru_cache(maxsize=4096)
 def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
     """Compute a library function, SIN, COS, ATAN, EXP, LOG or SQRT, of a number."""
-    if name == "SQRT":
-        return _sqrt(mantissa, exponent, rules)
     if mantissa == 0:
         return _of_zero(name, rules)
+    if name == "SQRT":
+        return Value(*square_root(mantissa, exponent, rules))
     if name == "LOG" and mantissa < 0:
         value = function("LOG", -mantissa, exponent, rules)
         return Value(value.mantissa, value.exponent, "F3")
@@ -72,9 +71,9 @@ def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
 
 @lru_cache(maxsize=4096)
 def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Value:
-    """Return ``A ** B`` for a floating-point B.  For a negative A: ``|A| ** B`` with error code F6, as IBM's GOTRAN.
+    """Return ``A ** B`` for a floating-point B, or ``|A| ** B`` with error code F6 for a negative A, as in GOTRAN.
 
-    Powers of zero are those of ``A ** J`` (OPEN-QUESTIONS 8).
+    A power of zero is computed as ``0 ** J``, where J is the sign of B (OPEN-QUESTIONS 8).
     """
     (mb, eb), (mx, ex) = base, exponent
     if mb == 0:
@@ -87,9 +86,9 @@ def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Val
 
 @lru_cache(maxsize=4096)
 def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Value:
-    """Return ``A ** J`` for an integer J: truncated, or by repeated products as in 1962 (OPEN-QUESTIONS 8)."""
+    """Return ``A ** J`` for an integer J, rounded once, or by repeated products as in 1962 (OPEN-QUESTIONS 8)."""
     if mantissa == 0 or -1 <= count <= 2 or rules.as_1962:
-        by = whole_power if mantissa == 0 or abs(count) < LONG else _long_chain
+        by = whole_power if mantissa == 0 or abs(count) < LONG else decimal_chain
         m, e, code = by(mantissa, exponent, count, rules)
         return Value(m, e, f"E{code}" if code else "")
     size, times = abs(mantissa), abs(count)
@@ -109,26 +108,10 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
     return Value(0, MINUS_ZERO, "E4") if value.code == "E4" and minus else value
 
 
-@lru_cache(maxsize=1024)
-def _long_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> State:
-    """Return :func:`whole_power` for a large exponent.  After many such powers, numba compiles the computation."""
-    many = _long_chain.cache_info().misses > MANY
-    chain: Callable[..., State] = _compiled_chain(rules) if many else decimal_chain
-    return chain(mantissa, exponent, count, rules)
-
-
-@cache
-def _compiled_chain(rules: Rules) -> Callable[..., State]:
-    try:
-        return Compiled(whole_power, error_model="numpy", _nrt=False).ready(1, 1, 1, rules)
-    except NotInstalled:
-        return decimal_chain
-
-
 def decimal_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> State:
-    """Return the same result as :func:`whole_power`, computed faster with Python's module :mod:`decimal`.
+    """Return the same result as :func:`whole_power`, computed with Python's module :mod:`decimal`.
 
-    That module also forms all digits of a product before it rounds them, so that its results are the same.
+    The module also forms all digits of a product before it rounds them, but is faster for many products.
     """
     m, e, event = whole_power(mantissa, exponent, -1 if count < 0 else 1, rules)
     if event:
@@ -153,14 +136,15 @@ def decimal_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> Sta
 
 
 def integer_power_steps(mantissa: int, exponent: int, count: int, rules: Rules) -> int:
-    """Estimate the steps that :func:`integer_power` takes.  A run counts them against its limit."""
+    """Estimate the steps that :func:`integer_power` takes, which a run counts against its limit."""
     if mantissa == 0 or -1 <= count <= 2:
         return 0
     if rules.as_1962:
-        return work.multiplied(count)
+        return multiplied(count)
     if _out_of_range(abs(mantissa), exponent, count, rules):
         return 0
-    return work.squared(count)
+    # The power is computed by repeated squaring, with some additional digits.
+    return 2 * abs(count).bit_length()
 
 
 def _out_of_range(size: int, exponent: int, count: int, rules: Rules) -> int:
@@ -196,10 +180,6 @@ def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules, width: 
         bounds, scale = [10**digits // bound for bound in bounds], -scale - digits
     first, second = (_cut(bound, scale, rules) for bound in bounds)
     return first if first == second else _exact_power(size, power_of_ten, count, rules, _ALL)
-
-
-def _sqrt(mantissa: int, exponent: int, rules: Rules) -> Value:
-    return Value(*square_root(mantissa, exponent, rules)) if mantissa else Value(0, ZERO)
 
 
 def _of_zero(name: str, rules: Rules) -> Value:
@@ -280,7 +260,7 @@ def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | No
 
 
 def _decisive(rules: Rules) -> int:
-    """Return how many digits of a value decide how it is rounded, unless all further digits are equal."""
+    """Return the number of digits after which the remaining digits decide the rounding only if all are 0 or 9."""
     return rules.digits + (_RANDOM if rules.random else 0)
 
 

@@ -17,7 +17,7 @@ from fractions import Fraction
 from functools import cached_property, wraps
 from typing import Any
 
-from emulator.numbers.arithmetic import MINUS_ZERO, ZERO
+from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, wrap_integer
 from emulator.numbers.base import Numbers, Undecided, cut_decimal
 from emulator.numbers.work import decimal_function
 
@@ -28,7 +28,7 @@ _RANGE = 10**4
 
 
 def _within_range(operation: Callable[..., Any]) -> Callable[..., Any]:
-    """Wrap an operation of the class so that an overflow raises Undecided, with a message that states the range."""
+    """Return the operation with overflows raised as Undecided, in a message that states the range of numbers."""
 
     @wraps(operation)
     def checked(*operands: Any) -> Any:
@@ -42,7 +42,7 @@ def _within_range(operation: Callable[..., Any]) -> Callable[..., Any]:
 
 @dataclass(frozen=True)
 class IntervalNumbers(Numbers):
-    """The arithmetic of intervals whose ends have P digits."""
+    """The arithmetic of intervals whose two ends have ``places`` digits each."""
 
     places: int
 
@@ -102,11 +102,10 @@ class IntervalNumbers(Numbers):
         raise Undecided(f"the sign of {self.text(value)} is unknown")
 
     def to_integer(self, value: Interval) -> int:
-        low, high = (int(end) % 10000 if end >= 0 else -(-int(end) % 10000) for end in value)
-        if int(value[0]) != int(value[1]):
+        low, high = map(int, value)
+        if low != high:
             raise Undecided(f"the integer part of {self.text(value)} is unknown")
-        assert low == high
-        return low
+        return wrap_integer(low)
 
     @_within_range
     def function(self, name: str, value: Interval) -> tuple[Interval, str]:
@@ -210,12 +209,3 @@ class IntervalNumbers(Numbers):
 def _fraction(value: tuple[int, int, int, int]) -> Fraction:
     sign, mantissa, exponent, _ = value
     return Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** exponent
-
-
-def interval(count: str, name: str) -> IntervalNumbers:
-    """Return the arithmetic called ``interval:P``.  Raise ArgumentError if P is out of range."""
-    from emulator.errors import ArgumentError
-
-    if not (count.isdecimal() and count.isascii() and len(count) < 9 and MIN_DIGITS <= int(count) <= MAX_DIGITS):
-        raise ArgumentError(f"{name[:40]}: the number of digits must be {MIN_DIGITS} to {MAX_DIGITS}")
-    return IntervalNumbers(int(count))

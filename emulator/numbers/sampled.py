@@ -54,7 +54,7 @@ class SampledNumbers(Numbers):
         return [member.exact(v, 0) for member, v in zip(self.members, value, strict=True)]
 
     def _each(self, operation: str, *operands: Values) -> Values:
-        """Apply an operation in every run.  Raise Trap if it raises an error code in any of them."""
+        """Apply an operation in every run.  Raise Trap if it ends in an error code in any run."""
         results, event = [], 0
         for member, values in zip(self.members, zip(*operands, strict=True), strict=True):
             try:
@@ -177,7 +177,7 @@ class SampledNumbers(Numbers):
 
 
 def _cut(value: Fraction, digits: int) -> tuple[int, int]:
-    """Truncate a fraction to the given number of digits: mantissa and exponent."""
+    """Truncate a fraction to the given number of digits.  Return mantissa and exponent."""
     if not value:
         return cut_decimal(0, 0, digits)
     power = digits + 1 - decimal_length(value.numerator) + decimal_length(value.denominator)

@@ -15,8 +15,8 @@ bits of x and 64 bits more.  No assumption about the growth of errors is needed:
 (Bounds that are carried from operand to result, as in N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd
 ed., 2002, section 3.3, need no condition, but they double in each step of a loop even if its errors do not accumulate.)
 
-A number computed without rounding from numbers that were not rounded, starting with cards and constants, has no shadow
-and the bound 0.  FIX gives an integer, which is compared as an integer.
+A card or constant that is held exactly has no shadow, and neither has the exact result of an operation on numbers
+without shadows.  The bound for the error of such a number is 0.  FIX gives an integer, which has no error bound.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ from emulator.numbers.fields import Field, Remark
 from emulator.numbers.multiprecision import MultiprecisionNumbers
 from emulator.numbers.work import COSTED
 
-# The number of bits of a shadow beyond twice the bits of its number.
+# The number of bits that a shadow has in addition to twice the bits of its number.
 _CARE = 64
-# The steps of work that it costs to test if a result was rounded.
+# The steps of work that a test takes whether a result was rounded.
 _STEPS = 4
 # The length in bits up to which a result is tested for rounding.  A longer result counts as rounded.
 _LONGEST = 4_096
@@ -44,7 +44,7 @@ _LONGEST = 4_096
 
 @dataclass(frozen=True, slots=True)
 class Shadowed:
-    """A number, and a more precise value of it (its shadow), or None if nothing was rounded."""
+    """A number with its shadow, a more precise value of it.  The shadow is None if no rounding led to the number."""
 
     value: Number
     shadow: Any
@@ -52,7 +52,7 @@ class Shadowed:
 
 @dataclass(frozen=True)
 class ShadowedNumbers(Numbers):
-    """An arithmetic that rounds, in which each number also has a more precise value.  Results are unchanged."""
+    """An arithmetic whose numbers also have more precise values, shadows.  The numbers are those of ``inner``."""
 
     inner: Numbers
 
@@ -146,7 +146,7 @@ class ShadowedNumbers(Numbers):
     def _is_exact(
         self, value: Number, first: Shadowed, second: Shadowed, exactly: Callable[..., Fraction | None]
     ) -> bool:
-        """Return True if ``value`` is proved to be the exact result.  Return False without a test for long numbers."""
+        """Return True if ``value`` is the exact result.  For long numbers, which are not tested, return False."""
         a, b, x = self._fraction(first.value), self._fraction(second.value), self._fraction(value)
         if a is None or b is None or x is None or max(map(_length, (a, b, x))) > _LONGEST:
             return False

@@ -40,7 +40,8 @@ _SOURCES = {
     OPPOSITE: "as the opposite of CESTAC with the same seed",
     PROPORTIONAL: "up with a probability equal to the part that is cut off",
 }
-# The guard digits of sums: enough to compare the part that is cut with a draw of eight digits, or with zero.
+# The guard digits of sums.  The proportional rule compares the digits that are cut off with a draw of eight digits; the
+# other rules only compare them with zero.
 _GUARD, _FEW = 9, 2
 
 
@@ -88,7 +89,8 @@ class StochasticBinaryNumbers(MultiprecisionNumbers):
 
     @cached_property
     def _finer(self) -> MultiprecisionNumbers:
-        # Twice the bits tell a root that is exact from one that is not; 64 more leave the others practically exact.
+        # With twice the bits an exact root has no further digits, and any other root has some.  64 more bits make the
+        # rounding of this longer result negligible.
         return MultiprecisionNumbers(2 * self.bits + 64)
 
     def _draw(self) -> int:

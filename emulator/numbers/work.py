@@ -1,13 +1,14 @@
 """Estimates of the time that slow operations take, from the lengths of their numbers, for the limit of a run.
 
-A run is limited by a number of statements.  Each statement counts 1, and so does each pass of an indexed list, each
-number and each line.  A statement on one card has at most STEPS - 1 operations.  An operation that takes longer than a
-statement counts as the number of statements that would take the same time.  STEPS steps are one unit of work.  The
-estimate is made before the operation, in integers, so that a run ends at the same statement on every machine.
+The limit of a run is a number of units of work.  Each statement counts as one unit, and so does each pass of an indexed
+list, each number read or written and each line.  An operation that takes longer than a statement counts as the number
+of statements that would take the same time.  A unit is divided into STEPS steps, because a statement on one card has at
+most STEPS - 1 operations.  The estimate is made before the operation, in integers, so that a run ends at the same
+statement on every machine.
 
 Times were measured in microseconds with CPython 3.11 on one core of an AMD EPYC.  A step is an operation of the
-eight-digit arithmetics.  It takes 0.9 to 1.5 microseconds and is counted as 1.2.  A unit of work takes 41 microseconds,
-and 5,000,000 units take 205 seconds.
+eight-digit arithmetics, which takes 0.9 to 1.5 microseconds; the estimates assume 1.2.  A unit of work therefore takes
+41 microseconds, and 5,000,000 units take 205 seconds.
 
 =====================  ====  ======  =======  ========  ======================================  ==========
 bits                    300   3,000   10,000   100,000  formula, in steps                       at 100,000
@@ -28,7 +29,7 @@ from math import isqrt
 
 # Steps in a unit of work.
 STEPS = 34
-# The steps that an error code costs, because the interpreter returns and is called again.
+# The steps of an operation that ends in an error code, because the interpreter returns and is called again.
 ERROR = 4
 # The operations whose work is estimated even for decimal numbers.
 COSTED = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT", "power", "integer_power")
@@ -73,8 +74,3 @@ def decimal_power(exponent: int) -> int:
 def multiplied(count: int) -> int:
     """Estimate the steps of ``A**J`` computed by repeated multiplication."""
     return abs(count) // 2
-
-
-def squared(count: int) -> int:
-    """Estimate the steps of ``A**J`` for a decimal number, computed by squaring with some additional digits."""
-    return 2 * abs(count).bit_length()

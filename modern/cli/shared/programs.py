@@ -1,7 +1,5 @@
 """The program and the machine that the arguments of a command describe."""
 
-from __future__ import annotations
-
 import argparse
 from typing import Literal
 
@@ -13,8 +11,7 @@ from emulator.language.parser import parse
 from emulator.language.statements import capitals
 from emulator.machine.result import Options
 from emulator.numbers import DecimalNumbers, Numbers, numbers
-from emulator.numbers.arithmetic import Rules
-from emulator.numbers.base import lossless_rules
+from emulator.numbers.arithmetic import Rules, rules_of
 from emulator.numbers.fields import FALLBACK
 from modern.cli.shared.console import UsageError
 from modern.edition import programs
@@ -79,4 +76,4 @@ def number_system(name: str, option: str) -> Numbers:
 def card_rules(options: Options) -> Rules:
     """Return the rules for reading numbers from cards; only decimal arithmetics limit the digits."""
     arithmetic = options.numbers
-    return arithmetic.profile.rules if isinstance(arithmetic, DecimalNumbers) else lossless_rules(FALLBACK.width)
+    return arithmetic.profile.rules if isinstance(arithmetic, DecimalNumbers) else rules_of(FALLBACK.width)
