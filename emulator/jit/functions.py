@@ -6,7 +6,6 @@ user's cache folder if that cannot be written.
 
 from __future__ import annotations
 
-import gc
 import hashlib
 import inspect
 import sys
@@ -86,7 +85,7 @@ class Compiled:
         types = tuple(map(numba.typeof, arguments))
         # Loading from the cache takes only a fraction of a second, so it is not reported.
         fresh = types not in self.function.overloads and self.keeps and not self.kept
-        with _shown(f"compiling {self._entry.__name__}, once: some seconds" if fresh else ""), _without_collecting():
+        with _shown(f"compiling {self._entry.__name__}, once: some seconds" if fresh else ""):
             try:
                 self.function.compile(types)
             except Exception:  # a damaged file in the cache can lead to any exception
@@ -121,18 +120,6 @@ def _shown(line: str) -> Iterator[None]:
             print(f"\r{' ' * len(line)}\r", end="", file=file, flush=True) if file else None
 
 
-@contextmanager
-def _without_collecting() -> Iterator[None]:
-    """Turn off the garbage collector during the block, because compiling is then a sixth faster."""
-    on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if on:
-            gc.enable()
-
-
 def _refused(error: Exception) -> NotInstalled:
     """Convert an exception of numba to a NotInstalled error with a one-line message."""
     message = next(iter(str(error).strip().splitlines()), "")
@@ -151,13 +138,10 @@ def called(entry: Function) -> list[Function]:
 
 @cache
 def _make_callable(helper: Function) -> None:
-    """Allow compiled code to call the function.  Python still runs it uncompiled."""
+    """Let compiled code call the function, which Python still runs uncompiled."""
     from numba.extending import register_jitable
 
-    from emulator.jit import inlining
-
-    options = {"pipeline_class": inlining.PartCompiler} if inlining.AVAILABLE else {"inline": "never"}
-    register_jitable(**options)(helper)
+    register_jitable(helper)
 
 
 def digest(entry: Function, options: str) -> str:

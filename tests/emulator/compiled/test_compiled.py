@@ -193,28 +193,6 @@ def test_compiling_is_reported_on_a_terminal_but_loading_is_not(tmp_path, cache_
         assert (line, wiped) in (("", ""), ("compiling entry, once: some seconds", " " * len(line) + "\r"))
 
 
-def test_functions_below_an_entry_are_compiled_only_with_it(tmp_path: Path, cache_folder: Path, monkeypatch) -> None:
-    """Without the compiler pass numba compiles each function separately, with the same results."""
-    pytest.importorskip("numba")
-    from numba.core.codegen import JitEngine
-
-    from emulator.jit import inlining as lean
-
-    def modules(source: str) -> int:
-        put: list[str] = []
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(JitEngine, "add_module", lambda engine, module: put.append(module) or add(engine, module))
-            assert imported(tmp_path, source).ready(5)(5) == 11
-        return len(put)
-
-    add = JitEngine.add_module
-    imported(tmp_path, SUM + "# numba's own functions are made first\n").ready(5)
-    assert lean.AVAILABLE
-    few = modules(SUM)
-    monkeypatch.setattr(lean, "AVAILABLE", False)
-    assert modules(SUM + "# otherwise\n") == few + 1
-
-
 SCRIPT = """
 import json, sys
 from emulator.compiled.batch import run_batch
