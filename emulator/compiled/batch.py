@@ -16,8 +16,8 @@ from emulator.errors import ArgumentError, expect
 from emulator.jit.functions import NotInstalled
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import Program
-from emulator.machine.endings import Ending, Notice, decided, looped, out_of_bounds, stopped, too_costly, unfit
-from emulator.machine.interpreter import AT_BOUNDS, AT_COSTLY, AT_LIMIT, AT_OUTSIDE, AT_STOP, AT_UNDEFINED
+from emulator.machine.endings import Ending, Notice, decided, ended_by, looped
+from emulator.machine.interpreter import AT_LIMIT
 from emulator.machine.machine import Machine
 from emulator.machine.result import Event, Options, Result, machine_errors, statements_begun
 
@@ -146,20 +146,10 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
 def _ending(program: Program, options: Options, run: Run) -> Ending:
     """Convert the number that says why a compiled run ended to the same ending that the interpreter would report."""
     registers = run.registers
-    at, decision, address = registers[kernel.AT], registers[kernel.DECISION], registers[kernel.ADDRESS]
-    subscripts = registers[kernel.INDEX], registers[kernel.INDEX2]
+    at, decision, costly = registers[kernel.AT], registers[kernel.DECISION], registers[kernel.COSTLY]
     if run.reason == devices.AT_HOPPER:
         return Ending("hopper", program.source, program.line_at(at), any_read=options.hopper == "any")
     if run.reason == AT_LIMIT:
-        return looped(program, options.limit, run.before, run.counts, decision, registers[kernel.COSTLY])
-    if run.reason == AT_COSTLY:
-        return too_costly(program, options.limit, at, decision, registers[kernel.COSTLY])
-    if run.reason == AT_STOP:
-        return Ending("stop" if program.code[registers[kernel.PC]].second == 0 else "end")
-    if run.reason == AT_UNDEFINED:
-        return unfit(program, at, decision, address, run.held)
-    if run.reason == AT_BOUNDS:
-        return out_of_bounds(program, at, decision, address, subscripts)
-    if run.reason == AT_OUTSIDE:
-        return stopped(program, "outside", at, decision)
-    return stopped(program, "select", at, decision, subscripts[:1])
+        return looped(program, options.limit, run.before, run.counts, decision, costly)
+    address, subscripts = registers[kernel.ADDRESS], (registers[kernel.INDEX], registers[kernel.INDEX2])
+    return ended_by(run.reason, program, options.limit, at, decision, address, run.held, subscripts, costly)

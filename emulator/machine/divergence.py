@@ -156,7 +156,7 @@ def diverge(
     comparison = Comparison(program, studied, reference)
     apart = ""
     first, second = iter(runs[0].entries()), iter(runs[1].entries())
-    parents: list[int] = []
+    dominators: list[int] = []
     while True:
         entry, reference_entry = next(first, None), next(second, None)
         if entry is None or reference_entry is None:
@@ -174,8 +174,8 @@ def diverge(
         if not values:
             break
         # The decision differs: skip both runs to the instruction where their branches join.
-        parents = parents or post_dominators(successors(program))
-        junction = meeting(parents, entry[1], reference_entry[1])
+        dominators = dominators or post_dominators(successors(program))
+        junction = meeting(dominators, entry[1], reference_entry[1])
         if junction < 0 or not (_reached(first, junction) and _reached(second, junction)):
             apart = "the branches do not join again"
             break

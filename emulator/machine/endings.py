@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
 from emulator.language.objectcode import Line, Program
+from emulator.machine.interpreter import AT_BOUNDS, AT_COSTLY, AT_SELECT, AT_STOP, AT_UNDEFINED
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.numbers.fields import Field, Remark
 
@@ -141,11 +142,6 @@ def _loop(ending: Ending) -> str:
     return f"; the last ones {'repeat' if ending.repeats else 'are on'} {span}{among}"
 
 
-def too_costly(program: Program, limit: int, at: int, decision: int, costly: int) -> Ending:
-    """Return the ending of a run whose next operation would exceed the limit of work."""
-    return replace(stopped(program, "limit", at, decision), count=limit, costly=costly)
-
-
 def looped(
     program: Program, limit: int, before: Sequence[int], counts: Sequence[int], decision: int, costly: int = 0
 ) -> Ending:
@@ -167,26 +163,54 @@ def looped(
     )
 
 
-def out_of_bounds(program: Program, at: int, decision: int, address: int, subscripts: tuple[int, ...]) -> Ending:
-    """Return the ending of a run at a subscript outside the array that begins at ``address``."""
-    entry = program.storage.entry_of(address)
-    ending = stopped(program, "bounds", at, decision, subscripts[: len(entry.shape)])
-    return replace(ending, name=entry.name, shape=entry.shape)
+def ended_by(
+    reason: int,
+    program: Program,
+    limit: int,
+    at: int,
+    decision: int,
+    address: int,
+    kind: int,
+    subscripts: tuple[int, ...],
+    costly: int,
+) -> Ending:
+    """Return the ending of a run for the reason with which the interpreter or the kernel returned.
 
-
-def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> Ending:
-    """Return the ending of a run that used a field which is undefined or has a number of the wrong kind."""
-    ending = replace(stopped(program, "undefined", at, decision), name=program.storage.name_of(address))
-    if kind == UNDEFINED:
-        return ending
-    return replace(ending, kind="mode", mode="fixed" if kind == FIXED_POINT else "floating")
-
-
-def stopped(program: Program, kind: Kind, at: int, decision: int, subscripts: tuple[int, ...] = ()) -> Ending:
-    """Return the ending of a run at the instruction ``at``, for kinds of ending that need no data except
-    ``subscripts``.
+    Parameters
+    ----------
+    reason
+        AT_STOP, AT_COSTLY, AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE or AT_SELECT.
+    at, decision
+        The instruction at which the run ended, and the last IF or computed GO TO as in :func:`decided`.
+    address, kind
+        The storage field that the instruction uses, and for AT_UNDEFINED the kind of the field.
+    subscripts
+        For AT_BOUNDS the subscripts, for AT_SELECT the value of the variable.
+    limit, costly
+        The limit of the run, and the work of its costly operations.
     """
-    return Ending(kind, program.source, program.line_at(at), decided(program, decision), subscripts=subscripts)
+    if reason == AT_STOP:
+        return Ending("stop" if program.code[at].second == 0 else "end")
+    here = stopped(program, "outside", at, decision)
+    if reason == AT_COSTLY:
+        return replace(here, kind="limit", count=limit, costly=costly)
+    if reason == AT_BOUNDS:
+        entry = program.storage.entry_of(address)
+        here = replace(here, kind="bounds", name=entry.name, shape=entry.shape)
+        return replace(here, subscripts=subscripts[: len(entry.shape)])
+    if reason == AT_SELECT:
+        return replace(here, kind="select", subscripts=subscripts[:1])
+    if reason == AT_UNDEFINED:
+        here = replace(here, kind="undefined", name=program.storage.name_of(address))
+        # The same reason applies to a field with a number of the other mode.
+        if kind != UNDEFINED:
+            return replace(here, kind="mode", mode="fixed" if kind == FIXED_POINT else "floating")
+    return here
+
+
+def stopped(program: Program, kind: Kind, at: int, decision: int) -> Ending:
+    """Return an ending of the given kind at the instruction ``at``."""
+    return Ending(kind, program.source, program.line_at(at), decided(program, decision))
 
 
 def decided(program: Program, decision: int) -> Line | None:

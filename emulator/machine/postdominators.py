@@ -1,82 +1,44 @@
-"""Post-dominators, which give the first instruction that every path from either of two instructions passes.
+"""Post-dominators: the instructions that lie on every path from an instruction to the end of the program.
 
-An instruction is post-dominated by those that lie on all its paths to the end of the program; the nearest of them is
-its parent in the tree of post-dominators.  Two branches of a program join at the nearest common ancestor of their first
-instructions.  The tree is computed by the iteration of K. Cooper, T. Harvey and K. Kennedy (A Simple, Fast Dominance
-Algorithm, Rice University 2001), applied to the reversed flow graph.
+Two branches of a program join at the first instruction that post-dominates both of their first instructions.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import reduce
+from operator import and_
 
 
 def post_dominators(follow: Sequence[Sequence[int]]) -> list[int]:
-    """Return the nearest post-dominator of each instruction, or -1 if no path from it leads to the end."""
+    """Return the post-dominators of each instruction, itself included, as a set of bits: 2**n for instruction n.
+
+    ``follow`` holds the possible successors of each instruction; the number of instructions stands for the end.  The
+    last set is that of the end.  The set is 0 if no path from the instruction leads to the end.
+    """
     end = len(follow)
-    before: list[list[int]] = [[] for _ in range(end + 1)]
-    for pc, nexts in enumerate(follow):
-        for after in nexts:
-            before[after].append(pc)
-    # ``parent`` is the tree found so far.  The nodes are visited in reverse postorder of the reversed graph, so that a
-    # successor usually has its parent before its predecessors; a few rounds reach the fixed point.
-    order = _order(before, end)
-    place = {pc: k for k, pc in enumerate(order)}
-    parent = [-1] * (end + 1)
-    parent[end] = end
+    sets = [0] * end + [1 << end]
+    # An instruction is post-dominated by itself and by the common post-dominators of its successors.  Repeating this
+    # from the last instruction to the first until nothing changes gives the largest sets that satisfy it.
     changed = True
     while changed:
         changed = False
-        for pc in order[1:]:
-            # The parent of a node is the nearest common ancestor of all its successors that are already in the tree.
-            joint = -1
-            for after in follow[pc]:
-                if after in place and parent[after] >= 0:
-                    joint = after if joint < 0 else _joined(parent, place, joint, after)
-            if joint != parent[pc]:
-                parent[pc], changed = joint, True
-    return parent
+        for pc in reversed(range(end)):
+            known = [sets[after] for after in follow[pc] if sets[after]]
+            new = reduce(and_, known) | 1 << pc if known else 0
+            if new != sets[pc]:
+                sets[pc], changed = new, True
+    return sets
 
 
-def _order(before: Sequence[Sequence[int]], end: int) -> list[int]:
-    """Return the instructions from which the end can be reached, in reverse postorder of the reversed graph.
+def meeting(sets: Sequence[int], first: int, second: int) -> int:
+    """Return the first instruction on every path from both of two instructions, or -1 if that is the end.
 
-    The depth-first search keeps its own stack: a program can be longer than Python's recursion limit.
+    ``sets`` are the post-dominators of all instructions.  Return -1 also if no path from one of the two leads to the
+    end.
     """
-    visited = {end}
-    finished: list[int] = []
-    stack = [(end, iter(before[end]))]
-    while stack:
-        pc, remaining = stack[-1]
-        step = next((p for p in remaining if p not in visited), None)
-        if step is None:
-            finished.append(pc)
-            stack.pop()
-        else:
-            visited.add(step)
-            stack.append((step, iter(before[step])))
-    return finished[::-1]
-
-
-def _joined(parent: Sequence[int], place: dict[int, int], first: int, second: int) -> int:
-    """Return the nearest common ancestor of two nodes: climb from the later one until both are the same."""
-    while first != second:
-        while place[first] > place[second]:
-            first = parent[first]
-        while place[second] > place[first]:
-            second = parent[second]
-    return first
-
-
-def meeting(parents: Sequence[int], first: int, second: int) -> int:
-    """Return the first instruction on every path from both of two instructions, or -1 if that is the end."""
-    end = len(parents) - 1
-    path = set()
-    while first >= 0 and first not in path:
-        path.add(first)
-        first = parents[first]
-    while second >= 0 and second not in path:
-        if second == end:
-            return -1
-        second = parents[second]
-    return second if second != end else -1
+    # The post-dominators of an instruction form a chain.  The common part of two chains is the chain of the instruction
+    # at which the paths join.
+    common = sets[first] & sets[second]
+    junction = sets.index(common) if common else -1
+    return junction if junction < len(sets) - 1 else -1

@@ -16,9 +16,10 @@ from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program
 from emulator.machine import interpreter
 from emulator.machine.devices import Devices, Ended, LineNeeded
-from emulator.machine.endings import Ending, Notice, looped, out_of_bounds, stopped, too_costly, unfit
+from emulator.machine.endings import Ending, Notice, ended_by, looped
 from emulator.machine.result import LOOP_WINDOW, Event, Options, Result, Uncut, machine_errors, statements_begun
 from emulator.machine.state import Journal, State, loaded, recorded_instructions, refuse_overlap, subscript_table
+from emulator.numbers.arithmetic import UNDEFINED
 from emulator.numbers.base import Number, Undecided
 
 BAD_INPUT = Ending("input", trouble="bad input")
@@ -320,7 +321,7 @@ class Session:
         elif reason == interpreter.AT_PAUSE:
             self.halt = Halt("pause", self.devices.line_at(state.at), self.program.code[state.at].second)
         else:
-            raise Ended(self._stopped(reason, address))
+            raise self._ended_by(reason)
 
     def _watch(self, line: Line) -> None:
         """Report a statement that begins to the tracer, and halt after a step or at a breakpoint."""
@@ -339,27 +340,18 @@ class Session:
             if self.watched[name] != before and self.halt is None:
                 self.halt = Halt("stop", line, why=f"{name} has changed")
 
-    def _stopped(self, reason: int, address: int) -> Ending:
-        """Convert the reason for which the interpreter returned to the ending of the run."""
-        state = self.state
-        if reason == interpreter.AT_STOP:
-            return Ending("stop" if self.program.code[state.pc].second == 0 else "end")
-        if reason == interpreter.AT_COSTLY:
-            return too_costly(self.program, self.options.limit, state.at, state.decision, state.costly)
-        if reason == interpreter.AT_UNDEFINED:
-            return unfit(self.program, state.at, state.decision, address, state.kinds[address])
-        if reason == interpreter.AT_BOUNDS:
-            return out_of_bounds(self.program, state.at, state.decision, address, state.index)
-        if reason == interpreter.AT_OUTSIDE:
-            return stopped(self.program, "outside", state.at, state.decision)
-        return stopped(self.program, "select", state.at, state.decision, state.index)
+    def _ended_by(self, reason: int) -> Ended:
+        state, address = self.state, self.state.address
+        kind = state.kinds[address] if reason == interpreter.AT_UNDEFINED else UNDEFINED
+        limit, at, decision, costly = self.options.limit, state.at, state.decision, state.costly
+        return Ended(ended_by(reason, self.program, limit, at, decision, address, kind, state.index, costly))
 
     def _pay(self, operation: str, first: Number, second: Number = 0) -> None:
         """Add the cost of a slow operation to the work of the run.  Raise Ended if it exceeds the limit by far."""
         state = self.state
         state.work += state.owe(self.options.numbers.work(operation, first, second))
         if state.work > self.options.limit + interpreter.SLACK:
-            raise Ended(self._stopped(interpreter.AT_COSTLY, state.address))
+            raise self._ended_by(interpreter.AT_COSTLY)
 
     def _to_fac(self, value: Number, code: str) -> None:
         self.state.fac = value
