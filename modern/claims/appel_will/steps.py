@@ -1,10 +1,11 @@
 """Checks of single steps of Appel and Will: new and collinear lines, the star test, loops, and inside corners."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import combinations, pairwise, permutations
 from random import Random
 
-from modern.claims.appel_will.convexity import Flat, holds_origin
+from modern.claims.appel_will.convexity import RINGS, Flat, area, holds_origin
 from modern.claims.evidence import Check, Generator, claim, exhibited, search, searched, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import Point, counterexample_points
@@ -21,15 +22,29 @@ FIG_18: tuple[tuple[Point, Point, Point], ...] = (
 )
 
 
-@claim("appel-will.128")
-def new_lines() -> Check:
-    """Check that the hull of a notched polygon has fewer points, and a line that the polygon does not have."""
-    ring: list[Flat] = [(0, 0), (6, 0), (6, 6), (3, 2), (0, 6)]
-    polygon = exact_hull([(x, y, 0) for x, y in ring]).polygon
-    sides = {frozenset((k, (k + 1) % len(ring))) for k in range(len(ring))}
-    new = [pair for pair in zip(polygon, (*polygon[1:], polygon[0]), strict=True) if frozenset(pair) not in sides]
-    message = ", ".join(f"{ring[a]} to {ring[b]}" for a, b in new)
-    return exhibited(len(polygon) < len(ring) and len(new) == 1, f"the new line is {message}")
+# Only polygons that are not convex; without them, nothing has to be deleted.
+NONCONVEX: Generator[tuple[Flat, ...]] = replace(
+    RINGS, name=f"{RINGS.name}, not convex", accepts=lambda ring: RINGS.accepts(ring) and not _is_convex(ring)
+)
+
+
+def _is_convex(ring: Sequence[Flat]) -> bool:
+    return all(area(ring[k - 2], ring[k - 1], ring[k]) > 0 for k in range(len(ring)))
+
+
+@claim("appel-will.128", full=5_000)
+def new_lines(cases: int = 10) -> Check:
+    """Check that the hull of a polygon that is not convex has fewer points, and a line that is not one of its sides."""
+
+    def is_changed(ring: Sequence[Flat]) -> bool:
+        polygon = exact_hull([(x, y, 0) for x, y in ring]).polygon
+        sides = {frozenset((k, (k + 1) % len(ring))) for k in range(len(ring))}
+        new = [pair for pair in zip(polygon, (*polygon[1:], polygon[0]), strict=True) if frozenset(pair) not in sides]
+        return len(polygon) < len(ring) and bool(new)
+
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    check = search(NONCONVEX, is_changed, cases, "the hull of each polygon has fewer points and a new line")
+    return check.unless(not is_changed(square), "a square, which is its own hull")
 
 
 def _draw_images(random: Random) -> tuple[Flat, ...]:

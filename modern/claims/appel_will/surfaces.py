@@ -1,9 +1,9 @@
 """Checks of Appel and Will on objects given by surfaces: maps, lines and planes, inside corners, preprocessing."""
 
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from functools import cache
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 
 from modern.claims.appel_will.convexity import CUBE, RINGS, Flat, area
 from modern.claims.appel_will.steps import FIG_18
@@ -12,7 +12,7 @@ from modern.claims.hulls import exact_hull
 from modern.claims.invariants import is_sphere
 from modern.claims.kovalevsky_schulz.proofs import vertex_is_no_combination
 from modern.claims.published import PAPERS, findings, printed_lines
-from modern.claims.sampled_sets import Point, counterexample, counterexample_points, plane_value
+from modern.claims.sampled_sets import Plane, Point, counterexample, counterexample_points, plane_value
 from modern.formats.off import parse_off
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
@@ -62,6 +62,42 @@ def pitted() -> Solid:
 
 def objects() -> tuple[Solid, ...]:
     return fig_4(), crown(), bent(), pitted()
+
+
+def twisted() -> Solid:
+    """Return a twisted prism: its six upright triangles meet in pairs at inside corners, so that it is not convex."""
+    points: tuple[Point, ...] = ((6, 0, 0), (-3, 5, 0), (-3, -5, 0), (5, 3, 6), (-5, 3, 6), (0, -6, 6))
+    upright = (((k, (k + 1) % 3, (k + 1) % 3 + 3), (k, (k + 1) % 3 + 3, k + 3)) for k in range(3))
+    return Solid(points, ((2, 1, 0), (3, 4, 5), *(surface for pair in upright for surface in pair)))
+
+
+@claim("appel-will.24")
+def changes_of_hull() -> Check:
+    """Check that the hull of Fig. 4 lacks points and has new lines and planes, unlike those of two other objects."""
+    block = solid_of_cubes([cube for cube in product(range(3), repeat=3) if cube != (1, 1, 2)])
+    changes = [_changes(solid) for solid in (fig_4(), twisted(), block)]
+    deleted, new_lines, new_planes = changes[0]
+    message = f"the hull of Fig. 4 lacks {deleted} points and has {new_lines} new lines and {new_planes} new planes"
+    others = changes[1][0] == 0 < min(changes[1][1:]) and changes[2][0] > 0 == max(changes[2][1:])
+    case = "a twisted prism, all points of which remain, and a block with a pit, whose hull has no new line or plane"
+    return exhibited(min(changes[0]) > 0, message).unless(others, case)
+
+
+def _changes(solid: Solid) -> tuple[int, int, int]:
+    """Return three numbers: points that are no vertices of the hull, and new lines and planes of the hull.
+
+    An edge of the hull that consists of several lines of the solid is not new.
+    """
+    points, judge = solid.points, exact_hull(solid.points)
+    of_surfaces = {_plane_of(points, surface) for surface in solid.surfaces}
+    planes = {_plane_of(points, facet.polygon) for facet in judge.facets} - of_surfaces
+    at = _surfaces_at_lines(solid)
+    edges = 0
+    for a, b in judge.edges():
+        way = minus(points[b], points[a])
+        on = sorted((p, k) for k, p in enumerate(points) if not any(cross(way, minus(p, points[a]))))
+        edges += any(frozenset((k, m)) not in at for (_, k), (_, m) in pairwise(on))
+    return len(points) - len(judge.vertices), edges, len(planes)
 
 
 @claim("appel-will.22")
@@ -213,19 +249,21 @@ def hulls_of_surfaces() -> Check:
 def vertex_without_supporting_surface() -> Check:
     """Check that a vertex of the hull need not be on a surface of the object whose plane supports the hull."""
     solid = pitted()
-    planes = {}
-    for surface in oriented(solid.points, solid.surfaces):
-        normal = lowest(area_vector(solid.points, surface))
-        sign = 1 if max(normal, minus((0, 0, 0), normal)) == normal else -1
-        planes[surface] = (*(sign * n for n in normal), -sign * dot(normal, solid.points[surface[0]]))
+    planes = {surface: _plane_of(solid.points, surface) for surface in solid.surfaces}
     supporting = 0
     for plane in planes.values():
-        values = [plane_value(plane, point) for point in solid.points]  # type: ignore[arg-type]
+        values = [plane_value(plane, point) for point in solid.points]
         supporting += max(values) <= 0 or min(values) >= 0
     passed = supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3)
     passed &= len({*planes.values()}) == len(solid.surfaces) == 12
     message = f"{supporting} of {len({*planes.values()})} planes of surfaces support, but the hull has four vertices"
     return exhibited(passed, message)
+
+
+def _plane_of(points: Sequence[Point], surface: Sequence[int]) -> Plane:
+    """Return the plane of a surface in lowest terms; its sign does not depend on the side from which it is seen."""
+    a, b, c = max((normal := lowest(area_vector(points, surface))), minus((0, 0, 0), normal))
+    return a, b, c, -dot((a, b, c), points[surface[0]])
 
 
 @claim("appel-will.83")
