@@ -1,7 +1,7 @@
 """The functions that the builds of the site, the book and the deposit share.
 
-Each build is a function that raises :class:`BuildError` with one line for the user; :func:`run` calls it and turns the
-error into an exit code.  :func:`citation` and :func:`newest_wheel` read files of the checkout.
+Each build is a function that raises :class:`BuildError` with a message of one line; :func:`run` calls the function and
+turns the error into an exit code.
 """
 
 import sys
@@ -31,30 +31,29 @@ def run(name: str, build: Callable[[], str]) -> int:
 
 
 def check_replaceable(folder: Path, marker: str, kind: str) -> None:
-    """Raise BuildError unless a folder is missing, empty, or an earlier result, which contains the file ``marker``."""
+    """Raise BuildError unless a build may replace a folder.
+
+    A build may replace a folder that does not exist, is empty, or contains the file ``marker``, which earlier builds
+    have written.  ``kind`` names such a folder in the message.
+    """
     if folder.exists() and not (folder / marker).exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise BuildError(f"{folder}: exists and is not {kind}, so it is not replaced")
 
 
 @cache
 def citation() -> Mapping[str, Any]:
-    """Return the fields of CITATION.cff.  A date is a ``datetime.date``."""
-    return read_citation((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    """Return the fields of CITATION.cff (YAML).  A date is a ``datetime.date``.
 
-
-def read_citation(text: str) -> Mapping[str, Any]:
-    """Parse the text of a CITATION.cff file (YAML).  Raise BuildError if PyYAML is not installed."""
+    Raise BuildError if PyYAML is not installed.
+    """
     try:
         import yaml
     except ImportError:
         raise BuildError("PyYAML, which reads CITATION.cff, is missing: pip install 'hull1620[edition]'") from None
-    fields: dict[str, Any] = yaml.safe_load(text)
+    fields: dict[str, Any] = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     return fields
 
 
 def newest_wheel(folder: Path | None = None) -> Path | None:
-    """Return the wheel that was built last, or None if ``make wheel`` has not run.
-
-    folder: where the wheel is, by default the folder of all builds.
-    """
+    """Return the newest wheel in a folder (by default :data:`DIST`), or None if ``make wheel`` has not run."""
     return max((folder or DIST).glob("hull1620-*.whl"), key=lambda path: path.stat().st_mtime, default=None)

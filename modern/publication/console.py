@@ -43,7 +43,7 @@ _NOT_LOADED = (
     *("modern/claims", "modern/papers", "modern/study", "modern/cli", "modern/digital", "modern/port", "modern/bench"),
     *("modern/exact_hull", "modern/drawing", "transcripts/statements", "transcripts/appel_will_1976", "lark/tools"),
     *("modern/publication/book", "modern/publication/site", "modern/publication/tei", "modern/publication/deposit.py"),
-    *("modern/publication/hull1620.odd", "lark/grammars/python.lark", "argparse.py"),
+    *("modern/publication/hull1620.odd", "modern/publication/proof_sheet", "lark/grammars/python.lark", "argparse.py"),
     *("_pydatetime.py", "ipaddress.py", "logging/handlers.py", "logging/config.py", "_sysconfigdata", "bdb.py"),
     *("asyncio/windows", "asyncio/proactor", "concurrent/futures/process.py", "pyodide/console.py", "plistlib.py"),
     *("emulator/translation", "modern/edition/chapter6_", "modern/edition/weight", "modern/edition/collation.py"),

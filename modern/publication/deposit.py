@@ -1,10 +1,9 @@
 """Pack a deposit for archives: ``python -m modern.publication.deposit dist``.
 
-The deposit is a BagIt bag (RFC 8493) with the program as one file, the source, the wheel, the packages that run and
-build it (:mod:`modern.publication.vendored`), the site, the book, the TEI documents, the benchmark and, optionally, the
-rows of studies.  It is described as an RO-Crate, by CodeMeta and by Frictionless schemas of its tables
-(:mod:`modern.publication.metadata`).  The deposit is written as a folder and as one compressed archive.  The same parts
-always give the same bytes.
+The deposit is a BagIt bag (RFC 8493).  It contains the program as one file, the source, the wheel, the third-party
+packages (:mod:`modern.publication.vendored`), the site, the book, the TEI documents, the benchmark and, optionally, the
+rows of studies.  The files of :mod:`modern.publication.metadata` describe it.  The deposit is written as a folder and
+as one compressed archive.  The same parts always give the same bytes.
 """
 
 import gzip
@@ -26,7 +25,7 @@ from pathlib import Path
 
 from modern.edition.sources import sources
 from modern.publication import vendored
-from modern.publication.building import DIST, ROOT, BuildError, check_replaceable, newest_wheel, read_citation, run
+from modern.publication.building import DIST, ROOT, BuildError, check_replaceable, citation, newest_wheel, run
 from modern.publication.metadata import Part, Process, Work, codemeta, crate, data_package, work
 from modern.publication.pyz import NAME
 from modern.publication.tables import columns, csv_text
@@ -39,7 +38,9 @@ _OTHERS = "The licences of the packages, in wheels/licences"
 _PYODIDE = "Pyodide: MPL-2.0 (pyodide/package.json)"
 _THESIS = "Text of the thesis and the papers: rights of their authors and publishers, not ours to license"
 _MIXED = "Code and documents MIT, data CC0, quoted sources not ours: source/LICENSE names the folders"
-# The folders and files of a deposit: description and licence.
+# The text of the deposit's README.txt, with names in braces for the facts.
+TEMPLATE = Path(__file__).with_name("deposit_readme.txt")
+# The folders and files that a deposit may contain, with their descriptions and licences.
 CONTENTS = {
     "README.txt": Part("the contents of the deposit and how to use them", _MIT, "text/plain"),
     "codemeta.json": Part("the software, described by CodeMeta", _CC0, "application/ld+json"),
@@ -68,30 +69,31 @@ CONTENTS = {
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """The files of a deposit by their paths in the bag, and the paths of those that are executable."""
+    """The files of a deposit by their paths in the bag, and the paths of the executable files."""
 
     files: Mapping[str, bytes]
     executable: frozenset[str] = frozenset()
 
 
-def source_files(root: Path = ROOT) -> tuple[str, ...]:
+def source_files() -> tuple[str, ...]:
     """Return the sorted paths of the project's files.
 
-    In a git checkout these are the tracked files; elsewhere all files except build results and caches.
+    In a git checkout these are the tracked files; elsewhere they are all files except build results and caches.
     """
-    if (root / ".git").exists():
-        listed = subprocess.run(["git", "ls-files", "-z"], cwd=root, capture_output=True, check=True).stdout
-        return tuple(sorted(name for name in listed.decode().split("\0") if name and (root / name).is_file()))
-    paths = (path.relative_to(root) for path in root.rglob("*") if path.is_file() and not path.is_symlink())
+    if (ROOT / ".git").exists():
+        listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True).stdout
+        return tuple(sorted(name for name in listed.decode().split("\0") if name and (ROOT / name).is_file()))
+    paths = (path.relative_to(ROOT) for path in ROOT.rglob("*") if path.is_file() and not path.is_symlink())
     return tuple(
         sorted(path.as_posix() for path in paths if not _NOT_SOURCE & set(path.parts) and path.suffix != ".pyc")
     )
 
 
-def gather(dist: Path, rows: Path | None = None, root: Path = ROOT) -> Parts:
-    """Read the files of a deposit from the folder of the builds, and the packages of others if they are there.
+def gather(dist: Path, rows: Path | None = None) -> Parts:
+    """Return the project's files, the results of all builds, and the third-party packages that were collected.
 
-    Raise BuildError for a missing part and name the command that builds it.
+    ``dist`` is the folder of the builds, ``rows`` a folder with rows of studies to include.  Raise BuildError if the
+    result of a build is missing; the message names the command that makes it.
     """
     from modern.bench.benchmark import benchmark  # its imports take a second
 
@@ -103,9 +105,9 @@ def gather(dist: Path, rows: Path | None = None, root: Path = ROOT) -> Parts:
             raise BuildError(f"{path}: no such file; {command} builds it")
     files: dict[str, bytes] = {}
     executable = set()
-    for name in source_files(root):
-        files[f"source/{name}"] = (root / name).read_bytes()
-        if (root / name).stat().st_mode & 0o100:
+    for name in source_files():
+        files[f"source/{name}"] = (ROOT / name).read_bytes()
+        if (ROOT / name).stat().st_mode & 0o100:
             executable.add(f"source/{name}")
     files[NAME] = pyz.read_bytes()
     executable.add(NAME)
@@ -113,7 +115,7 @@ def gather(dist: Path, rows: Path | None = None, root: Path = ROOT) -> Parts:
     files[f"wheel/{wheel.name}"] = wheel.read_bytes()
     files[f"book/{book.name}"] = book.read_bytes()
     files |= {f"site/{name}": data for name, data in _tree(site)}
-    about = described(root)
+    about = described()
     files |= {f"tei/{name}": text.encode() for name, text in archive(about.version).items()}
     files |= {f"benchmark/{name}": text.encode() for name, text in benchmark().items()}
     if rows is not None:
@@ -129,17 +131,19 @@ def _tree(folder: Path) -> Iterator[tuple[str, bytes]]:
             yield path.relative_to(folder).as_posix(), path.read_bytes()
 
 
-def described(root: Path = ROOT) -> Work:
+def described() -> Work:
     """Return the description of the project from its own files.  Raise ValueError if they contradict each other."""
-    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     references = (f"{d.author}: {d.title}. {d.year}" for d in sources().documents)
-    citation = read_citation((root / "CITATION.cff").read_text(encoding="utf-8"))
-    return work(citation, project["project"], references, project["tool"]["deposit"])
+    return work(citation(), project["project"], references, project["tool"]["deposit"])
 
 
-def with_descriptions(parts: Parts, root: Path = ROOT) -> Parts:
-    """Add the files that describe a deposit: README.txt, CodeMeta, the tables with their data package, the RO-Crate."""
-    about = described(root)
+def with_descriptions(parts: Parts) -> Parts:
+    """Return a deposit with the files that describe it added.
+
+    These are README.txt, codemeta.json, the tables of the studies with datapackage.json, and the RO-Crate metadata.
+    """
+    about = described()
     files = dict(parts.files)
     tables = {
         f"tables/{name.partition('/docs/')[2]}": columns(name, data.decode())
@@ -149,7 +153,7 @@ def with_descriptions(parts: Parts, root: Path = ROOT) -> Parts:
     files |= {path: csv_text(table).encode() for path, table in tables.items()}
     files["datapackage.json"] = data_package(about, tables).encode()
     files["codemeta.json"] = codemeta(about).encode()
-    files["README.txt"] = readme(about, Parts(files, parts.executable), root).encode()
+    files["README.txt"] = readme(about, Parts(files, parts.executable)).encode()
     crate_parts = {
         **{name: part for name, part in CONTENTS.items() if any(file.startswith(name) for file in files)},
         **{name: Part("a table of a study", _CC0, "text/csv") for name in tables},
@@ -162,7 +166,7 @@ def with_descriptions(parts: Parts, root: Path = ROOT) -> Parts:
 
 
 def processes(files: Mapping[str, bytes]) -> Iterator[Process]:
-    """Yield the run of each study, from its manifest."""
+    """Yield a description of the run of each study, read from the manifest of the study."""
     for name in sorted(files):
         match = re.fullmatch(r"source/docs/studies/([\w-]+)/manifest\.json", name)
         if not match:
@@ -179,8 +183,8 @@ def processes(files: Mapping[str, bytes]) -> Iterator[Process]:
         )
 
 
-def readme(about: Work, parts: Parts, root: Path = ROOT) -> str:
-    """Return the README.txt of a deposit, for a reader who has only the deposit."""
+def readme(about: Work, parts: Parts) -> str:
+    """Return the text of README.txt, which addresses a reader who has only the deposit."""
     files = parts.files
     wheel = next(name for name in files if name.startswith("wheel/"))
     contents = "\n".join(
@@ -189,12 +193,11 @@ def readme(about: Work, parts: Parts, root: Path = ROOT) -> str:
         for name, part in CONTENTS.items()
         if any(file.startswith(name) for file in files)
     )
-    left_out = vendored.left_out(files)
+    left_out, pinned = vendored.left_out(files), vendored.locked()
     numpy = next((name.split("-", 2)[2] for name in files if name.startswith("wheels/numpy-")), "none")
     binary = sorted(re.findall(r"^wheels/([^-/]+)-[^/]+(?<!none-any)\.whl$", "\n".join(files), re.MULTILINE))
-    without_wheel = [pin for pin in vendored.pins(root, "dev") if pin.split("==")[0] in vendored.SOURCE_ONLY]
+    without_wheel = [pin for pin in vendored.pins("dev") if pin.split("==")[0] in vendored.SOURCE_ONLY]
     total, wheels = (sum(len(files[name]) for name in files if name.startswith(start)) for start in ("", "wheels/"))
-    epoch = int(datetime.fromisoformat(f"{about.date}T00:00+00:00").timestamp())
     hashes = "\n".join(
         f"  {hashlib.sha256(data).hexdigest()}  {name}"
         for name, data in sorted(files.items())
@@ -202,109 +205,34 @@ def readme(about: Work, parts: Parts, root: Path = ROOT) -> str:
     )
     source = {name.removeprefix("source/"): data for name, data in files.items() if name.startswith("source/")}
     identifiers = "\n".join(f"  {name:<11} {value}" for name, value in about.identifiers().items())
-    return f"""{about.title}
-Version {about.version}, {about.date}, by {about.author}.
-
-{about.description}.
-
-WHAT THIS IS
-
-In 1963 Karen Jensen Butler wrote a thesis at Oregon State University with three FORTRAN programs
-for the IBM 1620, which find the convex hull of points in space. This deposit restores the
-programs from a transcription, runs them on an emulated machine, and compares their results with
-those printed in the thesis.
-
-WHAT WAS NEVER SEEN, AND WHAT IS CONJECTURE
-
-Nobody who worked on this edition has seen a page of the thesis, or an image of one. The only
-witness is one OCR text of unknown origin. What no check could decide therefore remains
-conjecture: readings whose change no printed result shows (source/fortran_src/silent.csv), cards
-that were added because the printed examples need them, and the state of program 1 in which the
-examples were run (source/fortran_src/OPEN-QUESTIONS.md). The flow charts of the thesis and its
-figures are not in the OCR text.
-
-CONTENTS (this folder is the "data" folder of a BagIt bag, RFC 8493. Its files
-have {total / 1e6:.0f} MB, of which the wheels have {wheels / 1e6:.0f} MB. The rights in a folder also hold for its
-folders, unless they are listed. ro-crate-metadata.json has the same list
-for machines, with this file.)
-
-{contents}
-
-{left_out or "Nothing is left out: all parts that the project can collect are here."}
-
-TO READ THE EDITION
-
-Open site/index.html in a browser, or the PDF in book/. No network is needed.
-
-TO RUN THE PROGRAM
-
-With Python 3.11 or later and nothing else:
-
-  python3 hull1620.pyz run program1 source/fortran_src/grounds/pyramid5.deck
-  python3 hull1620.pyz reproduce 1 2 3 4 5 6
-
-The second command prints a verdict for each printed card of chapter 6. Its exit code is 0 if
-every card is reproduced.
-
-To compute everything, also the later papers, the wheels must fit your Python:
-
-  python3 -m venv env
-  env/bin/python -m pip install --no-index --find-links wheels {wheel}
-  env/bin/hull1620 reproduce
-
-The wheel of numpy here is for {numpy}.
-For another Python or another computer, get numpy {_pinned("numpy", root)} for it. All pinned packages:
-{", ".join(vendored.locked(root))} (source/locks/run.lock has the hashes of every platform).
-
-TO BUILD THE SITE AGAIN
-
-This needs no network and no make. It needs Python for {numpy.removesuffix(".whl")},
-the platform of the binary wheels ({", ".join(binary) or "none"}), and
-Node.js, which prepares the machine of the pages. For another platform, get the packages that
-source/locks/dev.lock pins: it has the hashes of every platform, and of {", ".join(without_wheel)}, which is
-published as source only and only packs the deposit.
-
-Work in a copy of this folder, because new files in it would contradict the manifest:
-
-  python3 -m venv env
-  env/bin/python -m pip install --no-index wheels/*.whl
-  cd source
-  mkdir -p dist docs/console/node_modules
-  cp -r ../pyodide docs/console/node_modules/
-  SOURCE_DATE_EPOCH={epoch} ../env/bin/python -m build --wheel --no-isolation --outdir dist .
-  ../env/bin/python -m modern.publication.pyz dist
-  ../env/bin/python -m modern.publication.book.build dist/hull1620.pdf
-  ../env/bin/python -m modern.publication.site.build dist/edition
-  diff -r dist/edition ../site
-
-The last command prints nothing if the new site is the same, byte for byte. Without Pyodide the
-pages have no running machine. With a package registry, "make archive" builds the whole deposit
-again, and "make test" runs all tests.
-
-TO VERIFY THE FILES
-
-manifest-sha512.txt, one folder up, has the SHA-512 of every file: "sha512sum -c
-manifest-sha512.txt" in that folder compares them. The SHA-256 of the parts that run:
-
-{hashes}
-
-The source as a Software Heritage directory:
-  {swhid(source, {name.removeprefix("source/") for name in parts.executable})}
-
-IDENTIFIERS (pyproject.toml, [tool.deposit], is their place)
-
-{identifiers}
-"""
+    return TEMPLATE.read_text(encoding="utf-8").format(
+        title=about.title,
+        version=about.version,
+        date=about.date,
+        author=about.author,
+        description=about.description,
+        total=total / 1e6,
+        wheels=wheels / 1e6,
+        contents=contents,
+        left_out=left_out or "Nothing is left out: all parts that the project can collect are here.",
+        wheel=wheel,
+        numpy=numpy,
+        numpy_version=next(pin.partition("==")[2] for pin in pinned if pin.startswith("numpy==")),
+        pinned=", ".join(pinned),
+        python=numpy.removesuffix(".whl"),
+        binary=", ".join(binary) or "none",
+        without_wheel=", ".join(without_wheel),
+        epoch=int(datetime.fromisoformat(f"{about.date}T00:00+00:00").timestamp()),
+        hashes=hashes,
+        swhid=swhid(source, {name.removeprefix("source/") for name in parts.executable}),
+        identifiers=identifiers,
+    )
 
 
 def _extent(name: str, files: Mapping[str, bytes]) -> str:
     """Return the number of files of a part and their size in megabytes."""
     sizes = [len(data) for file, data in files.items() if file.startswith(name)]
     return f"{f'{len(sizes):,} files, ' if name.endswith('/') else ''}{sum(sizes) / 1e6:.1f} MB"
-
-
-def _pinned(package: str, root: Path) -> str:
-    return next((pin.partition("==")[2] for pin in vendored.locked(root) if pin.startswith(f"{package}==")), "")
 
 
 def swhid(files: Mapping[str, bytes], executable: set[str]) -> str:
@@ -330,7 +258,7 @@ def _hash(kind: bytes, data: bytes) -> bytes:
     return hashlib.sha1(kind + b" %d\0" % len(data) + data, usedforsecurity=False).digest()
 
 
-def write(out: Path, parts: Parts, root: Path = ROOT) -> tuple[Path, Path]:
+def write(out: Path, parts: Parts) -> tuple[Path, Path]:
     """Write the bag as a folder in ``out`` and as an archive next to it, and return both paths.
 
     Raise BuildError if the folder exists and is not a bag, or if the package bagit is missing.
@@ -339,12 +267,12 @@ def write(out: Path, parts: Parts, root: Path = ROOT) -> tuple[Path, Path]:
         import bagit
     except ImportError:
         raise BuildError("bagit, which packs the deposit, is missing: pip install 'hull1620[edition]'") from None
-    about = described(root)
+    about = described()
     name = f"{about.name}-{about.version}-deposit"
     bag, archive = out / name, out / f"{name}.tar.gz"
     check_replaceable(bag, "bagit.txt", "a BagIt bag")
     out.mkdir(parents=True, exist_ok=True)
-    described_parts = with_descriptions(parts, root)
+    described_parts = with_descriptions(parts)
     with tempfile.TemporaryDirectory(prefix=".deposit-", dir=out) as folder:
         new_bag, new_archive = Path(folder) / bag.name, Path(folder) / archive.name
         for name, data in sorted(described_parts.files.items()):
@@ -380,7 +308,10 @@ def _packed(folder: Path, executable: frozenset[str]) -> bytes:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Pack the results of ``make wheel``, ``make edition`` and ``make book``.  Return 0, or 2 after one line."""
+    """Pack the results of ``make wheel``, ``make pyz``, ``make edition`` and ``make book``.
+
+    Return 0, or 2 after a message of one line.
+    """
     parser = ArgumentParser(prog="deposit", description="Pack a deposit for archives.")
     parser.add_argument("out", nargs="?", type=Path, default=DIST, help="output folder (default: dist)")
     parser.add_argument("--rows", type=Path, help="a folder with rows of studies to include")

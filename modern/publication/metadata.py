@@ -20,7 +20,11 @@ _IDENTIFIERS = ("doi", "swhid", "repository", "person")
 
 @dataclass(frozen=True, slots=True)
 class Work:
-    """The project as CITATION.cff and pyproject.toml describe it; ``references`` are the documents that it restores."""
+    """The project as CITATION.cff and pyproject.toml describe it.
+
+    ``references`` are the thesis and the papers.  ``doi``, ``swhid``, ``repository`` and ``person`` are empty until
+    they are known.
+    """
 
     name: str
     title: str
@@ -39,22 +43,28 @@ class Work:
     person: str = ""
 
     def identifiers(self) -> dict[str, str]:
-        """Return DOI, SWHID, repository and responsible person; an unknown one is ``UNKNOWN``."""
+        """Return the DOI, the SWHID, the repository and the responsible person by name, or ``UNKNOWN`` for each."""
         return {name: getattr(self, name) or UNKNOWN for name in _IDENTIFIERS}
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A file or folder of the deposit: its description, its licence (an address or words) and its media type."""
+    """A file or folder of the deposit.
+
+    ``licence`` is the address of a licence, or a sentence about the rights.  A folder has no ``media_type``.
+    """
 
     description: str
-    licence: str = ""
+    licence: str
     media_type: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """A run of the software that produced files: its name, its command, the versions, its files and its rows."""
+    """A run of the software that produced files of the deposit.
+
+    ``versions`` are those of the packages that the run used, and ``results`` the paths of the files that it produced.
+    """
 
     name: str
     title: str
@@ -70,9 +80,10 @@ def work(
     references: Iterable[str],
     identifiers: Mapping[str, str] | None = None,
 ) -> Work:
-    """Combine the fields of CITATION.cff with those of pyproject.toml.  Raise ValueError if they contradict.
+    """Combine the fields of CITATION.cff with those of pyproject.toml.
 
-    ``identifiers`` are the known ones of DOI, SWHID, repository and person.
+    ``identifiers`` may have a DOI, a SWHID, a repository and a responsible person.  Raise ValueError if the two files
+    contradict each other.
     """
     for key in ("version", "license"):
         if citation[key] != project[key]:
@@ -117,8 +128,8 @@ def codemeta(about: Work) -> str:
     )
 
 
-def crate(about: Work, parts: Mapping[str, Part], processes: Sequence[Process] = ()) -> str:
-    """Return ro-crate-metadata.json.
+def crate(about: Work, parts: Mapping[str, Part], processes: Sequence[Process]) -> str:
+    """Return the text of ro-crate-metadata.json.
 
     ``parts`` maps a path to its description; the path of a folder ends with a slash.  ``processes`` are the runs that
     produced files of the deposit, described as a Process Run Crate.
@@ -145,13 +156,13 @@ def crate(about: Work, parts: Mapping[str, Part], processes: Sequence[Process] =
     root["conformsTo"] = rocrate.add(
         ContextEntity(rocrate, PROCESS, {"@type": "CreativeWork", "name": "Process Run Crate", "version": "0.5"})
     )
-    for licence in sorted({part.licence for part in parts.values()} - {""}):
+    for licence in sorted({part.licence for part in parts.values()}):
         if not licence.startswith("https:"):
             rocrate.add(ContextEntity(rocrate, _rights(licence), {"@type": "CreativeWork", "name": licence}))
     for path, part in parts.items():
         kind = {"@type": "Dataset"} if path.endswith("/") else {"@type": "File", "encodingFormat": part.media_type}
-        rights = {"license": {"@id": _rights(part.licence)}} if part.licence else {}
-        properties = {**kind, "name": path.rstrip("/"), "description": part.description, **rights}
+        rights = {"@id": _rights(part.licence)}
+        properties = {**kind, "name": path.rstrip("/"), "description": part.description, "license": rights}
         rocrate.add(DataEntity(rocrate, path, properties))
     software = {"@type": "SoftwareApplication", "name": about.name, "version": about.version}
     instrument = rocrate.add(ContextEntity(rocrate, "#software", software))
@@ -184,12 +195,12 @@ def crate(about: Work, parts: Mapping[str, Part], processes: Sequence[Process] =
 
 
 def _rights(licence: str) -> str:
-    """Return the id of a licence: its address, or a place in the crate for words."""
+    """Return the id of a licence in the crate: its address, or an id made from the sentence about the rights."""
     return licence if licence.startswith("https:") else "#" + re.sub(r"\W+", "-", licence.lower()).strip("-")[:60]
 
 
 def data_package(about: Work, tables: Mapping[str, Sequence[Column]]) -> str:
-    """Return datapackage.json with a resource for each table: its path and its described columns."""
+    """Return the text of datapackage.json, which lists the tables by their paths and describes their columns."""
     resources = [
         {
             "name": re.sub(r"[^a-z0-9]+", "-", path.lower().removesuffix(".csv")).strip("-"),

@@ -1,13 +1,12 @@
 """Build the program as one file, ``hull1620.pyz``: ``python -m modern.publication.pyz dist``.
 
-The file holds the wheel, lark and mpmath, and needs only Python.  Commands that need numpy report that it is missing.
-The emulator in the browser loads the same packages.
+The file contains the wheel, lark and mpmath, and needs only Python.  A command that needs numpy reports that numpy is
+missing.  The emulator in the browser loads the same packages.
 """
 
 import sys
 import zipfile
-from argparse import ArgumentParser
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from importlib.metadata import distribution
 from io import BytesIO
 from pathlib import Path
@@ -33,12 +32,9 @@ if __name__ == "__main__":
 
 def pyz(wheel: Path) -> bytes:
     """Return the program as one executable archive.  The same wheel and packages always give the same bytes."""
-    return _zipped({**files_of(wheel), "__main__.py": _MAIN.encode()}, b"#!/usr/bin/env python3\n")
-
-
-def _zipped(files: Mapping[str, bytes], first_line: bytes = b"") -> bytes:
+    files = {**files_of(wheel), "__main__.py": _MAIN.encode()}
     buffer = BytesIO()
-    buffer.write(first_line)
+    buffer.write(b"#!/usr/bin/env python3\n")
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
         for name, data in sorted(files.items()):
             archive.writestr(zipfile.ZipInfo(name, EPOCH), data, zipfile.ZIP_DEFLATED)
@@ -64,10 +60,11 @@ def _installed(package: str) -> Iterator[tuple[str, bytes]]:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Build the file from the newest wheel in ``dist``.  Return 0, or 2 after one line."""
-    parser = ArgumentParser(prog="pyz", description="Build the program as one file.")
-    parser.add_argument("out", nargs="?", type=Path, default=DIST, help="output folder (default: dist)")
-    out: Path = parser.parse_args(arguments).out
+    """Build the file in the named folder, by default ``dist``, from the newest wheel in ``dist``.
+
+    Return 0, or 2 after a message of one line.
+    """
+    out = Path(arguments[0]) if arguments else DIST
 
     def build() -> str:
         wheel = newest_wheel()

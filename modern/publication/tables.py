@@ -1,7 +1,7 @@
-"""Tables of the deposit: each number and each bound of an interval in a separate column, and a description of each.
+"""Convert tables of reports to tables of the deposit, in which each cell is one number or one text.
 
-The reports print a mean with its interval in one cell, such as ``0.93 (0.88 to 0.98) %``.  Programs read such a cell
-more easily as three numbers.  The descriptions of the columns are in ``columns.toml``.
+The reports print a mean with its interval in one cell, such as ``0.93 (0.88 to 0.98) %``.  The deposit has a column for
+the mean and a column for each bound of the interval.  The descriptions of the columns are in ``columns.toml``.
 """
 
 import csv
@@ -14,7 +14,7 @@ from functools import cache
 from io import StringIO
 from pathlib import Path
 
-# How the description of a column begins that columns.toml does not have.
+# The beginning of the description of a column without an entry in columns.toml.
 UNDESCRIBED = "see the report in"
 # The cells that stand for a missing value.
 MISSING = ("", "-", "none")
@@ -25,7 +25,7 @@ _RANGE = re.compile(rf"(10\^)?({_NUMBER})(?: to (?:10\^)?({_NUMBER}))?")
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column with its type in the terms of Frictionless, its description, and its cells."""
+    """A column of a table.  ``kind`` is its Frictionless type, such as ``integer``."""
 
     name: str
     kind: str
@@ -34,7 +34,7 @@ class Column:
 
 
 def columns(path: str, text: str) -> tuple[Column, ...]:
-    """Return the columns of a CSV table.  Raise ValueError for equal names."""
+    """Return the columns of a CSV table with the given path and text.  Raise ValueError if two have the same name."""
     head, *rows = list(csv.reader(StringIO(text)))
     if duplicates := [name for name in head if head.count(name) > 1]:
         raise ValueError(f"{path}: two columns are called {duplicates[0]}")
@@ -51,7 +51,7 @@ def csv_text(table: Sequence[Column]) -> str:
 
 
 def _parts(path: str, name: str, cells: Sequence[str]) -> list[Column]:
-    """Return the columns for one column of a report: bounds of intervals and ranges become columns of numbers."""
+    """Split one column of a report: the bounds of intervals and the ends of ranges get columns of their own."""
     about = description(path, name)
     values = [cell for cell in cells if cell not in MISSING]
     if values and all(map(_INTERVAL.fullmatch, values)):
@@ -68,7 +68,8 @@ def _parts(path: str, name: str, cells: Sequence[str]) -> list[Column]:
             for k, (end, bound) in enumerate(ends if has_bounds else ends[:1])
         ]
     if values and all(map(_RANGE.fullmatch, values)):
-        limits = [(power and "1e", low, high or low) for power, low, high in map(_range, cells)]
+        ranges = (_groups(_RANGE, cell) for cell in cells)
+        limits = [(power and "1e", low, high or low) for power, low, high in ranges]
         if all(low == high for _, low, high in limits):
             return [Column(name, "number", about, tuple(power + low for power, low, _ in limits))]
         return [
@@ -83,12 +84,6 @@ def _groups(pattern: re.Pattern[str], cell: str) -> list[str]:
     return [group or "" for group in match.groups()] if match else [""] * pattern.groups
 
 
-def _range(cell: str) -> tuple[str, str, str]:
-    """Return the two ends of a range of numbers, and the prefix "10^" if they are exponents."""
-    power, low, high = _groups(_RANGE, cell)
-    return power, low, high
-
-
 def _kind(cells: Sequence[str]) -> str:
     return "integer" if all(re.fullmatch(r"-?\d+", cell) for cell in cells) else "number"
 
@@ -101,7 +96,7 @@ def _descriptions() -> dict[str, str]:
 
 
 def description(path: str, name: str) -> str:
-    """Return the description of a column; without an entry in columns.toml, refer to the report of the table."""
+    """Return the description of a column from columns.toml; without an entry there, refer to the table's report."""
     for pattern, text in _descriptions().items():
         if fnmatchcase(name, pattern):
             literal = len(pattern) - 1

@@ -1,9 +1,9 @@
-"""Collect the packages of others that the deposit contains: ``python -m modern.publication.vendored dist/wheels``.
+"""Collect the third-party packages of the deposit: ``python -m modern.publication.vendored dist/wheels``.
 
-These are the wheels of the run-time dependencies and of the packages that build the wheel, the site and the book, as
-pinned with hashes in ``locks``, and the part of Pyodide that the emulator's page uses.  Binary wheels are those of the
-platform that collects them.  Pip takes the wheels from its cache or a package registry.  If neither has them, they are
-left out, and the deposit's README says so.
+The deposit contains the wheels of the run-time dependencies and of the packages that build the wheel, the site and the
+book, at the versions that ``locks`` pins with hashes.  It also contains the part of Pyodide that the emulator's page
+loads.  A binary wheel fits only the platform of the machine that collects it.  Pip takes the wheels from its cache or
+from a package registry.  If neither has a wheel, the deposit lacks it, and the deposit's README names it.
 """
 
 import re
@@ -21,36 +21,36 @@ from modern.publication.building import DIST, ROOT, BuildError, run
 
 WHEELS = DIST / "wheels"
 PYODIDE = ROOT / "docs" / "console" / "node_modules" / "pyodide"
-# The packages of the lock that only the build of the wheel needs.
+# The packages in run.lock that only the build of the wheel needs.
 _BUILD = ("setuptools",)
-# The packages of the extra that are published as source only.  Nothing but the packing of the deposit needs them.
+# The packages of the extra ``edition`` that are published without a wheel.  Only the packing of the deposit needs them.
 SOURCE_ONLY = ("bagit",)
 
 
-def locked(root: Path = ROOT) -> dict[str, str]:
+def locked() -> dict[str, str]:
     """Return the pinned run-time dependencies: the requirement with its hashes, by ``NAME==VERSION``."""
-    return {pin: block for pin, block in pins(root, "run").items() if pin.split("==")[0] not in _BUILD}
+    return {pin: block for pin, block in pins("run").items() if pin.split("==")[0] not in _BUILD}
 
 
-def collected(root: Path = ROOT) -> dict[str, str]:
-    """Return the pins of all packages with wheels that the deposit should contain.
+def collected() -> dict[str, str]:
+    """Return the pins of all packages whose wheels the deposit should contain, as :func:`locked` does.
 
-    To the run-time dependencies it adds the build tools of the wheel, the extra ``edition``, and their dependencies.
+    These are the run-time dependencies, the build tools of the wheel, the extra ``edition``, and their dependencies.
     """
-    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     extra = project["project"]["optional-dependencies"]["edition"]
     names = _with_dependencies((*extra, *project["build-system"]["requires"], "build")) - set(SOURCE_ONLY)
-    return locked(root) | {pin: block for pin, block in pins(root, "dev").items() if pin.split("==")[0] in names}
+    return locked() | {pin: block for pin, block in pins("dev").items() if pin.split("==")[0] in names}
 
 
-def pins(root: Path, lock: str) -> dict[str, str]:
-    """Return the requirements of a lock file, with their hashes, by ``NAME==VERSION``."""
-    blocks = re.split(r"\n(?=\S)", (root / "locks" / f"{lock}.lock").read_text(encoding="utf-8").strip())
+def pins(lock: str) -> dict[str, str]:
+    """Return the requirements in the file ``locks/LOCK.lock``, with their hashes, by ``NAME==VERSION``."""
+    blocks = re.split(r"\n(?=\S)", (ROOT / "locks" / f"{lock}.lock").read_text(encoding="utf-8").strip())
     return {block.split(" ")[0]: block for block in blocks}
 
 
 def _with_dependencies(roots: Sequence[str]) -> set[str]:
-    """Return ``roots`` and the packages that they need on this platform, directly or indirectly, by name."""
+    """Return the names of the packages ``roots`` and of all packages that they need on this platform."""
     from packaging.requirements import Requirement  # a dependency of Sphinx
 
     queue, visited = [Requirement(line) for line in roots], set[tuple[str, frozenset[str]]]()
@@ -71,7 +71,7 @@ def _with_dependencies(roots: Sequence[str]) -> set[str]:
 
 
 def download(folder: Path) -> str:
-    """Put the wheels into a folder, and return a summary.  Wheels of other versions are removed."""
+    """Download the missing wheels into a folder, remove wheels of other versions, and return a summary."""
     folder.mkdir(parents=True, exist_ok=True)
     packages = collected()
     stems = {_stem(pin) for pin in packages}
@@ -97,7 +97,7 @@ def _normalized(name: str, separator: str) -> str:
 
 
 def _stem(pin: str) -> str:
-    """Return the part of a wheel's file name before the tags, for a pin of the form ``NAME==VERSION``."""
+    """Return name and version of a pin ``NAME==VERSION`` in the form in which the file name of a wheel begins."""
     name, _, version = pin.partition("==")
     return f"{_normalized(name, '_')}-{version}"
 
@@ -107,7 +107,7 @@ def _wheel_stem(file: str) -> str:
 
 
 def files(wheels: Path = WHEELS, pyodide: Path = PYODIDE) -> dict[str, bytes]:
-    """Return the files of others by their paths in the deposit: wheels, their licences, and Pyodide."""
+    """Return the third-party files by their paths in the deposit: wheels, their licences, and Pyodide."""
     result: dict[str, bytes] = {}
     for path in sorted(wheels.glob("*.whl")):
         data = path.read_bytes()
@@ -128,7 +128,10 @@ def _licences(wheel: bytes) -> Iterator[tuple[str, bytes]]:
 
 
 def left_out(names: Mapping[str, bytes]) -> str:
-    """Return a sentence that names the parts that a deposit with these files lacks, or an empty string."""
+    """Return a sentence that names the wheels and other parts that a deposit lacks, or an empty string.
+
+    ``names`` has the paths of the files in the deposit as keys.
+    """
     present = {_wheel_stem(name.removeprefix("wheels/")) for name in names if re.fullmatch(r"wheels/[^/]+\.whl", name)}
     packages = [pin for pin in collected() if _stem(pin) not in present]
     missing = [f"the wheels of {', '.join(packages)}"] if packages else []
@@ -138,7 +141,7 @@ def left_out(names: Mapping[str, bytes]) -> str:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Collect the wheels in the named folder, by default ``dist/wheels``.  Return 0, or 2 after one line."""
+    """Collect the wheels in the named folder, by default ``dist/wheels``.  Return 0, or 2 after a one-line message."""
     return run("vendored", lambda: download(Path(arguments[0]) if arguments else WHEELS))
 
 

@@ -195,7 +195,7 @@ def test_the_collected_packages_suffice_to_build_and_have_wheels() -> None:
     assert names >= {"setuptools", "build", "sphinx", "furo", "myst-parser", "typst", "docutils", "numpy", "lark"}
     assert not names & {"pytest", "mypy", "numba", "colorama", "bagit"}
     # A package that is published as source only has the hash of one file.
-    blocks = vendored.pins(ROOT, "dev")
+    blocks = vendored.pins("dev")
     assert {pin.split("==")[0] for pin in blocks if "bagit" in pin} == set(vendored.SOURCE_ONLY)
     assert all(block.count("sha256:") > 1 for block in packages.values())
 
@@ -262,11 +262,12 @@ def test_the_identifier_is_the_hash_of_the_git_tree(tmp_path: Path) -> None:
     assert swhid(files, set()) != f"swh:1:dir:{tree}"
 
 
-def test_without_git_build_results_are_omitted(tmp_path: Path) -> None:
+def test_without_git_build_results_are_omitted(tmp_path: Path, monkeypatch) -> None:
     for name in ("README.md", "dist/x", "build/y", "emulator/__pycache__/z.pyc", "emulator/a.py", ".venv/b"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("x")
-    assert source_files(tmp_path) == ("README.md", "emulator/a.py")
+    monkeypatch.setattr(deposit, "ROOT", tmp_path)
+    assert source_files() == ("README.md", "emulator/a.py")
 
 
 def test_the_readme_names_the_required_packages(made: tuple[Path, Path]) -> None:
