@@ -10,7 +10,7 @@ A. Appel and P. M. Will, "Determining the Three-dimensional Convex Hull of a Pol
 """
 
 from modern.papers.appel_will.corners import RULES
-from modern.papers.appel_will.hull import CORRECTED, LITERAL, PRINTED, Assembled, Method, appel_will, printed
+from modern.papers.appel_will.hull import CORRECTED, PRINTED, Assembled, Method, appel_will, printed
 from modern.papers.appel_will.surfaces import MapError
 
-__all__ = ["CORRECTED", "LITERAL", "PRINTED", "RULES", "Assembled", "MapError", "Method", "appel_will", "printed"]
+__all__ = ["CORRECTED", "PRINTED", "RULES", "Assembled", "MapError", "Method", "appel_will", "printed"]

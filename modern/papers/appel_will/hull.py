@@ -8,43 +8,48 @@ from modern.exact_hull.coordinates import read_points
 from modern.geometry.points import Points
 from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers.appel_will.corners import Preprocessing, Rule, preprocess
-from modern.papers.appel_will.loops import PREFERRED, LoopTable, Rules, find_loops, surface
+from modern.papers.appel_will.loops import LoopTable, find_loops, surface
 from modern.papers.appel_will.star import Deleted, IntPoint, Pair, StarTest, as_printed, convex_edges, in_one_pass
 from modern.papers.appel_will.surfaces import Fates, Surface, check_surfaces, fates
+
+# Rules that can be applied as printed, although wrong: the star test of Fig. 12 and five steps of the appendix.
+PRINTED = ("star", "step3", "step5", "step7", "step9", "step10")
 
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """Options of the method: the star polygon test, the steps of the appendix, and a rule to delete points."""
+    """Options of the method: the star polygon test, the steps to apply as printed, and a rule to delete points.
+
+    ``printed`` names steps of the appendix that are wrong or unclear in the print. By default all are corrected, which
+    reproduces all printed loops and finds all faces of any hull. A loop begins with two lines L1 and L2.
+
+    ``step3``: take the first admissible L2. Otherwise prefer an L2 whose direction has a positive dot product with that
+    of L1, as the main text requires of two lines that define a plane.
+    ``step5``, ``step7``: "go back to step 2", so that an L1 whose first L2 is rejected is skipped. The correct target
+    is step 3.
+    ``step9``: exclude only L1 and L2 from the search for the next line, not the other lines already on the loop.
+    ``step10``: "start another loop at step 1", so that every loop begins with all counts at 0. The correct target is
+    step 2.
+    """
 
     star: StarTest = in_one_pass
-    rules: Rules = PREFERRED
+    printed: frozenset[str] = frozenset()
     inside_corners: Rule | None = None
 
 
 CORRECTED = Method()
-# Rules that can be applied as printed, although wrong: the star test of Fig. 12 and five steps of the appendix.
-PRINTED = ("star", "step3", "step5", "step7", "step9", "step10")
 
 
 def printed(*names: str) -> Method:
     """Return the method with the named rules as the paper prints them, although wrong, and all others corrected.
 
-    ``star``: two projected points on one ray from C put C outside of the star polygon. ``step3``: the first admissible
-    L2 is taken, and none is preferred. ``step5``, ``step7``, ``step9``, ``step10``: see
-    :class:`~modern.papers.appel_will.loops.Rules`.
-
-    Raise ValueError for an unknown name.
+    The name ``star`` selects the star polygon test as printed. The names of steps are those of :class:`Method`. Raise
+    ValueError for an unknown name.
     """
     unknown = [name for name in names if name not in PRINTED]
     if unknown:
         raise ValueError(f"{quoted(unknown[0])} is not one of {', '.join(PRINTED)}")
-    steps = ("step5" in names, "step7" in names, "step9" in names, "step10" in names)
-    return Method(as_printed if "star" in names else in_one_pass, Rules("step3" not in names, *steps))
-
-
-# The method with every rule as printed.
-LITERAL = printed(*PRINTED)
+    return Method(as_printed if "star" in names else in_one_pass, frozenset(names) - {"star"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +131,7 @@ def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method 
         live.difference_update(preprocessing.deleted)
     # The two steps of the paper: the convex edges by projections, then their loops by the appendix.
     convex = convex_edges(scaled, live, method.star)
-    table = find_loops(scaled, convex.edges, method.rules)
+    table = find_loops(scaled, convex.edges, method.printed)
     topological_map = tuple(surface(loop.entries, convex.edges) for loop in table.loops)
     assembly = (preprocessing, convex.deleted, convex.projections, convex.edges, table, topological_map)
     return Assembled(scaled, scale, duplicates, *assembly, _dimension(list(first)))

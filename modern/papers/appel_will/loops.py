@@ -4,7 +4,7 @@ A line is a convex edge, an edge of the hull. Lines are numbered L from 1 and ha
 lists L if it runs along the line from LC1 to LC2, otherwise -L.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from modern.geometry.vectors import cross, dot, minus
@@ -12,32 +12,6 @@ from modern.papers.appel_will.star import IntPoint, Pair
 
 # An edge is used by this number of loops, because it is the intersection of two planes of the hull.
 TIMES = 2
-
-
-@dataclass(frozen=True, slots=True)
-class Rules:
-    """Options for steps of the paper's appendix that are wrong or unclear as printed.  L1 and L2 begin a loop.
-
-    ``dot_condition``: of the admissible lines L2, prefer one whose direction has a positive dot product with that of
-    L1 (the condition of the main text for two lines that define a plane), otherwise take the first. If False, the
-    first is always taken, as step 3 says.
-    ``step_5``, ``step_7``: True applies "go back to step 2" as printed, so that an L1 whose first L2 is rejected is
-    skipped. The correct target is step 3.
-    ``step_9``: True applies the step as printed, which excludes only L1 and L2, not the other lines already on the
-    loop.
-    ``step_10``: True applies "start another loop at step 1" as printed, so that every loop begins with all counts at
-    0. The correct target is step 2.
-    """
-
-    dot_condition: bool = True
-    step_5: bool = False
-    step_7: bool = False
-    step_9: bool = False
-    step_10: bool = False
-
-
-# This reading of the appendix reproduces all printed loops and finds all faces of any hull.
-PREFERRED = Rules()
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,11 +78,14 @@ def intersect(edges: Sequence[Pair], first: int, second: int) -> Intersection | 
     return None
 
 
-def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) -> LoopTable:
-    """Find all loops (borders of faces) of the convex edges, by steps 1 to 10 of the paper's appendix."""
+def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], printed: Collection[str] = ()) -> LoopTable:
+    """Find all loops (borders of faces) of the convex edges, by steps 1 to 10 of the paper's appendix.
+
+    ``printed`` names the steps to apply as printed, although wrong (see :class:`modern.papers.appel_will.hull.Method`).
+    """
     vertices = sorted({end for edge in edges for end in edge})
     uses = [0] * len(edges)  # step 1: all counts IUC are 0
-    table = _Table(points, vertices, edges, uses, [], rules)
+    table = _Table(points, vertices, edges, uses, [], printed)
     loops: list[Loop] = []
     while True:
         begun = _begin(table)
@@ -123,7 +100,7 @@ def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) 
             uses[abs(entry) - 1] += 1
         loops.append(Loop(tuple(entries), begun.kind, begun.start, begun.match, tuple(uses)))
         table.on_loops.append(frozenset(surface(entries, edges)))
-        if rules.step_10:
+        if "step10" in printed:
             # As printed the next loop starts at step 1, which clears the counts.
             uses[:] = [0] * len(edges)
 
@@ -142,7 +119,7 @@ class _Table:
     edges: Sequence[Pair]
     uses: list[int]
     on_loops: list[frozenset[int]]
-    rules: Rules
+    printed: Collection[str]
 
 
 def _begin(table: _Table) -> Intersection | None:
@@ -155,7 +132,7 @@ def _begin(table: _Table) -> Intersection | None:
         if chosen is None:
             continue
         # If no L2 has a positive product, as in a cube, the first admissible L2 is taken.
-        if table.rules.dot_condition and not _acute(table, chosen):
+        if "step3" not in table.printed and not _acute(table, chosen):
             return next((candidate for candidate in admissible if _acute(table, candidate)), chosen)
         return chosen
     return None
@@ -172,11 +149,11 @@ def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
         # Step 5: three points that already lie on one loop would give its plane again.
         three = {crossing.common, crossing.start, crossing.match}
         if any(three <= loop for loop in table.on_loops):
-            if table.rules.step_5:
+            if "step5" in table.printed:
                 return
         elif _is_convex_plane(table, crossing):
             yield crossing
-        elif table.rules.step_7:
+        elif "step7" in table.printed:
             return
 
 
@@ -209,7 +186,7 @@ def _follow(table: _Table, crossing: Intersection) -> list[int] | None:
             if beyond == crossing.start:
                 return entries
             # Step 9 as printed excludes L1 and L2 only. The line just entered would then match from its other end.
-            if not table.rules.step_9:
+            if "step9" not in table.printed:
                 excluded.add(line)
             match = beyond
             break

@@ -12,12 +12,11 @@ from hypothesis import strategies as st
 
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import CORRECTED, Method, appel_will, printed
-from modern.papers.appel_will.loops import Rules
 from modern.papers.appel_will.star import as_corrected
 from tests.support.judged import sets
 
 Point = tuple[int, int, int]
-FIRST_LINE = Method(rules=Rules(dot_condition=False))
+FIRST_LINE = printed("step3")
 
 
 def cycle_from_lowest(polygon: Sequence[int]) -> tuple[int, ...]:

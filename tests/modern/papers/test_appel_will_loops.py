@@ -6,16 +6,17 @@ import pytest
 
 from modern.claims.published import PAPERS, results_of
 from modern.papers.appel_will import PRINTED, Method, appel_will, printed
-from modern.papers.appel_will.loops import Rules, find_loops, intersect, surface
+from modern.papers.appel_will.loops import find_loops, intersect, surface
 from modern.papers.appel_will.results import found_solid
+from modern.papers.appel_will.star import as_printed
 
 PAPER = next(paper for paper in PAPERS if paper.name == "appel-will")
 CUBE = list(product((0, 1), repeat=3))
 FIG_14, FIG_23 = found_solid("fig14").points, found_solid("fig23").points
 
 
-def entries(points: list[tuple[int, int, int]] | tuple[tuple[int, int, int], ...], rules: Rules) -> list[list[int]]:
-    return [list(loop.entries) for loop in appel_will(points, method=Method(rules=rules)).table.loops]
+def entries(points: list[tuple[int, int, int]] | tuple[tuple[int, int, int], ...], *names: str) -> list[list[int]]:
+    return [list(loop.entries) for loop in appel_will(points, method=printed(*names)).table.loops]
 
 
 @pytest.mark.parametrize(
@@ -38,22 +39,22 @@ def test_types_of_fig_20(edges, kind, signs, start, match) -> None:
 def test_rules_are_selected_and_searches_without_a_face_stop() -> None:
     assert intersect([(1, 2), (3, 4)], 0, 1) is None
     assert printed() == Method()
-    assert printed(*PRINTED).rules == Rules(False, True, True, True, True)
+    assert printed(*PRINTED) == Method(as_printed, frozenset(PRINTED[1:]))
     with pytest.raises(ValueError, match="'step2' is not one of star, step3"):
         printed("step2")
     # All angles are right angles, so the condition alone would find no loop.
-    assert entries(CUBE, Rules()) == entries(CUBE, Rules(dot_condition=False))
-    assert len(entries(CUBE, Rules())) == 6
-    table = find_loops([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1), (0, 2)], Rules())
+    assert entries(CUBE) == entries(CUBE, "step3")
+    assert len(entries(CUBE)) == 6
+    table = find_loops([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1), (0, 2)])
     assert table.loops == ()
     assert table.stopped == "the loop begun with lines 1 and 2 does not return to its start"
     assert not table.closed
 
 
 @pytest.mark.parametrize("points", [FIG_14, FIG_23, CUBE], ids=["fig14", "fig23", "cube"])
-@pytest.mark.parametrize("dot", [True, False])
-def test_every_loop_adds_one_use_to_its_edges_and_none_has_three(points: list[tuple[int, int, int]], dot: bool) -> None:
-    table = appel_will(points, method=Method(rules=Rules(dot_condition=dot))).table
+@pytest.mark.parametrize("names", [(), ("step3",)])
+def test_every_loop_adds_one_use_to_its_edges_and_none_has_three(points, names) -> None:
+    table = appel_will(points, method=printed(*names)).table
     before = (0,) * len(table.uses)
     for loop in table.loops:
         increased = [label for label, (a, b) in enumerate(zip(before, loop.uses, strict=True), 1) if a != b]
@@ -67,12 +68,12 @@ def test_every_loop_adds_one_use_to_its_edges_and_none_has_three(points: list[tu
 def test_step_3_as_printed_finds_the_same_faces_in_the_same_order() -> None:
     """Without the dot-product condition three of the twelve printed loops run in the opposite sense."""
     for points in (FIG_14, FIG_23):
-        preferred, as_printed = (appel_will(points, method=m) for m in (Method(), Method(rules=printed("step3").rules)))
-        assert [set(s) for s in preferred.surfaces] == [set(s) for s in as_printed.surfaces]
+        preferred, literal = (appel_will(points, method=m) for m in (Method(), printed("step3")))
+        assert [set(s) for s in preferred.surfaces] == [set(s) for s in literal.surfaces]
     differing = [
         (a, b)
         for points in (FIG_14, FIG_23)
-        for a, b in zip(entries(points, Rules()), entries(points, printed("step3").rules), strict=True)
+        for a, b in zip(entries(points), entries(points, "step3"), strict=True)
         if a != b
     ]
     assert len(differing) == 3
@@ -83,22 +84,22 @@ def test_steps_5_and_9_as_printed_fail() -> None:
     # With "go back to step 2", line 1 gets no second try, and the second loop begins with another line.
     (fig22,) = (result.corrected for result in results_of(PAPER) if result.id == "fig22-loops-1-3")
     second_loop = [int(entry) for entry in fig22[0].split("\t")[3].split()]
-    for dot in (True, False):
-        assert entries(FIG_14, Rules(dot, step_5=True))[1][0] != second_loop[0]
-        assert entries(FIG_14, Rules(dot))[1] == second_loop
+    for names in ((), ("step3",)):
+        assert entries(FIG_14, "step5", *names)[1][0] != second_loop[0]
+        assert entries(FIG_14, *names)[1] == second_loop
     # It excludes L1 and L2 only. The face of five points here needs lines 8 and 7 in descending order.
     points = [(-6, -6, 1), (-4, -4, 5), (-8, 14, 8), (-2, 0, 10), (0, 2, 14), (-4, 20, 17)]
-    as_printed = appel_will(points, method=Method(rules=Rules(False, step_9=True)))
-    assert "does not return to its start" in as_printed.fault
-    assert not appel_will(points, method=Method(rules=Rules(False))).fault
+    literal = appel_will(points, method=printed("step3", "step9"))
+    assert "does not return to its start" in literal.fault
+    assert not appel_will(points, method=printed("step3")).fault
 
 
 def test_steps_7_and_10_as_printed_find_the_loops_in_another_way() -> None:
     # An L1 whose first L2 defines no plane of the hull is skipped.
     points = [(0, 0, 2), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, -2)]
-    as_printed, corrected = entries(points, printed("step7").rules), entries(points, Rules())
-    assert sorted(sorted(map(abs, loop)) for loop in as_printed) == sorted(sorted(map(abs, loop)) for loop in corrected)
-    assert as_printed != corrected
+    literal, corrected = entries(points, "step7"), entries(points)
+    assert sorted(sorted(map(abs, loop)) for loop in literal) == sorted(sorted(map(abs, loop)) for loop in corrected)
+    assert literal != corrected
     # Step 5 prevents repeated loops, and step 2 ends when all lines were addressed. No count becomes 2.
     hull = appel_will(FIG_14, method=printed("step10"))
     assert [set(s) for s in hull.surfaces] == [set(s) for s in appel_will(FIG_14).surfaces]
