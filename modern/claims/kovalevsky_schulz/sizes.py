@@ -1,5 +1,6 @@
 """Checks of sections 4 and 5 of Kovalevsky and Schulz: sizes of cell lists and triangulations, and symmetry."""
 
+import re
 from fractions import Fraction
 from functools import cache
 
@@ -64,6 +65,23 @@ def _bodies() -> tuple[list[CellList], list[CellList]]:
     """Return the cell lists of the half-balls, with the points on straight edges and without them."""
     bodies = [half_ball_cells(d) for d in DIAMETERS]
     return bodies, [straightened(cells) for cells in bodies]
+
+
+@claim("kovalevsky-schulz.84")
+def integers_of_table_4() -> Check:
+    """Check that the printed 495 integers are those of formula (6), and that the cell list of such a hull has fewer.
+
+    By Euler's formula the hull has V + F - 2 edges, each of which is on two faces. The list therefore has 3 V + 2 E
+    integers, or F more if it also has the number of vertices of each face.
+    """
+    paper = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
+    faces, vertices, integers = map(int, re.findall(r"\d+", printed_lines(paper)["table4-hull"][0]))
+    edges = vertices + faces - 2
+    exact = 3 * vertices + 2 * edges
+    counted = all(economical_size(c) == 3 * len(c.vertices) + 2 * len(c.edges) for bodies in _bodies() for c in bodies)
+    check = exhibited(cell_list_size(vertices, faces) == integers, f"{integers} is the value of formula (6)")
+    case = f"the cell list itself: {vertices} vertices and {faces} faces have {edges} edges and need {exact} integers"
+    return check.unless(counted and integers not in (exact, exact + faces), case)
 
 
 @claim("kovalevsky-schulz.80")
