@@ -1,8 +1,9 @@
 """Compare, deck by deck, the cards that a natively compiled program punches with those of the emulator.
 
-Two results are *the same* if they differ only in the sign of zeros. They have *different digits* if, in addition,
-numbers differ by at most TOLERANCE of the larger one, because doubles round where the 1620 truncates eight digits.
-Anything else is *a different hull*: another number of points or planes, another order, or a refusal.
+Two results are *the same* if they differ at most in how zeros are written. They have *different digits* if numbers
+also differ, but by at most TOLERANCE times the larger number: doubles round, and the 1620 truncates to eight digits.
+All other results are *another hull*: the number or the order of points or planes differs, or one program rejects the
+points.
 """
 
 import re
@@ -16,12 +17,15 @@ TOLERANCE = Decimal("1E-6")
 HEADING = "CONVEX HULL"
 
 _NUMBER = re.compile(r"[ -]\.\d{8}E[+-]\d\d")
-_ZERO = " .00000000E-99"
+_ZERO = re.compile(r"[ -]\.00000000E[+-]\d\d")
 
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """Counts of decks with the same result, different digits or a different hull, and the first difference."""
+    """The number of decks with the same result, with different digits and with another hull, and the first difference.
+
+    ``first`` describes the first difference and is empty if there is none.
+    """
 
     same: int
     digits: int
@@ -34,13 +38,16 @@ class Agreement:
 
 
 def data_sets(cards: Sequence[str]) -> list[list[str]]:
-    """Divide the cards that a run punched into one list for each data set."""
+    """Divide the cards that a run of program 2 or 3 punched into one list for each data set."""
     bounds = [*(n - 1 for n, card in enumerate(cards) if card == HEADING and n), len(cards)]
     return [list(cards[a:b]) for a, b in pairwise(bounds)]
 
 
 def compare(emulated: Sequence[Sequence[str]], native: Sequence[Sequence[str]]) -> Agreement:
-    """Compare the emulated and the native program's cards, deck by deck.  A missing deck counts as a different hull."""
+    """Compare the emulator's cards with those of the native program, deck by deck.
+
+    A deck for which one of them punched nothing counts as another hull.
+    """
     same = digits = different = 0
     first = ""
     for n in range(max(len(emulated), len(native))):
@@ -62,12 +69,8 @@ def compare(emulated: Sequence[Sequence[str]], native: Sequence[Sequence[str]]) 
 
 
 def plain(card: str) -> str:
-    """Return a card with its numbers in one canonical notation, so that cards can be compared as text."""
-    return _NUMBER.sub(lambda match: _printed(match[0]), card).rstrip()
-
-
-def _printed(number: str) -> str:
-    return _ZERO if number[2:10] == "00000000" else number
+    """Return a card in which every zero is written in the same way, so that cards can be compared as text."""
+    return _ZERO.sub(" .00000000E-99", card).rstrip()
 
 
 def _close(emulated: str, native: str) -> bool:

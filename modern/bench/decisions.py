@@ -56,7 +56,10 @@ class Decision:
 
 
 def run_with_decisions(program: Program, deck: Deck, arithmetic: Numbers) -> tuple[Result, list[Decision]]:
-    """Run a program; return its result and decisions.  An invalid deck becomes an ending of the kind ``input``."""
+    """Run a program, and return its result and its decisions.
+
+    If the deck is invalid, the ending of the result has the kind ``input``.
+    """
     machine = Machine(program, deck, Options(arithmetic, limit=_LIMIT), journal=Journal(False))
     assert machine.journal is not None
     try:
@@ -77,7 +80,7 @@ def run_with_decisions(program: Program, deck: Deck, arithmetic: Numbers) -> tup
 
 @dataclass
 class Counts:
-    """Counts of the differences between a compiler's programs and the emulator, and the first case of each kind."""
+    """Counts of the differences between compiled programs and the emulator, and the place of the first of each kind."""
 
     counts: Counter[str] = field(default_factory=Counter)
     first: dict[str, str] = field(default_factory=dict)
@@ -93,7 +96,7 @@ class Counts:
 
 
 def compare_step(program: Path, step: Step, decisions: Sequence[Decision], counts: Counts) -> None:
-    """Run a compiled program on the deck of a run of the emulator, and count the differences between both."""
+    """Run a compiled program on a deck that the emulator has run, and count the differences between the two runs."""
     log = program.with_suffix(".decisions")
     command = [str(program), "-d", str(log)]
     where = f"{step.name}, {step.deck.source}"
@@ -122,7 +125,7 @@ def compare_step(program: Path, step: Step, decisions: Sequence[Decision], count
 
 
 def samples(count: int) -> Iterator[Deck]:
-    """Yield the given number of random decks for program 1, evenly from the families of the study ``divergence``."""
+    """Yield random decks for program 1, taken in turn from the families of the study ``divergence``."""
     cells = divergence.plan().cells
     for n in range(count):
         cell, index = cells[n % len(cells)], n // len(cells)
@@ -155,7 +158,10 @@ def compiled(folder: Path, command: str) -> dict[str, Path]:
 
 
 def compare(count: int, folder: Path, commands: Sequence[str] = tuple(COMPILERS)) -> dict[str, Counts]:
-    """Compare the translated and compiled programs with the emulator, all in doubles, on ``count`` decks."""
+    """Run ``count`` decks on compiled programs and on the emulator, all in doubles, and count the differences.
+
+    Return the counts for each command of a compiler.
+    """
     executables = {command: compiled(folder, command) for command in commands}
     totals = {command: Counts() for command in commands}
     for deck in samples(count):

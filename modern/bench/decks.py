@@ -1,7 +1,7 @@
-"""The input of the benchmarks: decks of 51 points for program 3, in the version without the listing's known faults.
+"""The input of the benchmarks: decks of 51 points that program 1 punches for program 3.
 
-The decks are those that program 1 punches. ``python -m modern.bench.decks`` runs one deck, read from standard input, on
-the compiled engine.
+Program 3 runs with the layer ``corrected``, which removes the known faults. ``python -m modern.bench.decks`` reads one
+deck from standard input and runs it on the compiled engine.
 """
 
 import random
@@ -22,7 +22,7 @@ Point = tuple[int, int, int]
 
 
 def random_points(count: int, seed: int) -> list[Point]:
-    """Return distinct points with uniform integers in [-99, 99], in random order."""
+    """Return distinct points in random order, whose coordinates are uniformly distributed integers in [-99, 99]."""
     source = random.Random(seed)
     distinct: set[Point] = set()
     while len(distinct) < count:
@@ -39,7 +39,7 @@ def data_deck(points: Sequence[Point]) -> Deck:
 
 
 def middle_texts(sets: Sequence[Sequence[Point]]) -> list[str]:
-    """Return the decks that program 1 punches for these point sets as input for program 3, as texts."""
+    """Return, as texts, the decks for program 3 that program 1 punches for these point sets."""
     results = run_batch(programs.program("program1"), [data_deck(points) for points in sets])
     return ["".join(card + "\n" for card in result.punched) for result in results]
 

@@ -1,4 +1,4 @@
-"""The formulas of the thesis and of the four later papers, as FPCore generated from the code that computes them."""
+"""Generate FPCore for the formulas of the thesis and the four later papers, from the code that computes them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Measure the speed of the engines: interpreter, compiled engine, modern procedure in doubles, native program."""
+"""Compare the speed of the interpreter, the compiled engine, Butler's procedure in doubles, and a native program."""
 
 import importlib.metadata
 import os
@@ -22,7 +22,7 @@ from modern.bench.timing import Figure, side_by_side, timed, timed_once
 from modern.edition import programs
 from modern.port import convex_hull
 
-# For fifty decks that the compiled engine runs, the plain engine runs one; for five decks, the port runs one.
+# The compiled engine runs all decks, the plain engine (the interpreter) one in fifty, and the port one in five.
 PLAIN_SHARE, PORT_SHARE = 50, 5
 
 PLAIN, COMPILED, PORT, NATIVE = "plain engine", "compiled engine", "port, float64", "native program"
@@ -34,20 +34,27 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One line of the table: an engine, the seconds of its runs, and the number of decks in each run."""
+    """The measured times of an engine, and the number of decks in each run.
+
+    In the table of results this is one line.
+    """
 
     figure: Figure
     decks: int
 
     @property
     def each(self) -> float:
-        """The median of the seconds that one deck takes."""
+        """The median of the seconds for one deck."""
         return self.figure.median / self.decks
 
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """All results of a measurement: the engines, process starts, agreement with the native program, and remarks."""
+    """The results of a measurement.
+
+    ``rows`` are the times of the engines, ``starts`` those of process starts, and ``compiler`` is the version of the
+    Fortran compiler, or empty if there is none.
+    """
 
     rows: tuple[Row, ...]
     starts: tuple[Figure, ...]
@@ -60,7 +67,7 @@ class Bench:
 
 
 def measure(count: int, say: Say = lambda line: None) -> Bench:
-    """Measure all engines with ``count`` decks.  ``say`` receives lines about the progress."""
+    """Measure all engines with ``count`` decks.  ``say`` is called with each line about the progress."""
     program = programs.program(PROGRAM, LAYERS)
     say(f"generating {count} decks of {POINTS} points")
     sets = [random_points(POINTS, SEED + n) for n in range(count)]
@@ -99,7 +106,7 @@ def measure(count: int, say: Say = lambda line: None) -> Bench:
 
 
 def _starts(text: str, folder: Path, say: Say) -> tuple[Figure, ...]:
-    """Measure how long the first process takes, which has nothing compiled yet, and how long later ones take."""
+    """Time the first process that runs a deck, which compiles the engine, and later processes, which load it."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder / "cache")}
 
     def process() -> None:
@@ -111,7 +118,7 @@ def _starts(text: str, folder: Path, say: Say) -> tuple[Figure, ...]:
 
 
 def lines(bench: Bench) -> list[str]:
-    """Return the results as a table 78 columns wide, followed by sentences, one on each line."""
+    """Return the results as the lines of a table of 78 columns, followed by one line for each remark."""
     compiled_row, native_row = bench.row(COMPILED), bench.row(NATIVE)
     headings = " ".join(
         f"{f'/ {word}':>10}" for word, row in (("compiled", compiled_row), ("native", native_row)) if row
@@ -130,7 +137,7 @@ def lines(bench: Bench) -> list[str]:
 
 
 def document(bench: Bench) -> dict[str, Any]:
-    """Return the results as JSON data: the seconds of every run, and the machine and versions."""
+    """Return the results as data for a JSON file: the seconds of every run, the machine, and the versions."""
     versions = {"python": platform.python_version()}
     for name in ("hull1620", "numba", "numpy"):
         with suppress(importlib.metadata.PackageNotFoundError):

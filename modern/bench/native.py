@@ -1,4 +1,4 @@
-"""Find a modern Fortran compiler, and build and run programs with it."""
+"""Find an installed Fortran compiler, compile translated programs with it, and run them as native programs."""
 
 import os
 import shlex
@@ -11,10 +11,10 @@ from emulator.errors import EmulatorError
 from emulator.language.cards import Deck
 from emulator.translation.writers import translated
 
-# Compilers, tried in this order after the one that the environment variable FC names.
+# The compilers that are tried in this order if the environment variable FC names none.
 COMPILERS = ("gfortran", "flang", "flang-new", "ifx", "f95")
 
-# Fused multiplications and additions would change results.
+# Options against fused multiplications and additions, which would change results.
 _EXTRA = {"gfortran": ("-std=f2018", "-ffp-contract=off"), "ifx": ("-no-fma",)}
 _PATIENCE = 120
 
@@ -68,7 +68,10 @@ def built(deck: Deck, fortran: Compiler, folder: Path) -> Path:
 
 
 def run(program: Path, cards: Path, punched: Path) -> None:
-    """Run a native program on a file of cards, in a folder of its own. Raise NoCompiler if it fails or does not end."""
+    """Run a native program on a file of cards, and write its output to the file ``punched``.
+
+    Raise NoCompiler if the program fails or does not end in two minutes.
+    """
     with cards.open("rb") as source, punched.open("wb") as target:
         try:
             process = subprocess.run(

@@ -1,10 +1,12 @@
-"""Measure times, as medians of five runs after a run that fills caches, and plot their growth."""
+"""Time functions, as medians of five runs after a run that fills caches, and plot how the times grow."""
 
 import math
 import statistics
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from modern.study.plots import draw
@@ -17,7 +19,7 @@ Clock = Callable[[], float]
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A measured time: the seconds of each run, and a note with a value for comparison."""
+    """The measured seconds of each run of a function, with a name (``what``) and a note, such as a required time."""
 
     what: str
     seconds: tuple[float, ...]
@@ -45,7 +47,7 @@ def timed(what: str, work: Callable[[], object], note: str = "") -> Figure:
 def side_by_side(
     works: Mapping[str, Callable[[], object]], note: str = "", clock: Clock = time.perf_counter, runs: int | None = None
 ) -> list[Figure]:
-    """Time several functions in turn, in five rounds or in the given number of them.
+    """Time several functions in turn, in five rounds or in ``runs`` rounds, after one untimed run of each.
 
     Other activity on the machine then affects all functions equally.
     """
@@ -55,8 +57,14 @@ def side_by_side(
     return [Figure(what, tuple(seconds), note) for what, seconds in zip(works, zip(*rounds, strict=True), strict=True)]
 
 
+def command(*arguments: str) -> Callable[[], object]:
+    """Return a function that runs ``hull1620`` with these arguments in a new process and discards the output."""
+    words = [sys.executable, "-m", "modern.cli.main", *arguments]
+    return lambda: subprocess.run(words, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
 class Measured(float):
-    """The seconds that a function measured itself, for example in a process that first has to read its points."""
+    """The seconds of a run, returned by a function that measures itself because it runs another program."""
 
 
 def _seconds(work: Callable[[], object], clock: Clock = time.perf_counter) -> float:
@@ -73,29 +81,28 @@ class Curve:
     points: Sequence[tuple[int, float]]
 
     def slope(self, least: int = 0) -> float | None:
-        """Return the exponent with which seconds grow with size, by least squares, for sizes from ``least`` on."""
+        """Return the exponent of the power of the size with which the seconds grow, or None for fewer than two points.
+
+        The exponent is fitted by least squares to the points whose size is at least ``least``.
+        """
         logs = [(math.log(count), math.log(seconds)) for count, seconds in self.points if count >= least]
         if len(logs) < 2:
             return None
         return statistics.linear_regression(*zip(*logs, strict=True)).slope
 
 
-def plot(curves: Sequence[Curve], path: str, what: str) -> None:
-    """Write curves on logarithmic axes as SVG, in the style of the studies.  ``what`` labels the first axis."""
-    file = Path(path)
-    series = (
-        Series(curve.name, tuple((n, Interval(t, t, t)) for n, t in curve.points)) for curve in curves if curve.points
-    )
-    draw(Lines(file.stem, "", what, "median seconds", tuple(series), log_x=True, log_y=True), file.parent, ("svg",))
-
-
 def plotted(curves: Sequence[Curve], path: str, what: str, least: int = 0) -> Iterator[str]:
-    """Yield the figures of each curve as a line of text, then plot the curves with their slopes in the legend."""
-    shown = []
+    """Yield the points and the slope of each curve as a line of text, then write a plot of all curves as SVG.
+
+    Both axes are logarithmic, ``what`` labels the first axis, and the legend has the slopes for sizes from ``least``.
+    """
+    series = []
     for curve in curves:
         slope = curve.slope(least)
         label = "" if slope is None else f"slope {slope:.2f}"
-        figures = ", ".join(f"{count:,}: {seconds:.4f} s" for count, seconds in curve.points)
-        yield f"{curve.name} {figures} {label}".rstrip()
-        shown.append(replace(curve, name=f"{curve.name}: {label}" if label else curve.name))
-    plot(shown, path, what)
+        points = ", ".join(f"{count:,}: {seconds:.4f} s" for count, seconds in curve.points)
+        yield f"{curve.name} {points} {label}".rstrip()
+        name = f"{curve.name}: {label}" if label else curve.name
+        series.append(Series(name, tuple((count, Interval(t, t, t)) for count, t in curve.points)))
+    file = Path(path)
+    draw(Lines(file.stem, "", what, "median seconds", tuple(series), log_x=True, log_y=True), file.parent, ("svg",))

@@ -47,19 +47,28 @@ def parser() -> argparse.ArgumentParser:
     show.add_argument("--values", default="", help='the numbers of the list, such as --values="12 -.25000000E+01"')
     show.add_argument("--card", action="append", default=[], help="a data card, or a line typed for ACCEPT")
     chapter6 = commands.add_parser(
-        "chapter6", help="run chapter 6, also without each emendation; compare with the committed results"
+        "chapter6",
+        help="run the examples of chapter 6, also without each emendation; compare with the committed results",
     )
     chapter6.add_argument("--write", action="store_true", help="replace the committed results")
-    timing = commands.add_parser("times", help="measure the simulated time of runs; compare with committed results")
+    timing = commands.add_parser(
+        "times", help="measure the simulated time of runs; compare it with the committed results"
+    )
     timing.add_argument("--write", action="store_true", help="replace the committed results")
     commands.add_parser("programs", help="run all programs on the library; compare the output with the emulator's")
     repeat = commands.add_parser("measure", help="repeat the stored statements; compare them with the emulator")
     repeat.add_argument(
-        "--random", type=int, default=0, metavar="N", help="compare N random statements, fields and operations each"
+        "--random",
+        type=int,
+        default=0,
+        metavar="N",
+        help="also compare N random statements, N random fields and N random operations",
     )
     repeat.add_argument("--seed", type=int, default=1, help="the seed of the random statements (default: 1)")
-    compiled = commands.add_parser("compile", help="compare the object code of a source with the program in the deck")
-    compiled.add_argument("source", help="the source deck")
+    compiled = commands.add_parser(
+        "compile", help="compare the object code of a program with the program in IBM's object deck"
+    )
+    compiled.add_argument("source", help="the file of the program")
     return result
 
 
@@ -82,7 +91,7 @@ def run_chapter6(options: argparse.Namespace) -> int:
 
 
 def _committed(path: str, text: str, write: bool) -> int:
-    """Write a result to its committed file, or compare it with that file.  Return 1 if they differ."""
+    """Compare a result with its committed file, which is written first if ``write``.  Return 1 if they differ."""
     if write:
         write_text(path, text)
     same = read_text(path) == text
@@ -106,7 +115,7 @@ def run_programs() -> int:
 
 
 def run_measure(options: argparse.Namespace) -> int:
-    """Execute the recorded statements again.  Return 1 if the library or the emulator differs."""
+    """Execute the recorded statements again, and random ones.  Return 1 if the library or the emulator differs."""
     deck, vectors = object_deck(), load()
     again = measure([(vector.statement, vector.cards) for vector in vectors], deck)
     changed = sum(not same(first.outcome, second.outcome) for first, second in zip(vectors, again, strict=True))
@@ -144,7 +153,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             case "measure":
                 return run_measure(options)
             case "times":
-                return _committed(times.FILE, times.table(times.timed()), options.write)
+                return _committed(times.FILE, times.table(), options.write)
             case "programs":
                 return run_programs()
             case _:

@@ -30,8 +30,8 @@ from modern.bench.ibm1962.simulator import Job, run_jobs
 CODE, TOP = 9000, 15000
 HALT = [4, 8, *[0] * 10]
 
-# A negative fixed-point product leaves a flag here, and the library then gives the result of a division by zero a minus
-# sign.
+# The address at which the library stores a flag after a negative fixed-point product.  With this flag, the library
+# gives the result of a division by zero a minus sign.
 PRODUCT = 99
 
 _EMULATED = {
@@ -44,15 +44,16 @@ _EMULATED = {
 # The fixed-point operations as expressions of the accumulator I and the operand J.
 _EXPRESSIONS = {"XAD": "I+J", "XSB": "I-J", "XMP": "I*J", "XDV": "I/J", "XDVR": "J/I", "FIX": "A"}
 
-# The operations of :func:`at_random`; sums are the most frequent.
+# The operations from which :func:`at_random` chooses; addition and subtraction are the most frequent.
 _DRAWN = ("FAD", "FAD", "FSB", "FSB", "FMP", "FDV", "FDVR", "RSGN", "FIX", "FLOAT", *FIXED, "POWERX", "POWERX")
 
-# An operation with its operands: FAC and the other number, such as ``.25000000E+01`` or ``-12``, or one number.
+# The name of an operation, the number in the accumulator FAC, and the other number, which is empty if the operation has
+# only one operand.  The numbers have the form ``.25000000E+01`` or ``-12``.
 Case = tuple[str, str, str]
 
 
 def executed(cases: Sequence[Case], deck: Sequence[str]) -> list[tuple[str, str]]:
-    """Return the result and the error codes of each operation as IBM's library computes them."""
+    """Return, for each operation, the result of IBM's library and the error codes that it types."""
     results = []
     for case, output in zip(cases, run_jobs(deck, [_job(case) for case in cases]), strict=True):
         kind = "I" if case[0] in FIXED or case[0] == "FIX" else "E"
@@ -74,7 +75,7 @@ def _field(number: str) -> list[int]:
 
 
 def emulated(case: Case) -> tuple[str, str]:
-    """Return the result and the error code of an operation as the emulator computes them."""
+    """Return the result of an operation on the emulator and its error code."""
     operation, first, second = case
     rules = IBM1962.rules
     event = 0
@@ -104,7 +105,7 @@ def _program(expression: str) -> Program:
 
 
 def pair(number: str) -> tuple[int, int]:
-    """Return mantissa and exponent of a number in the notation ``-.25000000E+01``."""
+    """Return the mantissa and the exponent of a number that is written like ``-.25000000E+01``."""
     size, negative = int(number[-12:-4]), number.startswith("-")
     if size == 0:
         return 0, MINUS_ZERO if negative else ZERO
@@ -112,7 +113,7 @@ def pair(number: str) -> tuple[int, int]:
 
 
 def at_random(seed: int, count: int) -> list[Case]:
-    """Return random operations with difficult operands: equal or opposite ones, signed zeros, extreme exponents."""
+    """Return random operations with difficult operands: equal or opposite numbers, signed zeros, extreme exponents."""
     r = random.Random(seed)
     cases = []
     for _ in range(count):

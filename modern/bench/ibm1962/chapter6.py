@@ -1,5 +1,4 @@
-"""Run the examples of the thesis's chapter 6 on IBM's library of 1962, and compare every punched card with the
-print.
+"""Run the examples of chapter 6 of the thesis on IBM's library of 1962, and compare every punched card with the print.
 
 The programs are those that produced the examples.  Programs 2 and 3 read the cards that program 1 has punched on the
 library.  The verdicts are in ``docs/ibm1962``, together with the hashes with which they can be verified.
@@ -28,7 +27,7 @@ SAME, DIFFERENT = "same", "different"
 
 @dataclass(frozen=True, slots=True)
 class CardVerdict:
-    """The verdict on one punched card; ``card`` is its number, from 1, among the cards of a program's run."""
+    """The verdict on one punched card.  ``card`` counts the cards that a program punches in one run, from 1."""
 
     example: int
     program: int
@@ -37,7 +36,7 @@ class CardVerdict:
 
 
 def verdicts(examples: Sequence[int] = EXAMPLES) -> Iterator[CardVerdict]:
-    """Run the given examples on the library, and yield the verdict on each printed card."""
+    """Run examples on the library, and yield the verdict on each printed card."""
     for example in examples:
         for printed in prints(example):
             if printed.device == "punch":
@@ -46,7 +45,7 @@ def verdicts(examples: Sequence[int] = EXAMPLES) -> Iterator[CardVerdict]:
 
 
 def _judged(example: int, printed: Print, cards: Sequence[str]) -> Iterator[CardVerdict]:
-    """Yield the verdict on each printed card, and on the first punched card after the last printed one, if any."""
+    """Yield the verdict on each card that was printed or punched."""
     for number in range(1, max(len(printed.lines), len(cards)) + 1):
         pair = [lines[number - 1].rstrip() if number <= len(lines) else None for lines in (printed.lines, cards)]
         yield CardVerdict(example, printed.program, number, SAME if pair[0] == pair[1] else DIFFERENT)
@@ -54,7 +53,7 @@ def _judged(example: int, printed: Print, cards: Sequence[str]) -> Iterator[Card
 
 @cache
 def _cards(example: int, name: str) -> tuple[str, ...]:
-    """Return the cards that a program punches on the library; programs 2 and 3 read the cards of program 1."""
+    """Return the cards that a program punches on the library.  Programs 2 and 3 read the cards of program 1."""
     return punched(execute(programs.program(name), _input(example, name)))
 
 
@@ -64,7 +63,7 @@ def _input(example: int, name: str) -> Sequence[str]:
 
 
 def results() -> dict[str, str]:
-    """Run all examples, and return the files to be committed by name: verdicts, tests of emendations, means."""
+    """Run all examples, also without each emendation, and return the texts of the result files by name."""
     cards = [(row.example, row.program, row.card, row.verdict) for row in verdicts()]
     rows = [(name, *answer) for name in NAMES for answer in confirmed(name)]
     return {
@@ -75,12 +74,12 @@ def results() -> dict[str, str]:
 
 
 def digest(cards: Sequence[str]) -> str:
-    """Return the SHA-256 of cards, each without trailing blanks and ended by a line feed."""
+    """Return the SHA-256 of the cards, each without trailing blanks and followed by a line feed."""
     return hashlib.sha256("".join(f"{card.rstrip()}\n" for card in cards).encode("latin1")).hexdigest()
 
 
 def _means() -> str:
-    """Return TOML text that identifies what was used: hashes of the library and the programs, and the simulator."""
+    """Return TOML text with the hashes of the library and the programs, and the version of the simulator."""
     version = subprocess.run([simulator()], input=b"quit\n", capture_output=True, check=False).stdout.decode("latin1")
     title = next((line.strip() for line in version.splitlines() if "1620" in line), "unknown")
     lines = [f'library = "{digest(library())}"', f'simulator = "{" ".join(title.split())}"', "", "[programs]"]
@@ -89,15 +88,16 @@ def _means() -> str:
 
 
 def program_digest(name: str) -> str:
-    """Return the hash (digest) of the object cards of a built-in program."""
+    """Return the :func:`digest` of the object cards of a built-in program."""
     return digest(object_cards(programs.program(name), CORE))
 
 
 def confirmed(name: str) -> Iterator[tuple[str, str]]:
-    """Remove each emendation of a program in turn, and yield its identifier and what the library then does.
+    """Remove each emendation of a program in turn, and yield its identifier and the check that notices the removal.
 
-    The answers are ``compiler`` (the deck does not compile), ``no change`` (of the object program), ``library`` (the
-    cards differ from the print, or the run does not end), and ``nothing``.
+    The check is ``compiler`` if the deck does not compile, and ``library`` if the cards punched on the library differ
+    from the print or the run does not end.  It is ``no change`` if the object program is the same, and ``nothing`` if
+    the object program is another one but punches the printed cards.
     """
     entry = programs.built_in(name)
     base = object_cards(programs.program(name), CORE)
@@ -117,7 +117,7 @@ def confirmed(name: str) -> Iterator[tuple[str, str]]:
 
 
 def _differs(name: str, program: Program) -> bool:
-    """Return True if a program, run on IBM's library, punches a card that differs from the print, or does not end."""
+    """Return True if a program does not end on IBM's library, or punches a card that differs from the print."""
     for example in EXAMPLES:
         for printed in prints(example):
             if printed.device != "punch" or NAMES[printed.program - 1] != name:

@@ -16,7 +16,7 @@ from modern.bench.ibm1962.statements import Outcome, Statement
 OPTIONS = Options(numbers=numbers("ibm1962"), core=60000)
 DIGITS = 8
 
-# The columns of a statement on a card.
+# The number of columns of a card that hold a statement.
 STATEMENT = 66
 
 
@@ -35,7 +35,7 @@ def _cards(label: str, text: str) -> Iterator[str]:
 
 
 def emulate(statement: Statement, *, cards: Sequence[str] = ()) -> Outcome:
-    """Execute a statement with the emulator.  ``cards`` are data cards, or lines that are typed."""
+    """Execute a statement with the emulator.  ``cards`` are its data cards or, for ACCEPT, the lines to be typed."""
     program = compile_deck(deck_from_lines("statement", source(statement)))
     keyed = statement.verb == "ACCEPT"
     deck = deck_from_lines("deck", [*map(_card, statement.values), *(() if keyed else cards)])

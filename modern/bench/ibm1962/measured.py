@@ -1,8 +1,9 @@
 """Recorded input and output statements, with the results that IBM's library of 1962 gave in the simulator.
 
-``tests/data/vectors/ibm1962.tsv`` has a line for each statement: its verb, its FORMAT, the numbers of its list before
-it was executed, its cards, the lines that it typed, the cards that it punched (without sequence numbers), and the
-numbers of its list afterwards.  A bar follows each entry of a column.  The file holds facts, and no code of IBM's.
+``tests/data/vectors/ibm1962.tsv`` has a line for each statement, with seven columns: the verb, the FORMAT, the numbers
+of the list before the execution, the data cards, the typed lines, the punched cards without sequence numbers, and the
+numbers of the list after the execution.  A bar follows each entry of the last five columns.  The file contains no code
+by IBM.
 """
 
 from __future__ import annotations
@@ -23,14 +24,14 @@ SEQUENCE = 77
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A recorded statement: its data cards and the result of IBM's library."""
+    """A recorded statement with its data cards and the result of IBM's library."""
 
     statement: Statement
     cards: tuple[str, ...]
     outcome: Outcome
 
     def line(self) -> str:
-        """Return the statement and its result as a line of the recording's file."""
+        """Return the statement and its result as a line of the file of recorded statements."""
         statement, outcome = self.statement, self.outcome
         punched = [card[:SEQUENCE].rstrip() for card in outcome.punched]
         typed = [line.rstrip() for line in outcome.typed]
@@ -63,8 +64,8 @@ def _parsed(line: str) -> Measured:
 def same(first: Outcome, second: Outcome) -> bool:
     """Return True if two outcomes agree, apart from insignificant differences.
 
-    Blank typed lines do not count, because the carriage returns before a line.  The sign of an exponent of zero in core
-    has no effect.
+    Blank typed lines are ignored, because the library returns the carriage before each line.  The sign of an exponent
+    of zero is ignored, because it has no effect.
     """
     return _comparable(first) == _comparable(second)
 
@@ -76,7 +77,7 @@ def _comparable(outcome: Outcome) -> tuple[object, ...]:
 
 
 def fields_at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
-    """Yield an endless sequence of random statements, each of which writes one number with a FORMAT of one field."""
+    """Yield endlessly many random statements, each of which writes one number with a FORMAT of one field."""
     r = random.Random(seed)
     while True:
         kind = r.choice("EEFFI")
@@ -87,7 +88,7 @@ def fields_at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
 
 
 def at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
-    """Yield an endless sequence of random statements with their data cards.
+    """Yield endlessly many random statements with their data cards.
 
     The statements contain fields, literals, skips, slashes, groups and errors.
     """
@@ -99,7 +100,7 @@ def at_random(seed: int) -> Iterator[tuple[Statement, tuple[str, ...]]]:
         spec = Statement(verb, text).spec
         fields = [item for item in spec.specs if isinstance(item, Field)]
         repeated = [item for item in spec.specs[spec.again :] if isinstance(item, Field)]
-        # A longer record is ERROR F9, after which the library reads its FORMAT at a wrong place.
+        # A longer record causes ERROR F9, after which the library continues at a wrong position of the FORMAT.
         if max(spec.widths()) > 72 or not any(isinstance(item, Field | Literal | Slash) for item in spec.specs):
             continue
         count = min(r.randint(0, 2 * len(fields)), 8)

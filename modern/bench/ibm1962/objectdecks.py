@@ -32,7 +32,7 @@ OPTIONS = Options(numbers("ibm1962"), core=CORE, bounds="core", hopper="any", li
 COUNTEREXAMPLES = "transcripts/counterexamples"
 FOLDERS = ("tests/data/period", "tests/data/programs", "tests/data/compiler_runs")
 
-# An address in core storage that neither the library nor a program uses after loading.
+# An address in core storage that neither the library nor a program uses once the deck is loaded.
 _HALT_AT = 60
 
 _PROBE = [
@@ -48,7 +48,7 @@ _PROBE = [
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """The cards and lines that a program writes on IBM's library and on the emulator, or the error of either.
+    """The cards and the typed lines of a program on IBM's library and on the emulator, or the message of an error.
 
     Blanks at the ends of cards and lines are removed.
     """
@@ -59,7 +59,7 @@ class Comparison:
     error: str = ""
 
     def differences(self) -> Iterator[tuple[str, str]]:
-        """Yield each pair of cards or lines that differ, first the library's and then the emulator's."""
+        """Yield each card or line of the library that differs from that of the emulator, and the emulator's."""
         for library, emulator in zip(self.library, self.emulator, strict=True):
             length = max(len(library), len(emulator))
             padded = [(*side, *[""] * (length - len(side))) for side in (library, emulator)]
@@ -70,10 +70,8 @@ class Comparison:
 def library() -> tuple[str, ...]:
     """Return the cards of IBM's object deck, which contains the library.
 
-    Raise Unavailable if the deck or a suitable simulator is missing.
-
-    A simulator from before 2015 is unsuitable: its compare instruction sets the overflow indicator, which the library's
-    addition tests.
+    Raise Unavailable if the deck or a suitable simulator is missing.  A version of SIMH from before 2015 is unsuitable:
+    its compare instruction sets the overflow indicator, which the library's addition tests.
     """
     cards = tuple(object_deck())
     punched = run(_complete(compile_deck(deck_from_lines("probe.f", _PROBE)), cards)).punched
@@ -100,10 +98,9 @@ def punched(result: Run | Result) -> tuple[str, ...]:
 
 
 def answers(operator: str) -> tuple[list[str], list[str], list[Collection[int]]]:
-    """Translate the actions of an operator to the simulator: the actions possible there, typed lines, switches at each
-    START.
+    """Return the operator's actions that the simulator can perform, the typed lines, and the switches at each START.
 
-    The simulator cannot be interrupted while it waits for a typed line, so that switches are set at a PAUSE only.
+    The simulator cannot be interrupted while it waits for a typed line, so switches are set only at a PAUSE.
     """
     actions: list[str] = []
     keys: list[str] = []
@@ -133,7 +130,7 @@ def answers(operator: str) -> tuple[list[str], list[str], list[Collection[int]]]
 def compare(name: str, program: Program, deck: Deck, operator: str = "") -> Comparison:
     """Run a program on IBM's library and on the emulator with the arithmetic ``ibm1962``, and return both outputs.
 
-    ``operator`` has the actions of the operator. The lines that the operator types are compared too.
+    ``operator`` is the text of a file of the operator's actions. The lines that the operator types are compared too.
     """
     actions, keys, starts = answers(operator)
     starts = starts or [()] * sum(instruction.operation == PAUSE for instruction in program.code)
@@ -168,9 +165,10 @@ def subjects() -> Iterator[tuple[str, Program, Deck, str]]:
 
 
 def against_deck(source: Program, cards: Sequence[str]) -> tuple[int, int, int]:
-    """Compare a program's object code and symbol table with the program in IBM's object deck.
+    """Compare the object code and the symbol table of a program with those of the program in IBM's object deck.
 
-    Return the number of positions, the number of them that differ, and the number of cards of the table that differ.
+    Return the number of positions of the object code, the number of positions that differ, and the number of cards of
+    the symbol table that differ.
     """
     made = generate(source, 20_000)
     # The loader fills core storage, and the simulator then executes a halt.

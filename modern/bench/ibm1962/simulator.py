@@ -23,10 +23,10 @@ _SIMULATOR = re.compile(
     r"IBM 1620 simulator|CD[PR]: |HALT instruction|Goodbye|\d{4,5}:\t|Invalid |No card in|Step expired|%SIM-INFO|"
     r"/.*\.ini-\d"
 )
-# What it writes may follow a typed line at once, because the carriage returns only before the next line.
+# The simulator may write a position directly after a typed line, because the carriage returns before the next line.
 _POSITION = re.compile(r"(\d{4,5}):\t([0-9A-F]{2})\n?")
 _TIME = re.compile(r"^TIME:\t(\d+)\n", re.MULTILINE)
-# The unit of the counter of time, in milliseconds.
+# The milliseconds that one unit of the simulator's counter of time stands for.
 _UNIT = 0.004
 _TROUBLE = re.compile(r"^(?:Invalid|No card in|Step expired) ?[^\n]*$", re.MULTILINE)
 
@@ -41,16 +41,17 @@ class Failed(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """The output of a run: typed lines, punched cards (80 columns), and the positions that were examined.
+    """The output of a run: typed lines, punched cards of 80 columns, and the examined positions of core storage.
 
-    ``trouble`` is the simulator's message if an invalid instruction or address stopped the run, else "".
+    ``core`` maps the address of each position to its contents.  ``trouble`` is the simulator's message if an invalid
+    instruction or address stopped the run, otherwise it is empty.
     """
 
     typed: tuple[str, ...]
     punched: tuple[str, ...]
     core: Mapping[int, int] = field(default_factory=dict)
     trouble: str = ""
-    # The time of the instructions, if the simulator counts it (instruction_times.patch).
+    # The time of the executed instructions, or None if the simulator does not count it (instruction_times.patch).
     milliseconds: float | None = None
 
     def field(self, address: int) -> list[int]:
@@ -60,7 +61,11 @@ class Run:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """A program to run on the loaded library: its start, positions of storage to set and to return, and data cards."""
+    """A program to run on the loaded library.
+
+    ``start`` is its first instruction, ``stored`` maps addresses to the digits to store there, and ``examine`` has the
+    first and the last address of each range of storage to return.
+    """
 
     start: int
     stored: Mapping[int, Sequence[int]]
@@ -104,7 +109,7 @@ def run(
     Parameters
     ----------
     deck, cards
-        The cards to load, and the data cards behind them.
+        The cards to load, and the data cards that follow them.
     keys
         The lines to type, one for each time that the program waits for the typewriter.
     starts
@@ -160,7 +165,7 @@ def _execute(
     core: int,
     seconds: float,
 ) -> tuple[str, list[list[str]]]:
-    """Run the simulator with files of cards.  Return its log and ``count`` files of punched cards."""
+    """Run the simulator with files of cards.  Return its log and the contents of ``count`` files of punched cards."""
     first = [f"set cpu {core // 1000}K", "deposit arstop 0", "attach cdr deck"]
     with TemporaryDirectory(prefix="i1620-") as folder:
         here = Path(folder)
@@ -184,10 +189,6 @@ def _result(log: str, punched: Sequence[str]) -> Run:
 
 
 def _typed(log: str) -> Iterator[str]:
-    """Yield the lines that the program typed, without the prompts for the keyboard.
-
-    The carriage returns before each line, so that a line ends where the next one begins.
-    """
     # The simulator's own lines come before or after those of the program, depending on the buffers of its version.
     yield from (line.removeprefix(">") for line in log.split("\n") if line and not _SIMULATOR.match(line))
 
@@ -197,7 +198,8 @@ def _typewriter(command: list[str], folder: Path, keys: Sequence[str], seconds: 
     deadline = time.monotonic() + seconds
     waiting = list(keys)
     log = b""
-    # The simulator polls the keyboard while it runs, so that reading must not block and earlier keys would be lost.
+    # The simulator polls the keyboard while it runs.  A terminal is therefore needed, and each line is typed only after
+    # its prompt, because lines that are typed earlier would be lost.
     typing, keyboard = os.openpty()
     with (
         os.fdopen(typing, "wb", buffering=0) as hands,

@@ -24,7 +24,7 @@ from modern.bench.ibm1962.simulator import Job, Run, run_jobs
 CALLS, WORDS, LABEL, NUMBERS = 9000, 10000, 15186, 14700
 HALT = [4, 8, *[0] * 10]
 
-# A number has these contents before a statement reads it.  No card of the comparisons contains this value.
+# The value of an integer (I) and of a floating-point number (E) before a statement reads it.  No data card has it.
 BEFORE = {"I": "5555", "E": ".55555555E+55"}
 
 
@@ -49,7 +49,10 @@ class Statement:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """The effects of a statement: lines typed, cards punched, and the numbers of its list afterwards."""
+    """The effects of a statement: the typed lines, the punched cards, and the numbers of its list afterwards.
+
+    ``trouble`` is the message of an abnormal end, or empty.
+    """
 
     typed: tuple[str, ...]
     punched: tuple[str, ...]
@@ -58,8 +61,9 @@ class Outcome:
 
 
 def execute(cases: Sequence[tuple[Statement, Sequence[str]]], deck: Sequence[str]) -> list[Outcome]:
-    """Execute statements on the library in ``deck``.  Each statement is given with its data cards or the lines to be
-    typed.
+    """Execute statements on the library in ``deck``.
+
+    Each case is a statement with its data cards or, for ACCEPT, the lines to be typed.
     """
     keys = [line for statement, cards in cases if statement.verb == "ACCEPT" for line in cards]
     outputs = run_jobs(deck, [_job(statement, cards) for statement, cards in cases], keys)

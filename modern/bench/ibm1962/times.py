@@ -1,11 +1,11 @@
-"""Measure runs on IBM's library of 1962 in simulated time, and compare them with the emulator's model of time.
+"""Measure the simulated time of runs on IBM's library of 1962, and compare it with the emulator's model of time.
 
-A simulator with ``instruction_times.patch`` adds the published time of each instruction.  The results are
-kept in ``docs/ibm1962/times.csv``; :data:`emulator.machine.timing.MODEL` is the range of their ratios.
+A simulator with ``instruction_times.patch`` adds up the published times of the executed instructions.  The results are
+kept in ``docs/ibm1962/times.csv``.  :data:`emulator.machine.timing.MODEL` is the range of the ratios of measured and
+modelled times.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from emulator.language.cards import Deck
 from emulator.language.objectcode import Program
@@ -25,28 +25,14 @@ from modern.thesis.job import run_hull
 
 FILE = "docs/ibm1962/times.csv"
 HEAD = ("deck", "program", "library", "model", "ratio")
-# Programs that call functions which the library lacks.
+# Programs that call functions that the library lacks.
 LACKING = ("l1.f", "pow.f", "pow2.f")
 # Random sets of the study of machine time: a family and a number of points.
 SETS = tuple((family, n) for family in ("ball", "integers", "cube", "sphere") for n in (6, 12, 20, 30))
 
 
-@dataclass(frozen=True, slots=True)
-class TimedRun:
-    """The processor seconds of one run, measured on the library and computed by the emulator's model."""
-
-    deck: str
-    program: str
-    library: float
-    model: float
-
-    def row(self) -> tuple[str, ...]:
-        """Return the measurement as a row of the table in docs/ibm1962."""
-        return self.deck, self.program, f"{self.library:.1f}", f"{self.model:.1f}", f"{self.library / self.model:.3f}"
-
-
 def subjects(sets: Sequence[tuple[str, int]] = SETS) -> Iterator[tuple[str, str, Program, Deck, float]]:
-    """Yield the runs to be measured: names of deck and program, program, deck, and the model's processor seconds."""
+    """Yield the runs to measure: the names of deck and program, the program, the deck, and the modelled seconds."""
     decks = [(f"example {example}", "program1_examples", input_deck(example)) for example in EXAMPLES]
     for family, n in sets:
         cell = Cell({"sets": family, "n": n}, family, {"digits": 2, "n": n}, (Port("port"),), 1)
@@ -62,16 +48,18 @@ def subjects(sets: Sequence[tuple[str, int]] = SETS) -> Iterator[tuple[str, str,
             yield deck.source, title, program, deck, measure(program, result).processor_time.seconds
 
 
-def timed() -> Iterator[TimedRun]:
-    """Run every subject with IBM's library in the simulator, and yield its time.  Raise Unavailable without a timer."""
-    for name, title, program, deck, seconds in subjects():
+def table() -> str:
+    """Run every subject on IBM's library in the simulator, and return the text of ``docs/ibm1962/times.csv``.
+
+    A row has the processor seconds of a run as measured on the library and as computed by the emulator's model, and
+    their ratio.  Raise Unavailable if the simulator does not count the time.
+    """
+    rows: list[tuple[str, ...]] = [HEAD]
+    for name, title, program, deck, model in subjects():
         object_deck = with_library(object_cards(program, CORE), library(), "OBJECT_DECK")
         cards = [card.text for card in deck.cards]
         milliseconds = run(object_deck, core=CORE, cards=cards, seconds=SECONDS, timed=True).milliseconds
         assert milliseconds is not None
-        yield TimedRun(name, title, milliseconds / 1000, seconds)
-
-
-def table(runs: Iterator[TimedRun]) -> str:
-    """Return the measured runs as the text of a CSV table."""
-    return csv_text((HEAD, *(each.row() for each in runs)))
+        measured = milliseconds / 1000
+        rows.append((name, title, f"{measured:.1f}", f"{model:.1f}", f"{measured / model:.3f}"))
+    return csv_text(rows)

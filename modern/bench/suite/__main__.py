@@ -1,4 +1,4 @@
-"""Run the benchmarks of the project, and print median, minimum and maximum of each, with a value for comparison."""
+"""Run the benchmarks of the project.  Print the median, minimum and maximum of each, and the required time if any."""
 
 import subprocess
 import sys
@@ -9,33 +9,27 @@ from emulator.machine.machine import Machine
 from modern.bench.decks import POINTS, data_deck, random_points
 from modern.bench.measure import lines, measure
 from modern.bench.suite import digital, hulls, papers
-from modern.bench.timing import RUNS, timed
+from modern.bench.timing import RUNS, command, timed
 from modern.edition import programs
 
 DECKS = 1_000
 
 
-def process(*arguments: str) -> Callable[[], object]:
-    """Return a function that runs a command in a new process and discards the output."""
-    command = [sys.executable, "-m", "modern.cli.main", *arguments]
-    return lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-
 def command_lines() -> Iterator[str]:
     yield timed("an empty Python process", lambda: subprocess.run([sys.executable, "-c", "pass"], check=True)).line()
-    yield timed("hull1620 --help", process("--help"), "bar 0.15 s").line()
-    yield timed("hull1620 reproduce 5, process start included", process("reproduce", "5"), "bar 0.5 s").line()
-    yield timed("hull1620 reproduce, everything", process("reproduce")).line()
+    yield timed("hull1620 --help", command("--help"), "required: 0.15 s").line()
+    yield timed("hull1620 reproduce 5, process start included", command("reproduce", "5"), "required: 0.5 s").line()
+    yield timed("hull1620 reproduce, everything", command("reproduce")).line()
 
 
 def engine_lines() -> Iterator[str]:
-    """Measure the engines, on one deck and with ``hull1620 bench`` on a thousand decks.  Yield the results as lines."""
+    """Time the interpreter on one deck, and all engines on a thousand decks as ``hull1620 bench`` does."""
     deck = data_deck(random_points(POINTS, 1))
     middle = deck_from_lines("middle", Machine(programs.program("program1"), deck).run().punched)
     program = programs.program("program3")
     result = Machine(program, middle).run()
     name = f"program 3, {POINTS} points, {result.statements} statements, plain engine"
-    figure = timed(name, lambda: Machine(program, middle).run(), "bar 1.5 s")
+    figure = timed(name, lambda: Machine(program, middle).run(), "required: 1.5 s")
     yield figure.line()
     yield f"  {result.statements / figure.median:,.0f} statements a second"
     yield from lines(measure(DECKS))

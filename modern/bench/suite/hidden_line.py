@@ -1,6 +1,7 @@
-"""Benchmarks of hidden-line drawings by Nakamae and Nishita's method, also with growing numbers of cuboids.
+"""Benchmarks of hidden-line drawings of cuboids by Nakamae and Nishita's method.
 
-``python -m modern.bench.suite.hidden_line FILE.svg`` measures the growth and plots it (extra ``plot``).
+``python -m modern.bench.suite.hidden_line FILE.svg`` also measures growing numbers of
+cuboids and plots the times (extra ``plot``).
 """
 
 import math
@@ -9,7 +10,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
 
-from modern.bench.timing import Curve, Figure, plot, timed
+from modern.bench.timing import Curve, Figure, plotted, timed
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron
 from modern.papers.nakamae_nishita.projection import parallel
@@ -27,13 +28,13 @@ def array(x: int, y: int, z: int, step: Fraction) -> list[Polyhedron]:
 
 
 def field(count: int) -> list[Polyhedron]:
-    """Return ``count`` cuboids on a floor, so far apart that few of them overlap in the picture."""
+    """Return cuboids on a floor, so far apart that few of them overlap in the picture."""
     side = math.isqrt(count - 1) + 1
     return array(side, side, 1, Fraction(2))[:count]
 
 
 def block(count: int) -> list[Polyhedron]:
-    """Return ``count`` cuboids in a three-dimensional grid, in which more of them overlap in the picture."""
+    """Return cuboids in a three-dimensional grid, in which more of them overlap in the picture than on a floor."""
     side = next(n for n in range(1, count + 1) if n**3 >= count)
     return array(side, side, side, Fraction(7, 4))[:count]
 
@@ -46,27 +47,23 @@ def drawn(polyhedra: list[Polyhedron]) -> Drawing:
 def figures() -> Iterator[Figure]:
     cuboids = scene("cuboids")
     observer = cuboids.sight.observer(cuboids.make)
-    yield timed("hidden lines, 60 cuboids, all steps", lambda: draw(cuboids.make, observer), "bar 0.3 s")
-    yield timed("hidden lines, 1,000 cuboids in a grid, all steps", lambda: drawn(block(1000)), "bar 10 s")
-    yield timed("hidden lines, 1,000 cuboids on a floor, all steps", lambda: drawn(field(1000)))
+    yield timed("hidden lines, 60 cuboids, all steps", lambda: draw(cuboids.make, observer), "required: 0.3 s")
+    for name, arrangement, required in (("in a grid", block, "required: 10 s, "), ("on a floor", field, "")):
+        pairs = len(drawn(arrangement(1000)).relations)
+        what = f"hidden lines, 1,000 cuboids {name}, all steps"
+        yield timed(what, partial(drawn, arrangement(1000)), f"{required}{pairs} overlapping pairs")
 
 
-def growth() -> dict[str, list[tuple[int, float, int]]]:
-    """Measure median seconds of all steps, and the overlapping pairs, by arrangement and number of cuboids."""
-    rows_by_arrangement: dict[str, list[tuple[int, float, int]]] = {}
-    for name, arrangement in (("in a grid of three dimensions", block), ("on a floor, few overlap", field)):
-        rows_by_arrangement[name] = [
-            (count, timed("", partial(drawn, arrangement(count))).median, len(drawn(arrangement(count)).relations))
-            for count in COUNTS
-        ]
-    return rows_by_arrangement
-
-
-def curves(rows_by_arrangement: dict[str, list[tuple[int, float, int]]]) -> list[Curve]:
-    *_, (count, seconds, _) = rows_by_arrangement["on a floor, few overlap"]
+def growth() -> list[Curve]:
+    """Measure the median seconds for growing numbers of cuboids, as one curve for each arrangement, and n log n."""
+    curves = [
+        Curve(name, [(count, timed("", partial(drawn, arrangement(count))).median) for count in COUNTS])
+        for name, arrangement in (("in a grid of three dimensions", block), ("on a floor, few overlap", field))
+    ]
+    # The curve n log n ends in the last point of the cuboids on a floor.
+    count, seconds = curves[1].points[-1]
     scale = seconds / (count * math.log(count))
-    guide = Curve("n log n", [(n, scale * n * math.log(n)) for n in COUNTS])
-    return [*(Curve(name, [row[:2] for row in rows]) for name, rows in rows_by_arrangement.items()), guide]
+    return [*curves, Curve("n log n", [(n, scale * n * math.log(n)) for n in COUNTS])]
 
 
 def main() -> None:
@@ -74,10 +71,8 @@ def main() -> None:
         sys.exit("usage: python -m modern.bench.suite.hidden_line FILE.svg")
     for figure in figures():
         print(figure.line())
-    rows_by_arrangement = growth()
-    for name, rows in rows_by_arrangement.items():
-        print(name, ", ".join(f"{count:,}: {seconds:.4f} s, {pairs} pairs" for count, seconds, pairs in rows))
-    plot(curves(rows_by_arrangement), sys.argv[1], "cuboids")
+    for line in plotted(growth(), sys.argv[1], "cuboids"):
+        print(line)
 
 
 if __name__ == "__main__":

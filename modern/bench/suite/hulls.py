@@ -12,11 +12,12 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from modern.bench.suite.peers import Peers, Work
+from modern.bench.suite.peers import Peer, Work, installed
 from modern.bench.timing import Curve, Figure, plotted, side_by_side, timed, timed_once
 from modern.comparison.outcome import as_hull
 from modern.exact_hull import exact_hull
@@ -24,7 +25,7 @@ from modern.geometry.hull import as_tuple
 from modern.geometry.mesh import mesh
 from modern.port import convex_hull
 
-# Each median is that of this number of runs.
+# The number of runs of which the median is taken.
 RUNS = 7
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000)
 # The slope of a curve is fitted from this number of points on; smaller sets measure the cost of a call.
@@ -76,7 +77,7 @@ def eight_digits(points: Any) -> Any:
 def judge(points: Any) -> dict[str, Work]:
     """Return functions that compute the exact hull of points: with numpy alone and, if numba is installed, compiled.
 
-    Their results have vertices, triangles and the certificate.
+    Each function computes the vertices and triangles of the hull, and the certificate of the judge.
     """
     works: dict[str, Work] = {"judge, numpy": lambda: mesh(as_hull(exact_hull(points, fast=False))).triangles()}
     if find_spec("numba"):
@@ -85,7 +86,7 @@ def judge(points: Any) -> dict[str, Work]:
 
 
 def port(points: Any) -> dict[str, Work]:
-    """Return functions that run Butler's procedure on points in float64: with numpy alone and, with numba, compiled."""
+    """Return functions that run Butler's procedure in float64: with numpy and, if numba is installed, compiled."""
     works: dict[str, Work] = {"port, numpy": lambda: convex_hull(points, "float64", fast=False)}
     if find_spec("numba"):
         works["port, fast"] = lambda: convex_hull(points, "float64", fast=True)
@@ -95,7 +96,7 @@ def port(points: Any) -> dict[str, Work]:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Hull functions that are timed on one point set in turn; programs of others (the peers) come last."""
+    """The times of several hull functions on one point set.  The rows named in ``peers`` belong to other programs."""
 
     points: str
     rows: tuple[Figure, ...]
@@ -105,7 +106,7 @@ class Table:
         return next(row for row in self.rows if row.what == name)
 
     def lines(self) -> list[str]:
-        """Return the table as text of 78 columns: median seconds, and their ratio to each peer."""
+        """Return the table as lines of 78 columns: the median seconds of each function, and their ratios to peers."""
         widths = [max(12, len(name) + 4) for name in self.peers]
         first = 78 - 10 - sum(widths)
         heads = "".join(f"{'/ ' + name:>{width}}" for name, width in zip(self.peers, widths, strict=True))
@@ -117,13 +118,13 @@ class Table:
         return rows_of_text
 
 
-def table(name: str, points: Any, works: Mapping[str, Work], peers: Peers) -> Table:
-    peer_works = {peer: of(points) for peer, of in peers.installed.items()}
+def table(name: str, points: Any, works: Mapping[str, Work], peers: Mapping[str, Peer]) -> Table:
+    peer_works = {name_of_peer: peer(points) for name_of_peer, peer in peers.items()}
     figures = side_by_side({**works, **peer_works}, clock=time.process_time, runs=RUNS)
     return Table(name, tuple(figures), tuple(peer_works))
 
 
-def tables(peers: Peers, largest: int = 1_000_000) -> Iterator[Table]:
+def tables(peers: Mapping[str, Peer], largest: int = 1_000_000) -> Iterator[Table]:
     counts = [count for count in COUNTS if count <= largest]
     for count in counts:
         points = exact_in_doubles(ball(count))
@@ -141,16 +142,17 @@ def tables(peers: Peers, largest: int = 1_000_000) -> Iterator[Table]:
 
 
 def lines(largest: int = 1_000_000) -> Iterator[str]:
-    with Peers() as peers:
+    with tempfile.TemporaryDirectory() as folder:
+        peers, remarks = installed(Path(folder))
         for measured_table in tables(peers, largest):
             yield from measured_table.lines()
         for figure in starts():
             yield figure.line()
-        yield from peers.remarks
+        yield from remarks
 
 
 def starts() -> Iterator[Figure]:
-    """Time whole processes that compute one small hull: without compiled code, with it, and while it is compiled."""
+    """Time processes that compute one small hull: with numpy alone, with compiled code, and with compiling it first."""
     if not find_spec("numba"):
         return
     yield timed("a process with one small hull, numpy", small_hull(False))
@@ -160,9 +162,9 @@ def starts() -> Iterator[Figure]:
 
 
 def small_hull(fast: bool, cache: str = "") -> Callable[[], object]:
-    """Return a function that starts a process for the hull of a cube.
+    """Return a function that computes the hull of a cube in a new process.
 
-    ``cache``, if given, replaces the user's folder of compiled code.
+    ``cache`` is the folder of compiled code; if it is empty, the process uses the user's folder.
     """
     script = "import numpy as np; from modern.port import convex_hull; p = np.indices((2, 2, 2)).reshape(3, 8).T * 2.0;"
     script += f"convex_hull(p, 'float64', fast={fast})"
@@ -170,7 +172,7 @@ def small_hull(fast: bool, cache: str = "") -> Callable[[], object]:
     return lambda: subprocess.run([sys.executable, "-c", script], check=True, env=environment)
 
 
-def growth(peers: Peers, counts: Sequence[int] = COUNTS) -> list[Curve]:
+def growth(peers: Mapping[str, Peer], counts: Sequence[int] = COUNTS) -> list[Curve]:
     """Measure the median seconds for hulls of growing numbers of points in a ball, as one curve for each method."""
     points_by_route: dict[str, list[tuple[int, float]]] = {}
     for count in counts:
@@ -185,9 +187,11 @@ def growth(peers: Peers, counts: Sequence[int] = COUNTS) -> list[Curve]:
 def main() -> None:
     if len(sys.argv) != 2:
         sys.exit("usage: python -m modern.bench.suite.hulls FILE.svg")
-    with Peers() as peers:
+    with tempfile.TemporaryDirectory() as folder:
+        peers, remarks = installed(Path(folder))
+        for remark in remarks:
+            print(remark)
         curves = growth(peers)
-        print(*peers.remarks, sep="\n", end="\n" if peers.remarks else "")
     for line in plotted(curves, sys.argv[1], f"points, uniform in a ball; slopes from {SLOPES_FROM:,} on", SLOPES_FROM):
         print(line)
 

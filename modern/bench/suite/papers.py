@@ -1,13 +1,14 @@
-"""Benchmarks of the later papers: Appel and Will's convex edges, hidden lines, Kovalevsky and Schulz's cell lists.
+"""Benchmarks of the later papers: Appel and Will's convex edges, hidden lines, and Kovalevsky and Schulz's cell lists.
 
 The hull of 60 points by Appel and Will's method is computed exactly, with sorted star polygons and with the test in
-one pass. For Kovalevsky and Schulz's cell list, the table gives seconds, and microseconds for each inserted local
-corner.
+one pass over the images. For Kovalevsky and Schulz's cell list, the output gives the seconds, and the microseconds for
+each local corner.
 """
 
 import random
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -37,8 +38,8 @@ WAYS: tuple[tuple[Of, int, Coplanar], ...] = (
     (VERTICES, 6, INVISIBLE),
     (CENTRES, 26, VISIBLE),
 )
-# The ball of this diameter, which the paper uses, must take less than 2 s.
-BAR = 32
+# The diameter of the ball that the paper uses.  Its cell list must take less than 2 s.
+PAPER_BALL = 32
 
 
 def figures() -> Iterator[Figure]:
@@ -48,7 +49,7 @@ def figures() -> Iterator[Figure]:
 
 
 def on_sphere(count: int, seed: int = 3) -> list[tuple[int, int, int]]:
-    """Return points of eight digits close to a sphere.  All are vertices of their hull, so it has the most edges."""
+    """Return points with coordinates of eight digits close to a sphere.  All of them are vertices of their hull."""
     directions = np.random.default_rng(seed).normal(size=(count, 3))
     return [tuple(p) for p in eight_digits(directions / np.linalg.norm(directions, axis=1)[:, None]).tolist()]
 
@@ -65,33 +66,33 @@ def convex_edges() -> Iterator[Figure]:
     by_star = Method(star=as_corrected)
     for name, points in sets.items():
         what = f"Appel & Will, {POINTS} points {name}"
-        short_form = timed(what, lambda p=points: appel_will(p, method=CORRECTED), "bar 2 s")  # type: ignore[misc]
+        short_form = timed(what, partial(appel_will, points, method=CORRECTED), "required: 2 s")
         yield short_form
-        star = timed(f"{what}, star polygons", lambda p=points: appel_will(p, method=by_star))  # type: ignore[misc]
+        star = timed(f"{what}, star polygons", partial(appel_will, points, method=by_star))
         yield Figure(star.what, star.seconds, f"{star.median / short_form.median:.1f} times as long")
-        judge = timed(f"judge, {POINTS} points {name}", lambda p=points: exact_hull(p))  # type: ignore[misc]
+        judge = timed(f"judge, {POINTS} points {name}", partial(exact_hull, points))
         yield Figure(judge.what, judge.seconds, f"Appel & Will {short_form.median / judge.median:.1f} times as long")
     many = on_sphere(ON_SPHERE)
     yield timed(f"Appel & Will, {ON_SPHERE} points on a sphere", lambda: appel_will(many, method=CORRECTED))
 
 
 def cell_lists() -> Iterator[Figure]:
-    """Measure the cell lists of balls with diameters 32, 64, ..., and their local corners alone."""
-    diameter = BAR
+    """Time the cell lists of balls with diameters 32, 64 and 128, and the search for their local corners alone."""
+    diameter = PAPER_BALL
     while diameter <= LARGEST_BALL:
         volume = solids.ball(diameter)
         for of, neighbours, coplanar in WAYS:
-            yield cell_list(volume, of, neighbours, coplanar, "bar 2 s" if diameter == BAR else "")
-        yield timed(f"  its local corners alone, {volume.source}", lambda v=volume: local_corners(v))  # type: ignore[misc]
+            yield cell_list(volume, of, neighbours, coplanar, "required: 2 s" if diameter == PAPER_BALL else "")
+        yield timed(f"  its local corners alone, {volume.source}", partial(local_corners, volume))
         diameter *= 2
 
 
-def cell_list(volume: solids.Volume, of: Of, neighbours: int, coplanar: Coplanar, bar: str) -> Figure:
-    """Measure the cell list of a solid's hull.  The note of the result has the time for each local corner."""
+def cell_list(volume: solids.Volume, of: Of, neighbours: int, coplanar: Coplanar, required: str) -> Figure:
+    """Time the cell list of a solid's hull.  The note has the number of local corners and the time for each."""
     corners = len(local_corners(volume, of, neighbours))
     figure = timed(
         f"cell list, {volume.source}, {of}, {neighbours}, {coplanar}",
         lambda: voxel_hull(volume, of, neighbours, coplanar),
     )
     cost = f"{corners} corners, {figure.median / corners * 1e6:.0f} microseconds each"
-    return replace(figure, note=f"{bar}; {cost}" if bar else cost)
+    return replace(figure, note=f"{required}; {cost}" if required else cost)

@@ -1,21 +1,20 @@
-"""Other programs for comparison of speed: Qhull through scipy, and CGAL through a short C++ program."""
+"""Hull programs to compare the project's speed with: Qhull through scipy, and CGAL through a short C++ program."""
 
 import os
 import shlex
 import shutil
 import subprocess
 from collections.abc import Callable
-from contextlib import AbstractContextManager
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from modern.bench.timing import Measured
 
-# Compilers, tried in this order after the one that the environment variable CXX names.
+# The compilers that are tried in this order if the environment variable CXX names none.
 COMPILERS = ("c++", "g++", "clang++")
 
-# ``convex_hull_3`` with exact predicates, run twice to fill caches first. Prints processor seconds and vertices.
+# A program that runs ``convex_hull_3`` with exact predicates twice, because the first run fills the caches.  For each
+# run it prints the processor seconds and the number of vertices.
 CGAL = """
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -45,32 +44,24 @@ Work = Callable[[], object]
 Peer = Callable[[Any], Work]
 
 
-class Peers(AbstractContextManager["Peers"]):
-    """Other programs that are available for comparison, by name, and the reasons why others are missing.
-
-    It is a context manager, which provides a folder for compiled programs.
-    """
-
-    def __init__(self) -> None:
-        self._folder = TemporaryDirectory()
-        self.installed: dict[str, Peer] = {}
-        self.remarks: list[str] = []
-        for name, peer in (("Qhull", qhull), ("CGAL", lambda: cgal(Path(self._folder.name)))):
-            try:
-                self.installed[name] = peer()
-            except Missing as reason:
-                self.remarks.append(f"{name} is omitted: {reason}")
-
-    def __exit__(self, *_: object) -> None:
-        self._folder.cleanup()
-
-
 class Missing(Exception):
     """Raised if a program to compare with is not installed.  The message gives the reason."""
 
 
+def installed(folder: Path) -> tuple[dict[str, Peer], list[str]]:
+    """Return the installed peers by name, and a line for each missing one.  Programs are compiled in ``folder``."""
+    peers: dict[str, Peer] = {}
+    remarks = []
+    for name, peer in (("Qhull", qhull), ("CGAL", lambda: cgal(folder))):
+        try:
+            peers[name] = peer()
+        except Missing as reason:
+            remarks.append(f"{name} is omitted: {reason}")
+    return peers, remarks
+
+
 def qhull() -> Peer:
-    """Return a function that prepares points for Qhull and returns the call to time.  Raise Missing without scipy."""
+    """Return the peer that computes hulls by Qhull.  Raise Missing if scipy is not installed."""
     try:
         from scipy.spatial import ConvexHull
     except ImportError:
@@ -84,7 +75,7 @@ def qhull() -> Peer:
 
 
 def cgal(folder: Path) -> Peer:
-    """Return a function that prepares points for CGAL, in a process, and returns the call to time.  Raise Missing."""
+    """Return the peer that computes hulls by CGAL in a new process.  Raise Missing if it cannot be compiled."""
     command_of_cxx = shlex.split(os.environ.get("CXX", ""))
     command = command_of_cxx or next(([name] for name in COMPILERS if shutil.which(name)), [])
     if not command or not shutil.which(command[0]):

@@ -3,34 +3,35 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from modern.bench.suite import __main__ as bench
 from modern.bench.suite import hulls, peers, studies
-from modern.bench.suite.peers import Peers, qhull
+from modern.bench.suite.peers import installed, qhull
 from modern.bench.timing import Curve
 
 POINTS = np.array([(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)])
 
 
-def test_tables_work_without_peers(monkeypatch) -> None:
+def test_tables_work_without_peers(tmp_path: Path, monkeypatch) -> None:
     """Each missing peer has one line, and the project's rows are measured alone."""
     monkeypatch.setenv("CXX", "nothere")
     monkeypatch.setitem(sys.modules, "scipy.spatial", None)
     monkeypatch.setattr(hulls, "RUNS", 1)
-    with Peers() as available:
-        assert available.installed == {}
-        assert available.remarks == [
-            "Qhull is omitted: scipy is not installed",
-            "CGAL is omitted: no C++ compiler is installed (c++, g++, clang++, or CXX)",
-        ]
-        table = hulls.table("eight points", POINTS, {"judge": lambda: None}, available)
+    available, remarks = installed(tmp_path)
+    assert available == {}
+    assert remarks == [
+        "Qhull is omitted: scipy is not installed",
+        "CGAL is omitted: no C++ compiler is installed (c++, g++, clang++, or CXX)",
+    ]
+    table = hulls.table("eight points", POINTS, {"judge": lambda: None}, available)
     assert table.lines()[0].split() == ["eight", "points", "seconds"]
 
 
-def test_every_table_measures_judge_or_port_and_peers(monkeypatch) -> None:
+def test_every_table_measures_judge_or_port_and_peers(tmp_path: Path, monkeypatch) -> None:
     pytest.importorskip("scipy")
     monkeypatch.setattr(hulls, "RUNS", 1)
     monkeypatch.setattr(hulls, "find_spec", lambda name: None)
@@ -46,8 +47,7 @@ def test_every_table_measures_judge_or_port_and_peers(monkeypatch) -> None:
         *(name for first in sets for name in (first, "judge", "Qhull", "CGAL")),
     ]
     assert bench.GROUPS["hulls"] is hulls.lines
-    with Peers() as available:
-        curves = hulls.growth(available, (20, 40))
+    curves = hulls.growth(installed(tmp_path)[0], (20, 40))
     assert [curve.name for curve in curves] == ["judge, numpy", "port, numpy", "Qhull", "CGAL"]
     assert all([count for count, _ in curve.points] == [20, 40] for curve in curves)
 
