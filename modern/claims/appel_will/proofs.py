@@ -115,7 +115,8 @@ def equal_images() -> Proof:
     )
     return Proof(
         "points with the same image are on one line through the eye",
-        "The images x / z and y / z agree if two components of the cross product are 0. Then the third one is 0 too.",
+        "If the images x / z and y / z of two points agree, two components of the points' cross product are 0. Then "
+        "the third one is 0 too, and the two points and the eye, which is the origin, are on one line.",
         (step,),
     )
 

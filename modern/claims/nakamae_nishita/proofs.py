@@ -49,6 +49,25 @@ def front_face() -> Proof:
     )
 
 
+def three_corners() -> Proof:
+    """Prove that formula (1) for three corners that form a convex angle is positive if and only if the face is a front
+    face.
+    """
+    images = u, v, w = tuple(point(name, 2) for name in "uvw")
+    # In the paper's figures y points up.
+    (x1, y1), (x2, y2), (x, y) = ((x, -y) for x, y in images)
+    formula_1 = -(x * (y1 - y2) - y * (x1 - x2) + x1 * y2 - x2 * y1)
+    front = front_face()
+    return Proof(
+        "formula (1) for three successive corners that form a convex angle is positive if and only if they belong to a "
+        "front face",
+        f"{front.argument} If y points up, formula (1) for the three corners is this turn. It is 0 only if the corners "
+        "are collinear, which a convex angle excludes, or if the face is seen in its own plane.",
+        (*front.steps, Step("formula (1) is the turn", {}, zero(formula_1 - bracket(u, v, w)))),
+    )
+
+
 @claim("nakamae-nishita.18", proof=front_face)
+@claim("nakamae-nishita.19", proof=three_corners)
 def proof_of_statement(proof: Callable[[], Proof]) -> Check:
     return proof().check()

@@ -3,9 +3,11 @@
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, pairwise, permutations, product
+from random import Random
 
 from modern.claims import algebra
-from modern.claims.evidence import Check, claim, exhausted, exhibited, proved, refuted, searched, slip
+from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, proved, refuted, searched, slip
+from modern.claims.hulls import exact_hull
 from modern.claims.nakamae_nishita.drawings import order_on_lines_of_sight, pieces_against_rays, point_of, samples
 from modern.claims.nakamae_nishita.tables import (
     POLYGONS,
@@ -18,14 +20,14 @@ from modern.claims.nakamae_nishita.tables import (
     side,
     tables_of,
 )
-from modern.claims.sampled_sets import CASES, counterexample, counterexample_points
-from modern.drawing.visible import CONTOUR, INNER, facing, line_through, sign, value
+from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, counterexample_points
+from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
 from modern.geometry.vectors import dot, minus
 from modern.papers.nakamae_nishita.contours import values
 from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, as_printed, clipped
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING
-from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked, outward
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.scenes import parse
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
@@ -36,36 +38,58 @@ def _cuboid(way: tuple[int, int, int] = (3, -5, 2)) -> Drawing:
     return draw(lambda: [cuboid("box", Fraction(2), Fraction(3), Fraction(4))], parallel(way))
 
 
-@claim("nakamae-nishita.20")
-def faces_and_edges() -> Check:
-    """Check the kinds of a cuboid's edges by the front faces that contain them, for 26 directions of view.
+def _draw_view(random: Random) -> tuple[tuple[Point, ...], Point]:
+    (x, y, z), points = (random.randint(-3, 3) for _ in range(3)), SETS[3].draw(random)
+    return points, (x, y, z)
+
+
+VIEWS: Generator[tuple[tuple[Point, ...], Point]] = Generator(
+    f"hulls of {SETS[3].name}, seen from directions with components from -3 to 3",
+    20,
+    _draw_view,
+    lambda view: any(view[1]) and exact_hull(view[0]).dimension == len("xyz"),
+)
+
+
+@claim("nakamae-nishita.20", full=400)
+def faces_and_edges(cases: int = 4) -> Check:
+    """Check the kinds of edges by the front faces that contain them, for hulls and for a cuboid from 26 directions.
 
     The contour edges are the sides of the closed chain that the program follows.
     """
-    outcomes = []
-    for way in product((-1, 0, 1), repeat=3):
-        if any(way):
-            (solid,) = _cuboid(way).solids
-            front = [{*face} for face, sign_ in zip(solid.polyhedron.faces, solid.signs, strict=True) if sign_ > 0]
-            kinds = {frozenset((edge.start, edge.end)): edge.kind for edge in solid.edges}
-            counts = {ends: sum(ends <= face for face in front) for ends in kinds}
-            right = all((kinds[e] == INNER, kinds[e] == CONTOUR) == (n == 2, n == 1) for e, n in counts.items())
-            ring = {frozenset(ends) for ends in pairwise((*solid.contour, solid.contour[0]))}
-            closed = ring == {ends for ends, kind in kinds.items() if kind == CONTOUR}
-            outcomes.append(right and closed and len(front) == sum(map(abs, way)))
+    directions: list[Point] = [(x, y, z) for x, y, z in product((-1, 0, 1), repeat=3) if any((x, y, z))]
+    views = [*VIEWS.cases(cases), *((_CORNERS, way) for way in directions)]
     message = "edges of two front faces are inner edges, and edges of one front face form the contour"
-    return exhausted("a cuboid seen from 26 directions", outcomes, message)
+    message += f", also for a cuboid seen from {len(directions)} directions"
+    return searched(VIEWS, cases, [_is_classified(*view) for view in views], message)
 
 
-@claim("nakamae-nishita.10")
-def face_seen_edge_on() -> Check:
+# A cuboid, some of whose faces are edge-on if a component of the direction of view is 0.
+_CORNERS: tuple[Point, ...] = tuple((x, y, z) for x in (0, 2) for y in (0, 3) for z in (0, 4))
+
+
+def _is_classified(points: tuple[Point, ...], way: Point) -> bool:
+    judge = exact_hull(points)
+    vertices = tuple(tuple(map(Fraction, points[k])) for k in judge.vertices)
+    rings = tuple(tuple(map(judge.vertices.index, facet.polygon)) for facet in judge.facets)
+    (solid,) = draw([checked(Polyhedron("hull", vertices, rings))], parallel(way)).solids  # type: ignore[arg-type]
+    front = [{*face} for face, facet in zip(rings, judge.facets, strict=True) if dot(facet.plane[:3], way) > 0]
+    kinds = {frozenset((edge.start, edge.end)): edge.kind for edge in solid.edges}
+    counts = {ends: sum(ends <= face for face in front) for ends in kinds}
+    right = all((kinds[e] == INNER, kinds[e] == CONTOUR) == (n == 2, n == 1) for e, n in counts.items())
+    ring = {frozenset(ends) for ends in pairwise((*solid.contour, solid.contour[0]))}
+    return right and len(kinds) == len(judge.edges()) and ring == {e for e, kind in kinds.items() if kind == CONTOUR}
+
+
+@claim("nakamae-nishita.10", full=400)
+def face_seen_edge_on(cases: int = 4) -> Check:
     """Check that by the printed definition a cuboid seen along an axis has no contour edge."""
     (along,) = _cuboid((0, 0, 1)).solids
     pairs_ = combinations(zip(along.polyhedron.faces, along.signs, strict=True), 2)
     as_printed = sum(first * second == -1 and len({*a} & {*b}) == 2 for (a, first), (b, second) in pairs_)
     contour = sum(edge.kind == CONTOUR for edge in along.edges)
     case = f"a cuboid seen along an axis: {contour} contour edges, and {as_printed} by the printed definition"
-    return faces_and_edges().unless(along.signs.count(0) == 4 == contour and not as_printed, case)
+    return faces_and_edges(cases).unless(along.signs.count(0) == 4 == contour and not as_printed, case)
 
 
 @claim("nakamae-nishita.16", full=600)
@@ -106,23 +130,6 @@ def _hidden(drawing: Drawing, kind: str) -> int:
         if edge.kind == kind
     }
     return sum(not p.visible and (p.solid, frozenset((p.start, p.end))) in ends for p in drawing.pieces)
-
-
-@claim("nakamae-nishita.19")
-def first_three_corners() -> Check:
-    """Check that formula (1) for three corners of a face tells front from back faces, unless they are collinear."""
-    outcomes = []
-    for way in product((-1, 0, 1), repeat=3):
-        if any(way):
-            (solid,) = _cuboid(way).solids
-            for face in solid.polyhedron.faces:
-                a, b, c = ((x, y, w) for x, y, _, w in (solid.points[k] for k in face[:3]))
-                towards_eye = sign(sum(n * w for n, w in zip(outward(solid.polyhedron, face), way, strict=True)))
-                outcomes.append(sign(value(line_through(a, b), c)) == towards_eye)
-    check = exhausted("the faces of a cuboid seen from 26 directions", outcomes, "the sign decides")
-    corners = [(0, 0, 1), (1, 1, 1), (2, 2, 1), (2, 0, 1)]
-    is_undecided = value(line_through(*corners[:2]), corners[2]) == 0 < facing(corners)
-    return check.unless(is_undecided, "a front face whose first three corners are collinear, so that the value is 0")
 
 
 @claim("nakamae-nishita.45")
