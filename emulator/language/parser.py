@@ -18,7 +18,6 @@ from emulator.language.cards import COLUMNS, RECORD_MARKS, Card, Deck
 from emulator.language.foreign import STATEMENT_FUNCTION, ForeignStatement, declared_names, identify
 from emulator.language.statements import (
     LAST_COLUMN,
-    Columns,
     Source,
     is_comment,
     is_control_card,
@@ -49,7 +48,6 @@ _FORMS = {
 MAX_NESTING = 60
 # The longest statement in characters, without blanks: its object code would fill the largest machine.
 MAX_LENGTH = 20_000
-_CACHED_LENGTH = 200
 _AFTER_MARK = "a record mark (punched 0-2-8) ends a statement, but other characters follow it"
 _EDGE = (LAST_COLUMN, LAST_COLUMN + 1)
 _CODE = re.compile(r"[=+*/(),]")
@@ -243,13 +241,9 @@ def _depth(text: str) -> int:
     return deepest
 
 
-def _tree(text: str, kind: str) -> Tree[Token]:
-    """Return lark's syntax tree of a statement.  Short statements are cached, because many programs repeat them."""
-    return _short_tree(text, kind) if len(text) <= _CACHED_LENGTH else _grammar().parse(text, start=kind)
-
-
 @lru_cache(1024)
-def _short_tree(text: str, kind: str) -> Tree[Token]:
+def _tree(text: str, kind: str) -> Tree[Token]:
+    """Return lark's syntax tree of a statement, from a cache if the text has been parsed before."""
     return _grammar().parse(text, start=kind)
 
 
@@ -262,7 +256,7 @@ def _grammar() -> Lark:
 class _Builder:
     """The converter from lark's syntax tree to the classes of tree.py, with one method per grammar rule."""
 
-    def __init__(self, places: Columns) -> None:
+    def __init__(self, places: Sequence[tree.Place]) -> None:
         self._places = places
 
     def build(self, node: Tree[Token]) -> Any:

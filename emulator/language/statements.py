@@ -8,7 +8,7 @@ not settle continuation cards and blank cards (OPEN-QUESTIONS 1 and 2).
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 from string import ascii_lowercase, ascii_uppercase
@@ -39,24 +39,6 @@ _PREFIXES = (
 
 
 @dataclass(frozen=True, slots=True)
-class Columns:
-    """The card and column of each character of a statement.  A place is computed when it is indexed.
-
-    The columns of a statement's cards are numbered in one sequence: columns 1 to 72 of the first card, then columns 7
-    to 72 of each continuation card.  ``indices`` holds the position in this sequence of each character.
-    """
-
-    cards: tuple[Card, ...]
-    indices: Sequence[int]
-
-    def __len__(self) -> int:
-        return len(self.indices)
-
-    def __getitem__(self, index: int) -> Place:
-        return _place(self.cards, self.indices[index])
-
-
-@dataclass(frozen=True, slots=True)
 class Source:
     """A statement before parsing.
 
@@ -68,7 +50,7 @@ class Source:
     label: str
     kind: str
     text: str
-    places: Columns = field(hash=False)
+    places: tuple[Place, ...] = field(hash=False)
     place: Place = field(hash=False)
     cards: tuple[Card, ...]
 
@@ -172,28 +154,23 @@ def _continues(card: Card) -> bool:
 
 @lru_cache(2048)
 def _source(cards: tuple[Card, ...]) -> Source:
+    # The statement's columns in one sequence: 1 to 72 of the first card, then 7 to 72 of each continuation card.
     raw = statement_columns(cards[0]) + "".join(statement_columns(card, _FIRST) for card in cards[1:])
+    places = [Place(cards[0].number, column) for column in range(1, LAST_COLUMN + 1)]
+    places += [Place(card.number, column) for card in cards[1:] for column in range(_FIRST, LAST_COLUMN + 1)]
     number = _NUMBER.match(raw)
     start = number.end() if number else 0
     label = raw[:start].replace(" ", "")
     # If a card has a statement number but no statement, the error message refers to the place of the number.
-    place = _place(cards, start if start < len(raw) else raw.index(label[0]))
+    place = places[start if start < len(raw) else raw.index(label[0])]
     # A FORMAT keeps its blanks, because they count in Hollerith fields.
     match = _FORMAT.match(raw, start)
     if match:
-        indices = range(match.end() - 1, len(raw))
-        return Source(label, "format", raw[indices.start :], Columns(cards, indices), place, cards)
+        begun = match.end() - 1
+        return Source(label, "format", raw[begun:], tuple(places[begun:]), place, cards)
     text = raw[start:].replace(" ", "")
-    not_blank = [i for i, char in enumerate(raw) if char != " " and i >= start]
-    return Source(label, classify(text), text, Columns(cards, not_blank), place, cards)
-
-
-def _place(cards: tuple[Card, ...], index: int) -> Place:
-    """Return the card and column of the character at ``index`` in the joined columns (see :class:`Columns`)."""
-    if index < LAST_COLUMN:
-        return Place(cards[0].number, index + 1)
-    card, column = divmod(index - LAST_COLUMN, LAST_COLUMN - _FIRST + 1)
-    return Place(cards[card + 1].number, column + _FIRST)
+    not_blank = tuple(places[i] for i in range(start, len(raw)) if raw[i] != " ")
+    return Source(label, classify(text), text, not_blank, place, cards)
 
 
 def _top_level(text: str, mark: str) -> int:

@@ -6,7 +6,6 @@ The docstring of each statement quotes its form and gives the page of IBM 1620 F
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 from emulator.errors import Place as Place
 
@@ -170,14 +169,6 @@ class InputOutput:
     items: tuple[Item, ...]
 
 
-class Columns(Protocol):
-    """The card and column of each character of a text."""
-
-    def __len__(self) -> int: ...
-
-    def __getitem__(self, index: int, /) -> Place: ...
-
-
 @dataclass(frozen=True, slots=True)
 class Format:
     """The statement ``FORMAT (specification)``.
@@ -186,7 +177,7 @@ class Format:
     """
 
     text: str
-    places: Columns
+    places: tuple[Place, ...]
 
 
 Body = Assignment | Jump | Do | Continue | Pause | Stop | End | Dimension | InputOutput | Format

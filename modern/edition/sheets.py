@@ -143,9 +143,8 @@ def _items(name: str) -> dict[int, list[Item]]:
         card, was, reads = int(row["card"]), row["was"], row["reads"]
         if by_card[card].source.text != was:
             continue  # The page has another card than the one that was weighed.
-        first, last, token = (
-            _altered_token(was, reads, by_card[card].source.places.indices) if reads else (0, len(was), "")
-        )
+        columns = [place.column for place in by_card[card].source.places]
+        first, last, token = _altered_token(was, reads, columns) if reads else (0, len(was), "")
         tokens.setdefault((card, first, last), []).append((row["how"], token, reads))
     result: dict[int, list[Item]] = {}
     for (card, first, last), rivals in sorted(tokens.items()):
@@ -160,8 +159,7 @@ def _item(
 ) -> Item:
     card, source = statement.source.cards[0], statement.source
     # Translate positions in the statement, which has no blanks, to columns of the card.
-    places = source.places.indices
-    start, end = places[first], places[last - 1] + 1
+    start, end = source.places[first].column - 1, source.places[last - 1].column
     whole = card.text.rstrip()
     choices = [Choice("A", whole[start:end], whole)]
     for letter, (_, token, reads) in zip(LETTERS[1:], rivals, strict=False):

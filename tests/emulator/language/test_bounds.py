@@ -71,7 +71,7 @@ SHAPES: dict[str, Callable[[int], list[str]]] = {
 def calls(cards: list[str]) -> int:
     """Return the number of function calls of a compilation, with those of built-in functions."""
     deck = deck_from_lines("shape.f", [*cards, "END"])
-    for cached_function in (parser._short_tree, parser.parse_statement, statements._source):
+    for cached_function in (parser._tree, parser.parse_statement, statements._source):
         cached_function.cache_clear()
     count = 0
 

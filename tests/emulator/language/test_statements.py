@@ -42,7 +42,7 @@ def test_places_and_the_columns_of_formats_are_kept() -> None:
     assert len(statement.text) == len(statement.places) == 72 - 9
     statement = only("C  X", " 10  A = B")
     assert statement.place == Place(2, 6)
-    assert [statement.places[k] for k in range(len(statement.places))] == [Place(2, 6), Place(2, 8), Place(2, 10)]
+    assert statement.places == (Place(2, 6), Place(2, 8), Place(2, 10))
 
 
 def test_statement_that_reaches_column_73_gives_one_warning() -> None:
