@@ -1,6 +1,4 @@
-"""Draw a hull and another, wrong hull of the same points in one picture; shape and brightness distinguish the
-differences.
-"""
+"""Draw a hull and a wrong hull of the same points in one picture. Shape and brightness distinguish the differences."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -34,8 +32,9 @@ def draw_against(
     width: int | None = None,
     show: Show | None = None,
 ) -> str:
-    """Draw a true hull and the differences of a claimed hull.  Return an SVG file.  The parameters are those of
-    ``draw_svg``.
+    """Return the picture of a hull and of its differences from a hull read from cards, as the text of an SVG file.
+
+    ``eye``, ``title``, ``width`` and ``show`` are those of ``draw_svg``, except that all points are drawn.
     """
     show = replace(show or Show(), points=True)
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)

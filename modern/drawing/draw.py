@@ -1,4 +1,4 @@
-"""Draw hulls as lines in parallel projection: hidden edges dashed, vertices numbered as Butler's programs do.
+"""Draw hulls as lines in parallel projection. Hidden edges are dashed; vertices are numbered as in Butler's programs.
 
 An edge of a convex solid is hidden if and only if both of its faces are turned away from the eye. The sign of formula
 (1) of Nakamae and Nishita (``modern.drawing.visible``) decides this, in fractions of the exact coordinates.
@@ -22,22 +22,25 @@ from modern.geometry.mesh import ExportError
 MOST_NUMBERS = 400
 
 _WIDTH, _WIDER, _NARROWEST, _WIDEST = 640, 1000, 320, 4000
-# With more points than the first number, marks and numbers are smaller; beyond the second, hidden vertices have none.
+# With more points than _MANY, marks and numbers are smaller. With more than _CROWD, hidden vertices are not numbered.
 _MANY, _CROWD = 60, 120
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _DARKEST, _RANGE = 196, 56
 
-# The labels of vertices: none, their number in ``Hull.vertices`` as the programs number them, or their number in the
-# input.
+# The labels of vertices: none, their places in ``Hull.vertices`` (the numbers that Butler's programs use), or their
+# places in the input.
 Labels = Literal["none", "programs", "input"]
 
 
 @dataclass(frozen=True, slots=True)
 class Show:
-    """The user's choice of parts to draw: numbers, hidden edges and points, and points that are not vertices."""
+    """The parts of a picture that the user has chosen to draw."""
 
+    # The numbers of the vertices.
     labels: Labels = "programs"
+    # Hidden edges and hidden points.
     hidden: bool = True
+    # The points that are not vertices.
     points: bool = True
 
 
@@ -50,15 +53,16 @@ def draw_svg(
 ) -> str:
     """Return a picture of a hull as the text of an SVG file.
 
-    ``eye`` is the direction from the hull to the eye. None chooses one: for a polyhedron a direction from a fixed list
-    in which no face is edge-on and no two vertices coincide, for a polygon or segment a perpendicular one. ``title``
-    is a line below the picture. ``width`` is 320 to 4000 pixels, by default 640, or 1000 for more than 120 points.
-    Raise ExportError if there is no hull, the direction is 0,0,0 or shows a polygon or segment edge-on, or the width
-    is out of range.
+    ``eye`` is the direction from the hull to the eye. If ``eye`` is None, the program chooses a direction: for a
+    polyhedron one of a fixed list, such that no face is edge-on and no two vertices coincide, and for a polygon or a
+    segment a perpendicular direction. ``title`` is a line below the picture. ``width`` is 320 to 4000 pixels, by
+    default 640, or 1000 for more than 120 points. Raise ExportError if there is no hull, if the direction is 0,0,0 or
+    shows a polygon or segment edge-on, or if the width is out of range.
 
-    Vertices less than 2.5 pixels apart share a number. With more than 120 points only visible vertices are numbered,
-    with more than 400 vertices none. Visible faces are shaded. An edge with one face edge-on and no visible face lies
-    on the outline and is drawn as visible. The same hull gives the same text on every machine.
+    Vertices within 2.5 pixels of each other share a number. With more than 120 points only visible vertices are
+    numbered, and with more than 400 vertices no vertex is. Visible faces are shaded. An edge between an edge-on face
+    and a face that is not visible lies on the outline and is drawn as visible. The same hull gives the same text on
+    every machine.
     """
     show = show or Show()
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)
@@ -77,7 +81,7 @@ def draw_svg(
 
 
 def filter_scene(picture: Scene, show: Show) -> Scene:
-    """Return the picture without the parts that the user chose not to show."""
+    """Return the scene without the parts that the user has chosen not to draw."""
     if not show.points:
         picture = replace(picture, boundary=(), inside=())
     if not show.hidden:
@@ -86,14 +90,17 @@ def filter_scene(picture: Scene, show: Show) -> Scene:
 
 
 def width_of(picture: Scene, width: int | None) -> int:
-    """Return the requested width, or the default for the number of points. Raise ExportError if it is out of range."""
+    """Return the requested width of a picture in pixels, or the default width for its number of points.
+
+    Raise ExportError if the requested width is out of range.
+    """
     if width is None:
         return _WIDTH if _points(picture) <= _CROWD else _WIDER
     return checked_width(width)
 
 
 def checked_width(width: int) -> int:
-    """Return the given width of a picture in pixels.  Raise ExportError if it is out of range."""
+    """Return the width of a picture, in pixels, unchanged. Raise ExportError if it is out of range."""
     if not _NARROWEST <= width <= _WIDEST:
         raise ExportError(f"a picture cannot be {width} pixels wide; the width is from {_NARROWEST} to {_WIDEST}")
     return width
@@ -141,20 +148,19 @@ def scene_items(hull: Hull, picture: Scene, layout: Layout) -> list[str]:
 
 
 def _faces(picture: Scene, layout: Layout) -> list[str]:
-    def items() -> Iterator[str]:
-        for pane in picture.panes:
-            level = f"{_DARKEST + int(_RANGE * pane.light):02x}"
-            yield svg.polygon((layout.vertices[place] for place in pane.corners), f'fill="#{level * 3}"')
-
-    return svg.group("faces", "", items())
+    polygons = []
+    for pane in picture.panes:
+        level = f"{_DARKEST + int(_RANGE * pane.light):02x}"
+        polygons.append(svg.polygon((layout.vertices[place] for place in pane.corners), f'fill="#{level * 3}"'))
+    return svg.group("faces", "", polygons)
 
 
 def number_items(hull: Hull, picture: Scene, layout: Layout, which: Labels) -> list[str]:
-    """Return the numbers of the vertices as SVG elements; a number is grey if all its vertices are hidden."""
+    """Return the numbers of the vertices as SVG elements. A label is grey if all vertices that share it are hidden."""
     count = _points(picture)
     size = HEIGHT if count <= _MANY else 10.0 if count <= _CROWD else 9.0
     behind = picture.behind and count <= _CROWD
-    # Vertices of a group share a label. Hidden ones are left out of it if hidden parts are not drawn.
+    # The vertices of a group share a label. If hidden parts are not drawn, hidden vertices are omitted from the label.
     shown = [tuple(place for place in group if behind or not picture.hidden[place]) for group in layout.groups]
     groups = [group for group in shown if group]
 
@@ -169,11 +175,9 @@ def number_items(hull: Hull, picture: Scene, layout: Layout, which: Labels) -> l
     ]
     other_points = [pixel.place for pixel in (*layout.boundary, *layout.inside)]
     centres = place_labels(labels, lines, other_points, (float(layout.width), float(layout.height)))
-
-    def items() -> Iterator[str]:
-        for label, group, (x, y) in zip(labels, groups, centres, strict=True):
-            grey = 'fill="#666"' if all(picture.hidden[place] for place in group) else ""
-            yield svg.text(Pixel(round(100 * x), round(100 * (y + size * 0.35))), label.text, grey)
-
-    font = _FONT if size == HEIGHT else _FONT.replace('"13"', f'"{size:g}"')
-    return svg.group("numbers", f'{font} text-anchor="middle"', items())
+    items = []
+    for label, group, (x, y) in zip(labels, groups, centres, strict=True):
+        grey = 'fill="#666"' if all(picture.hidden[place] for place in group) else ""
+        items.append(svg.text(Pixel(round(100 * x), round(100 * (y + size * 0.35))), label.text, grey))
+    font = _FONT.replace('"13"', f'"{size:g}"')
+    return svg.group("numbers", f'{font} text-anchor="middle"', items)

@@ -1,8 +1,8 @@
-"""Place the numbers of vertices in a picture so that they are clear of lines and of each other, if there is space.
+"""Place the numbers of vertices in a picture so that they overlap neither lines nor each other, if there is space.
 
-Every label has a fixed set of candidate positions around its vertex. The cheapest is chosen, and all labels are
-reconsidered until nothing changes. Only sums, products and quotients are used, so that every machine produces the same
-picture.
+Every label has a fixed set of candidate positions around its vertex, each with a cost. The cheapest position is chosen
+for each label in turn, repeatedly, until no label moves. Only sums, products and quotients are used, so that every
+machine produces the same picture.
 """
 
 from collections.abc import Sequence
@@ -28,7 +28,7 @@ _ON_LABEL, _ON_MARK, _OUTSIDE, _ON_LINE, _NEARER, _FARTHER, _INWARD = 60.0, 25.0
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A text to be placed, and the point next to which it belongs, in pixels with y downward."""
+    """A text to be placed next to the point (x, y), in pixels with y downward."""
 
     x: float
     y: float
@@ -38,18 +38,23 @@ class Label:
 
     @property
     def half(self) -> Place:
-        """Half the width and half the height of the text, in pixels, estimated without the font."""
+        """Half the width and half the height of the text in pixels, estimated from the number of characters."""
         return len(self.text) * self.size * _WIDTH / HEIGHT / 2, self.size / 2
 
 
 def place_labels(
     labels: Sequence[Label], lines: Sequence[Line], marks: Sequence[Place], size: Place
 ) -> tuple[Place, ...]:
-    """Return the centre of each label.  ``marks`` are points to avoid; ``size`` is the size of the picture."""
+    """Return the centre of each label. ``lines`` and ``marks`` are lines and points to avoid; ``size`` is the size of
+    the picture.
+    """
     if not labels:
         return ()
     middle = (sum(label.x for label in labels) / len(labels), sum(label.y for label in labels) / len(labels))
-    candidates = [_candidates(label, lines, [*marks, *_others(labels, label)], middle, size) for label in labels]
+    candidates = []
+    for label in labels:
+        other_points = [(other.x, other.y) for other in labels if other is not label]
+        candidates.append(_candidates(label, lines, [*marks, *other_points], middle, size))
     chosen = [_cheapest([cost for _, cost in placements]) for placements in candidates]
     neighbours = [
         [k for k, neighbour in enumerate(labels) if k != order and _near(label, neighbour)]
@@ -74,10 +79,6 @@ def _cheapest(costs: Sequence[float]) -> int:
     return min(range(len(costs)), key=costs.__getitem__)
 
 
-def _others(labels: Sequence[Label], label: Label) -> list[Place]:
-    return [(neighbour.x, neighbour.y) for neighbour in labels if neighbour is not label]
-
-
 def _near(a: Label, b: Label) -> bool:
     reach = 2 * (_GAPS[-1] + HEIGHT) + 2
     return abs(a.x - b.x) <= reach + 2 * (a.half[0] + b.half[0]) and abs(a.y - b.y) <= reach + 2 * HEIGHT
@@ -86,7 +87,7 @@ def _near(a: Label, b: Label) -> bool:
 def _candidates(
     label: Label, lines: Sequence[Line], marks: Sequence[Place], middle: Place, size: Place
 ) -> list[tuple[Place, float]]:
-    """Return all possible positions of a label, each with its cost, as if there were no other labels."""
+    """Return the candidate positions of a label's centre, each with its cost if there were no other labels."""
     half = label.half
     reach = _GAPS[-1] + 2 * half[0] + HEIGHT
     around = (label.x - reach, label.y - reach, label.x + reach, label.y + reach)
@@ -124,7 +125,7 @@ def _overlap(a: _Box, b: _Box) -> bool:
 
 
 def crosses(line: Line, box: _Box) -> bool:
-    """Return True if part of a line is inside a box (Liang and Barsky, ACM Transactions on Graphics 3 (1984))."""
+    """Return True if a part of a line lies in a box (Liang and Barsky, ACM Transactions on Graphics 3 (1984))."""
     (x, y), (to_x, to_y) = line
     first, last = 0.0, 1.0
     for step, low, high in ((to_x - x, box[0] - x, box[2] - x), (to_y - y, box[1] - y, box[3] - y)):

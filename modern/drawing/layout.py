@@ -26,7 +26,10 @@ class Pixel:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """The positions of all points of a picture, and the size of the picture in pixels, including its margins."""
+    """The size of a picture in pixels, including its margins, and the positions of its points.
+
+    ``boundary`` and ``inside`` are the positions of the points that are not vertices.
+    """
 
     width: int
     height: int
@@ -38,9 +41,10 @@ class Layout:
 
 
 def lay_out(picture: Scene, width: int) -> Layout:
-    """Fit a scene, true to scale, into a picture of ``width`` pixels.
+    """Return the positions of a scene's points in a picture of ``width`` pixels, with one scale for both axes.
 
-    The height is at most 460 pixels or 0.72 times the width, whichever is larger."""
+    The height without the margins is at most 460 pixels or 0.72 times the width, whichever is larger.
+    """
     marks = (*picture.boundary, *picture.inside)
     pixel, height = fit(
         [*picture.images, *(mark.image for mark in marks)], width, max(_HIGHEST, width * _HIGHEST // 640)
@@ -57,7 +61,11 @@ def lay_out(picture: Scene, width: int) -> Layout:
 
 
 def fit(images: Sequence[Flat], width: int, highest: int, margin: int = MARGIN) -> tuple[Callable[[Flat], Pixel], int]:
-    """Return a function that converts positions to pixels so that all fit, and the height of the picture."""
+    """Return a function that converts positions to pixels, and the height of the picture.
+
+    The scale is the greatest at which all positions fit into a picture with these margins, of this ``width`` and,
+    without its margins, at most the height ``highest``.
+    """
     x_min, x_max = _ends(image[0] for image in images)
     y_min, y_max = _ends(image[1] for image in images)
     available = width - 2 * margin

@@ -39,7 +39,7 @@ def band(picture: Scene, width: int, top: int, title: str, numbered: bool) -> It
 
 
 def wrapped(text: str, room: int) -> list[str]:
-    """Break a text into lines of at most ``room`` pixels.  Widths are estimated without the font."""
+    """Break a text into lines of at most ``room`` pixels. Widths are estimated from the number of characters."""
     lines: list[str] = []
     for word in text.split():
         if lines and (len(lines[-1]) + 1 + len(word)) * _WIDEST <= room:
@@ -87,7 +87,7 @@ def _styles(picture: Scene) -> list[Style]:
 
 
 def _rows(picture: Scene, width: int) -> list[list[tuple[int, Style]]]:
-    """Return the marks of the legend and their horizontal positions, in rows that leave room for the axes."""
+    """Return the marks of the legend with their horizontal positions, in rows that leave space for the axes."""
     rows: list[list[tuple[int, Style]]] = []
     x = width
     for style in _styles(picture):
@@ -101,7 +101,7 @@ def _rows(picture: Scene, width: int) -> list[list[tuple[int, Style]]]:
 
 
 def _axes(picture: Scene, centre: Pixel) -> Iterator[str]:
-    """Yield arrows for the directions of x, y and z; an axis that points nearly at the eye is omitted."""
+    """Yield lines for the directions of x, y and z, with their names. Omit an axis that points nearly at the eye."""
     view = picture.view
     length = view.stretch * root(Fraction(dot(view.right, view.right)))
     for unit, name in zip(_UNITS, "xyz", strict=True):

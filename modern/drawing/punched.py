@@ -1,10 +1,11 @@
 """Draw punched cards: the form, the holes, and the characters that the IBM 026 card punch prints along the top edge.
 
-The scale is 96 pixels to the inch. A card is 7 3/8 by 3 1/4 inches. Holes are .055 by .125, columns .087 apart and
-rows .25 apart. The first ones are .251 and .250 from the edges (ANSI X3.21-1967, rectangular holes in twelve-row
-punched cards). :data:`emulator.language.cards.PUNCHES` holds the codes of the characters, those of the 026 with code
-plate H (part 362277 of the parts catalog of IBM's 24 and 26 card punches). The form is that of IBM's card 5081: digits
-in their rows, numbers of columns below.
+The scale is 96 pixels to the inch. A card is 7 3/8 by 3 1/4 inches. Holes are .055 by .125 inches, columns are .087
+inches apart, and rows .25 inches apart. The first column is .251 inches from the left edge and the first row .250
+inches from the top edge (ANSI X3.21-1967, rectangular holes in twelve-row punched cards).
+:data:`emulator.language.cards.PUNCHES` holds the codes of the characters: those of the 026 with code plate H (part
+362277 of the parts catalog of IBM's 24 and 26 card punches). The printed form is that of IBM's card 5081: each digit in
+its row, and the numbers of columns below.
 """
 
 from collections.abc import Iterator
@@ -14,7 +15,7 @@ from emulator.language.cards import COLUMNS, PUNCHES, Card, Deck, check_characte
 from modern.drawing import svg
 from modern.drawing.layout import Pixel
 
-# The largest number of cards in one picture, a full box.
+# The largest number of cards in one picture: the cards of a full box.
 MOST_CARDS = 2000
 
 # The rows of holes from the top edge.
@@ -113,6 +114,6 @@ def _card(card: Card, x: int, y: int) -> Iterator[str]:
 
 def _printed(text: str) -> str:
     """Return the characters printed on a card, each above its column, as one SVG text."""
-    # 330 is half the width of a letter of this font. Each position is that of a left edge, so blanks keep theirs too.
+    # Each character has the position of its left edge, also a blank. 330 is half the width of a character of this font.
     places = " ".join(svg.number(column_centre(column) - 330) for column in range(1, len(text) + 1))
     return f'<text class="words" xml:space="preserve" x="{places}" y="15" {_PRINT}>{svg.escape(text)}</text>'

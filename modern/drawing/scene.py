@@ -18,7 +18,7 @@ _ONE = Fraction(1)
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """An edge of a hull in a picture: its two vertices, counted from 0, and whether it is hidden."""
+    """An edge of a hull in a picture: the indices of its two vertices, and True if the edge is hidden."""
 
     start: int
     end: int
@@ -36,7 +36,7 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Pane:
-    """A visible face of a picture: its corners, and its brightness from 0 to 1."""
+    """A visible face in a picture: the indices of its vertices, and its brightness from 0 to 1."""
 
     corners: tuple[int, ...]
     light: Fraction
@@ -44,10 +44,15 @@ class Pane:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """All parts of a picture before it has a size.  ``images`` and ``hidden`` are in the order of ``Hull.vertices``."""
+    """The projection of a hull, before its size in pixels is known.
+
+    ``images`` are the positions of the vertices in the order of ``Hull.vertices``, and ``hidden`` is True for each
+    hidden vertex. ``boundary`` and ``inside`` are the other points. ``faces`` is the number of faces.
+    """
 
     dimension: int
     view: View
+    # True if the program has chosen the direction of view.
     chosen: bool
     images: tuple[Flat, ...]
     hidden: tuple[bool, ...]
@@ -61,9 +66,9 @@ class Scene:
 
 
 def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
-    """Project a hull along a direction of view, or along a suitable one if ``eye`` is None.
+    """Return the projection of a hull along the direction ``eye``. If it is None, choose a suitable direction.
 
-    Raise ExportError if there is no hull, or if the direction is zero or shows a polygon or segment edge-on.
+    Raise ExportError if there is no hull, or if the direction is 0,0,0 or shows a polygon or segment edge-on.
     """
     surface = mesh(hull)
     points = surface.numbers()
@@ -74,16 +79,22 @@ def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
     faces = [face[::-1] for face in surface.faces]
     signs = [facing([(*images[place], _ONE) for place in face]) for face in faces]
     if surface.dimension == 2:
-        # A polygon has two sides. The one on the side of the eye is drawn.
+        # A polygon has two sides. The side that faces the eye is drawn.
         signs = [abs(sign) for sign in signs]
     around: dict[int, list[int]] = defaultdict(list)
     for face, sign in zip(surface.faces, signs, strict=True):
         for place in face:
             around[place].append(sign)
 
-    def mark(index: int, solid: bool) -> Mark:
+    def mark(index: int, on_solid: bool) -> Mark:
         point = coordinates(hull.points[index])
-        return Mark(index, sight.project(point), solid and _behind(index, point, hull, surface, points, normals, signs))
+        faces_at = zip(hull.faces, surface.faces, normals, signs, strict=True) if on_solid else ()
+        signs_at = [
+            sign
+            for face, polygon, normal, sign in faces_at
+            if index in face.on or not dot(normal, minus(point, points[polygon[0]]))
+        ]
+        return Mark(index, sight.project(point), _away(signs_at))
 
     return Scene(
         surface.dimension,
@@ -104,7 +115,7 @@ def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
 
 
 def _away(signs: Sequence[int]) -> bool:
-    """Return True if every face is turned away from the eye.  An edge-on face does not count as turned away."""
+    """Return True if all faces at a point, given by their signs, are turned away from the eye, and none is edge-on."""
     return bool(signs) and all(sign < 0 for sign in signs)
 
 
@@ -134,33 +145,16 @@ def _edges(
     """Return every edge between faces in different planes, with its visibility, or the only edge of a segment."""
     if surface.dimension < 2:
         return tuple(Edge(a, b, False) for a, b in surface.edges() if surface.dimension)
-    classified = classify(faces, signs, lambda a, b: _parallel(normals[a], normals[b]))
+
+    def coplanar(a: int, b: int) -> bool:
+        return not any(cross(normals[a], normals[b])) and dot(normals[a], normals[b]) > 0
+
+    classified = classify(faces, signs, coplanar)
     return tuple(Edge(edge.start, edge.end, edge.kind == BACK) for edge in classified if edge.kind != FLAT)
 
 
-def _parallel(u: Vector, v: Vector) -> bool:
-    return not any(cross(u, v)) and dot(u, v) > 0
-
-
-def _behind(
-    index: int,
-    point: Vector,
-    hull: Hull,
-    surface: Mesh,
-    points: Sequence[Vector],
-    normals: Sequence[Vector],
-    signs: Sequence[int],
-) -> bool:
-    on = [
-        sign
-        for face, polygon, normal, sign in zip(hull.faces, surface.faces, normals, signs, strict=True)
-        if index in face.on or not dot(normal, minus(point, points[polygon[0]]))
-    ]
-    return _away(on)
-
-
 def _light(normal: Vector, sight: View) -> Fraction:
-    """Return the brightness of a face, (1 + cosine) / 2 of the angle between its normal and the direction of a lamp.
+    """Return the brightness of a face: (1 + cosine) / 2 of the angle between its normal and the direction of a lamp.
 
     The lamp is at the left shoulder of the viewer.
     """

@@ -1,4 +1,4 @@
-"""Draw how the hull grows, from the first polyhedron H_1 to the last (thesis p. 22-33), as a strip or an animation."""
+"""Draw how the hull grows, from the first polyhedron H_1 to the last (thesis p. 22-33), in rows or as an animation."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -25,7 +25,11 @@ WAITING = svg.Style("waiting", "not tested yet", "dot", 'fill="#fff" stroke="#77
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """The picture of one stage of the construction, with the positions of all points and its caption."""
+    """The picture of one stage of the construction of a hull.
+
+    ``waiting`` are the positions of the points not tested yet, ``struck`` those of the points that this stage
+    eliminated as inside, and ``added`` those of the vertices that it added.
+    """
 
     stage: Stage
     hull: Hull
@@ -37,6 +41,7 @@ class Frame:
 
     @property
     def caption(self) -> tuple[str, str]:
+        """The two lines below the picture; the second line is empty if the stage eliminated no points."""
         stage = self.stage
         numbers = ", ".join(str(index + 1) for index in stage.added)
         faces = "face" if stage.outside == 1 else "faces"
@@ -48,9 +53,9 @@ class Frame:
 def frames(
     hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int = _CELL, height: int = 10 * _CELL
 ) -> tuple[Frame, ...]:
-    """Return a picture of each stage of a hull with its history, at most as large as the given size in pixels.
+    """Return a picture of each stage of a hull that has a history, at most as large as the given size in pixels.
 
-    Raise ExportError if there are no stages.
+    Raise ExportError if there is no hull or if the hull has no stages.
     """
     if not hull.determined:
         raise ExportError(f"there is no hull: {hull.status}")
@@ -62,7 +67,7 @@ def frames(
     pixel, height = fit(list(flat.values()), width, height)
     places = {index: pixel(image) for index, image in flat.items()}
     stage_frames, vertices, eliminated = [], set[int](), set[int]()
-    # The hull of a stage is computed again, exactly, from the vertices added so far.
+    # The hull of a stage is computed exactly from the vertices added so far.
     for stage in hull.history:
         vertices |= set(stage.added)
         eliminated |= set(stage.struck)

@@ -1,6 +1,6 @@
-"""Write SVG elements and files as ASCII text; marks differ in shape and in grey, never in colour.
+"""Write SVG elements and files as ASCII text, and convert SVG to PDF and PNG.
 
-``write_picture`` writes an SVG file, or converts it to PDF or PNG.
+The marks defined here differ in shape and in their grey, never in colour.
 """
 
 import re
@@ -23,14 +23,14 @@ _PIXELS_PER_INCH = 192  # A PNG has two pixels for each pixel of the SVG.
 
 
 def number(hundredths: int) -> str:
-    """Return a number of hundredths of a pixel as text in pixels: 1250 is ``12.5``."""
+    """Return a length in hundredths of a pixel as text in pixels: for 1250 the text ``12.5``."""
     whole, rest = divmod(abs(hundredths), 100)
     text = f"{whole}.{rest:02d}".rstrip("0").rstrip(".")
     return f"-{text}" if hundredths < 0 and text != "0" else text
 
 
 def escape(text: str) -> str:
-    """Escape markup and characters beyond ASCII, and replace those that XML forbids by question marks."""
+    """Escape markup and characters beyond ASCII, and replace characters that XML forbids by question marks."""
     allowed = "".join(c if _LEGAL.fullmatch(c) else "?" for c in text)
     return _escape(allowed).encode("ascii", "xmlcharrefreplace").decode("ascii")
 
@@ -77,7 +77,10 @@ def group(name: str, attributes: str, items: Iterable[str]) -> list[str]:
 
 
 def page(width: int, height: int, title: str, items: Iterable[str], description: str = "") -> str:
-    """Return a complete SVG file with a white background.  A description makes its text readable for screen readers."""
+    """Return a complete SVG file with a white background.
+
+    With a ``description``, the file is marked as a document, so that screen readers read the texts in the picture.
+    """
     role = "graphics-document document" if description else "img"
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
@@ -128,7 +131,7 @@ def point_mark(style: Style, at: Pixel, title: str = "", attributes: str = "", s
 
 
 def sample(style: Style, at: Pixel) -> str:
-    """Return a mark of the given style, drawn as a sample in the legend."""
+    """Return a sample of a style for the legend: a short line or a mark."""
     if style.shape == "line":
         return line(Pixel(at.x - 900, at.y), Pixel(at.x + 900, at.y), style.attributes)
     return point_mark(style, at, attributes=style.attributes)
@@ -141,7 +144,7 @@ def check_picture(path: str) -> None:
 
 
 def write_picture(path: str, svg: str) -> None:
-    """Write a picture in the format that the extension of the file names, or SVG.
+    """Write a picture as PDF or PNG if the file name ends with .pdf or .png, otherwise as SVG.
 
     Raise FileError, or ExportError if typst is not installed.
     """

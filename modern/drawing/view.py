@@ -1,7 +1,8 @@
-"""Project points along a direction, exactly, and choose a good direction of view.
+"""Project points exactly along a direction of view, and choose a good direction.
 
-The direction points from the solid to the eye. The x axis of the image is ``z x eye`` and its y axis ``eye x (z x
-eye)``, so that the z axis of space is upright. Seen along z itself, x points right and y is upright.
+The direction points from the solid to the eye. The x axis of the image is the vector product ``z x eye`` and its y axis
+``eye x (z x eye)``, so that the z axis of space is upright. If the direction is along z, x points right and y is
+upright.
 """
 
 import math
@@ -14,7 +15,8 @@ from modern.geometry.vectors import Vector, cross, dot, lowest, minus, whole
 Eye = tuple[int, int, int]
 Flat = tuple[Fraction, Fraction]
 
-# Directions tried for a view of a polyhedron: from the front and slightly above, then from other sides.
+# The directions from which the view of a polyhedron is chosen: first from the front and slightly above, then from other
+# sides.
 EYES: tuple[Eye, ...] = (
     (24, -55, 29),
     (-31, -53, 28),
@@ -50,7 +52,7 @@ _ROOT = 10**15
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """A direction of view as integers in lowest terms, and the two axes of the picture, which are not unit vectors."""
+    """A direction of view and the two axes of the picture, as integer vectors, which are not unit vectors."""
 
     eye: Eye
     right: Eye
@@ -59,7 +61,7 @@ class View:
     stretch: Fraction
 
     def project(self, point: Vector) -> Flat:
-        """Return the exact position of a point in the picture, in the same scale along both axes."""
+        """Return the exact position of a point in the picture. Both axes have the same scale."""
         return along(self.right, point) * self.stretch, along(self.up, point)
 
 
@@ -78,12 +80,12 @@ def along(direction: Eye, point: Vector) -> Fraction:
 
 
 def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
-    """Choose a direction in which no face is edge-on and no two vertices coincide, decided exactly.
+    """Return a direction in which no face is edge-on and no two vertices coincide, decided exactly.
 
-    Among ``EYES``, choose the direction that shows the most faces. The score is reduced if a face is nearly edge-on or
-    vertices are close to each other; the first of equals wins. If none is suitable, choose the first suitable direction
-    on the curve (t, -t t - 1, t t t) for t = 2, 3, 4 and so on. A face or a pair of vertices excludes at most three
-    directions of the curve, so a suitable one exists.
+    Among ``EYES``, choose the direction with the greatest score: the number of visible faces, reduced if a face is
+    nearly edge-on or two vertices nearly coincide. The first of equal scores wins. If no direction of ``EYES`` is
+    suitable, choose the first suitable direction on the curve (t, -t t - 1, t t t) for t = 2, 3, 4 and so on. A face or
+    a pair of vertices excludes at most three directions of the curve, so a suitable direction exists.
     """
     _, places = whole(points)
     primitive_normals = [lowest(normal) for normal in normals if any(normal)]
@@ -101,7 +103,7 @@ def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
 
 
 def across(line: Vector) -> Eye:
-    """Return a horizontal direction of view at right angles to a segment, whose direction is ``line``."""
+    """Return a horizontal direction of view at right angles to a segment with the direction ``line``."""
     if not (line[0] or line[1]):
         return 0, -1, 0
     x, y, _ = lowest((line[1], -line[0], Fraction(0)))
@@ -109,7 +111,9 @@ def across(line: Vector) -> Eye:
 
 
 def towards(normal: Vector) -> Eye:
-    """Return the direction of view at right angles to a polygon: from above, else from the front or the right."""
+    """Return the direction of view along the normal of a polygon: from above, or for an upright polygon from the front
+    or the right.
+    """
     x, y, z = lowest(normal)
     return (x, y, z) if (z, -y, x) > (0, 0, 0) else (-x, -y, -z)
 
@@ -127,7 +131,7 @@ def _axes(eye: Eye) -> tuple[Eye, Eye]:
 
 
 def _clearness(points: Sequence[Eye], normals: Sequence[Eye], eye: Eye) -> Fraction:
-    """Rate a direction of view: 0 if it is unsuitable, 1 if it shows all clearly, otherwise a value in between."""
+    """Return how clearly a direction shows all faces and vertices: from 0 (unsuitable) to 1."""
     if not _is_suitable(points, normals, eye):
         return Fraction(0)
     square = dot(eye, eye)
@@ -138,7 +142,7 @@ def _clearness(points: Sequence[Eye], normals: Sequence[Eye], eye: Eye) -> Fract
     if len(points) <= _MOST_PAIRS:
         pairs = [minus(p, q) for k, p in enumerate(points) for q in points[:k]]
         extent = max(dot(pair, pair) for pair in pairs)
-        # The distance of two images is |pair x eye| / |eye|. It is compared with the extent of the solid.
+        # The distance between two images is |pair x eye| / |eye|. It is compared with the extent of the solid.
         nearest = min(dot(apart, apart) for apart in (cross(pair, eye) for pair in pairs))
         clear = min(clear, Fraction(nearest * _CLEAR_PAIR, square * extent))
     return clear

@@ -16,9 +16,10 @@ N = TypeVar("N", int, Fraction)
 
 # The kinds of edges.
 #
-# inner: both faces are visible. contour: one face is visible. outline: no face is visible but one is edge-on, behind
-# the contour in the image. back: both faces are turned away. flat: both faces are in one plane, so that it is no edge
-# of the solid. joined: both faces are read as one, both visible or both turned away; an edge that is not drawn.
+# inner: both faces are visible. contour: one face is visible. outline: one face is edge-on and no face is visible, so
+# that the edge lies behind the contour in the image. back: both faces are turned away from the eye. flat: both faces
+# lie in one plane, so that the edge is none of the solid's edges. joined: both faces were merged into one face, and
+# both are visible or both are turned away, so that the edge is not drawn.
 Kind = Literal["inner", "contour", "outline", "back", "flat", "joined"]
 INNER: Final = "inner"
 CONTOUR: Final = "contour"
@@ -55,8 +56,9 @@ def sign(number: int | Fraction) -> int:
 def facing(corners: Sequence[tuple[N, N, N]]) -> int:
     """Return 1 if a face is visible, -1 if it is turned away from the eye, 0 if it is edge-on.
 
-    ``corners`` are projected, clockwise as seen from outside. The paper evaluates formula (1) for one triangle of the
-    face, which gives 0 for collinear corners. Here the values of all triangles are added, which gives the same sign.
+    ``corners`` are the projected corners, clockwise as seen from outside. The paper evaluates formula (1) for one
+    triangle of the face, which gives 0 if its corners are collinear. This function adds the values of all triangles.
+    The sum has the same sign as the value of each triangle that is not degenerate.
     """
     first = corners[0]
     return sign(sum(value(line_through(first, corners[k]), corners[k + 1]) for k in range(1, len(corners) - 1)))
@@ -67,7 +69,8 @@ def classify(
 ) -> tuple[Edge, ...]:
     """Return every edge of a solid once, sorted, with its kind (see ``Kind``).
 
-    ``signs`` has the result of ``facing`` for each face. ``flat`` returns True for two coplanar faces.
+    ``signs`` has the result of ``facing`` for each face. The function ``flat`` receives the indices of two faces and
+    returns True if they are coplanar.
     """
     edge_faces: dict[tuple[int, int], list[int]] = defaultdict(list)
     for face_index, face in enumerate(faces):
@@ -80,10 +83,10 @@ def classify(
 
 
 def contour(faces: Sequence[tuple[int, ...]], signs: Sequence[int]) -> tuple[int, ...]:
-    """Return the contour of a solid in the picture as a chain of vertices, clockwise; empty for a plate seen
-    edge-on.
+    """Return the contour of a solid in the picture as a chain of vertex indices, clockwise.
 
-    The contour consists of the sides of visible faces that have no visible face on the other side.
+    The contour consists of the sides of visible faces that have no visible face on the other side. A plate (a solid
+    without thickness) that is seen edge-on has an empty contour.
     """
     directed = {(a, b) for face, sign in zip(faces, signs, strict=True) if sign > 0 for a, b in sides(face)}
     successor = {a: b for a, b in directed if (b, a) not in directed}
