@@ -41,7 +41,8 @@ class Evidence:
 
     def describe(self) -> str:
         """Return a text with the grade, the number of cases, and the violation or the correction, if any."""
-        parts = [f"proved: {self.domain} ({self.cases} steps)" if self.grade == "proved" else ""]
+        steps = "1 step" if self.cases == 1 else f"{self.cases} steps"
+        parts = [f"proved: {self.domain} ({steps})" if self.grade == "proved" else ""]
         if self.grade in ("exhausted", "searched"):
             seed = "" if self.seed is None else f", seed {self.seed}"
             parts = [f"{self.grade}: {self.domain}, {self.cases:,} cases{seed}"]

@@ -23,6 +23,8 @@ from modern.thesis.cards import read_hull
 
 # The name of a relation, and whether the print satisfies it.
 Outcome = tuple[str, bool]
+# A message names up to this number of relations and counts more of them.
+_MOST_NAMES = 4
 
 
 def _printed(paper: str) -> Lines:
@@ -38,7 +40,9 @@ def satisfied(place: str, outcomes: Iterable[Outcome]) -> Check:
     """Return the check that a print satisfies all relations; the message names those that it violates."""
     relations = [*outcomes]
     violated = [name for name, holds in relations if not holds]
-    message = f"violated: {', '.join(violated)}" if violated else f"{len(relations)} relations hold"
+    names = [name for name, _ in relations]
+    held = ", ".join(names) if len(names) <= _MOST_NAMES else f"all {len(names)} relations"
+    message = f"violated: {', '.join(violated)}" if violated else f"satisfied: {held}"
     return exhibited(relations and not violated, f"{place}: {message}")
 
 

@@ -91,7 +91,7 @@ def _draw_few(random: Random) -> tuple[Point, ...]:
 FEW: Generator[tuple[Point, ...]] = Generator("1 to 12 points, coordinates from -1 to 1", 27, _draw_few)
 
 
-@claim("thesis.32", "thesis.270", full=2_000)
+@claim("thesis.32", full=2_000)
 def few_points(cases: int = 24) -> Check:
     """Check that the procedure finds the vertices of sets of 1 to 12 points; all of at most two points are vertices."""
 

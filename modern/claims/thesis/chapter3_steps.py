@@ -111,15 +111,17 @@ def classification_by_signs(cases: int = CASES) -> Check:
 @claim("thesis.61", "thesis.63", "thesis.64", "thesis.88", full=300)
 def mean_of_first_hull(cases: int = CASES) -> Check:
     """Check that H_1 has the equations of the exact hull of its points, negative at their mean, the inside point C."""
-    checks = []
+    right, negative = [], []
     for sampled in flat_and_spatial_sets(cases):
         first = sampled.stages()[0]
         judge = exact_hull([sampled.points[k] for k in first.vertices])
         x, y, z = (sum(sampled.points[k][axis] for k in first.vertices) for axis in range(3))
         vertex_count = len(first.vertices)
-        checks.append({reduced_plane(plane) for plane in first.equations} == {f.plane for f in judge.facets})
-        checks += [dot(f.plane[:3], (x, y, z)) + vertex_count * f.plane[3] < 0 for f in judge.facets]
-    return all_hold(BOTH, 2 * cases, checks, "equations are those of the exact hull and negative at the inside point C")
+        right.append({reduced_plane(plane) for plane in first.equations} == {f.plane for f in judge.facets})
+        negative += [dot(f.plane[:3], (x, y, z)) + vertex_count * f.plane[3] < 0 for f in judge.facets]
+    message = f"{sum(right)} of {len(right)} first hulls H_1 have the equations of the exact hull, and "
+    message += f"{sum(negative)} of their {len(negative)} equations are negative at the inside point C"
+    return searched(BOTH, 2 * cases, [*right, *negative], message)
 
 
 @claim("thesis.67")

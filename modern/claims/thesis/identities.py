@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable
 
 from modern.claims.algebra import (
+    IMPOSSIBLE,
     Point,
     Polynomial,
     Proof,
@@ -51,6 +52,29 @@ def three_points() -> Proof:
     )
 
 
+def one_or_two_points() -> Proof:
+    """Prove that neither of two distinct points is a convex combination of both unless the other has the weight 0."""
+    way = minus(Q, P)
+    (weight,) = variables("lambda")
+    step = Step(
+        "no combination with a positive weight of the other point is the point itself",
+        {"distinct": positive(dot(way, way)), "weight": positive(weight)}
+        | {axis: zero(weight * d) for axis, d in zip("xyz", way, strict=True)},
+        IMPOSSIBLE,
+        (
+            term("weight weight distinct"),
+            *(term(axis, -weight * d) for axis, d in zip("xyz", way, strict=True)),
+        ),
+    )
+    return Proof(
+        "all points of a set of one or two distinct points are vertices",
+        "A point is a vertex if it is no combination, with two positive weights, of two points of the set. A set of "
+        "one point has no two points. A combination of p and q is p plus the weight of q times q - p, so it is p only "
+        "if this weight is 0.",
+        (step,),
+    )
+
+
 def different_z() -> Proof:
     """Prove that distinct points with the same x and the same y have different z."""
     dx, dy, dz = minus(P, Q)
@@ -87,9 +111,9 @@ def equations_of_line() -> Proof:
     components = [printed[0] + product[0], printed[1] - product[1], printed[2] + product[2]]
     return Proof(
         "the two equations hold exactly at the points of the line",
-        "Each equation is a component of the vector product of the ways from the first point to the others, which is 0 "
-        "exactly on the line. The equations are those with a coordinate that differs, and then the third component "
-        "is 0 if they hold.",
+        "A point x is on the line of p and q exactly if the vector product of q - p and x - p is 0. Each printed "
+        "equation says that one component of this product is 0. The two chosen equations contain the coordinate in "
+        "which p and q differ, and if two such components are 0, the third is 0 too.",
         (*_all_zero("the equation is the component", components), *steps),
     )
 
@@ -100,7 +124,8 @@ def coordinate_planes() -> Proof:
     others = [c for axis, plane in enumerate(planes) for k, c in enumerate(plane) if k != axis]
     return Proof(
         "the equation of a coordinate plane has one nonzero coefficient, and its constant term is 0",
-        "If one coordinate of three points is 0, the two other coefficients of their plane are 0, and so is D.",
+        "If one coordinate of three points is 0, the coefficients of the two other coordinates are 0, and so is D. The "
+        "remaining coefficient is not 0 because the points are not collinear.",
         _all_zero("the coefficient is 0", others),
     )
 
@@ -171,6 +196,7 @@ def other_letters() -> Proof:
 
 
 @claim("thesis.108", proof=three_points)
+@claim("thesis.270", proof=one_or_two_points)
 @claim("thesis.42", "thesis.44", "thesis.45", "thesis.47", proof=equations_of_line)
 @claim("thesis.46", proof=different_z)
 @claim("thesis.126", "thesis.277", proof=coordinate_planes)
