@@ -11,14 +11,14 @@ positions 51 to 60. A floating-point number fills the accumulator, and a fixed-p
 from collections.abc import Iterable
 
 from emulator.language import objectcode as op
-from emulator.language.ibm1962 import FLAG, character_code, digits
+from emulator.language.ibm1962 import ALONE, FIXED, FLAG, FROM_FAC, OPERATIONS, TO_FAC, character_code, digits
 
 PLAIN, FLAGGED = "0123456789|", "]JKLMNOPQR"
 RECORD_MARK = "|"
 
 # Operation codes (reference card X26-5743-2).
-ADD, SUBTRACT, MULTIPLY, COMPARE, TRANSMIT_DIGIT, TRANSMIT_FIELD = "21", "22", "23", "24", "25", "26"
-ADD_IMMEDIATE, SUBTRACT_IMMEDIATE, MULTIPLY_IMMEDIATE, COMPARE_IMMEDIATE = "11", "12", "13", "14"
+ADD, SUBTRACT, MULTIPLY, COMPARE, TRANSMIT_FIELD = "21", "22", "23", "24", "26"
+ADD_IMMEDIATE, MULTIPLY_IMMEDIATE, COMPARE_IMMEDIATE = "11", "13", "14"
 TRANSMIT_DIGIT_IMMEDIATE, TRANSMIT_FIELD_IMMEDIATE = "15", "16"
 SET_FLAG, CLEAR_FLAG, BRANCH_BACK, BRANCH_ON_DIGIT, BRANCH_NO_FLAG = "32", "33", "42", "43", "44"
 BRANCH_INDICATOR, BRANCH_NO_INDICATOR, HALT, BRANCH = "46", "47", "48", "49"
@@ -33,28 +33,15 @@ MANTISSA, ACCUMULATOR = 58, 60
 # The units position of a product, whose digits begin at position 80.
 PRODUCT = 99
 
-# Entry points of the library that the compiler punched without a flag.
-PLAIN_ENTRIES = {op.TOFAC: 1238, op.TOFIX: 1238, op.FMFAC: 1306, op.FMFIX: 1306, op.SEND: 1238, op.TRANSMIT: 1306}
-# Further entry points.  The known object deck shows those for fixed point.  Those for floating point were found in the
-# library's code.
-ENTRIES = {
-    op.XAD: 2644,
-    op.XSB: 2700,
-    op.XSBR: 2700,
-    op.XMP: 2748,
-    op.XDV: 2876,
-    op.XDVR: 2816,
-    op.FAD: 518,
-    op.FSB: 408,
-    op.FSBR: 408,
-    op.FMP: 1378,
-    op.FDV: 1862,
-    op.FDVR: 1756,
-    op.POWERX: 3670,
-}
+# Entry points of the library by operation.  The compiler punched the first two without a flag.  The known object deck
+# shows the entry points for fixed point; those for floating point were found in the library's code.
+PLAIN_ENTRIES = dict.fromkeys((op.TOFAC, op.TOFIX, op.SEND), TO_FAC)
+PLAIN_ENTRIES |= dict.fromkeys((op.FMFAC, op.FMFIX, op.TRANSMIT), FROM_FAC)
+ENTRIES = {op.NAMES.index(name): entry for name, entry in (OPERATIONS | FIXED).items()}
+ENTRIES |= {op.FSBR: OPERATIONS["FSB"], op.XSBR: FIXED["XSB"]}
 # Entry points that are called without an operand: reversal of sign, conversion to floating and to fixed point.
-REVERSE_SIGN = 2546
-CALLS = {op.RSGN: REVERSE_SIGN, op.RSGX: REVERSE_SIGN, op.FLOAT: 3222, op.FIX: 3494}
+REVERSE_SIGN = ALONE["RSGN"]
+CALLS = {op.RSGX: REVERSE_SIGN} | {op.NAMES.index(name): entry for name, entry in ALONE.items()}
 
 # The last item of a list sets this field of two digits to zero.
 MORE_ITEMS = 5365

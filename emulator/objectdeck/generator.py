@@ -11,7 +11,7 @@ from emulator.language import objectcode as op
 from emulator.language.expressions import LIBRARY
 from emulator.language.ibm1962 import ITEM, LAST_ITEM, VERBS, format_positions
 from emulator.language.objectcode import Instruction, Program
-from emulator.language.storage import CORES, OBJECT_PROGRAM
+from emulator.language.storage import CORES, FIELD, OBJECT_PROGRAM
 from emulator.objectdeck import digits as d
 from emulator.objectdeck.addresses import Addresses
 from emulator.objectdeck.digits import address
@@ -130,7 +130,8 @@ class _Generator:
     def _start_loop(self, loop: int) -> None:
         variable = self.program.loops[loop][0]
         first = self.program.code[self.program.loops[loop][3] - 2].address
-        code = self._with_bound(d.TRANSMIT_FIELD_IMMEDIATE, d.TRANSMIT_FIELD, variable, first)
+        target = address(self.addresses.units(variable))
+        code = self._with_bound(d.TRANSMIT_FIELD_IMMEDIATE, d.TRANSMIT_FIELD, target, first)
         # IBM's compiler punched an unused digit to the left of a constant: the last digit of an earlier address in its
         # buffer.
         if code.startswith(d.TRANSMIT_FIELD_IMMEDIATE):
@@ -139,9 +140,11 @@ class _Generator:
             self.unused = code[-1]
         self._put(code)
 
-    def _with_bound(self, immediate: str, direct: str, variable: int, bound: int, wide: bool = False) -> str:
-        """Return an instruction that combines the variable of a DO with a bound, which is a constant or a variable."""
-        target = address(self.addresses.units(variable))
+    def _with_bound(self, immediate: str, direct: str, target: str, bound: int, wide: bool = False) -> str:
+        """Return an instruction that combines the field at ``target`` with a bound of a DO, a constant or a variable.
+
+        ``immediate`` and ``direct`` are its operation codes for a constant and for a variable.
+        """
         if bound < self.program.storage.fields:
             return direct + target + address(self.addresses.units(bound))
         value = int(self.program.storage.immediates[bound - self.program.storage.fields][1])
@@ -149,25 +152,18 @@ class _Generator:
 
     def _end_loop(self, loop: int) -> str:
         variable, step, limit, body = self.program.loops[loop]
-        return (
-            self._with_bound(d.ADD_IMMEDIATE, d.ADD, variable, step)
-            + self._with_bound(d.COMPARE_IMMEDIATE, d.COMPARE, variable, limit, wide=True)
-            + (d.BRANCH_NO_INDICATOR + address(self.places[body]) + _NOT_HIGH)
-        )
+        target = address(self.addresses.units(variable))
+        step_forward = self._with_bound(d.ADD_IMMEDIATE, d.ADD, target, step)
+        compare = self._with_bound(d.COMPARE_IMMEDIATE, d.COMPARE, target, limit, wide=True)
+        return step_forward + compare + d.BRANCH_NO_INDICATOR + address(self.places[body]) + _NOT_HIGH
 
     def _is_past_branch(self, pc: int) -> bool:
         """Return True if control never reaches END: it has no number, and the statement before it always branches."""
         before = pc - 1
         while before >= 0 and self.program.code[before].operation == op.COUNT:
             before -= 1
-        ends_in_branch = before >= 0 and self.program.code[before].operation in (
-            op.BRANCH,
-            op.IF,
-            op.IFX,
-            op.SELECT,
-            op.SWITCH,
-            op.STOP,
-        )
+        branches = (op.BRANCH, op.IF, op.IFX, op.SELECT, op.SWITCH, op.STOP)
+        ends_in_branch = before >= 0 and self.program.code[before].operation in branches
         return ends_in_branch and not self.program.line_at(pc).label
 
     def _code(self, instruction: Instruction, pc: int) -> str:
@@ -183,7 +179,10 @@ class _Generator:
             return self._bare_call(d.CALLS[operation])
         match operation:
             case op.FUNCTION:
-                entry = _function_entry(self.program.functions[instruction.address], self.addresses.core)
+                # The call goes to the function's field in the symbol table above the data, which has two fields for
+                # each function.
+                place = LIBRARY.index(self.program.functions[instruction.address])
+                entry = self.addresses.core - 2 * FIELD * place - FIELD
                 return d.CALL_IMMEDIATE + address(entry) + address(d.ACCUMULATOR)
             case op.BRANCH:
                 return d.BRANCH + self._targets(instruction.address)[0]
@@ -270,22 +269,10 @@ class _Generator:
         for loop in loops:
             variable, step, limit, _ = self.program.loops[loop]
             text += d.TRANSMIT_FIELD + _POSITION + address(self.addresses.units(variable))
-            text += self._next_value(d.ADD_IMMEDIATE, d.ADD, step)
-            text += self._next_value(d.COMPARE_IMMEDIATE, d.COMPARE, limit)
+            text += self._with_bound(d.ADD_IMMEDIATE, d.ADD, _POSITION, step)
+            text += self._with_bound(d.COMPARE_IMMEDIATE, d.COMPARE, _POSITION, limit)
             text += d.BRANCH_NO_INDICATOR + address(past) + d.HIGH
         return text + d.TRANSMIT_FIELD_IMMEDIATE + f"{d.MORE_ITEMS:05d}" + "000]0"
-
-    def _next_value(self, immediate: str, direct: str, bound: int) -> str:
-        """Return an instruction that adds a loop's step to a copy of its variable, or compares it with the limit."""
-        if bound < self.program.storage.fields:
-            return direct + _POSITION + address(self.addresses.units(bound))
-        value = int(self.program.storage.immediates[bound - self.program.storage.fields][1])
-        return immediate + _POSITION + d.immediate(value)
-
-
-def _function_entry(name: str, core: int) -> int:
-    """Return the position to which a program branches to call a function, in the function's field above the data."""
-    return core - 20 * LIBRARY.index(name) - 10
 
 
 def _loops_closed_by_lists(program: Program) -> dict[int, tuple[int, ...]]:
