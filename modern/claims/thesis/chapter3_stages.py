@@ -55,12 +55,15 @@ def stage_property(kind: str, cases: int = CASES) -> Check:
     return searched(SETS.get(dimension, BOTH), len(sets), checks, message)
 
 
-@claim("thesis.264", "thesis.239")
-def number_of_the_hull() -> Check:
-    """Check the index of the hulls H_j: H_j is the hull of its NV points, and H_k+1 that of H_k and one point."""
+@claim("thesis.264", kind="equations", reading="H_j")
+@claim("thesis.239", kind="added_triangle", reading="j = k")
+def number_of_the_hull(kind: str, reading: str) -> Check:
+    """Check the number of a hull: H_j is the hull of its NV points, and H_k+1 consists of H_k and a triangle.
+
+    With the number 1, both statements would be about the first hull only.
+    """
     first_alone = all(len(sampled.stages()) == 1 for sampled in sampled_sets(2, CASES))
-    check, added = (stage_property(kind) for kind in ("equations", "added_triangle"))
-    return (check if added.holds else added).misprinted(not first_alone, "j or k, for stages after the first")
+    return stage_property(kind).misprinted(not first_alone, reading)
 
 
 @claim("thesis.89", full=300)

@@ -1,19 +1,22 @@
 """Checks of chapters 5 and 7: the machine, the data sheet, rejected data, errors and the two modifications."""
 
 import re
+from decimal import Decimal
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, pairwise
+from random import Random
 
 from emulator.language.cards import Deck, deck_from_lines, deck_from_text
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
 from emulator.objectdeck.extent import code_positions
-from modern.claims.evidence import Check, claim, exhibited, identity, refuted, searched, slip
+from modern.claims.evidence import Check, Generator, claim, exhibited, identity, refuted, search, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_through, plane_value, sampled_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
-from modern.comparison.outcome import from_cards
+from modern.comparison.difference import disagreement
+from modern.comparison.outcome import from_cards, from_hull, from_judge
 from modern.edition import programs
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import coordinate_field, data_deck, exact_points
@@ -189,16 +192,39 @@ def two_kinds_of_error() -> Check:
     )
 
 
-@claim("thesis.180")
-def hull_of_approximations() -> Check:
-    """Check that program 3 finds the vertices of a hull whose coordinates need more digits within 1E-8 of them."""
-    thirds = [[Fraction(int(j == k) - 1, 3) for j in range(3)] for k in range(4)]
-    deck = data_deck([[format(float(x), ".12f") for x in point] for point in thirds], "thirds", truncate=True)
-    punched = read_hull(run_hull(deck, programs.program).final.result.punched).vertices
-    errors = [
-        max(abs(a - b) for a, b in zip(p, q, strict=True)) for p, q in zip(sorted(punched), sorted(thirds), strict=True)
-    ]
-    return exhibited(0 < max(errors) < Fraction(1, 10**8), f"{len(errors)} vertices differ from the given points")
+def _draw_sevenths(random: Random) -> tuple[Point, ...]:
+    numerators = ((random.randint(-60, 60) for _ in range(3)) for _ in range(random.randint(5, 8)))
+    return tuple((x, y, z) for x, y, z in numerators)
+
+
+SEVENTHS: Generator[tuple[Point, ...]] = Generator(
+    "5 to 8 points whose coordinates are sevenths", 7, _draw_sevenths, lambda s: len({*s}) == len(s) > 3
+)
+
+
+@claim("thesis.180", full=200)
+def hull_of_approximations(cases: int = 3) -> Check:
+    """Check that, in exact arithmetic, the procedure finds the hull of points that approximate given points.
+
+    The coordinates need more than eight digits and are truncated on cards.
+    """
+    found = []
+
+    def approximates(sevenths: tuple[Point, ...]) -> bool:
+        texts = [[format(Decimal(k) / 7, ".15f") for k in point] for point in sevenths]
+        deck = data_deck(texts, "sevenths", truncate=True)
+        points = [tuple(map(Fraction, point)) for point in exact_points(deck)[0].values()]
+        judge = from_judge(exact_hull(points), points)
+        listing = from_cards("listing", run_hull(deck, programs.program, Options(limit=200_000)), points)
+        found.append(listing.determined and disagreement(listing, judge, points).agrees)
+        pairs = zip((x for p in points for x in p), (Fraction(k, 7) for p in sevenths for k in p), strict=True)
+        is_near = all(10**7 * abs(x - y) <= abs(y) for x, y in pairs)
+        return is_near and disagreement(from_hull("port", convex_hull(points)), judge, points).agrees
+
+    message = "the hull is that of points whose coordinates differ from the given ones after seven digits"
+    check = search(SEVENTHS, approximates, cases, message)
+    case = f"calculations in eight digits, with which the programs find the hulls of {sum(found)} of {cases} sets"
+    return check.unless(not all(found), case)
 
 
 @claim("thesis.248", "thesis.183")
@@ -344,12 +370,11 @@ def data_sheet(part: str) -> Check:
     part: ``values``, the numbers; ``digits``, the number of digits; ``columns``, the columns of the fields.
     """
     if part == "columns":
-        points, _ = exact_points(deck_of("z_in_39.deck"))
-        z = [point[2] for point in points.values()][-1]
+        z = max(z for _, _, z in read_hull(run_of("z_in_39.deck").final.result.punched).vertices)
         deck = data_deck([["3", "12", "1"]], "one")
-        ((*_, in_29),) = exact_points(deck)[0].values()
-        right = len(deck.cards[-1].text.rstrip()) == 42 and Fraction(in_29) == 1
-        return slip(Fraction(z) == 1, right, "29 to 42", f"a z of 1 in columns 39 to 52 is read as {z}")
+        ((*_, in_29),) = read_hull(run_hull(deck, programs.program).final.result.punched).vertices
+        right = len(deck.cards[-1].text.rstrip()) == 42 and in_29 == 1
+        return slip(z == 1, right, "29 to 42", f"program 1 reads a z of 1 in columns 39 to 52 as {float(z)}")
     if part == "digits":
         text, field = "+.3000000E+01", coordinate_field("3")
         message = f"{text} has {len(text)} characters, and a field has {len(field)} columns"
