@@ -91,6 +91,15 @@ def frames(
     return tuple(stage_frames)
 
 
+def row(all_frames: Sequence[Frame], title: str) -> str:
+    """Return the hulls of all stages next to each other, without captions, as the text of an SVG file."""
+    width, height = all_frames[0].layout.width, all_frames[0].layout.height
+    items = []
+    for k, frame in enumerate(all_frames):
+        items += [f'<g transform="translate({k * width} 0)">', *_drawn(frame), "</g>"]
+    return page(len(all_frames) * width, height, title, items)
+
+
 def strip(all_frames: Sequence[Frame], title: str = "", columns: int = _COLUMNS) -> str:
     """Return all stages in rows of the given number of ``columns`` as the text of an SVG file."""
     cell = (all_frames[0].layout.width, all_frames[0].layout.height + _BAND)
@@ -130,13 +139,17 @@ def played(all_frames: Sequence[Frame], title: str = "") -> str:
 
 
 def _items(frame: Frame) -> Iterator[str]:
+    yield from _drawn(frame)
+    base = frame.layout.height + 12
+    texts = (svg.text(Pixel(1200, 100 * (base + 16 * k)), line) for k, line in enumerate(frame.caption) if line)
+    yield from svg.group("words", _FONT, texts)
+
+
+def _drawn(frame: Frame) -> Iterator[str]:
     yield from scene_items(frame.hull, frame.picture, frame.layout)
     yield from svg.group(WAITING.key, WAITING.attributes, (svg.point_mark(WAITING, at) for at in frame.waiting))
     yield from svg.group(svg.INSIDE.key, svg.INSIDE.attributes, (svg.point_mark(svg.INSIDE, at) for at in frame.struck))
     yield from svg.group(ADDED.key, ADDED.attributes, (svg.circle(at, "5") for at in frame.added))
-    base = frame.layout.height + 12
-    texts = (svg.text(Pixel(1200, 100 * (base + 16 * k)), line) for k, line in enumerate(frame.caption) if line)
-    yield from svg.group("words", _FONT, texts)
 
 
 def _legend(top: int) -> list[str]:

@@ -6,7 +6,7 @@ Every figure is complete without JavaScript; ``story.js`` shows the stages one a
 import json
 
 from modern.drawing.draw import draw_svg
-from modern.drawing.stages import strip
+from modern.drawing.stages import row, strip
 from modern.publication import essay
 from modern.publication.site.made import Made, Part, one_of
 from modern.publication.site.markup import element, figure, inline, link, preformatted, table, text
@@ -16,9 +16,20 @@ XS = range(5, 1000, 5)  # the positions of the slider
 
 
 def make(argument: str) -> Made:
-    """Return a figure of the essay: ``card``, ``growth``, ``truncation`` or ``cube``."""
-    makers = {"card": _card, "growth": _growth, "truncation": _truncation, "cube": _cube}
+    """Return a figure of the essay: ``hulls``, ``card``, ``growth``, ``truncation`` or ``cube``."""
+    makers = {"hulls": _hulls, "card": _card, "growth": _growth, "truncation": _truncation, "cube": _cube}
     return Made((Part(html=makers[one_of(argument, makers)]()),))
+
+
+def _hulls() -> str:
+    """Return the successive hulls of the example in one row, as the picture at the top of the page."""
+    stages = essay.growth(EYE, width=240)
+    caption = f"The hull of {_example()} grows: program 3 adds one point in each step."
+    return element("figure", inline(row(stages, "four successive hulls"), "hulls") + element("figcaption", caption))
+
+
+def _example() -> str:
+    return link(f"example{essay.EXAMPLE}", "", f"example {essay.EXAMPLE}")
 
 
 def _card() -> str:
@@ -29,8 +40,7 @@ def _growth() -> str:
     """Return the stages of the example's hull in the order of the program, one picture for each."""
     stages = essay.growth(EYE, width=480)
     items = "".join(element("li", inline(strip([stage]), f"stage{stage.stage.number}")) for stage in stages)
-    example = f"example{essay.EXAMPLE}"
-    caption = f"The hull of {link(example, '', f'example {essay.EXAMPLE}')}, in the order of program 3."
+    caption = f"The hull of {_example()}, in the order of program 3."
     return element("figure", element("ol", items, cls="stepper") + element("figcaption", caption))
 
 
