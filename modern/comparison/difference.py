@@ -11,8 +11,9 @@ from math import isqrt, lcm
 from typing import NamedTuple
 
 from emulator.errors import EmulatorError
-from modern.comparison.outcome import Equation, Outcome, Vector, from_card_hull, from_hull, integers_of
+from modern.comparison.outcome import Equation, Outcome, Vector, from_card_hull, from_hull
 from modern.geometry.hull import Hull
+from modern.geometry.vectors import lowest_equation
 from modern.thesis.cards import CardHull
 
 # The largest difference of coefficients at which two equations still count as the same face, with a numerical error.
@@ -100,11 +101,11 @@ def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Ma
     """Find the nearest exact equation for each equation; of several that are equally near, the first."""
     by_integers: dict[tuple[int, ...], int] = {}
     for place, equation in enumerate(exact):
-        by_integers.setdefault(integers_of(equation), place)
+        by_integers.setdefault(lowest_equation(equation), place)
     scaled_exact: list[Equation] = []
     matches = []
     for equation in equations:
-        place = by_integers.get(integers_of(equation), -1)
+        place = by_integers.get(lowest_equation(equation), -1)
         if place >= 0 and any(equation[:3]):
             matches.append(_Match(place, Fraction(0)))
             continue
@@ -137,7 +138,7 @@ def _excluded(equations: Sequence[Equation], points: Sequence[Vector]) -> tuple[
     scaled_points = [tuple(c.numerator * (scale // c.denominator) for c in point) for point in points]
     for equation in equations:
         # The distance is the same for any positive multiple of the equation.
-        a, b, c, d = integers_of(equation)
+        a, b, c, d = lowest_equation(equation)
         square = a * a + b * b + c * c
         if not square:
             continue

@@ -8,7 +8,6 @@ coordinate whose coefficient in the polygon's plane is not zero, so its coeffici
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, lcm
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from modern.exact_hull.planes import facet_planes
 from modern.exact_hull.result import Facets
 from modern.geometry.hull import DETERMINED, Coefficients, Face, Hull, LazyFaces, PointTexts
 from modern.geometry.numbers import Exact, exact_text
+from modern.geometry.vectors import lowest_equation
 from modern.thesis.cards import CardHull, read_hull
 from modern.thesis.job import HullRun
 
@@ -155,7 +155,7 @@ def _faces(judged: ExactHull, coordinates: Coordinates) -> Sequence[Face]:
         return ()
     points = [tuple(Fraction(number, judged.scale) for number in point) for point in judged.scaled]
     equations = _lines(judged, points)
-    reduced = [integers_of(equation) for equation in equations]
+    reduced = [lowest_equation(equation) for equation in equations]
     boundary = np.array([(*judged.scaled[index], judged.scale) for index in judged.boundary], object).reshape(-1, 4)
     return tuple(
         Face(_texts(equation), integers, polygon, polygon, _on(judged, boundary @ np.array(integers, object)))
@@ -178,14 +178,6 @@ def _polyhedral(judged: ExactHull, coordinates: Coordinates) -> Iterator[Face]:
 
 def _on(judged: ExactHull, values: Objects) -> tuple[int, ...]:
     return tuple(judged.boundary[row] for row in np.flatnonzero(values == 0).tolist())
-
-
-def integers_of(equation: Equation) -> tuple[int, int, int, int]:
-    """Return a positive multiple of an equation as integers without a common divisor."""
-    common = lcm(*(number.denominator for number in equation))
-    a, b, c, d = (number.numerator * (common // number.denominator) for number in equation)
-    divisor = gcd(a, b, c, d) or 1
-    return a // divisor, b // divisor, c // divisor, d // divisor
 
 
 def _texts(equation: Sequence[Exact]) -> Coefficients:

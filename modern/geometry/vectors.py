@@ -39,14 +39,28 @@ def whole(points: Sequence[tuple[N, N, N]]) -> tuple[int, list[tuple[int, int, i
 
 def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
     """Return the direction of a vector as integers without a common divisor; the zero vector stays zero."""
-    scale = math.lcm(*(number.denominator for number in vector))
-    x, y, z = (number.numerator * (scale // number.denominator) for number in vector)
-    divisor = math.gcd(x, y, z) or 1
-    return x // divisor, y // divisor, z // divisor
+    x, y, z = _reduced(vector)
+    return x, y, z
+
+
+def lowest_equation(equation: Sequence[int | Fraction]) -> tuple[int, int, int, int]:
+    """Return a positive multiple of an equation's four coefficients as integers without a common divisor."""
+    a, b, c, d = _reduced(equation)
+    return a, b, c, d
+
+
+def _reduced(numbers: Sequence[int | Fraction]) -> list[int]:
+    scale = math.lcm(*[number.denominator for number in numbers])
+    multiples = [number.numerator * (scale // number.denominator) for number in numbers]
+    divisor = math.gcd(*multiples) or 1
+    return [multiple // divisor for multiple in multiples]
 
 
 def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
-    """Return a polygon's normal, twice its area long.  Seen from its tip, the corners are counterclockwise."""
+    """Return the normal of a polygon, with a length of twice the polygon's area.
+
+    Seen from the tip of the normal, the corners are counterclockwise.
+    """
     origin = points[face[0]]
     total = minus(origin, origin)
     for here, ahead in pairwise(face[1:]):

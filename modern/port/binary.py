@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from modern.geometry.numbers import Exact, exact_text
 from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector
 
-MIN_BITS, MAX_BITS = 2, 100_000
-
 
 @dataclass(frozen=True)
 class FloatArithmetic(Arithmetic):

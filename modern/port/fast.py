@@ -20,10 +20,10 @@ _CORRECTIONS = {THROUGH_CENTRE: workspace.THROUGH, TABLE_OF_PLANES: workspace.TA
 
 _H1_VERTICES = 4
 # The number of free slots with which a table begins, in addition to six for each equation. A stage needs at most four
-# and a half for each plane.
+# and a half slots for each plane.
 _SPARE_SLOTS = 1024
-# Per this number of points, there is one more free slot. For most hulls the arrays are then large enough and need not
-# be copied to larger ones.
+# A table begins with one more free slot for every eight points. The arrays are then large enough for most hulls and
+# need not be copied to larger ones.
 _POINTS_PER_SLOT = 8
 
 # The number of points from which loading the kernels costs less than it saves.
@@ -38,11 +38,7 @@ class Steps:
     satisfied: Callable[[Equations, PointTable], list[NDArray[np.int64]]]
 
 
-def plain_satisfied(table: Equations, points: PointTable) -> list[NDArray[np.int64]]:
-    return table.satisfied(points.coordinates)
-
-
-PLAIN = Steps(growth.stage, plain_satisfied)
+PLAIN = Steps(growth.stage, lambda table, points: table.satisfied(points.coordinates))
 
 
 def choose(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, fast: bool | None) -> Steps:
@@ -65,7 +61,7 @@ def choose(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, fast
 
 
 def _in_range(arithmetic: FloatArithmetic, points: PointTable, slack: Slack | None) -> bool:
-    """Return True if no number of the procedure can overflow. numpy reports an overflow; compiled code does not.
+    """Return True if no number of the procedure can overflow, which compiled code, unlike numpy, would not report.
 
     The largest numbers are squares of a plane's coefficients, at most 36 M**4 for coordinates up to M. A plane's value
     at a point is at most 24 M**3. The slack is e, the same for all equations, times a coefficient.
@@ -98,10 +94,11 @@ def with_kernels(grow: Function, find_satisfied: Function) -> Steps:
     """Return the two steps of program 3 that run the given kernels, compiled or as plain Python functions."""
 
     def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
-        """Add the next vertex to the hull, or as many as the kernel can if no caller watches the growth."""
-        cloud, slots, state = _cloud(hull), _slots(hull.table, _spare(hull)), _state(hull)
+        """Add the next vertex to the hull, or as many as the kernel can if no history is recorded."""
+        spare = 6 * len(hull.table) + _SPARE_SLOTS + len(hull.points) // _POINTS_PER_SLOT
+        cloud, slots, state = _cloud(hull), _slots(hull.table, spare), _state(hull)
         scratch = workspace.scratch_for(len(slots.alive), slots.coefficients.dtype)
-        code = grow(cloud, slots, scratch, state, _rules(hull), first, 1 if hull.watch else -1)
+        code = grow(cloud, slots, scratch, state, _rules(hull), first, -1 if hull.progress.history is None else 1)
         _store_state(hull, cloud, slots, state)
         # The kernel completed no stage. Unless the hull is finished, numpy runs this one, which raises any error.
         if not state[workspace.STAGES]:
@@ -124,10 +121,6 @@ def with_kernels(grow: Function, find_satisfied: Function) -> Steps:
         return [indices[start:end] for start, end in zip([0, *ends], ends, strict=False)]
 
     return Steps(stage, satisfied)
-
-
-def _spare(hull: Polyhedron) -> int:
-    return 6 * len(hull.table) + _SPARE_SLOTS + len(hull.points) // _POINTS_PER_SLOT
 
 
 def _cloud(hull: Polyhedron) -> Cloud:

@@ -11,10 +11,13 @@ from modern.port.table import Equations, PointTable
 
 
 class Remaining:
-    """The points that may still become vertices, each with a plane (or line) that proves it is not inside the hull."""
+    """The points that may still become vertices.
+
+    Each has a keeper, an equation of the hull that proves that the point is not inside.
+    """
 
     def __init__(self) -> None:
-        # The serial number of an equation whose value at the point is not negative; -1 if unknown.
+        # For each point, the serial number of an equation whose value there is not negative, or -1 if it is unknown.
         self.keeper: NDArray[np.int64] = np.empty(0, np.int64)
         # The equations before this serial number existed when the points were last tested.
         self.tried = 0
@@ -80,20 +83,35 @@ class Stopped(Exception):
         self.status, self.label = status, label
 
 
+@dataclass(frozen=True, slots=True)
+class Grown:
+    """The effect of adding a vertex: the points added and eliminated, and the numbers of the equations involved.
+
+    ``checked`` is the number of the equation that the vertex was found outside of, counted from 1.  ``outside`` is how
+    many equations the vertex was outside of.
+    """
+
+    added: tuple[int, ...]
+    checked: int
+    outside: int
+    eliminated: list[int]
+
+
 @dataclass
 class Progress:
-    """The points found so far to be inside or on the boundary, and the modern corrections that changed a step."""
+    """The points found so far to be inside or on the boundary, and the modern corrections that changed a step.
 
+    ``history`` has for each approximation H_j the step that led to it, and the input indices of the points that define
+    its equations, as columns.  It is None if the caller did not request the history.
+    """
+
+    history: list[tuple[Grown, NDArray[np.int64]]] | None = None
     inside: list[int] = field(default_factory=list)
     boundary: list[int] = field(default_factory=list)
     corrected: dict[str, None] = field(default_factory=dict)
 
     def correct(self, name: str) -> None:
         self.corrected[name] = None
-
-
-# A function that is called for each approximation H_j with its table of equations and the fields of :class:`Grown`.
-Watcher = Callable[[Equations, tuple[int, ...], int, int, list[int]], None]
 
 
 class Growing(Protocol):
@@ -103,7 +121,6 @@ class Growing(Protocol):
     remaining: Remaining
     table: Equations
     progress: Progress
-    watch: Watcher | None
     vertices: int
     to_check: int
 
@@ -117,18 +134,8 @@ class Growing(Protocol):
 Hull = TypeVar("Hull", bound=Growing)
 
 
-@dataclass(frozen=True, slots=True)
-class Grown:
-    """The effect of adding a vertex: the points added and eliminated, and the numbers of the equations involved."""
-
-    added: tuple[int, ...]
-    checked: int
-    outside: int
-    eliminated: list[int]
-
-
 def stage(hull: Growing, first: bool) -> Grown | None:
-    """Add the next vertex to the hull and remove the points now inside.  Return None if no point is outside."""
+    """Add the next vertex to the hull and remove the points that it puts inside.  Return None if none is outside."""
     if first:
         added, checked, outside = hull.points.input_indices(slice(0, hull.vertices)), 0, 0
     else:
@@ -151,6 +158,6 @@ def grow(hull: Hull, grow_stage: Callable[[Hull, bool], Grown | None] = stage) -
     growth = grow_stage(hull, True)
     while growth:
         hull.progress.inside += growth.eliminated
-        if hull.watch:
-            hull.watch(hull.table, growth.added, growth.checked, growth.outside, growth.eliminated)
+        if hull.progress.history is not None:
+            hull.progress.history.append((growth, hull.points.input_index[hull.table.defining]))
         growth = grow_stage(hull, False)

@@ -1,24 +1,26 @@
-"""Run Butler's procedure in arithmetics of the emulator that keep a state, for example random rounding.
+"""Numbers of the emulator as Python objects, with which Butler's procedure can compute in numpy arrays.
 
-``a op b`` is the result of the system's operation.  If it raises an error code, the result is used and no error is
-reported, as in :mod:`modern.port.decimal`.
+These are the decimal numbers of the 1620 and the numbers that are rounded at random. ``a op b`` is the result that the
+machine computes if its accumulator holds a. If the machine would also type an error code, the result is used and no
+error is reported. The order of the operands matters in ``ibm1962``, in which zero plus zero keeps the sign of the
+accumulator, the left operand.
 """
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from emulator.numbers import DecimalNumbers, Numbers, Trap
+from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT
+from emulator.numbers.base import decimal_length
 from emulator.numbers.sampled import SampledNumbers
-from emulator.numbers.stochastic import StochasticBinaryNumbers, StochasticNumbers
 from modern.geometry.numbers import Exact, exact_text
-from modern.port.arithmetic import Arithmetic, Vector
-from modern.port.decimal import Arithmetic1620
+from modern.port.arithmetic import Arithmetic, RangeError, Vector
 
-System = StochasticNumbers | StochasticBinaryNumbers | SampledNumbers
-# The digits of an irrational number that are shown or compared exactly; stochastic numbers are rational.
+# The digits of an irrational number that are shown or compared exactly.
 _DIGITS = 40
 
 
@@ -39,7 +41,7 @@ class HostedNumber:
 
     __slots__ = ("by", "value")
 
-    def __init__(self, value: Any, by: System) -> None:
+    def __init__(self, value: Any, by: Numbers) -> None:
         self.value = value
         self.by = by
 
@@ -62,17 +64,30 @@ def _read(system: Numbers, value: Exact, minus: bool) -> Any:
     if isinstance(system, SampledNumbers):
         return tuple(_read(member, value, minus) for member in system.members)
     if isinstance(system, DecimalNumbers):
-        number = Arithmetic1620(system.profile).number(value, minus)
-        return number.m, number.e
-    assert isinstance(system, StochasticBinaryNumbers)
+        return _truncated(system, value) if value else system.decimal(0, 0, minus)
+    from emulator.numbers.multiprecision import MultiprecisionNumbers  # not at the top, because it needs mpmath
+
+    assert isinstance(system, MultiprecisionNumbers)
     return system.nearest(value.numerator, value.denominator)
+
+
+def _truncated(system: DecimalNumbers, value: Exact) -> tuple[int, int]:
+    digits, size = system.profile.digits, abs(Fraction(value))
+    # The digit counts of numerator and denominator give an estimate: the exponent, or one more than the exponent.
+    exponent = decimal_length(size.numerator) - decimal_length(size.denominator) + 1
+    if size < Fraction(10) ** (exponent - 1):
+        exponent -= 1
+    if not MIN_EXPONENT <= exponent <= MAX_EXPONENT:
+        raise RangeError("expected a number with an exponent from -99 to 99")
+    mantissa = int(size * Fraction(10) ** (digits - exponent))
+    return (-mantissa if value < 0 else mantissa), exponent
 
 
 @dataclass(frozen=True)
 class HostedArithmetic(Arithmetic):
     """A number system of the emulator for Butler's procedure; vectors hold :class:`HostedNumber`."""
 
-    system: System
+    system: Numbers
 
     @property
     def name(self) -> str:
@@ -101,5 +116,5 @@ class HostedArithmetic(Arithmetic):
         return exact
 
     def text(self, value: HostedNumber, degree: int) -> str:
-        text = self.system.text(value.value)
-        return text if text == "-0" else exact_text(self.exact(value, degree))
+        exact = self.exact(value, degree)
+        return "-0" if not exact and self.system.text(value.value) == "-0" else exact_text(exact)

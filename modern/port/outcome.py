@@ -8,9 +8,11 @@ from functools import cmp_to_key
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.geometry.hull import Coefficients, Face, LazyTuple, PointTexts, Stage
+from modern.geometry.hull import Coefficients, Face, LazyMembers, LazyTuple, PointTexts, Stage
 from modern.geometry.numbers import Exact
+from modern.geometry.vectors import lowest_equation
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
+from modern.port.growth import Grown
 from modern.port.table import Equations, PointTable
 
 # The degrees, in the coordinates, of A, B, C, D of a plane and of the equation of a line.
@@ -24,17 +26,6 @@ def texts(arithmetic: Arithmetic, numbers: Sequence[Scalar], degrees: Sequence[i
 def coefficients(arithmetic: Arithmetic, numbers: Sequence[Scalar], degrees: Sequence[int]) -> Coefficients:
     a, b, c, d = texts(arithmetic, numbers, degrees)
     return a, b, c, d
-
-
-def lowest(values: Sequence[Exact]) -> tuple[int, int, int, int]:
-    """Return an equation with the four given coefficients as integers without a common divisor."""
-    a, b, c, d = values
-    common = math.lcm(a.denominator, b.denominator, c.denominator, d.denominator)
-    if common != 1:
-        a, b, c, d = (value * common for value in values)
-    a, b, c, d = a.numerator, b.numerator, c.numerator, d.numerator
-    divisor = math.gcd(a, b, c, d) or 1
-    return a // divisor, b // divisor, c // divisor, d // divisor
 
 
 @dataclass(frozen=True)
@@ -71,7 +62,7 @@ class Faces:
             faces.append(
                 Face(
                     coefficients=text[k],
-                    lowest=lowest(exact[k]),
+                    lowest=lowest_equation(exact[k]),
                     defining=tuple([input_index[index] for index in defining]),
                     polygon=tuple([input_index[index] for index in corners]),
                     on=tuple([input_index[index] for index in boundary]),
@@ -82,18 +73,21 @@ class Faces:
     def edges(
         self, table: Equations, ends: NDArray[np.int64], on: list[NDArray[np.int64]], projection: int
     ) -> tuple[Face, ...]:
-        """Return the sides of a polygon as faces.  The coordinate that was projected away has the coefficient 0."""
+        """Return the sides of a polygon as faces.
+
+        ``projection`` is the number of the coordinate that was projected away, from 1; its coefficient is 0.
+        """
         faces = []
         zero = self.arithmetic.number(0)
         for k, satisfied in enumerate(on):
             row = [table.coefficients[i, k] for i in range(3)]
-            # KPROJ is the number of the coordinate that was projected away, counted from 1 (statements 209 to 217).
+            # The listing calls the projection KPROJ (statements 209 to 217).
             row.insert(projection - 1, zero)
             exact = [self.arithmetic.exact(value, degree) for value, degree in zip(row, LINE, strict=True)]
             faces.append(
                 Face(
                     coefficients=coefficients(self.arithmetic, row, LINE),
-                    lowest=lowest(exact),
+                    lowest=lowest_equation(exact),
                     defining=self.points.input_indices(table.defining[:, k]),
                     polygon=self.points.input_indices(ends[:, k]),
                     on=self.points.input_indices([index for index in satisfied.tolist() if index not in ends[:, k]]),
@@ -102,34 +96,19 @@ class Faces:
         return tuple(faces)
 
 
-class Historian:
-    """A recorder of the construction.  The procedure calls the recorder for each hull H_j, and ``stages`` returns the
-    records.
-    """
+def stages(history: Sequence[tuple[Grown, NDArray[np.int64]]]) -> Sequence[Stage]:
+    """Return the steps of the construction (``Progress.history``) as stages, which are made on access."""
 
-    def __init__(self, points: PointTable) -> None:
-        self.points = points
-        self._notes: list[tuple[tuple[int, ...], int, int, list[int], NDArray[np.int64]]] = []
+    def member(index: int) -> Stage:
+        grown, defining = history[index]
+        equations = tuple(map(tuple, defining.T.tolist()))
+        return Stage(index + 1, grown.added, grown.checked, grown.outside, tuple(grown.eliminated), equations)
 
-    def __call__(
-        self, table: Equations, added: tuple[int, ...], checked: int, outside: int, eliminated: list[int]
-    ) -> None:
-        self._notes.append((added, checked, outside, eliminated, self.points.input_index[table.defining]))
-
-    @property
-    def stages(self) -> Sequence[Stage]:
-        notes = self._notes.copy()
-        return LazyTuple(len(notes), lambda: (_stage(number, *note) for number, note in enumerate(notes, 1)))
-
-
-def _stage(
-    number: int, added: tuple[int, ...], checked: int, outside: int, eliminated: list[int], names: NDArray[np.int64]
-) -> Stage:
-    return Stage(number, added, checked, outside, tuple(eliminated), tuple(map(tuple, names.T.tolist())))
+    return LazyMembers(len(history), member)
 
 
 def point_texts(arithmetic: Arithmetic, coordinates: Vector) -> Sequence[tuple[str, str, str]]:
-    """Return the coordinates of all points as text.  The coordinates of floats are converted on access."""
+    """Return the coordinates of all points as text.  Floats are converted when they are accessed."""
 
     def member(index: int) -> tuple[str, str, str]:
         x, y, z = texts(arithmetic, list(coordinates[:, index]), (1, 1, 1))

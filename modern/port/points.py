@@ -5,14 +5,14 @@ from collections.abc import Iterable
 import numpy as np
 
 from emulator.errors import ArgumentError, expect, quoted
-from emulator.numbers import RANDOM
-from emulator.numbers.arithmetic import FAMILIES, PROFILES, profile
+from emulator.numbers import RANDOM, numbers
+from emulator.numbers.arithmetic import FAMILIES, PROFILES
 from modern.geometry.numbers import Exact, PointsError, real
 from modern.geometry.points import Points, check_array, point_rows
 from modern.port.arithmetic import Arithmetic, RangeError, Vector
-from modern.port.binary import MAX_BITS, MIN_BITS, FloatArithmetic, MultiprecisionArithmetic
-from modern.port.decimal import Arithmetic1620
+from modern.port.binary import FloatArithmetic, MultiprecisionArithmetic
 from modern.port.exact import exact_arithmetic
+from modern.port.hosted import HostedArithmetic
 
 # A number, and True if it is a zero with a minus sign.
 Read = tuple[Exact, bool]
@@ -61,21 +61,11 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
         return FloatArithmetic(np.float64)
     if name == "float32":
         return FloatArithmetic(np.float32)
-    family, _, count = name.partition(":")
-    if family == "mp":
-        if count.isdecimal() and count.isascii() and len(count) < 9 and MIN_BITS <= int(count) <= MAX_BITS:
-            return MultiprecisionArithmetic(int(count))
-        raise ArgumentError(f"{name[:40]}: mp expects a number of bits from {MIN_BITS} to {MAX_BITS}, such as mp:100")
-    if family == "stochastic":
-        # These are imported here because the other arithmetics do not need mpmath.
-        from emulator.numbers.stochastic import stochastic
-        from modern.port.hosted import HostedArithmetic
-
-        if system := stochastic(name):
-            return HostedArithmetic(system)
-    if family in PROFILES or f"{family}:P" in FAMILIES:
-        return Arithmetic1620(profile(name))
-    raise ArgumentError(f"no arithmetic is called {quoted(name)}; choose one of {', '.join(NAMES)}")
+    family, _, bits = name.partition(":")
+    if family not in {known.partition(":")[0] for known in NAMES}:
+        raise ArgumentError(f"no arithmetic is called {quoted(name)}; choose one of {', '.join(NAMES)}")
+    system = numbers(name)
+    return MultiprecisionArithmetic(int(bits)) if family == "mp" else HostedArithmetic(system)
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:

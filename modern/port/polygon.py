@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from modern.geometry.hull import ERROR, NOT_ACCEPTABLE
 from modern.port.arithmetic import Arithmetic, Scalar, Vector, distance_squared, line
-from modern.port.growth import BETWEEN, NUMBERING, TABLE_OF_LINES, Progress, Remaining, Stopped, Watcher, grow
+from modern.port.growth import BETWEEN, NUMBERING, TABLE_OF_LINES, Progress, Remaining, Stopped
 from modern.port.table import Equations, PointTable, Slack, turned
 
 _LISTED_LINES = 51
@@ -28,21 +28,23 @@ def projection(arithmetic: Arithmetic, plane: tuple[Scalar, ...]) -> int:
 
 
 def lines(points: PointTable, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
-    """Return the equations (thesis: 3.5) of lines, each through two points; the point ``by`` gives the constant."""
+    """Return the equations (3.5) of lines, each through two points.  The point ``by`` determines the constant term."""
     (u1, v1, _), (u2, v2, _), (cu, cv, _) = (points.several(p) for p in (first, second, by))
     return np.stack(line(u1, v1, u2, v2, cu, cv))
 
 
 @dataclass
 class Polygon:
-    """The state of program 2.  The third coordinate of each point is the one that the projection drops."""
+    """The state of program 2, which begins with the triangle H_1 (statements 103 to 135 add the other vertices).
+
+    The third coordinate of each point is the coordinate that the projection drops.
+    """
 
     arithmetic: Arithmetic
     points: PointTable
     slack: Slack | None
     centre: tuple[Scalar, ...] | None
     progress: Progress
-    watch: Watcher | None = None
     vertices: int = 3
     to_check: int = 0
     remaining: Remaining = field(default_factory=Remaining)
@@ -50,10 +52,6 @@ class Polygon:
 
     def __post_init__(self) -> None:
         self.table = Equations(self.arithmetic, self.slack, self.turn(_FROM, _TO, _CONSTANT), _FIRST.copy())
-
-    def run(self) -> None:
-        """Add vertices to the triangle H_1 until no point is outside (statements 103 to 135), or raise Stopped."""
-        grow(self)
 
     def turn(self, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
         return turned(self.arithmetic, lines(self.points, first, second, by), self.centre)[0]

@@ -3,7 +3,7 @@
 Numbers in parentheses are statement numbers of the FORTRAN listing. Indices start from 0 here, from 1 in the listing.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -22,7 +22,8 @@ LISTED_PLANES, PLANES = 98, 193
 class Fresh:
     """The planes through a new vertex.
 
-    ``through`` is True if one contains the inner point C, ``degenerate`` if one has only zeros as coefficients.
+    ``through`` is True if one of them contains the inside point C.  ``degenerate`` is True if the coefficients A, B and
+    C of one of them are all zero.
     """
 
     coefficients: Vector
@@ -33,23 +34,21 @@ class Fresh:
 
 @dataclass
 class Polyhedron:
-    """The state of program 3.  Its table of points and its table of planes change in place."""
+    """The state of program 3, which begins with the tetrahedron H_1 (statements 103 to 160 add the other vertices).
+
+    The table of points and the table of planes change in place.
+    """
 
     arithmetic: Arithmetic
     points: PointTable
     table: Equations
     centre: tuple[Scalar, ...] | None
     progress: growth.Progress
-    watch: growth.Watcher | None = None
     vertices: int = 4
     to_check: int = 0
     remaining: growth.Remaining = field(default_factory=growth.Remaining)
     # True to replace the planes after the first in the order of their numbers, as the text of the thesis does (p. 32).
     text: bool = False
-
-    def run(self, grow_stage: "Callable[[Polyhedron, bool], growth.Grown | None]" = growth.stage) -> None:
-        """Add vertices to the tetrahedron H_1 by ``grow_stage`` until no point is outside (statements 103 to 160)."""
-        growth.grow(self, grow_stage)
 
     def outside_point(self) -> int | None:
         """Return the point farthest outside the first plane with points outside, or None (statements 115 to 125)."""
@@ -88,7 +87,8 @@ class Polyhedron:
         # The table is largest while the last plane is being replaced: each replacement first adds three planes, then
         # deletes one.
         peak = len(self.table) + 2 * len(order) + 1
-        if fresh.degenerate or peak > self.limit or (self.signs(fresh, point) > 0).any():
+        values_there = self.table.values(fresh.coefficients, point)
+        if fresh.degenerate or peak > self.limit or (self.arithmetic.sign(values_there) > 0).any():
             self.stop(order[0], dict(zip(above.tolist(), values[above], strict=True)), new)
         self.note(fresh, peak)
         retained = np.ones(len(self.table), np.bool_)
@@ -101,7 +101,10 @@ class Polyhedron:
         return max(PLANES, 4 * len(self.points) - 11)
 
     def three_planes(self, replaced: NDArray[np.int64], new: int) -> Fresh:
-        """Return three planes for each replaced one, by the new vertex and two of its points (statement 126 on)."""
+        """Return three planes for each replaced plane, through the new vertex and two of its three defining points.
+
+        ``replaced`` has the defining points of each replaced plane in a column (statement 126 on).
+        """
         defining = np.repeat(replaced, 3, axis=1)
         columns = np.arange(defining.shape[1])
         # I123 of the listing: the new vertex takes the place of MM, then NN, then KK (statements 127 to 129).
@@ -112,14 +115,15 @@ class Polyhedron:
         return Fresh(coefficients, defining, bool(through.any()), degenerate)
 
     def note(self, fresh: Fresh, size: int) -> None:
-        """Record that Butler's listing would have stopped here: a plane passes through C, or the table is full."""
+        """Record each correction that is needed here.
+
+        Butler's listing would have stopped because a new plane contains the inside point C, or because its table of
+        planes has fewer than ``size`` entries.
+        """
         if fresh.through:
             self.progress.correct(growth.THROUGH_CENTRE)
         if size > LISTED_PLANES:
             self.progress.correct(growth.TABLE_OF_PLANES)
-
-    def signs(self, fresh: Fresh, point: tuple[Scalar, ...]) -> NDArray[np.int8]:
-        return self.arithmetic.sign(self.table.values(fresh.coefficients, point))
 
     def single(self, defining: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Return a mask of the new planes that is False for every pair of equal planes (statements 141 to 160).
@@ -145,11 +149,10 @@ class Polyhedron:
         return retained
 
     def stop(self, first_equation: int, above: dict[int, Scalar], new: int) -> None:
-        """Repeat the failing stage plane by plane, as the listing does, to find the statement at which it stops; raise
-        Stopped.
+        """Repeat the failing stage plane by plane, as the listing does, and raise Stopped at the statement that fails.
 
-        A plane of zeros is an error. A plane through the new point that has this point outside is replaced by a copy of
-        itself and two other planes, which the listing would repeat until its table is full.
+        A plane whose coefficients are zero is an error. If rounding puts the new point outside a plane through it, the
+        listing replaces that plane by a copy of itself and two other planes, again and again until its table is full.
         """
         point = self.points.at(new)
         defining = {k: self.table.defining[:, k] for k in above}

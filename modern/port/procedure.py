@@ -14,9 +14,9 @@ from modern.geometry.numbers import read_epsilon
 from modern.geometry.points import Points
 from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector, at, less
 from modern.port.fast import choose
-from modern.port.growth import Progress, Stopped
+from modern.port.growth import Progress, Stopped, grow
 from modern.port.opening import Opening, mean, open_hull, tetrahedron
-from modern.port.outcome import LINE, PLANE, Faces, Historian, coefficients, point_texts, texts
+from modern.port.outcome import LINE, PLANE, Faces, coefficients, point_texts, stages, texts
 from modern.port.points import first_of_equals, take
 from modern.port.polygon import Polygon, projection, strike_between
 from modern.port.polyhedron import Polyhedron, are_vertices, strike_repeats
@@ -57,7 +57,8 @@ def convex_hull(
     with np.errstate(over="raise", invalid="raise", divide="raise", under="ignore"):
         numbers, coordinates = take(points, arithmetic, wide=size is not None)
         try:
-            hull = _Run(numbers, coordinates, size, translate, history, fast, text).hull()
+            progress = Progress([] if history else None)
+            hull = _Run(numbers, coordinates, size, translate, fast, text, progress).hull()
         except FloatingPointError:
             raise RangeError(f"{arithmetic}: a product of coordinates exceeds the largest number") from None
     if on_refusal == "raise" and not hull.determined:
@@ -73,11 +74,9 @@ class _Run:
     coordinates: Vector
     epsilon: tuple[Fraction, bool] | None
     translate: bool
-    history: bool
     fast: bool | None
     text: bool
-    watcher: Historian | None = field(init=False, default=None)
-    progress: Progress = field(init=False, default_factory=Progress)
+    progress: Progress
     slack: Slack | None = field(init=False)
     result: Hull = field(init=False)
 
@@ -134,8 +133,8 @@ class _Run:
             # If the origin is moved to C, the constant term of an equation becomes the equation's value at C.
             table.coefficients[3] = at(tuple(table.coefficients), centre)
         steps = choose(numbers, points, self.slack, False if self.text else self.fast)
-        polyhedron = Polyhedron(numbers, points, table, test, self.progress, self.historian(points), text=self.text)
-        polyhedron.run(steps.stage)
+        polyhedron = Polyhedron(numbers, points, table, test, self.progress, text=self.text)
+        grow(polyhedron, steps.stage)
         self.move_back(points, table, centre)
         count = polyhedron.vertices
         # Statements 161 to 182 of program 3: strike boundary points, repeated equations, then vertices on fewer than
@@ -165,8 +164,8 @@ class _Run:
         if opening.kind == "triangle":
             return self.triangle(Polygon(numbers, flat, self.slack, centre, self.progress), projected_axis)
         test = self.move(flat, centre)
-        polygon = Polygon(numbers, flat, self.slack, test, self.progress, self.historian(flat))
-        polygon.run()
+        polygon = Polygon(numbers, flat, self.slack, test, self.progress)
+        grow(polygon)
         self.move_back(flat, polygon.table, centre)
         table, count = polygon.table, polygon.vertices
         self.progress.boundary += flat.input_indices(slice(count, None))
@@ -192,19 +191,15 @@ class _Run:
         )
 
     def finished(self, label: str) -> Hull:
-        """Return the result for the statement ``label`` that decided it, with points and corrections so far."""
+        """Return the result decided at the statement ``label``, with the points and corrections recorded so far."""
         return replace(
             self.result,
             statement=label,
             boundary=tuple(self.progress.boundary),
             inside=tuple(self.progress.inside),
             corrected=tuple(self.progress.corrected),
-            history=self.watcher.stages if self.watcher else (),
+            history=stages(self.progress.history) if self.progress.history else (),
         )
-
-    def historian(self, points: PointTable) -> Historian | None:
-        self.watcher = Historian(points) if self.history else None
-        return self.watcher
 
     def move(self, points: PointTable, centre: tuple[Scalar, ...]) -> tuple[Scalar, ...] | None:
         """Move the origin to the inner point C if ``translate`` is set.
