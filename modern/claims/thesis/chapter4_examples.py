@@ -4,6 +4,7 @@ The claims are computed exactly from the printed points. The programs read the p
 is truncated to eight digits.
 """
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from decimal import ROUND_DOWN, Context
 from fractions import Fraction
@@ -17,7 +18,8 @@ from modern.claims.sampled_sets import counterexample
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
-from modern.edition.chapter4 import Plane, Point, Theorem, load_text, load_theorems, theorem_faults
+from modern.edition.apparatus import build
+from modern.edition.chapter4 import THEOREMS, Plane, Point, Theorem, load_text, load_theorems, theorem_faults
 from modern.exact_hull.certificate import rank
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import data_deck
@@ -26,6 +28,7 @@ from modern.geometry.vectors import lowest
 from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
 
+_NUMBERS = {"six": 6, "nine": 9}
 # A number on a card has eight significant digits; further digits are truncated.
 _CARD = Context(prec=8, rounding=ROUND_DOWN)
 
@@ -37,10 +40,12 @@ def theorem_of(name: str) -> Theorem:
 
 def worked_example_checks(theorem: Theorem, load: Load = programs.program) -> Mapping[str, Check]:
     """Run all checks of a worked example; return them by function name. ``load`` returns a program by its name."""
-    checks: list[Callable[[Theorem], Check]] = [_equations, *([_signs] if theorem.signs else [])]
-    checks += {"4.1": [_six_extremes], "4.2": [_not_supporting], "4.8": [_growing, _supporting, _last_outside]}[
-        theorem.id
-    ]
+    checks: list[Callable[[Theorem], Check]] = [_points, _equations, *([_signs] if theorem.signs else [])]
+    checks += {
+        "4.1": [_outside_plane, _lost_point],
+        "4.2": [_not_supporting],
+        "4.8": [_growing, _supporting, _last_outside],
+    }[theorem.id]
     results = {function.__name__.lstrip("_"): function(theorem) for function in checks}
     return results | {"programs": _programs(theorem, load)}
 
@@ -50,18 +55,22 @@ def _computed(theorem: str) -> Mapping[str, Check]:
     return worked_example_checks(theorem_of(theorem))
 
 
-@claim("thesis.233", theorem="4.1", claim="six_extremes")
+@claim("thesis.111", theorem="4.1", claim="points")
+@claim("thesis.118", theorem="4.2", claim="points")
+@claim("thesis.152", theorem="4.8", claim="points")
+@claim("thesis.233", theorem="4.1", claim="outside_plane")
+@claim("thesis.109", "thesis.110", theorem="4.1", claim="lost_point")
 @claim("thesis.112", theorem="4.2", claim="not_supporting")
 @claim("thesis.146", "thesis.151", theorem="4.8", claim="last_outside")
 @claim("thesis.111", theorem="4.1", claim="programs")
-@claim("thesis.109", "thesis.110", "thesis.111", theorem="4.1", claim="equations")
+@claim("thesis.109", "thesis.110", theorem="4.1", claim="equations")
 @claim("thesis.118", theorem="4.2", claim="programs")
-@claim("thesis.115", "thesis.118", theorem="4.2", claim="equations")
+@claim("thesis.115", theorem="4.2", claim="equations")
 @claim("thesis.116", theorem="4.2", claim="signs")
 @claim("thesis.152", theorem="4.8", claim="programs")
 @claim("thesis.147", theorem="4.8", claim="growing")
 @claim("thesis.150", theorem="4.8", claim="supporting")
-@claim("thesis.149", "thesis.152", theorem="4.8", claim="equations")
+@claim("thesis.149", theorem="4.8", claim="equations")
 @claim("thesis.151", theorem="4.8", claim="signs")
 def worked_example(theorem: str, claim: str) -> Check:
     """Return the check of a claim such as ``4.1 six_extremes``: a theorem, and the function that checks its example."""
@@ -75,6 +84,23 @@ EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
     ((1, 0, 2), (0, 3, -6), (2, 4, -4), (4, 3, 2), (3, 1, 4), (1, 1, -5)),
     ((0, 1, -1), (3, 1, 2), (4, 3, 1), (3, 4, -1), (1, 3, -2), (1, 0, 1), (1, 1, -1)),
 )
+
+
+def _points(theorem: Theorem) -> Check:
+    """Check that the example has as many different points as the text states, and that they are not all coplanar.
+
+    A point that the OCR lost counts if the text names it as an extreme point.
+    """
+    texts = [m[1] for line in build(load_text()) if (m := re.search(r"the following set of (\w+) points", line.text))]
+    number = texts[THEOREMS.index(theorem.id)]
+    known = {point.name: point.at for point in theorem.points}
+    names = known.keys() | ({*theorem.lost} & {*theorem.extremes.values()})
+    first = theorem.points[0].name[0]
+    is_complete = names == {f"{first}{k}" for k in range(1, _NUMBERS[number] + 1)}
+    is_spatial = exact_hull([*map(list, known.values())]).dimension == len("xyz")
+    lost = f", and names {', '.join(theorem.lost)}, which the OCR lost" if theorem.lost else ""
+    message = f"the text states {number} points and prints coordinates of {len(known)} different ones{lost}"
+    return exhibited(is_complete and is_spatial and len({*known.values()}) == len(known), message)
 
 
 def _equations(theorem: Theorem) -> Check:
@@ -116,18 +142,24 @@ def lost_candidates(theorem: Theorem) -> list[Vector]:
     return candidates
 
 
-def _six_extremes(theorem: Theorem) -> Check:
-    """Check, for each possible value of the lost point P3, that six extreme points are coplanar and others are not."""
+def _outside_plane(theorem: Theorem) -> Check:
+    values = {name: theorem.planes[0].at(_point(theorem, name)) for name in theorem.outside_plane}
+    message = ", ".join(f"{value} at {name}" for name, value in values.items())
+    return exhibited(values and all(values.values()), f"the equation is {message}")
+
+
+def _lost_point(theorem: Theorem) -> Check:
+    """Check that some values of the lost point P3 fit the text, and that none of them makes all points coplanar."""
     candidates = lost_candidates(theorem)
-    off = [_point(theorem, name) for name in theorem.outside_plane]
     first, *points = (p.at for p in theorem.points)
     nonplanar = 0
     for candidate in candidates:
         arms = [[a - b for a, b in zip(point, first, strict=True)] for point in (*points, candidate)]
         nonplanar += rank(map(lowest, arms)) == 3
     return exhibited(
-        bool(candidates) and nonplanar == len(candidates) and all(theorem.planes[0].at(point) for point in off),
-        f"P3 is lost in the OCR text; the claim holds for each of its {len(candidates)} possible integer values",
+        bool(candidates) and nonplanar == len(candidates),
+        f"{len(candidates)} points with integer coordinates can be the lost P3; with each, the nine points are not "
+        "coplanar",
     )
 
 
