@@ -154,10 +154,13 @@ def is_complex(cells: Complex) -> bool:
     return rises and all((e, g) in relation for e, f in relation for f_, g in relation if f == f_)
 
 
-def _complexes() -> Iterator[Complex]:
-    """Yield all complexes of up to four cells with dimensions from 0 to 3, except for the order of the cells."""
+def complexes(k: int) -> Iterator[Complex]:
+    """Yield all k-complexes of up to four cells, except for the order of the cells.
+
+    A k-complex has cells of dimensions up to k (Definition ACC).
+    """
     for count in range(5):
-        for dimensions in combinations_with_replacement(range(4), count):
+        for dimensions in combinations_with_replacement(range(k + 1), count):
             rising = [(e, f) for e, f in combinations(range(count), 2) if dimensions[e] < dimensions[f]]
             relations = (frozenset(pairs) for size in range(len(rising) + 1) for pairs in combinations(rising, size))
             yield from (cells for relation in relations if is_complex(cells := (dimensions, relation)))
@@ -184,11 +187,11 @@ def connected(cells: Complex) -> set[tuple[int, int]]:
 def connected_by_paths() -> Check:
     """Check that cells are connected if and only if a path of incident cells leads from one to the other."""
     outcomes = []
-    for cells in _complexes():
+    for cells in complexes(3):
         group = [*range(len(cells[0]))]
         for e, f in cells[1]:
             group = [group[f] if g == group[e] else g for g in group]
         expected = {(e, f) for e, f in product(range(len(group)), repeat=2) if group[e] == group[f]}
         outcomes.append(connected(cells) == expected)
-    domain = "complexes with up to 4 cells of dimensions 0 to 3"
+    domain = "3-complexes with up to 4 cells"
     return exhausted(domain, outcomes, "connected cells are those that paths of incident cells join")

@@ -6,7 +6,8 @@ from itertools import product
 
 from modern.claims.evidence import Check, claim, refuted, search, searched
 from modern.claims.hulls import convex_polyhedron, exact_hull
-from modern.claims.kovalevsky_schulz.polyhedra import hulls
+from modern.claims.kovalevsky_schulz.polyhedra import growing_polyhedra, hulls
+from modern.claims.kovalevsky_schulz.proofs import formula_4, lemma_be, lemma_ch, lemma_lz
 from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels, local, points_of
 from modern.claims.sampled_sets import (
     CASES,
@@ -61,6 +62,22 @@ def vertices_are_local_corners(cases: int = 2) -> Check:
         return True
 
     return search(SOLIDS, agrees, cases, "the hull of the local corners is that of the points, with local corners only")
+
+
+@claim("kovalevsky-schulz.1", full=400)
+def proof_of_the_algorithm(cases: int = CASES) -> Check:
+    """Check that the proof of theorem PL is right if the project's steps replace three false statements.
+
+    The lemmas are proved. That each polyhedron of the construction is the intersection of the half-spaces of its faces,
+    which the proof of the theorem concludes from lemma BE, is searched.
+    """
+    lemmas = [lemma().check().holds for lemma in (lemma_lz, lemma_ch, lemma_be)]
+    construction = growing_polyhedra(cases)
+    false = [smaller_polyhedron("interior"), smaller_polyhedron("moved"), coefficients_by_cosines()]
+    message = f"{sum(lemmas)} lemmas are proved; {construction.message}"
+    check = searched(SETS[3], cases, [*lemmas, construction.holds], message)
+    case = f"the printed proof, in which {len(false)} statements are false and no face is coplanar with the new point"
+    return check.unless(not any(statement.holds for statement in false) and formula_4().evidence.violation, case)
 
 
 def _horizons(cases: int = CASES) -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:

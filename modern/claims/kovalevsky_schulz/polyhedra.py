@@ -1,5 +1,6 @@
 """Checks of Kovalevsky and Schulz: the algorithm, coplanar faces, and the cell list."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product
@@ -11,6 +12,7 @@ from modern.claims.sampled_sets import CASES, SETS, Plane, Point, plane_value, s
 from modern.digital.hull import digital_hull
 from modern.digital.solids import Volume, listed
 from modern.exact_hull import ExactHull
+from modern.geometry.mesh import sides
 from modern.papers.kovalevsky_schulz import (
     CENTRES,
     INVISIBLE,
@@ -222,14 +224,26 @@ def point_in_two_planes() -> Check:
 
 @claim("kovalevsky-schulz.55")
 def quadrangles() -> Check:
-    """Check that a coplanar point that sees two sides of a pyramid's square base gives one new face of four corners."""
-    points = [*PYRAMID, (3, 3, 0)]
-    hull = coplanar_hull(points, QUADRANGLES)
-    exact = exact_hull(points)
-    # The corner (1, 1, 0), in which the two common edges meet, must vanish.
-    right = 2 not in exact.vertices and sorted(hull.faces) == sorted(f.polygon for f in exact.facets)
-    message = f"{hull.larger} new face with four corners is merged with the square"
-    return exhibited(hull.larger == 1 and hull.merged > 0 and right, message)
+    """Check a point in the plane of a pyramid's square base, from which two faces at sides of the square are visible.
+
+    The new face joins the point to the two outer ends of these sides. The square and the new face become one face, from
+    which the corner between the two sides vanishes.
+    """
+    new = (3, 3, 0)
+    judge, exact = exact_hull(PYRAMID), exact_hull((*PYRAMID, new))
+    (square,) = (f for f in judge.facets if plane_value(f.plane, new) == 0)
+    visible = [{*f.polygon} for f in judge.facets if plane_value(f.plane, new) > 0]
+    common = [side for side in sides(square.polygon) if any({*side} <= face for face in visible)]
+    counts = Counter(end for side in common for end in side)
+    ends, between = ({k for k, count in counts.items() if count == n} for n in (1, 2))
+    merged_face = {*square.polygon} - between | {len(PYRAMID)}
+    outcomes = [len(ends) == len(common) == 2, merged_face in [{*f.polygon} for f in exact.facets]]
+    before, after = (coplanar_hull(points, QUADRANGLES) for points in (PYRAMID, (*PYRAMID, new)))
+    outcomes += [after.larger == before.larger + 1, [*after.faces] == sorted(f.polygon for f in exact.facets)]
+    corners = len(ends | between) + 1
+    message = f"the new face has {corners} corners and, with the square, {len(common)} common edges; "
+    message += f"the new point is joined to {len(ends)} ends"
+    return exhibited(all(outcomes) and corners == 4, message)
 
 
 @claim("kovalevsky-schulz.163", treatment="quadrangles")

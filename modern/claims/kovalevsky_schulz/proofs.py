@@ -23,15 +23,12 @@ from modern.claims.hulls import exact_hull
 from modern.geometry import vectors
 
 
-def lemma_lz() -> Proof:
-    """Prove that if an inequality cuts off a nonempty part of a finite set, this part contains a vertex of the hull."""
+def largest_of_part() -> Proof:
+    """Prove that points that an inequality H >= 0 cuts off have larger values of H than all other points."""
     h_c, h_v = variables("H_c H_v")
     return Proof(
-        "a part of a finite set that a linear inequality cuts off contains a point that is no combination of others",
-        "The part is not empty, so it contains all points with the largest value of the linear function H. Among them "
-        "take those with the largest x, then the largest y, and then the largest z: one point c. If c is a "
-        "combination of points of the set with positive weights, all of them have the H of c. Then they have its x, y "
-        "and z, and so they are c. More than two points are combined one after the other.",
+        "the largest value of H in a part with H >= 0 is the largest in the whole set",
+        "H is negative at the points outside the part, and not negative in the part, which is not empty.",
         (
             Step(
                 "a point v that is not cut off has a smaller value of H",
@@ -39,6 +36,40 @@ def lemma_lz() -> Proof:
                 positive(h_c - h_v),
                 (term("c"), term("v")),
             ),
+        ),
+    )
+
+
+def last_of_three_choices() -> Proof:
+    """Prove that a single vector has the largest z of those with the largest y of those with the largest x."""
+    way = minus(point("p", 3), point("q", 3))
+    equal = {axis: zero(d) for axis, d in zip("xyz", way, strict=True)}
+    return Proof(
+        "a single vector remains after the choices of the largest x, y and z",
+        "A finite set that is not empty has a largest x, and so have the vectors chosen by it a largest y, and those "
+        "chosen by both a largest z. Two vectors that remain have the same x, y and z, and so their distance is 0.",
+        (
+            Step(
+                "the square of their distance is 0",
+                equal,
+                zero(dot(way, way)),
+                tuple(term(axis, d) for axis, d in zip("xyz", way, strict=True)),
+            ),
+        ),
+    )
+
+
+def lemma_lz() -> Proof:
+    """Prove that if an inequality cuts off a nonempty part of a finite set, this part contains a vertex of the hull."""
+    return Proof(
+        "a part of a finite set that a linear inequality cuts off contains a point that is no combination of others",
+        "The part is not empty, so it contains all points with the largest value of the linear function H. Among them "
+        "take those with the largest x, then the largest y, and then the largest z: one point c. If c is a "
+        "combination of points of the set with positive weights, all of them have the H of c. Then they have its x, y "
+        "and z, and so they are c. More than two points are combined one after the other.",
+        (
+            *largest_of_part().steps,
+            *last_of_three_choices().steps,
             largest_value(),
             combination_satisfies()[0],
         ),
@@ -153,7 +184,9 @@ def lemma_be() -> Proof:
     )
 
 
-@claim("kovalevsky-schulz.65", "kovalevsky-schulz.66", "kovalevsky-schulz.68", proof=lemma_lz)
+@claim("kovalevsky-schulz.65", proof=lemma_lz)
+@claim("kovalevsky-schulz.66", proof=largest_of_part)
+@claim("kovalevsky-schulz.68", proof=last_of_three_choices)
 @claim("kovalevsky-schulz.124", proof=lemma_lz)
 @claim("kovalevsky-schulz.69", proof=lemma_ch)
 @claim("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17", proof=vertex_is_no_combination)
