@@ -1,9 +1,12 @@
-"""The edition: everything the project publishes about its programs, as a site, a book, TEI documents and a deposit.
+"""Everything that the project publishes about its programs: a website, a book, TEI documents and a deposit.
 
-``building``, ``deposit``, ``metadata``: the builds.  ``site/``: the website; its docstring explains how to add a page.
-``book/``: the book.  ``tei``, ``tei_*``, ``hull1620.odd``: the TEI documents.  ``flow``,
-``chart``, ``chart_svg``: flow charts.
-``console``, ``desk``, ``parting``: the emulator in the browser.  The other modules collect the facts that pages show,
-as frozen dataclasses without HTML: ``facing``, ``uses``, ``measured`` and ``core`` about the programs, ``examples``,
-``numbered`` (numbered lists in documents), ``steps`` (pictures of papers), ``figures`` (results quoted in documents).
+``site`` makes the website; its docstring explains how to add a page. ``book`` makes the book. ``tei``, ``tei_*`` and
+``hull1620.odd`` make the TEI documents. ``building``, ``deposit``, ``metadata``, ``tables``, ``vendored`` and ``pyz``
+make the deposit. ``flow``, ``chart`` and ``chart_svg`` draw flow charts. ``console``, ``desk``, ``panel``, ``parting``,
+``verdict`` and ``decks`` are the emulator in the browser.
+
+The other modules collect the facts that pages show, as frozen dataclasses without HTML: ``facing``, ``commentary``,
+``moments``, ``uses``, ``measured`` and ``core`` about the programs, ``examples`` about the printed examples,
+``numbered`` about numbered lists in documents, ``steps`` about the pictures of papers, ``essay`` about those of the
+home page, and ``figures`` about the results that documents quote.
 """

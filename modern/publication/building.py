@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
-# The root of the checkout; the builds run there only, never from an installed wheel.
+# The root of the checkout. The builds need a checkout; an installed wheel lacks their files.
 ROOT: Final = Path(__file__).parents[2]
 # The folder in which ``make wheel``, ``make edition``, ``make book`` and ``make archive`` put their results.
 DIST: Final = ROOT / "dist"
@@ -21,7 +21,10 @@ class BuildError(Exception):
 
 
 def run(name: str, build: Callable[[], str]) -> int:
-    """Run a build and print its summary. Return 0, or 2 after one line on standard error if the build fails."""
+    """Run a build and print the summary that it returns.
+
+    Return 0, or 2 after a message of one line on standard error if the build fails. ``name`` begins the message.
+    """
     try:
         print(build())
     except (BuildError, ValueError, OSError) as error:

@@ -1,7 +1,7 @@
-"""The commentary on the programs: what each block of statements does, and what each variable holds.
+"""The commentary on the programs: the purpose of each block of statements and the meaning of each variable.
 
-The texts are data, ``fortran_src/commentary/PROGRAM.toml``.  A block contains the cards from one place to another; the
-places are those of :mod:`modern.publication.facing`.
+The texts are data, ``fortran_src/commentary/PROGRAM.toml``. A block contains the cards from one place to another;
+:mod:`modern.publication.facing` explains the places.
 """
 
 from __future__ import annotations
@@ -21,8 +21,9 @@ from modern.publication.uses import uses
 class Block:
     """Consecutive cards with one purpose.
 
-    ``cards`` are their numbers in the deck.  ``steps`` name rows of the concordance with chapter 3 of the thesis.
-    ``marks`` name the variables whose points the picture of the block highlights (:mod:`modern.publication.moments`).
+    ``cards`` are their numbers in the deck. ``steps`` names rows of the concordance with chapter 3 of the thesis
+    (``docs/reference/concordance.md``). ``marks`` names the variables whose points the picture of the block highlights
+    (:mod:`modern.publication.moments`).
     """
 
     title: str

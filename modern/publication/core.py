@@ -1,7 +1,7 @@
 """Storage maps: the regions of core storage that a built-in program uses, from address 0 up.
 
-The order of the regions is IBM's (form C26-5619, p. 66-69; :mod:`emulator.language.storage`).  The length of the object
-program is partly inferred (:mod:`emulator.objectdeck.extent`), and so is the free space.
+The order of the regions is IBM's (form C26-5619, p. 66-69; :mod:`emulator.language.storage`). The length of the object
+program, and therefore the size of the free region, is partly inferred (:mod:`emulator.objectdeck.extent`).
 """
 
 from collections import Counter
@@ -25,9 +25,9 @@ KINDS = (SYSTEM, PROGRAM, FREE, ARRAY, SINGLE, NAMES)
 class Region:
     """A region of core storage from address ``low`` to address ``high``, both included.
 
-    ``name`` is that of an array, such as ``X(51)``.  ``fields`` counts the fields of ten digits by kind: those of the
-    array, or the single fields (``variable``, ``constant``, ``temporary``, ``statement number``).  ``estimated`` is
-    True if the length is not known exactly.
+    ``name`` is the name of an array with its dimensions, such as ``X(51)``. ``fields`` counts the fields of ten digits
+    by kind: ``field`` for those of an array, or ``variable``, ``constant``, ``temporary`` and ``statement number``.
+    ``estimated`` is True if the length is not known exactly.
     """
 
     kind: str
@@ -76,7 +76,7 @@ def core_map(name: str) -> CoreMap:
 
 
 def _data(entries: tuple[Entry, ...]) -> Iterator[Region]:
-    """Return the regions of the data, lowest first: each array, and each group of adjacent single fields."""
+    """Return the regions of the data from the lowest address: each array, and each group of adjacent single fields."""
     for single, group in groupby(reversed(entries), key=lambda entry: not entry.shape):
         group_entries = tuple(group)
         if single:

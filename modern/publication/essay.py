@@ -1,4 +1,4 @@
-"""The subjects of the essay's figures in the site and the book: a card, a growing hull, a plane, and the cube."""
+"""The data of the home page's figures, which the book also shows: a card, a growing hull, a plane, and the cube."""
 
 from collections.abc import Sequence
 from itertools import product
@@ -18,7 +18,9 @@ from modern.port.points import take
 from modern.thesis.job import HullRun, run_hull
 
 EXAMPLE = 6
-# The plane of the figure: two points, y and z of the third, and the values of its x that a table shows.
+# The places of five cards of program 3 that the OCR misread visibly.
+MISREAD = ("105+3", "130", "131+2", "143", "167")
+# The figure of the plane: the second and the third point, y and z of the first, and the values of x in its table.
 CORNERS = ((127, 418, 52), (231, 64, 377))
 FIRST = (213, 305)
 XS = (95, 320, 590, 635, 815, 905)
@@ -32,15 +34,16 @@ def card() -> str:
 
 
 def growth(eye: Eye | None = None, width: int = 250, height: int = 2500) -> tuple[Frame, ...]:
-    """Return the successive hulls of the example, in the order in which the program makes them."""
+    """Return pictures of the successive hulls of the example, in the order in which the program makes them."""
     points = parse_input(input_deck(EXAMPLE).text(), f"example{EXAMPLE}").points
     return frames(convex_hull(points, "exact", history=True), eye, width, height)
 
 
 def plane_values(arithmetic: str, points: Sequence[Sequence[int]]) -> tuple[str, list[str]]:
-    """Return D of the plane through three points, and the plane's values at them, which should be 0.
+    """Return the coefficient D of the plane through three points, and the values of its equation at these points.
 
-    The calculation is that of program 3 (cards 130+3 to 130+10 and 116+4) in the named arithmetic.
+    The exact values are 0.  The calculation is that of program 3 (cards 130+3 to 130+10 and 116+4) in the named
+    arithmetic.
     """
     numbers, (x, y, z) = take(points, arithmetic)
     corners = tuple((x[k], y[k], z[k]) for k in range(3))
@@ -50,7 +53,10 @@ def plane_values(arithmetic: str, points: Sequence[Sequence[int]]) -> tuple[str,
 
 
 def plane_row(x: int) -> tuple[str, ...]:
-    """Return D of the plane for this ``x`` exactly and in eight digits, and the plane's values in eight digits."""
+    """Return D of the figure's plane exactly and in eight digits, and the values at its points in eight digits.
+
+    ``x`` is the coordinate x of the first point.
+    """
     points = ((x, *FIRST), *CORNERS)
     (exact, _), (machine, values) = (plane_values(name, points) for name in ("exact", "truncating"))
     return exact, machine, *values

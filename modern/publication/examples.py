@@ -1,7 +1,7 @@
 """The printed examples of chapter 6 as data: OCR text, corrected text and our run, card by card.
 
-The corrected text and its relation to the OCR text come from :mod:`modern.edition.chapter6_cards`.  The run and its
-comparison with the corrected text come from :mod:`modern.edition.reproduce`.
+:mod:`modern.edition.chapter6_cards` relates the corrected text to the OCR text. :mod:`modern.edition.reproduce` runs
+the programs and compares the result with the corrected text.
 """
 
 from collections.abc import Sequence
@@ -24,7 +24,11 @@ VERDICTS = {EXACT: "identical", ORDER: "the same hull in another order"}
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A line of the OCR text: its number in the excerpt and, ``at``, in the document; and spans that rows change."""
+    """A line of the OCR text.
+
+    ``line`` is its number in the excerpt, and ``at`` its number in the whole document, or 0 if it is unknown.
+    ``changed`` has the spans of characters that rows of the apparatus change.
+    """
 
     line: str
     page: str
@@ -37,9 +41,9 @@ class Source:
 class Shown:
     """A card as printed and as our run punches it.
 
-    ``print`` is the card in the corrected text, ``run`` that of the run, or None for an input deck.  ``sources`` are
-    the lines of the witness that begin on this card, ``continued`` the lines that began on an earlier card.
-    ``differs`` are the spans of ``run`` that differ from ``print``.
+    ``print`` is the card in the corrected text. ``run`` is the card of the run, or None for an input deck. ``sources``
+    are the lines of the witness that begin on this card, ``continued`` the numbers of lines that began on an earlier
+    card. ``differs`` has the spans of ``run`` that differ from ``print``.
     """
 
     number: int
@@ -52,7 +56,11 @@ class Shown:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """The cards or lines of one device in an example, verdicts for both states of program 1, and emendations."""
+    """The cards or typed lines of one device in a run of one program.
+
+    ``stated`` is True for lines that the thesis describes but does not print. ``reports`` has the verdicts for both
+    states of program 1, and ``rows`` the emendations of these cards.
+    """
 
     example: int
     program: int
@@ -74,7 +82,7 @@ class Part:
 
 @cache
 def example(number: int) -> tuple[Part, ...]:
-    """Return the devices of an example of chapter 6 in the order in which the thesis prints them."""
+    """Return the parts of an example of chapter 6, in the order in which the thesis prints them."""
     chapter = load_chapter()
     reports = tuple(reproduce((number,)))
     lines = _origins(segments(chapter.text))
@@ -83,7 +91,7 @@ def example(number: int) -> tuple[Part, ...]:
 
 @cache
 def homes() -> dict[str, tuple[int, str]]:
-    """Return, for each emendation, the first example and device on whose page it is shown."""
+    """Return, for each emendation, the first example that shows it, and the id of the part that does."""
     first_shown: dict[str, tuple[int, str]] = {}
     for number in EXAMPLES:
         for part in example(number):
@@ -93,14 +101,15 @@ def homes() -> dict[str, tuple[int, str]]:
 
 
 def rest() -> tuple[Row, ...]:
-    """Return the emendations of chapter 6 that change no card, but remove text between cards, such as page numbers."""
+    """Return the emendations of chapter 6 that change no card.
+
+    They remove text between the cards, such as page numbers.
+    """
     return tuple(row for row in load_chapter().text.rows if row.id not in homes())
 
 
 def _origins(lines: Sequence[Segments]) -> dict[str, list[Segments]]:
-    """Map the id of each line to its family, which consists of a witness line and the lines that rows inserted after
-    it.
-    """
+    """Map the id of each line to its family: a witness line and the lines that rows inserted after it."""
     families: dict[str, list[Segments]] = {}
     family: list[Segments] = []
     for line in lines:
@@ -163,7 +172,10 @@ def _source(family: Sequence[Segments]) -> Source:
 
 
 def differing(expected: str, actual: str) -> Spans:
-    """Return the spans of ``actual`` that differ from ``expected``; all of it if it only lacks characters."""
+    """Return the spans of ``actual`` that differ from ``expected``.
+
+    If ``actual`` only lacks characters, its whole length is one span.
+    """
     if expected == actual:
         return ()
     codes = SequenceMatcher(None, expected, actual, autojunk=False).get_opcodes()

@@ -1,12 +1,12 @@
 """The facing text of a listing: the OCR text (witness) of each card next to the card, with the rows that change it.
 
-The module collects facts only; the site and the book present them.
+The module collects only facts; the site and the book present them.
 
-Every card has a *place*, a name that stays valid when the numbering of the deck changes, because it is counted from the
-programmer's statement numbers.  ``147+2`` is the second statement after statement 147.  ``0+1`` is the first statement
-of a deck that does not begin with a number.  ``before-106`` is the comment before statement 106, and ``title`` the
-first comment.  Counting may continue past the next number: if 148 is the statement after 147, ``147+2`` is also
-``148+1``, and the card has both names.
+Every card has a *place*, a name that is counted from the programmer's statement numbers and therefore stays valid when
+the numbering of the deck changes. ``147+2`` is the second statement after statement 147. ``0+1`` is the first statement
+of a deck that does not begin with a numbered statement. ``before-106`` is the comment before statement 106, and
+``title`` is the first comment. Counting may continue past the next number: if 148 is the statement after 147, ``147+2``
+is also ``148+1``, and the card has both names.
 """
 
 import re
@@ -22,18 +22,18 @@ from modern.edition.apparatus import Line, Row, Text, build
 from modern.edition.sources import sources
 
 Kind = Literal["title", "comment", "statement", "format"]
-# The number of statements that are counted past the next statement number.
+# The largest number of statements by which a place is counted past the next statement number.
 FURTHER = 3
-# A range of characters: the index of the first, and that of the first after the range.
+# A range of characters: the index of its first character, and the index of the first character after it.
 Span = tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A line of the witness, or a part of one, that became a card.
+    """A line of the witness, or the part of a line, from which a card was made.
 
-    ``line`` is the number of the line in the witness, counted from 1 without page marks.  ``source`` is its number in
-    the whole OCR text of the document, or 0 if it is unknown.  ``changed`` has the ranges of characters that the card
+    ``line`` is the number of the line in the witness, counted from 1 without page marks. ``source`` is its number in
+    the whole OCR text of the document, or 0 if it is unknown. ``changed`` has the ranges of characters that the card
     lacks.
     """
 
@@ -46,7 +46,7 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """The cards that replace a card if a further layer is applied; none if the layer removes the card."""
+    """The cards that replace a card if a further layer is applied. The layer removes the card if ``cards`` is empty."""
 
     layer: str
     rows: tuple[str, ...]
@@ -55,12 +55,13 @@ class Variant:
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """A card of a deck with the witness that it was made from.
+    """A card of a deck with the witness from which it was made.
 
-    ``number`` is its number in the deck, counted from 1, ``label`` its statement number or 0, and ``page`` the page of
-    the thesis.  ``also`` has further names of the card, like ``place``.  ``witness`` is empty for a card that the
-    witness lacks.  ``changed`` are the characters that differ from the witness.  ``rows`` are the rows that changed the
-    card, without those that changed most cards of the deck.  ``variants`` has the card as optional layers change it.
+    ``number`` is the number of the card in the deck, counted from 1. ``label`` is its statement number or 0, and
+    ``page`` the page of the thesis. ``also`` has further names of the card, like ``place``. ``witness`` is empty for a
+    card that the witness lacks. ``changed`` has the ranges of characters that differ from the witness. ``rows`` are the
+    ids of the rows that changed the card, except those that changed most cards of the deck. ``layers`` are the layers
+    of these rows. ``variants`` has the card as optional layers would change it.
     """
 
     number: int
@@ -84,9 +85,10 @@ class Card:
 
 @dataclass(frozen=True)
 class Facing:
-    """The facing text of a built-in program: its cards, the rows that change most cards, and the dropped lines.
+    """The facing text of a built-in program.
 
-    ``dropped`` are the lines of the witness that this deck omits, by the row that replaces them.
+    ``everywhere`` has the rows that change most cards. ``dropped`` pairs the id of a row with the lines of the witness
+    that the row removes from this deck.
     """
 
     program: str
@@ -97,7 +99,7 @@ class Facing:
     dropped: tuple[tuple[str, tuple[Piece, ...]], ...]
 
     def rows(self) -> tuple[Row, ...]:
-        """Return the rows that change this deck, in any layer, in the order of the apparatus."""
+        """Return the rows of all layers that change this deck, in the order of the apparatus."""
         ids = {row for card in self.cards for row in card.applicable_rows}
         ids |= {row.id for row in self.everywhere} | {row for row, _ in self.dropped}
         return tuple(row for row in self.text.rows if row.id in ids)
@@ -184,7 +186,10 @@ def _further_places(places: Sequence[tuple[str, Kind, int]]) -> Mapping[str, tup
 def _pieces(
     text: Text, lines: Sequence[Line], layers: Sequence[str], everywhere: Collection[str]
 ) -> tuple[dict[str, tuple[Piece, ...]], tuple[tuple[str, tuple[Piece, ...]], ...]]:
-    """Return the witness lines of each card, divided among several cards if necessary, and the dropped lines."""
+    """Return the pieces of the witness for each card, and the dropped lines by row.
+
+    A witness line from which several cards were made is divided among them.
+    """
     witness = {line.id: line for line in text.witness}
     order = {name: index for index, name in enumerate(witness)}
     bases = {line.id: _base(text, line.id) for line in lines}
@@ -269,7 +274,10 @@ def _divided(line: str, cards: Sequence[str]) -> list[str]:
 
 
 def _compared(pieces: Sequence[Piece], card: str) -> tuple[tuple[Piece, ...], tuple[Span, ...]]:
-    """Mark the differences between pieces and card: characters that the card lacks, and that only the card has."""
+    """Compare the witness of a card with the card, without blanks.
+
+    Return the pieces with the characters that the card lacks, and the ranges of characters that only the card has.
+    """
     if not pieces:
         return (), ((0, len(card)),)
     joined = "\n".join(piece.text for piece in pieces)
@@ -284,7 +292,7 @@ def _compared(pieces: Sequence[Piece], card: str) -> tuple[tuple[Piece, ...], tu
 
 
 def _pairs(line: str, card: str) -> list[tuple[int, int]]:
-    """Return the indices of the characters that two texts have in common, in order and without blanks."""
+    """Return pairs of indices of the characters that two texts have in common, in order and without blanks."""
     first, second = ([n for n, char in enumerate(text) if not char.isspace()] for text in (line, card))
     matcher = SequenceMatcher(None, [line[n] for n in first], [card[n] for n in second], autojunk=False)
     return [
@@ -293,7 +301,7 @@ def _pairs(line: str, card: str) -> list[tuple[int, int]]:
 
 
 def _spans(text: str, indices: Collection[int]) -> Iterator[Span]:
-    """Join character positions that only blanks separate to spans, which neither begin nor end with a blank."""
+    """Join neighbouring character indices to spans, also across blanks. No span begins or ends with a blank."""
     remaining = [index for index in sorted(indices) if not text[index].isspace()]
     while remaining:
         first = last = remaining.pop(0)

@@ -1,8 +1,9 @@
-"""Numbers quoted from committed results, by name, and the function that fills them into documents.
+"""The figures that documents quote by name from committed results, and the function that fills them in.
 
-A document quotes a figure by its name between double braces, such as ``{{ seventy.failures }}``.  :func:`filled`
-replaces the names in Markdown text, for the site and for the book.  The figures come from the tables in
-``docs/studies`` and ``docs/weight`` (``docs/figures.csv`` names the cells), from the edition, and from a run.
+A document quotes a figure by its name between double braces, such as ``{{ seventy.failures }}``. The function
+:func:`filled` replaces the names in Markdown text, for the site and for the book. The figures come from the tables in
+``docs/studies`` and ``docs/weight`` (``docs/figures.csv`` names their cells), from the edition, and from a run of the
+examples.
 """
 
 import csv
@@ -29,12 +30,16 @@ _PERCENT = re.compile(r"(?<=[\d)]) %")
 
 
 class FigureError(ValueError):
-    """Raised if a document quotes an unknown figure, or if a table lacks the cell of a figure."""
+    """Raised if a document quotes an unknown figure, or if a table does not contain the cell of a figure."""
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A cell of a table: the file below ``docs``, the first cells of the row, and the heading of the column."""
+    """A cell of a table.
+
+    ``table`` is the path of the file below ``docs``, ``row`` has the first cells of the row, and ``column`` is the
+    heading of the column.
+    """
 
     table: str
     row: tuple[str, ...]
@@ -45,9 +50,9 @@ _CHECKS = ("print", "machine", "equation", "sibling")
 
 
 def filled(text: str, values: Mapping[str, str]) -> str:
-    """Replace every ``{{ name }}`` in a text by its value, and keep percent signs with their numbers.
+    """Replace every ``{{ name }}`` in a text by its value. Raise FigureError for an unknown name.
 
-    Raise FigureError for an unknown name.
+    The space between a number and its percent sign becomes a no-break space.
     """
 
     def value(match: re.Match[str]) -> str:
@@ -59,14 +64,15 @@ def filled(text: str, values: Mapping[str, str]) -> str:
 
 
 def named(text: str) -> tuple[str, ...]:
-    """Return the names of the figures in a text, in order."""
+    """Return the names of the figures that a text quotes, in the order of the text."""
     return tuple(_PLACE.findall(text))
 
 
 def figures(docs: Path) -> dict[str, str]:
-    """Return every figure by name.  ``docs`` is the folder of the documents.  This runs the examples (some seconds).
+    """Return the value of every figure by name. ``docs`` is the folder of the documents.
 
-    Raise FigureError if a table does not have the cell of a figure, and FileError if a table does not exist.
+    The function runs the examples, which takes some seconds. Raise FigureError if a table does not have the cell of a
+    figure, and FileError if a table does not exist.
     """
     return {
         **{name: _formatted(read_cell(docs, cell)) for name, cell in cells(docs).items()},
@@ -81,13 +87,13 @@ def figures(docs: Path) -> dict[str, str]:
 
 
 def cells(docs: Path) -> dict[str, Cell]:
-    """Return the figures that are cells of committed tables, as a mapping from name to text."""
+    """Return, by name, the cells of the figures that ``docs/figures.csv`` lists."""
     rows = _table(docs / "figures.csv")
     return {row["figure"]: Cell(row["table"], tuple(row["row"].split("; ")), row["column"]) for row in rows}
 
 
 def read_cell(docs: Path, cell: Cell) -> str:
-    """Return the text of a cell.  Raise FigureError unless exactly one row matches and has the column."""
+    """Return the text of a cell. Raise FigureError unless exactly one row matches and the column exists."""
     matches = [line for line in _table(docs / cell.table) if tuple(line.values())[: len(cell.row)] == cell.row]
     if len(matches) != 1 or cell.column not in matches[0]:
         row = ", ".join(cell.row)
@@ -164,7 +170,11 @@ def _statements() -> Iterator[tuple[str, str]]:
 def _counted(
     prefix: str, table: str, columns: Sequence[str], numbers: Mapping[str, Counter[Any]]
 ) -> Iterator[tuple[str, str]]:
-    """Yield the number of statements by document and column (verdict or grade), and a table of all of them."""
+    """Yield the numbers of statements in each document by verdict or grade, and a Markdown table of all numbers.
+
+    The names of the figures begin with ``prefix``. ``columns`` are the verdicts or grades, and ``numbers`` has their
+    counts for each document.
+    """
     total = "count" if table == "table" else "graded"
     lines = [("document", "statements", *columns), ("---", *("--:",) * (1 + len(columns)))]
     for document, counted in numbers.items():

@@ -1,8 +1,8 @@
 """Measurements of every card: its executions and machine time in the printed examples, and its weight of evidence.
 
-Times are those of a 1620 Model 1 (:mod:`emulator.machine.timing`).  The weight of evidence is the number of altered
-readings of the card, by the first check that detects them.  The weights are read from ``docs/weight/cards.csv``, which
-exists only in a checkout.
+Times are those of a 1620 Model 1 (:mod:`emulator.machine.timing`). The weight of evidence is the number of altered
+readings of the card that each check detects. The weights are read from ``docs/weight/cards.csv``, which exists only in
+a checkout.
 """
 
 import csv
@@ -19,17 +19,18 @@ from modern.thesis.job import run_hull
 # The largest number of statements that a run may execute.
 LIMIT = 200_000
 TABLE = Path(__file__).parents[2] / "docs" / "weight" / "cards.csv"
-# The checks in the order in which they are applied; the columns of the table.
+# The checks in the order in which they are applied, which are also the names of columns of the table.
 DETECTED_BY = ("compiler", "print", "machine", "equation", "sibling", "nothing")
 
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A run of one example through one program.
+    """A run of one program in an example of the thesis.
 
-    ``executions`` and ``times`` (of the processor) have an entry for each card that was executed.  ``statements`` is
-    the number of statements executed, ``processor`` the processor time, and ``total`` the time including reader, punch
-    and typewriter without overlap.  ``rows`` break the time down by cause: first the processor's, then the devices'.
+    ``executions`` and ``times`` (of the processor) have an entry for each executed card by its number. ``statements``
+    is the number of executed statements. ``processor`` is the processor time, and ``total`` the time with reader, punch
+    and typewriter, without overlap. ``rows`` divide the total time by cause: first the causes in the processor, then
+    the devices.
     """
 
     example: int
@@ -72,9 +73,9 @@ def _job(example: int, first: str) -> tuple[Run, ...]:
 class Weight:
     """The number of variants of a card that each check detects.
 
-    A variant is the card with one token altered, as an OCR program or a typist might have altered it.  ``detected`` has
-    one count for each check in :data:`DETECTED_BY`; a variant is counted only at the first check that detects it, and
-    not at all if the object code stays the same.  ``formula`` names the formula of chapter 3 that the card computes.
+    A variant is the card with one token altered, as an OCR program or a typist might alter it. ``detected`` has one
+    count for each check in :data:`DETECTED_BY`. A variant counts only for the first check that detects it, and not at
+    all if the object code stays the same. ``formula`` names the formula of chapter 3 that the card computes.
     """
 
     detected: tuple[int, ...]
@@ -82,9 +83,11 @@ class Weight:
 
 
 @cache
-def weights(program: str, table: Path = TABLE) -> dict[int, Weight]:
-    """Return the weights of the cards of a listing by card number, or nothing for a program that was not measured."""
-    with table.open(encoding="utf-8", newline="") as file:
+def weights(program: str) -> dict[int, Weight]:
+    """Return the weights of a program's cards by card number. Return an empty mapping for a program that was not
+    measured.
+    """
+    with TABLE.open(encoding="utf-8", newline="") as file:
         return {
             int(row["card"]): Weight(tuple(int(row[check]) for check in DETECTED_BY), row["formula"])
             for row in csv.DictReader(file)

@@ -1,4 +1,4 @@
-"""Read the known faults and the open questions: the numbered items of a Markdown file, with their decks and rows."""
+"""Read the numbered items of a Markdown file, which are the known faults or the open questions."""
 
 import re
 from dataclasses import dataclass
@@ -32,10 +32,11 @@ class Item:
 
 @cache
 def numbered(file: str) -> tuple[str, tuple[Item, ...], tuple[str, str]]:
-    """Return the text before the items of a Markdown file, the items, and heading and text of the section after them.
+    """Return the text before the items of a Markdown file, the items, and the heading and text of the section after
+    them.
 
-    An item begins with its number at the start of a line.  Its title is the bold text that follows, or its first
-    sentence.  Raise ValueError if the numbers are not 1, 2, 3 and so on.
+    An item begins with its number at the start of a line. Its title is the bold text after the number, or else its
+    first sentence. Raise ValueError if the numbers are not 1, 2, 3 and so on.
     """
     source = (ROOT / file).read_text(encoding="utf-8").partition("\n")[2]
     items, opening = [], source

@@ -1,29 +1,29 @@
-"""The register of statements of a document as TEI: quotations as text, and the verdicts as stand-off annotation.
+"""Write a register of statements as TEI: the quotations as text, and the verdicts as stand-off annotation.
 
-The verdict on a statement is a ``span`` that points to the quotation.  A quotation that also occurs in a text of this
-edition refers to the line of that text.
+The verdict on a statement is a ``span`` that points to the quotation of the statement.  If the quotation also occurs in
+a text of this edition, the quotation refers to the line of that text.
 """
 
 from functools import cache
 from xml.etree.ElementTree import Element, SubElement
 
 from modern.claims.apparatus_checks import texts
-from modern.claims.register import DOCUMENTS, VERDICTS, Statement, statements_of
+from modern.claims.register import DOCUMENTS, THESIS, VERDICTS, Statement, statements_of
 from modern.edition.apparatus import build
 from modern.edition.readings import solid
 from modern.edition.sources import Document, sources
 from modern.publication.tei_header import ID, Heading, add, header
 
-# The documents of the register by the names of their TEI documents.
+# The name of each register in modern.claims by the name of its TEI document.
 REGISTERS = {f"statements-{name}": name for name in DOCUMENTS}
-# Shorter quotations occur in many lines.
+# The least number of characters of a quotation that is looked up in the texts; shorter ones occur in many lines.
 _SHORTEST = 8
 
 
 def register(root: Element, name: str, version: str) -> None:
     """Write the register ``statements-DOCUMENT`` into an empty TEI element."""
     statements = statements_of(REGISTERS[name])
-    document = _source(REGISTERS[name])
+    document = document_of(REGISTERS[name])
     classes = header(root, Heading(f"Statements of {document.title}, with verdicts", document, version))
     taxonomy = SubElement(classes, "taxonomy", {ID: "verdict"})
     for verdict in VERDICTS:
@@ -59,15 +59,15 @@ def _category(verdict: str) -> str:
     return "verdict-" + verdict.replace(",", "").replace("'", "").replace(" ", "-")
 
 
-def _source(name: str) -> Document:
-    """Return the document of SOURCES.toml to which a register belongs."""
-    ids = [document.id for document in sources().documents]
-    return sources().document(next(key for key in ids if key.startswith("butler" if name == "thesis" else name)))
+def document_of(register: str) -> Document:
+    """Return the document whose statements a register contains."""
+    prefix = "butler" if register == THESIS else register
+    return next(document for document in sources().documents if document.id.startswith(prefix))
 
 
 @cache
 def _solid_lines(document: str) -> tuple[tuple[str, str], ...]:
-    """Return all lines of the texts of a document without blanks, each with the address of its element."""
+    """Return each line of a document's texts without its blanks, together with the address of its TEI element."""
     lines = []
     for name, text in texts().items():
         if sources().excerpt(name).document == document:

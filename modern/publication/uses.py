@@ -1,6 +1,6 @@
-"""Cross references of a deck: the jumps between its cards, and the cards that use each name and FORMAT.
+"""Cross references of a program: the jumps between its cards, and the cards that use each name and FORMAT.
 
-The module reads them from the syntax tree; no program is run.
+The module reads them from the syntax tree and runs no program.
 """
 
 from collections.abc import Iterator
@@ -13,18 +13,18 @@ from emulator.language.compiler import compile_deck
 from emulator.language.parser import parse
 from modern.edition import programs
 
-# What a card does with a name.
+# A card declares, sets or uses a name.
 How = Literal["declared", "set", "used"]
 _SIGNS = ("\u2212", "0", "+")
 
 
 @dataclass(frozen=True, slots=True)
 class Jump:
-    """A reference from one card to another.
+    """A reference from the card with the number ``card`` to the card ``target``.
 
     ``kind`` is ``jump`` for a transfer of control, ``again`` for the last statement of a DO loop, which returns to the
-    first, and ``format`` for an input or output statement that uses a FORMAT.  ``taken`` is the condition of the jump,
-    or empty if it is unconditional.
+    first, and ``format`` for an input or output statement that uses a FORMAT. ``taken`` is the condition of a jump, or
+    empty if the jump is unconditional. For a FORMAT, ``taken`` is the verb of the statement.
     """
 
     card: int
@@ -69,7 +69,7 @@ class Uses:
 
 @cache
 def uses(program: str) -> Uses:
-    """Return the jumps and names of a built-in program."""
+    """Return the cross references of a built-in program."""
     deck = programs.deck(program)
     statements = parse(deck).statements
     labels = {s.label: s.place.card for s in statements if s.label}

@@ -8,7 +8,7 @@ are ignored and the date is that of the release, so that the same sources always
 import re
 import sys
 import tempfile
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -23,19 +23,19 @@ from modern.publication.numbered import numbered
 
 DOCS = ROOT / "docs"
 STANDARD: Final = "a-2a"
-# The chapters at which the numbering of chapters begins and ends.
+# The chapters before which Typst's numbering of headings changes, and the new numbering.
 _NUMBERING: Final = {
     "The story": '(..n) => if n.pos().len() == 1 { numbering("1", ..n) }',
     "Glossary": "none",
 }
 MISSING_TYPST = "Typst typesets the book: pip install 'hull1620[edition]'"
-# The chapters with their documents below ``docs``; a name that begins with ``@`` is a part generated from data.
+# Each chapter with its documents, as paths below ``docs``.  A name with ``@`` is a part that is generated from data.
 CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("How to read this book", ("@reading",)),
     ("The story", ("index.md", "explanation/context.md")),
     ("The article", ("article.md",)),
     ("The algorithm", ("explanation/method.md", "explanation/eight-digits.md", "reference/concordance.md")),
-    ("The text", ("explanation/doubts.md", "@text", "@transcripts")),
+    ("The text", ("explanation/doubts.md", "text.md", "transcripts.md")),
     ("The listings", ("@listings",)),
     ("The flow charts", ("charts.md", "@charts")),
     ("The examples", ("@examples",)),
@@ -54,7 +54,7 @@ CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
 _GLOSSARY: Final = "reference/glossary.md"
 _CONTEXT: Final = "explanation/context.md"
 _LITERATURE: Final = "literature.md"
-# The persons of the index, by the name that occurs in a text.
+# The persons of the index by their surnames, which occur in the texts.
 PERSONS: Final = {
     name.partition(",")[0]: name
     for name in (
@@ -71,11 +71,11 @@ SUBJECTS: Final = (
     *("guard digit", "float64", "float32", "indirect addressing", "FORMAT", "PDQ FORTRAN", "Hollerith", "DO loop"),
     *("Clopper and Pearson", "convex polyhedron", "collinear", "Oregon State University"),
 )
-# A term of the glossary with more occurrences is indexed only where a text links to it.
+# The largest number of occurrences with which a term of the glossary is indexed at each occurrence.
 _MOST_PLACES = 40
 # Paragraphs of the home page that only lead to other pages of the site.
 _NAVIGATION = re.compile(r"^\*\*(?:\[|Next:).*?(?:\n\n|\Z)", re.MULTILINE | re.DOTALL)
-FONTS = (str(Path(__file__).parent / "fonts"), str(ROOT / "modern" / "study" / "fonts"))
+FONTS = [str(Path(__file__).parent / "fonts"), str(ROOT / "modern" / "study" / "fonts")]
 
 
 def documents() -> dict[str, str]:
@@ -93,9 +93,9 @@ def documents() -> dict[str, str]:
 
 
 def _subjects(texts: Mapping[str, str]) -> dict[str, str]:
-    """Return the entries of the index: the terms of the glossary by their labels, and subjects by their words.
+    """Return the entries of the book's index by label, for links to the glossary, and by name in lower case.
 
-    A term of the glossary that occurs often is indexed only where a text links to it.
+    A term of the glossary that occurs often is not found by its name, so only links to its label are indexed.
     """
     terms = re.findall(r"^## (.+)$", texts[_GLOSSARY], re.MULTILINE)
     labels = [place for place in places(_GLOSSARY, texts[_GLOSSARY]) if place != label(_GLOSSARY)]
@@ -107,7 +107,7 @@ def _subjects(texts: Mapping[str, str]) -> dict[str, str]:
 
 
 def typst(folder: Path) -> str:
-    """Return the whole book as Typst markup; its pictures are written into ``folder``."""
+    """Return the whole book as Typst markup, and write its pictures into ``folder``."""
     texts = documents()
     subjects = _subjects(texts)
     names = re.compile(
@@ -120,46 +120,37 @@ def typst(folder: Path) -> str:
 
     def markdown(name: str, labels: Collection[str], title: str = "") -> str:
         made = partial(front.made, save=keep)
-        document = Markdown(name, labels, 2, lambda file: _picture(file, folder), made, subjects, names, title)
+        document = Markdown(name, labels, lambda file: _picture(file, folder), made, subjects, names, title)
         return document.typst(texts[name])
 
-    generated = {kind: "".join(part) for kind, part in _generated(keep)}
+    pieces: dict[str, Iterable[str]] = {
+        "@reading": front.how_to_read(),
+        "@listings": parts.listings(),
+        "@charts": parts.charts(keep),
+        "@examples": parts.examples(keep),
+        "@statements": parts.statements(),
+        "@faults": _numbered("fortran_src/KNOWN-FAULTS.md", "Faults of the originals", "known-faults.md"),
+        "@questions": _numbered("fortran_src/OPEN-QUESTIONS.md", "Open questions", "open-questions.md"),
+    }
+    generated = {name: "".join(part) for name, part in pieces.items()}
     # A reference is a link only if the book has its label.
     labels = {place for name, text in texts.items() for place in places(name, text)}
     labels |= {place for text in generated.values() for place in re.findall(r" <([\w.-]+)>", text)}
-    generated["bibliography"] = "".join(front.bibliography(markdown(_LITERATURE, labels), PERSONS))
+    generated["@bibliography"] = "".join(front.bibliography(markdown(_LITERATURE, labels), PERSONS))
     book = [(Path(__file__).parent / "preamble.typ").read_text(encoding="utf-8"), *front.title_and_imprint()]
     for title, chapter in CHAPTERS:
         if title in _NUMBERING:
             book.append(f"#set heading(numbering: {_NUMBERING[title]})\n")
         book.append(f"= {say(title)} <{label('chapter', title)}>\n\n")
         for name in chapter:
-            book += [
-                generated[part[1:]] if part.startswith("@") else markdown(part, labels, title)
-                for part in _parts(name, texts)
-            ]
+            if name == "@studies":
+                book += [markdown(document, labels, title) for document in texts if document.startswith("studies/")]
+            else:
+                book.append(generated[name] if name in generated else markdown(name, labels, title))
     return "".join([*book, f"= {say('Index')} <{label('chapter', 'Index')}>\n\n#subject-index()\n"])
 
 
-def _parts(name: str, texts: dict[str, str]) -> Sequence[str]:
-    if name == "@studies":
-        return [document for document in texts if document.startswith("studies/")]
-    if name in ("@text", "@transcripts"):
-        return [f"{name[1:]}.md"]
-    return [name]
-
-
-def _generated(keep: front.SavePicture) -> Iterator[tuple[str, Iterator[str]]]:
-    yield "reading", front.how_to_read()
-    yield "listings", parts.listings()
-    yield "charts", parts.charts(keep)
-    yield "examples", parts.examples(keep)
-    yield "statements", parts.statements()
-    yield "faults", _numbered("fortran_src/KNOWN-FAULTS.md", "Faults of the originals", "known-faults.md")
-    yield "questions", _numbered("fortran_src/OPEN-QUESTIONS.md", "Open questions", "open-questions.md")
-
-
-def _numbered(file: str, title: str, name: str) -> Iterator[str]:
+def _numbered(file: str, title: str, name: str) -> str:
     opening, items, closing = numbered(file)
     text, section = f"# {title}\n\n{opening}\n\n", ""
     for item in items:
@@ -170,7 +161,7 @@ def _numbered(file: str, title: str, name: str) -> Iterator[str]:
         text += f"**{item.number}. {item.title}{stop}** {item.text}\n\n"
     if closing[0]:
         text += f"## {closing[0]}\n\n{closing[1]}\n"
-    yield Markdown(name, (), 2, lambda file: "").typst(text)
+    return Markdown(name, (), lambda file: "").typst(text)
 
 
 def _picture(file: str, folder: Path) -> str:
@@ -184,7 +175,7 @@ def _picture(file: str, folder: Path) -> str:
 
 
 def pdf(markup: str, folder: Path) -> bytes:
-    """Return a document as PDF/A; ``folder`` has its pictures.  Raise BuildError if Typst is missing or fails."""
+    """Typeset Typst markup as PDF/A; ``folder`` has its pictures.  Raise BuildError if Typst is missing or fails."""
     try:
         import typst as compiler
     except ImportError:
@@ -195,7 +186,7 @@ def pdf(markup: str, folder: Path) -> bytes:
         return compiler.compile(
             str(main_file),
             root=str(folder),
-            font_paths=[*FONTS],
+            font_paths=FONTS,
             ignore_system_fonts=True,
             pdf_standards=[STANDARD],
             timestamp=datetime(2026, 1, 1, tzinfo=UTC),
@@ -215,7 +206,7 @@ def build(out: Path) -> int:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Build the named file, by default dist/hull1620.pdf.  Return 0, or 2 after one line on standard error."""
+    """Build the named file, by default dist/hull1620.pdf.  Return 0, or 2 after a message of one line."""
     out = Path(arguments[0]) if arguments else DIST / "hull1620.pdf"
     return run("book", lambda: f"{out}: {build(out) / 1e6:.1f} MB, PDF/A ({STANDARD.upper()})")
 

@@ -10,17 +10,18 @@ from modern.publication import essay
 from modern.publication.book.markup import block, code, heading, label, say, string, table
 from modern.publication.building import citation
 from modern.publication.facing import facing
+from modern.publication.tei_register import document_of
 
-# Saves a picture, given its name and SVG, and returns the name by which Typst finds it.
+# A function that saves a picture under a name, given its SVG text, and returns the name by which Typst finds it.
 SavePicture = Callable[[str, str], str]
-# The largest size of a stage in a row, in pixels.
+# The largest width and height of the picture of a stage, in pixels.
 FRAME = 212, 230
 
 
 def title_and_imprint() -> Iterator[str]:
     """Yield the title page, the imprint on its back, and the contents."""
     fields = citation()
-    thesis = _document(THESIS)
+    thesis = document_of(THESIS)
     released, author = fields["date-released"], fields["authors"][0]["name"]
     yield f"#set document(title: {string(fields['title'])}, author: {string(author)}, "
     yield f"date: datetime(year: {released.year}, month: {released.month}, day: {released.day}))\n"
@@ -121,7 +122,7 @@ def _cube(save: SavePicture) -> str:
 
 def _mended(save: SavePicture) -> str:
     cards = {card.place: card for card in facing("program3").cards}
-    shown = [cards[place] for place in ("105+3", "130", "131+2", "143", "167")]
+    shown = [cards[place] for place in essay.MISREAD]
     rows = [[code(card.witness[0].text.strip()), "→", code(card.text.strip())] for card in shown]
     caption = "Five damaged lines and the cards restored from them"
     return _table(caption, ("OCR text", "", "restored card"), rows, (40, 2, 40), range(0))
@@ -131,7 +132,7 @@ def _verdicts(save: SavePicture) -> str:
     rows = []
     for name in DOCUMENTS:
         count = counts(name)
-        rows.append([say(_document(name).author), *(say(str(count[verdict])) for verdict in COLUMNS)])
+        rows.append([say(document_of(name).author), *(say(str(count[verdict])) for verdict in COLUMNS)])
     caption = "The verdicts on the statements of the five documents"
     return _table(caption, ("document", *COLUMNS), rows, (34, *map(len, COLUMNS)), range(1, 1 + len(COLUMNS)))
 
@@ -139,7 +140,7 @@ def _verdicts(save: SavePicture) -> str:
 def bibliography(literature: str, persons: Mapping[str, str]) -> Iterator[str]:
     """Yield the documents of this edition, from SOURCES.toml, and then ``literature``, which is Typst markup.
 
-    ``persons`` are the entries of the index by the surnames of the authors.
+    ``persons`` maps the surname of an author to the author's entry in the index.
     """
     yield heading("The five documents", 2, label("bibliography", "documents"))
     for document in sources().documents:
@@ -150,15 +151,10 @@ def bibliography(literature: str, persons: Mapping[str, str]) -> Iterator[str]:
 
 
 def _cited(document: Document) -> str:
-    """Return a document as an entry of the bibliography; unknown fields are called unknown."""
+    """Return the entry of a document in the bibliography."""
     volume = f", {document.volume}" if document.volume not in ("", "unknown") else ""
     pages = f", pp. {document.extent}" if document.extent != "unknown" else ", volume and pages unknown"
     doi = f" doi:{document.doi}." if document.doi.startswith("10.") else ""
     kind = document.kind[:1].upper() + document.kind[1:]
     place = f"{document.institution}{volume}{pages}. {document.year}.{doi}"
     return f"{document.author}, “{document.title}”. {kind}. {place}"
-
-
-def _document(name: str) -> Document:
-    """Return a document of SOURCES.toml by its name on the command line."""
-    return next(d for d in sources().documents if d.id.startswith("butler" if name == THESIS else name))

@@ -50,7 +50,7 @@ def code(text: str) -> str:
 
 
 def block(text: str) -> str:
-    """Return lines of a program as a block, in a size in which they need not be broken if possible."""
+    """Return lines of a program as a block.  Long lines reduce the size of the letters, down to a limit."""
     size = max(_LEAST, min(_CODE, _LETTERS / max(map(len, text.splitlines()), default=1)))
     return f"#listing({size:.1f}pt, {string(text.rstrip(chr(10)))})\n\n"
 
@@ -139,16 +139,15 @@ def columns_of(widths: Sequence[int], longest: Sequence[int]) -> tuple[float, li
 class Markdown:
     """A translator of one document from Markdown to Typst.
 
-    ``name`` is the path of the document below ``docs``, ``known`` are all labels of the book, and ``level`` is that of
-    the first heading.  ``picture`` returns Typst's name for the file of a picture, or "" if the book lacks it.
-    ``made`` returns the printed form of a part of a page of the site.  ``subjects`` are the entries of the index: by
-    label, for links and headings, and by the words that occur in a text, which ``names`` matches.  The title of the
-    document is left out if it is that of the ``chapter``, after which it stands.
+    ``name`` is the path of the document below ``docs``, and ``known`` has all labels of the book.  ``picture`` returns
+    Typst's name for the file of a picture, or "" if the book lacks the picture.  ``made`` returns the printed form of a
+    part of a page that the site generates from data.  ``subjects`` has the entries of the index by label and by name in
+    lower case, and ``names`` matches these names in a text.  If the document has the same title as its ``chapter``, the
+    title is not printed again.
     """
 
     name: str
     known: Collection[str]
-    level: int
     picture: Callable[[str], str]
     made: Callable[[str], str] = lambda argument: ""
     subjects: Mapping[str, str] = field(default_factory=dict)
@@ -179,7 +178,7 @@ class Markdown:
                 itself = f"#[] <{label(self.name)}>\n" if first else ""
                 if first and self.chapter.removeprefix("The ").lower() == title.lower():
                     return f"{itself}#[] <{place}>\n\n"
-                return itself + heading(title, self.level + int(token.tag[1]) - 1, place) + self._entry(place)
+                return itself + heading(title, 1 + int(token.tag[1]), place) + self._entry(place)
             case "paragraph_open":
                 markup = self._inline(inner[0])
                 if _is_title(inner[0]):
@@ -243,7 +242,7 @@ class Markdown:
         return table(head, body, widths, least, right)
 
     def _entry(self, subject: str) -> str:
-        """Return a mark for the index of the book if a label or a name is a subject of the index."""
+        """Return an index entry for a label or a name, or an empty string if the index does not have it."""
         return f"#idx({string(self.subjects[subject])});" if subject in self.subjects else ""
 
     def _inline(self, token: Token) -> str:
@@ -282,7 +281,7 @@ class Markdown:
     def _role(self, out: list[str], content: str) -> str:
         """Translate text in backquotes: a role if ``{card}`` or another name precedes it, otherwise program text.
 
-        The name is the end of the last piece of ``out``, from which it is removed.
+        The name of a role is the end of the last string in ``out``; this method removes it there.
         """
         before = _ROLE.search(out[-1].removesuffix('";')) if out else None
         if before is None:
@@ -319,8 +318,8 @@ class Markdown:
 
 
 def places(name: str, source: str) -> tuple[str, ...]:
-    """Return the labels of a document: that of the document itself and those of its headings and definitions."""
-    markup = Markdown(name, (), 1, lambda file: "").typst(source)
+    """Return the labels of a document, of its headings and of the terms that it defines."""
+    markup = Markdown(name, (), lambda file: "").typst(source)
     return (label(name), *re.findall(r" <([\w.-]+)>(?=\n|\])", markup))
 
 

@@ -1,7 +1,7 @@
-"""The files that a visitor of the site can download, as groups of zip archives, and the decks as text.
+"""The files that a visitor of the site can download.
 
-All of them are files of the project or are made from them.  They are part of the site, which therefore works without a
-network.  The wheel and the book are included if they have been built.
+The site contains all of them, so it works without a network.  The wheel, the one-file program and the book are included
+if they have been built.
 """
 
 import zipfile
@@ -21,7 +21,11 @@ _TABLES = (".csv", ".json", ".jsonl")
 
 @dataclass(frozen=True, slots=True)
 class Download:
-    """A file in the folder of downloads: its name, its description, its licence, and the files that it packs."""
+    """A file in the folder of downloads.
+
+    ``files`` has the contents of the files in a zip archive by name.  For a file that is not an archive, it has the
+    file itself.
+    """
 
     name: str
     title: str
@@ -33,12 +37,8 @@ class Download:
         return self.name.endswith(".zip")
 
 
-def downloads() -> tuple[Download, ...]:
-    """Return everything that can be downloaded, in the order of the page."""
-    return tuple(_downloads())
-
-
-def _downloads() -> Iterator[Download]:
+def downloads() -> Iterator[Download]:
+    """Yield everything that can be downloaded, in the order of the page."""
     version = str(citation()["version"])
     sources = source_files()
     if (wheel := newest_wheel()) is not None:

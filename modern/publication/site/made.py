@@ -1,20 +1,19 @@
-"""The content of a page that is generated from data, and the functions that generate it, by name."""
+"""The classes for generated parts of pages, and the function that calls the generator of a given name."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import Protocol
 
 from modern.publication.site import pages
 
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """An address within a page.
+    """An HTML element of a page to which other pages refer.
 
-    ``id`` is the id of the HTML element.  ``label`` names it in the whole site, in lower case (``program3 147+2``).
-    ``title`` is the text of a reference to it.
+    ``label`` is the name of the element in the whole site, such as ``program3 147+2``.  ``title`` is the text of a
+    reference to the element.
     """
 
     id: str
@@ -24,10 +23,11 @@ class Target:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A section: a heading with content in HTML or MyST.  Without a heading, the content continues the section before.
+    """A section of a page: a heading with content in HTML or MyST.
 
-    ``level`` is 1 for a section of the page and 2 for a subsection; ``id`` is the id of the heading.  Addresses of the
-    site in HTML are those of :func:`modern.publication.site.markup.address`.
+    A part without a heading continues the section before it.  ``id`` is the id of the heading.  ``level`` is 1 for a
+    section of the page and 2 for a subsection.  ``text`` is MyST and comes before ``html``.  The function
+    :func:`modern.publication.site.markup.address` writes the addresses in ``html``.
     """
 
     heading: str = ""
@@ -39,20 +39,14 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """The generated content of a page: its sections in order, and the addresses in them."""
+    """The generated content of a page: its sections in order, and the elements to which other pages refer."""
 
     parts: tuple[Part, ...]
     targets: tuple[Target, ...] = ()
 
 
-class Maker(Protocol):
-    """A module of :mod:`modern.publication.site.pages`; its ``make`` raises ValueError for an unknown argument."""
-
-    def make(self, argument: str) -> Made: ...
-
-
 def slug(prefix: str, title: str) -> str:
-    """Return the id of a heading: the prefix, and the title with a hyphen for everything but letters and digits."""
+    """Return the id of a heading: the prefix, and the title with a hyphen for each character but letters and digits."""
     return f"{prefix}-" + "".join(c if c.isalnum() else "-" for c in title.lower())
 
 
@@ -62,11 +56,11 @@ def names() -> tuple[str, ...]:
 
 
 def make(name: str, argument: str) -> Made:
-    """Generate the content named ``name`` for an argument. Raise ValueError if either is unknown."""
+    """Return the content that the module ``name`` generates for an argument.  Raise ValueError if either is unknown."""
     if name not in names():
         raise ValueError(f"unknown page {name!r}; expected one of {', '.join(names())}")
-    maker: Maker = import_module(f"{pages.__name__}.{name.replace('-', '_')}")
-    return maker.make(argument)
+    content: Made = import_module(f"{pages.__name__}.{name.replace('-', '_')}").make(argument)
+    return content
 
 
 def one_of(argument: str, choices: Collection[str]) -> str:

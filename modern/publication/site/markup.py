@@ -1,7 +1,7 @@
 """Functions that write HTML as strings: elements, addresses within the site, and SVG pictures inside pages.
 
-A parameter called ``inner`` is HTML; other texts are plain and are escaped.  The pictures of :mod:`modern.drawing`
-distinguish things by shape and shades of grey, so the dark theme can invert them (docs/_static/edition.css).
+A parameter called ``inner`` is HTML; other texts are plain and are escaped.  The dark theme inverts the pictures of
+:mod:`modern.drawing`, which contain only shades of grey (docs/_static/edition.css).
 """
 
 import re
@@ -16,9 +16,10 @@ _NO_END = frozenset({"input", "br", "img", "hr", "col"})
 
 
 def element(name: str, inner: str = "", /, **attributes: str | bool) -> str:
-    """Return an element. ``_`` in the name of an attribute stands for ``-``, and ``cls`` for ``class``.
+    """Return an HTML element with attributes.
 
-    An attribute that is False or empty is omitted, except ``alt`` and ``value``.
+    ``cls`` is the attribute ``class``; in other names, ``_`` stands for ``-``.  An attribute that is False or empty is
+    omitted, except ``alt`` and ``value``.
     """
     start = f"<{name}{''.join(_attribute(key, value) for key, value in attributes.items())}>"
     return start if name in _NO_END else f"{start}{inner}</{name}>"
@@ -37,23 +38,23 @@ def text(name: str, content: str, /, **attributes: str | bool) -> str:
 
 
 def preformatted(content: str, name: str) -> str:
-    """Return lines of plain text, which the keyboard can scroll; ``name`` is their label for screen readers."""
+    """Return lines of plain text in an element that the keyboard can scroll; ``name`` labels it for screen readers."""
     return text("pre", content, tabindex="0", aria_label=name)
 
 
 def details(summary: str, inner: str, **attributes: str | bool) -> str:
-    """Return content that is shown when the reader opens its summary, which is plain text."""
+    """Return an element that shows its content when the reader opens its summary, which is plain text."""
     return element("details", text("summary", summary) + inner, **attributes)
 
 
 def bar(shares: Iterable[tuple[str, int]]) -> str:
-    """Return a bar divided into parts in proportion to numbers; each number comes with the CSS class of its part."""
+    """Return a bar divided in proportion to numbers. ``shares`` pairs the CSS class of each part with its number."""
     parts = (element("span", "", cls=cls, style=f"flex-grow:{share}") for cls, share in shares if share)
     return element("span", "".join(parts), cls="weight", aria_hidden="true")
 
 
 def address(page: str, id: str = "") -> str:
-    """Return the address of a page or of an element of it, to be used in the HTML of any page."""
+    """Return the address of a page, or of the element ``id`` on it, for use in the HTML of any page."""
     return f"{HERE}{page}.html{'#' + id if id else ''}"
 
 
@@ -63,7 +64,10 @@ def link(page: str, id: str, content: str, **attributes: str | bool) -> str:
 
 
 def run_link(program: str, deck: str, content: str, **moment: str) -> str:
-    """Return a link that opens the emulator's page and runs a program with a deck, for example up to ``stop``."""
+    """Return a link that opens the emulator's page and runs a program with a deck.
+
+    ``moment`` has further parameters of the address, such as ``stop``, the card before which the run halts.
+    """
     query = urlencode({"program": program, "deck": deck, **moment}, safe="/")
     return text("a", content, href=f"{HERE}console.html?{query}", cls="run-this")
 
@@ -95,17 +99,18 @@ _CELL = re.compile(r"<(t[dh])\b([^>]*)>(.*?)</\1>", re.DOTALL)
 _TAG = re.compile(r"<[^>]+>")
 # A no-break space in the text of a cell, but not before a unit or in an attribute of a tag.
 _NO_BREAK = re.compile("(?<![)])\N{NO-BREAK SPACE}(?!%)(?![^<>]*>)")
-# What separates words; a no-break space does not.
+# The characters that separate words; a no-break space does not separate them.
 _WORD = re.compile(r"[ \n]+")
-# The letters that fit side by side into a window of 360 pixels.
+# The number of letters that fit into one line of a window of 360 pixels.
 _NARROW = 40
 
 
 def stacked(html: str) -> str:
-    """Prepare the tables of a page that are too wide for a phone.
+    """Return the HTML of a page with the tables prepared that are too wide for a phone.
 
-    Such a table gets the class ``stacks``, and its cells get the heading of their column as ``data-label``.  The style
-    sheet shows a row of it as a list if the window is narrow, and on paper breaks its cells also after no-break spaces.
+    Such a table gets the class ``stacks``, and each cell gets the heading of its column as ``data-label``.  In a narrow
+    window, the style sheet shows each row of the table as a list.  On paper, it allows line breaks after no-break
+    spaces.
     """
 
     def labelled(match: re.Match[str]) -> str:
@@ -127,7 +132,7 @@ def stacked(html: str) -> str:
 
 
 def _gap(space: re.Match[str]) -> str:
-    """Return a no-break space of an interval with a place for a line break, which the style sheet may enable."""
+    """Return a no-break space followed by a ``wbr`` element, at which the style sheet may allow a line break."""
     return f'{space[0]}<wbr class="{"gap" if space.string.startswith("(", space.end()) else "gap inner"}">'
 
 
@@ -161,7 +166,7 @@ def code(card: str, spans: Iterable[tuple[int, int]] = (), name: str = "mark") -
 
 
 def relative(html: str, depth: int) -> str:
-    """Make the addresses of the site relative to a page that is ``depth`` folders below the top."""
+    """Return HTML in which the addresses of the site are relative to a page ``depth`` folders below the top."""
     return html.replace(f'"{HERE}', f'"{"../" * depth}')
 
 
@@ -171,7 +176,7 @@ _SIZE = re.compile(r'(<svg [^>]*?)width="(\d+)" height="(\d+)"')
 
 
 def inline(svg: str, key: str, cls: str = "drawing", percent: int = 100) -> str:
-    """Return the text of an SVG file as an element of a page, scaled to ``percent``.
+    """Return the text of an SVG file as an element of a page, with width and height scaled to ``percent``.
 
     ``key`` is appended to every id in the picture, so that two pictures of a page have no id in common.
     """
@@ -197,16 +202,13 @@ def inline(svg: str, key: str, cls: str = "drawing", percent: int = 100) -> str:
     return _REFERENCE.sub(unique, _SIZE.sub(scaled, svg, 1)).replace("<svg ", f'<svg class="{cls}" ', 1).strip()
 
 
-def described(svg: str, description: str) -> str:
-    """Add a description after the title of a picture, unless it has one."""
-    if "<desc" in svg:
-        return svg
-    titled = svg.replace("<title>", '<title id="title">', 1)
-    titled = titled.replace("</title>", f'</title>\n<desc id="desc">{escape(description)}</desc>', 1)
-    return titled.replace("<svg ", '<svg aria-labelledby="title" aria-describedby="desc" ', 1)
-
-
 def figure(svg: str, key: str, caption: str, cls: str = "drawing", description: str = "") -> str:
-    """Return a picture with a caption in HTML and, optionally, a description for screen readers."""
-    svg = described(svg, description) if description else svg
+    """Return a picture with a caption in HTML.
+
+    ``description`` is a text for screen readers; a picture that already has a description keeps it.
+    """
+    if description and "<desc" not in svg:
+        svg = svg.replace("<title>", '<title id="title">', 1)
+        svg = svg.replace("</title>", f'</title>\n<desc id="desc">{escape(description)}</desc>', 1)
+        svg = svg.replace("<svg ", '<svg aria-labelledby="title" aria-describedby="desc" ', 1)
     return element("figure", inline(svg, key, cls) + element("figcaption", caption), cls=f"of-{cls}")

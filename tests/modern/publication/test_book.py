@@ -54,7 +54,7 @@ def test_different_texts_have_different_labels(first: str, second: str) -> None:
 
 
 def typst(text: str, name: str = "how-to/x.md", known: tuple[str, ...] = ()) -> str:
-    return Markdown(name, known, 2, lambda file: "").typst(text)
+    return Markdown(name, known, lambda file: "").typst(text)
 
 
 def test_markdown_is_translated_with_titles_and_aligned_numbers() -> None:

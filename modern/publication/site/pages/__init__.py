@@ -1,1 +1,5 @@
-"""Generators of pages: the module NAME provides ``:::{made} NAME``, as :mod:`modern.publication.site` explains."""
+"""Generators of page content. The directive ``:::{made} NAME ARGUMENT`` calls ``make(ARGUMENT)`` of the module NAME.
+
+The function ``make`` returns a :class:`~modern.publication.site.made.Made`. It raises ValueError for an unknown
+argument.
+"""

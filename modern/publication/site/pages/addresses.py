@@ -1,7 +1,8 @@
 """The Index: subjects, error numbers, rows of the apparatus, names and cards, each with its address.
 
-The lists are plain HTML and can be read, printed and searched without JavaScript.  With it, ``edition.js`` filters them
-by the text in the input field, and the search page shows the matching addresses before the pages (``find.js``).
+The lists are plain HTML and can be read, printed and searched without JavaScript. The script ``edition.js`` filters the
+lists by the text in the input field. The script ``find.js`` shows matching entries on the search page, before the
+pages.
 """
 
 import csv
@@ -20,13 +21,13 @@ from modern.publication.site.markup import element, link, text
 from modern.publication.site.pages.hub import summary
 from modern.publication.uses import uses
 
-# The program whose card or name comes first if several programs have it.
-_ORDER = sorted(programs.NAMES, key=("program3", "program2", "program1", "program1_examples").index)
+# The programs in the order in which their entries are listed if several programs have the same card or name.
+_ORDER = ("program3", "program2", "program1", "program1_examples")
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """An entry of the Index: the name that readers look for, its page and the id on it, and a description."""
+    """An entry of the Index: a name, the page and the id of the element to which it leads, and a description."""
 
     name: str
     page: str
@@ -52,7 +53,10 @@ def make(argument: str) -> Made:
 
 
 def places() -> Iterator[Place]:
-    """Yield all entries of the Index and the statements of the documents; of equal names, the first is preferred."""
+    """Yield all entries of the Index, and the statements of the documents.
+
+    If several entries have the same name, the first one is the best match.
+    """
     for entries in (_subjects(), _errors(), _rows(), _names(), *map(_cards, _ORDER)):
         yield from entries
     for document in DOCUMENTS:

@@ -3,45 +3,28 @@
 import hashlib
 from collections import Counter
 
-from modern.claims.register import COLUMNS, DOCUMENTS, THESIS, counts
+from modern.claims.register import COLUMNS, DOCUMENTS, counts
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES
 from modern.edition.reproduce import State, reproduce
-from modern.edition.sources import sources
+from modern.publication import essay
 from modern.publication.building import citation
 from modern.publication.facing import Card, facing
 from modern.publication.site.downloads import FOLDER, downloads
 from modern.publication.site.made import Made, Part, one_of
-from modern.publication.site.markup import (
-    HERE,
-    bar,
-    element,
-    escape,
-    link,
-    marked,
-    preformatted,
-    table,
-    text,
-)
+from modern.publication.site.markup import HERE, bar, element, escape, link, marked, preformatted, table, text
 from modern.publication.site.pages.statements import SIGNS
+from modern.publication.tei_register import document_of
 
-# Cards of program 3 that the OCR misread visibly.
-_SHOWN = ("105+3", "130", "131+2", "143", "167")
 # The meaning of each column of the table of verdicts.
-_MEANINGS = dict(
-    zip(
-        COLUMNS,
-        (
-            "a computation confirms it",
-            "it is true under a condition that the document does not state",
-            "a counterexample refutes it",
-            "an error of the author, the typist or the OCR",
-            "a definition that our programs follow",
-            "it concerns other works, judgements or lost figures",
-            "it repeats another statement",
-        ),
-        strict=True,
-    )
+_MEANINGS = (
+    "a computation confirms it",
+    "it is true under a condition that the document does not state",
+    "a counterexample refutes it",
+    "an error of the author, the typist or the OCR",
+    "a definition that our programs follow",
+    "it concerns other works, judgements or lost figures",
+    "it repeats another statement",
 )
 
 
@@ -53,8 +36,8 @@ def make(argument: str) -> Made:
 
 def _pictures() -> str:
     cards = {card.place: card for card in facing("program3").cards}
-    rows = "".join(_restored(cards[place]) for place in _SHOWN)
-    page = link("program3", _SHOWN[0], "program 3")
+    rows = "".join(_restored(cards[place]) for place in essay.MISREAD)
+    page = link("program3", essay.MISREAD[0], "program 3")
     caption = f"The damaged text and the cards restored from it: {page}, card by card."
     return element("figure", element("div", rows, cls="mended") + element("figcaption", caption))
 
@@ -71,9 +54,7 @@ def _restored(card: Card) -> str:
 def _verdicts() -> str:
     rows = []
     for name in DOCUMENTS:
-        prefix = "butler" if name == THESIS else name
-        document = next(document for document in sources().documents if document.id.startswith(prefix))
-        count = counts(name)
+        document, count = document_of(name), counts(name)
         cells = (str(count[verdict]) for verdict in COLUMNS)
         shares = bar((f"v-{at}", count[verdict]) for at, verdict in enumerate(COLUMNS))
         document_link = f"{escape(document.author)} {link(f'statements/{name}', '', document.title)}"
@@ -83,11 +64,11 @@ def _verdicts() -> str:
 
 
 def _key() -> str:
-    """Return the legend of the table: the colour, the sign and the meaning of each verdict."""
+    """Return the legend of the table of verdicts."""
     items = []
-    for at, name in enumerate(COLUMNS):
+    for at, (name, meaning) in enumerate(zip(COLUMNS, _MEANINGS, strict=True)):
         sample = element("span", bar([(f"v-{at}", 1)]) + escape(SIGNS[name]), cls="sample", aria_hidden="true")
-        items.append(element("li", f"{sample} {element('strong', escape(name))}: {escape(_MEANINGS[name])}"))
+        items.append(element("li", f"{sample} {element('strong', escape(name))}: {escape(meaning)}"))
     return element("ul", "".join(items), cls="meanings")
 
 
@@ -116,19 +97,19 @@ def _programs() -> str:
         rows_used = [row for row in listing.rows() if row.layer in built_in.layers]
         certainty = Counter(row.certainty for row in rows_used)
         sure = ", ".join(f"{certainty[c]} {c}" for c in ("certain", "probable", "conjecture") if certainty[c])
-        title, page_range = link(built_in.name, "", built_in.title), f"{pages[0]}\u2013{pages[-1]}"
-        cells = (
-            title,
-            text("span", page_range, cls="whole"),
-            str(len(listing.cards)),
-            f"{len(rows_used)}: {sure}",
+        rows.append(
+            (
+                link(built_in.name, "", built_in.title),
+                text("span", f"{pages[0]}\u2013{pages[-1]}", cls="whole"),
+                str(len(listing.cards)),
+                f"{len(rows_used)}: {sure}",
+                link(built_in.name.replace("program", "chart"), "", "flow chart"),
+            )
         )
-        rows.append((*cells, link(built_in.name.replace("program", "chart"), "", "flow chart")))
     return table(("program", "pages", "cards", "emendations", "control flow"), rows, "Programs")
 
 
 def _files() -> str:
-    """Return the table of downloads with their sizes and licences."""
     rows = []
     for item in downloads():
         size = sum(map(len, item.files.values()))
