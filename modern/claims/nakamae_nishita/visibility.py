@@ -1,5 +1,6 @@
 """Checks of Nakamae and Nishita on visibility: hidden edges, indices of intersections, nearer contours, and counts."""
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, pairwise, permutations, product
@@ -12,19 +13,19 @@ from modern.claims.nakamae_nishita.drawings import order_on_lines_of_sight, piec
 from modern.claims.nakamae_nishita.tables import (
     POLYGONS,
     SQUARE,
+    Place,
     between,
     crosses,
     inside,
     lines_of,
     pairs,
-    side,
     tables_of,
 )
 from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, counterexample_points
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
 from modern.geometry.vectors import dot, minus
 from modern.papers.nakamae_nishita.contours import values
-from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, as_printed, clipped
+from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, Passage, as_printed, clipped
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
@@ -132,42 +133,53 @@ def _hidden(drawing: Drawing, kind: str) -> int:
     return sum(not p.visible and (p.solid, frozenset((p.start, p.end))) in ends for p in drawing.pieces)
 
 
-@claim("nakamae-nishita.45")
-@claim("nakamae-nishita.59", index=-1)
-def indices(index: int = 0) -> Check:
-    """Check that the program gives intersections the indices of formula (6), for segments that pass no corner.
+# The ends of the segments that are compared with the contour of a convex polygon.
+_ENDS: tuple[Place, ...] = tuple((x, y) for x in (-3, 1, 2, 8) for y in (-2, 1, 3, 6))
+
+
+@claim("nakamae-nishita.45", full=100)
+@claim("nakamae-nishita.59", index=-1, full=100)
+def indices(index: int = 0, cases: int = 3) -> Check:
+    """Check that the program gives intersections the indices of formula (6), if no corner and no end is on the other.
 
     index: with -1, check only that intersections with the index -1 are alone on their segment.
     """
     checks, alone = [], set()
     ways = set()
-    for a, b in permutations([(x, y) for x in (-3, 1, 2, 8) for y in (-2, 1, 3, 6)], 2):
-        if any(between(a, b, p) for p in SQUARE):
-            continue
-        met = []
-        for k, line in enumerate(lines_of(SQUARE)):
-            (xi, yi), (xj, yj) = SQUARE[k], SQUARE[(k + 1) % 4]
-            if crosses(SQUARE, k, (a, b), 0):
-                # Formula (6): the sign of the determinant tells whether the segment enters or leaves.
-                determinant = (xj - xi) * (a[1] - b[1]) - (yj - yi) * (a[0] - b[0])
-                at_a, at_b = value(line, (*a, 1)), value(line, (*b, 1))
-                met.append((Fraction(at_a, at_a - at_b), sign(determinant)))
-        by_six = tuple((place, len(met) * index) for place, index in sorted(met))
-        of_square = values(lines_of(SQUARE), [(*a, 0, 1), (*b, 0, 1)])
-        passage = CLEAR if of_square is None else clipped(of_square, 0, 1)
-        checks.append(passage.marks == by_six)
-        alone |= {len(met) for _, index in by_six if index == -1}
-        ways.add(tuple(index for _, index in passage.marks))
+    for v in (SQUARE, *POLYGONS.cases(cases)):
+        sides = [(p, v[(k + 1) % len(v)]) for k, p in enumerate(v)]
+        for a, b in permutations(_ENDS, 2):
+            if any(between(a, b, p) or between(p, q, a) or between(p, q, b) for p, q in sides):
+                continue
+            met = []
+            for k, ((xi, yi), (xj, yj)) in enumerate(sides):
+                if crosses(v, k, (a, b), 0):
+                    # Formula (6): the sign of the determinant tells whether the segment enters or leaves.
+                    determinant = (xj - xi) * (a[1] - b[1]) - (yj - yi) * (a[0] - b[0])
+                    at_a, at_b = (value(lines_of(v)[k], (*end, 1)) for end in (a, b))
+                    met.append((Fraction(at_a, at_a - at_b), sign(determinant)))
+            by_six = tuple((place, len(met) * index) for place, index in sorted(met))
+            passage = _passage(v, a, b)
+            checks.append(passage.marks == by_six)
+            alone |= {len(met) for _, index in by_six if index == -1}
+            ways.add(tuple(index for _, index in passage.marks))
     expected = {(), (1,), (-1,), (2, -2)}
     message = f"{len(checks)} segments have the index 1 if they enter, -1 if they leave, and 2 and -2 if they do both"
-    domain = "segments between 16 points of a grid that pass no corner of a square"
     every_way = ways == expected and (not index or alone == {1})
-    check = exhausted(domain, checks if every_way else [False], message)
+    check = searched(_CONTOURS, cases, [*checks, every_way], message)
     # The diagonal of the square.
     ends, contour = ((-2, -2, 0, 1), (6, 6, 0, 1)), [(x, y, 0, 1) for x, y in SQUARE]
     diagonal = values(lines_of(SQUARE), ends)
     missed = diagonal and as_printed(diagonal, 0, 1, ends, contour) == CLEAR != clipped(diagonal, 0, 1)
     return check.unless(missed, "a segment through two corners of a square, for which no d is -4")
+
+
+_CONTOURS = replace(POLYGONS, name=f"{POLYGONS.name}, with the segments between 16 points of a grid")
+
+
+def _passage(v: tuple[Place, ...], a: Place, b: Place) -> Passage:
+    of_contour = values(lines_of(v), [(*a, 0, 1), (*b, 0, 1)])
+    return CLEAR if of_contour is None else clipped(of_contour, 0, 1)
 
 
 @claim("nakamae-nishita.35")
@@ -204,24 +216,19 @@ def nearer_polyhedron(cases: int = 3) -> Check:
     return check.unless(_undecided_if_touching(), "two boxes that touch at the intersection: formula (4) is 0")
 
 
-@claim("nakamae-nishita.42")
-def three_conditions() -> Check:
-    """Check that a segment that crosses the contour of a square enters it, leaves it, or does both."""
+@claim("nakamae-nishita.42", full=100)
+def three_conditions(cases: int = 3) -> Check:
+    """Check that a segment that intersects the contour of a convex polygon enters it, leaves it, or does both."""
     index_patterns, touching = [], 0
-    grid = [(x, y) for x in (-3, 1, 2, 7) for y in (-3, 1, 3, 6)]
-    for a, b in combinations(grid, 2):
-        of_square = values(lines_of(SQUARE), [(*a, 0, 1), (*b, 0, 1)])
-        if of_square is not None:
-            passage = clipped(of_square, 0, 1)
-            met = any(side(a, b, p) == 0 and min(a[0], b[0]) < p[0] < max(a[0], b[0]) for p in SQUARE)
-            touching += met and passage == CLEAR
-            if passage.marks:
-                index_patterns.append(tuple(index for _, index in passage.marks))
+    for v in (SQUARE, *POLYGONS.cases(cases)):
+        for a, b in combinations(_ENDS, 2):
+            marks = _passage(v, a, b).marks
+            touching += not marks and any(between(a, b, p) and p not in (a, b) for p in v)
+            index_patterns += [tuple(index for _, index in marks)] if marks else []
     possible = {(1,), (-1,), (2, -2)}
     outcomes = [pattern in possible for pattern in index_patterns] if {*index_patterns} == possible else [False]
-    domain = "the segments between 16 points of a grid that intersect the contour of a square"
-    check = exhausted(domain, outcomes, "segments enter, leave, or do both")
-    return check.unless(touching, f"segments that only touch a corner ({touching})")
+    check = searched(_CONTOURS, cases, outcomes, f"{len(index_patterns)} segments enter, leave, or do both")
+    return check.unless(touching, f"segments that only touch the contour at a corner or along a side ({touching})")
 
 
 @claim("nakamae-nishita.44")
