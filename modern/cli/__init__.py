@@ -8,11 +8,11 @@ How to add a command:
 2. ``modern/cli/arguments.py``: write a function that adds the arguments, and an entry in ``COMMANDS`` with the line for
    ``--help``.  Import nothing there that only a run needs.
 3. ``modern/cli/shared/``: put here whatever two commands share.  No command imports another command.
-4. Give an argument that is a file the type ``InputFile``, ``OutputFile`` or ``Folder`` of
+4. Give an argument that names a file the type ``InputFile``, ``OutputFile`` or ``Folder`` of
    ``modern/cli/shared/console.py``.  ``check_outputs`` then rejects, before the command runs, an output that cannot be
    written or is also an input.  Print the report of the command with ``print_report``, which uses standard error if
-   the data go to standard output.  The names of examples that the shell completes are in ``NAMES`` of
-   ``modern/cli/shared/arguments.py``.
+   the data go to standard output.  ``NAMES`` in ``modern/cli/shared/arguments.py`` lists the names of examples that the
+   shell completes.
 5. ``tests/modern/cli/``: test the exit codes and messages.  ``docs/reference/commands.md`` describes the command
    automatically.
 """

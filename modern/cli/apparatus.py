@@ -1,6 +1,4 @@
-"""``hull1620 apparatus``: list or check the emendations, measure how sure they are, or collate a transcription."""
-
-from __future__ import annotations
+"""``hull1620 apparatus``: list, check and weigh the emendations, or compare a transcription with the listings."""
 
 import argparse
 import os
@@ -27,8 +25,8 @@ from modern.edition.sheets import sheets
 from modern.edition.sources import place
 from modern.formats.columns import aligned
 
+# The greatest number of processes for ``--check``; more processes do not make it faster.
 _MOST_PROCESSES = 4
-"""The greatest number of processes for ``--check``; more processes do not make it faster."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -83,7 +81,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _check_options(args: argparse.Namespace) -> None:
-    """Raise UsageError for options that have no effect together, and for numbers that are too small."""
+    """Raise UsageError for options that cannot be combined, and for numbers that are too small."""
     tasks = [name for name in ("sheet", "sheets", "weigh", "restore", "collate", "check") if getattr(args, name)]
     if len(tasks) > 1:
         raise UsageError(f"--{tasks[0]} and --{tasks[1]} cannot be combined; choose one")
@@ -114,7 +112,7 @@ def _collate(args: argparse.Namespace) -> int:
 
 
 def _use(state: str) -> None:
-    """Read the edition's data from a state (a changed copy of the data) instead of the installed data."""
+    """Read the edition's data from the folder ``state``, a changed copy, instead of the installed data."""
     if not os.path.isfile(os.path.join(state, "fortran_src", READINGS)):
         raise UsageError(f"{state}: expected a folder that --sheet wrote; it has no fortran_src/{READINGS}")
     if programs.text.cache_info().currsize:
@@ -124,7 +122,7 @@ def _use(state: str) -> None:
 
 
 def _write_sheets(folder: str) -> int:
-    """Write a proof sheet for each page as HTML and CSV, and as PDF if Typst and the fonts are installed."""
+    """Write a proof sheet for each page as HTML and CSV, and also as PDF in a checkout with Typst and the fonts."""
     from modern.publication import proof_sheets
     from modern.publication.building import BuildError
 
@@ -147,7 +145,7 @@ def _write_sheets(folder: str) -> int:
 
 
 def _read_sheets(args: argparse.Namespace) -> int:
-    """Write a state of the edition with the answers of proof sheets, and check it in a new process."""
+    """Write a copy of the edition's data changed by the answers of proof sheets, and check it in a new process."""
     if not args.state:
         raise UsageError("--sheet needs --state FOLDER, the folder to which the changed edition is written")
     readings = [reading for name in args.sheet for reading in read_sheet(source_name(name), read_text(name))]

@@ -1,7 +1,5 @@
 """``hull1620 appel-will``: find the hull of a polyhedron from its convex edges, and print the tables of the paper."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import re
@@ -31,7 +29,7 @@ from modern.geometry.coplanar import (
     parse_distance,
 )
 from modern.geometry.mesh import Mesh
-from modern.papers.appel_will import PRINTED, Assembled, MapError, Method, appel_will, printed
+from modern.papers.appel_will import PRINTED, Assembled, MapError, appel_will, printed
 from modern.papers.appel_will.corners import Preprocessing, Rule
 from modern.papers.appel_will.loops import Loop
 from modern.papers.appel_will.pictures import as_mesh, joined_points, joined_surfaces, solid_svg, star_svg
@@ -40,15 +38,15 @@ from modern.papers.appel_will.star import as_printed
 from modern.papers.appel_will.surfaces import Fates, Surface, fates_by_points
 
 KINDS = ("a point", "a segment", "a polygon", "a polyhedron")
+# The assumption under which each rule of ``--inside-corners`` deletes no vertex of the hull.
 PREMISES: dict[Rule, str] = {
     "any": "no point lies on more than three planes (well behaved)",
     "two": "a vertex of the hull lies on at least three outside corners",
     "concave": "a surface has an angle below 180 degrees at a vertex of the hull",
 }
-"""The assumption under which each rule of ``--inside-corners`` deletes no vertex of the hull."""
 
+# If there are more points than this, the report summarizes each table in one line.
 MOST_POINTS = 50
-"""The number of points above which each table is summarized in one line."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -60,7 +58,11 @@ def main(args: argparse.Namespace) -> int:
     surfaces = parse_off(decoded(data, name), name).faces if source.kind == "off" else ()
     if args.inside_corners and not surfaces:
         raise UsageError(f"{source.source}: --inside-corners needs the surfaces of the polyhedron; use an OFF file")
-    method = _method(args)
+    names = PRINTED if args.literal else [name.strip() for name in (args.printed or "").split(",") if name.strip()]
+    try:
+        method = printed(*names)
+    except ValueError as error:
+        raise UsageError(f"--printed: {error}") from None
     try:
         hull = appel_will(source.points, surfaces, replace(method, inside_corners=args.inside_corners))
         mesh = None if hull.fault else as_mesh(hull, source.points)
@@ -71,7 +73,7 @@ def main(args: argparse.Namespace) -> int:
         write_text(args.output, _written(args, source, surfaces, hull, mesh, joined, eye))
     print_notes(f"note: {note}" for note in source.notes)
     if args.literal or args.printed is not None:
-        print_notes([f"note: used as printed: {', '.join(_names(args))}"])
+        print_notes([f"note: used as printed: {', '.join(names)}"])
     print_notes(
         f"note: {source.source}: {source.places[index]} repeats the point of {source.places[first]}"
         for index, first in hull.duplicates
@@ -88,7 +90,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _check_options(args: argparse.Namespace) -> None:
-    """Raise UsageError if an option applies only to a picture and the output is not that picture."""
+    """Raise UsageError if an option applies only to a picture that the command does not draw."""
     draws = args.output is not None and (args.output == "-" or args.output.lower().endswith(".svg"))
     for option, argument in (("--map", args.map), ("--star-of", args.star_of)):
         if argument and not draws:
@@ -122,23 +124,11 @@ def _written(
 
 
 def _pair(text: str) -> tuple[int, int]:
-    """Return the two indices, from 0, for a pair such as ``3-7``, which counts points from 1. Raise UsageError."""
+    """Return the indices, from 0, of the two points of a line such as ``3-7``, which counts points from 1."""
     match = re.fullmatch(r"([0-9]{1,9})[-,]([0-9]{1,9})", text.strip())
     if not match:
         raise UsageError(f"--star-of: expected a line I-J by the numbers of its points, found {quoted(text)}")
     return int(match[1]) - 1, int(match[2]) - 1
-
-
-def _names(args: argparse.Namespace) -> Sequence[str]:
-    return PRINTED if args.literal else [name.strip() for name in (args.printed or "").split(",") if name.strip()]
-
-
-def _method(args: argparse.Namespace) -> Method:
-    """Return the method of the paper with the rules that the options select as printed. Raise UsageError."""
-    try:
-        return printed(*_names(args))
-    except ValueError as error:
-        raise UsageError(f"--printed: {error}") from None
 
 
 def _report(
@@ -205,7 +195,7 @@ def _summary(source: Input, inputs: Sequence[Surface], hull: Assembled, joined: 
 
 
 def _sizes(loops: Sequence[Sequence[int]]) -> str:
-    """Return the numbers of loops by their numbers of lines: `` (4 of 3 lines, 1 of 5 lines)``."""
+    """Return how many loops have each number of lines: `` (4 of 3 lines, 1 of 5 lines)``."""
     sizes = Counter(map(len, loops))
     return f" ({', '.join(f'{sizes[size]} of {size} lines' for size in sorted(sizes))})" if sizes else ""
 
@@ -221,7 +211,7 @@ def _kind(hull: Assembled) -> str:
 
 
 def _compared(inputs: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Fates:
-    """Return what happened to each surface of the object in its hull: kept, respecified or deleted."""
+    """Return whether each surface of the object is kept, respecified or deleted in its hull."""
     if joined is None:
         return hull.fates(inputs)
     return fates_by_points(inputs, joined_points(hull, joined), joined_surfaces(hull, joined))
@@ -240,7 +230,7 @@ def _preprocessing(preprocessing: Preprocessing) -> Iterator[str]:
 
 
 def _growth(loop: Loop, width: int) -> Iterator[str]:
-    """Yield the first lines of each loop and the use count of each edge after it, in tables that fit the width."""
+    """Yield the first lines of a loop, and a table of the use counts of all edges after the loop."""
     yield f"  type {loop.kind}, SP {loop.start + 1}, MP {loop.match + 1}"
     cell = len(str(len(loop.uses))) + 1
     columns = max(1, (width - len("  IUC(L)")) // cell)
@@ -263,7 +253,7 @@ def _fates(inputs: Sequence[Surface], fates: Fates) -> Iterator[str]:
 
 
 def _false_edges(source: Input, hull: Assembled) -> Iterator[str]:
-    """Yield a report of the lines between points that the star polygon test as printed mistakes for edges."""
+    """Yield a report of the lines that the star polygon test, applied as printed, wrongly accepts as edges."""
     edges = set(appel_will(source.points).edges)
     false = [label for label, edge in enumerate(hull.edges, 1) if edge not in edges]
     if false:

@@ -5,8 +5,6 @@ The arguments of the commands on points and on volumes are defined in ``modern/c
 ``--help`` is fast.
 """
 
-from __future__ import annotations
-
 from argparse import ArgumentParser
 from collections.abc import Callable
 
@@ -277,6 +275,8 @@ def _bench(parser: ArgumentParser) -> None:
     json_argument(parser, "figures")
 
 
+# Every command: its line in ``--help``, and the function that adds its arguments. The module of a command has the same
+# name, with underscores for hyphens, and defines ``main(args)``, which returns the exit code.
 COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "reproduce": ("compute the printed results of the thesis and the later papers, and compare them", _reproduce),
     "run": ("run a FORTRAN program on the emulated 1620", _run),
@@ -310,8 +310,3 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "tei": ("write the edition as TEI P5, validate it, or read decks back from it", _tei),
     "bench": ("compare the speed of the engines", _bench),
 }
-"""Every command: its line in ``--help``, and the function that adds its arguments.
-
-The module of a command has the same name, with underscores for hyphens, and defines ``main(args)``, which returns the
-exit code.
-"""

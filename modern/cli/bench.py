@@ -1,7 +1,5 @@
 """``hull1620 bench``: compare the speed of the engines with each other and with a modern Fortran compiler."""
 
-from __future__ import annotations
-
 import argparse
 
 from modern.bench.measure import document, lines, measure

@@ -1,7 +1,5 @@
 """``hull1620 cards``: punch points as a data deck."""
 
-from __future__ import annotations
-
 import argparse
 
 from emulator.errors import FileError

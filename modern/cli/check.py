@@ -1,7 +1,5 @@
 """``hull1620 check``: show the compiler's messages below their cards, or explain error numbers."""
 
-from __future__ import annotations
-
 import argparse
 import textwrap
 from collections.abc import Iterator
@@ -12,8 +10,8 @@ from emulator.objectdeck.extent import extent
 from modern.cli.shared.console import BAD_INPUT, OK, UsageError, counted
 from modern.cli.shared.programs import source_deck
 
+# The greatest number of messages that are printed for one deck.
 _MOST_MESSAGES = 100
-"""The number of messages shown for one deck."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -49,7 +47,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def explained(number: str) -> Iterator[str]:
-    """Yield the explanation of an error number with an example, in 80 columns; ``all`` explains every number.
+    """Yield the explanation of an error number with an example, in 80 columns; "all" stands for every number.
 
     Raise UsageError for an unknown number.
     """

@@ -1,7 +1,5 @@
 """``hull1620 compile``: print the object code of a program, statement by statement, or punch its object deck."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Iterator
 

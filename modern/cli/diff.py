@@ -1,7 +1,5 @@
 """``hull1620 diff``: compare the hulls of the 1963 programs and of the port with the exact hull."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -33,9 +31,10 @@ _HEAD = ("route", "status", "vertices", "misfiled", "planes", "error", "excluded
 
 @dataclass(frozen=True, slots=True)
 class Route:
-    """The outcome of one program or of the port, and its difference from the exact hull.
+    """The outcome of the programs or of the port, and its difference from the exact hull.
 
-    obstacle: why the program could not be run, or empty.  cause: why the run gave no hull, or None.
+    obstacle: the reason why the programs could not be run, or empty.  cause: the reason why the run gave no hull, or
+    None.  layers: the layers that were applied to the programs.
     """
 
     outcome: Outcome
@@ -135,7 +134,6 @@ def _table(routes: list[Route], exact: Outcome, source: Input) -> Iterator[str]:
 
 
 def _notes(outcome: Outcome) -> list[str]:
-    """Return the notes on the result of a route that are printed below the table."""
     notes = [] if outcome.ending is None else [outcome.ending.message]
     if outcome.faulty:
         notes.append(f"equations {', '.join(map(str, outcome.faulty))} do not vanish at their points")

@@ -1,16 +1,16 @@
 """``hull1620 digits``: report which digits of a program's results are significant, and which statements lose them.
 
-The report joins four computations: the run in the arithmetic studied, the same run in exact arithmetic, N stochastic
-runs, and the run in interval arithmetic.  :class:`Table` holds each part of the report for the terminal, CSV and HTML.
+The report combines four computations: a run in the arithmetic of ``--arithmetic``, the same run in exact arithmetic,
+stochastic runs, and a run in interval arithmetic.  Each part of the report is a :class:`Table`, which is written to the
+terminal, as CSV and as HTML.
 """
-
-from __future__ import annotations
 
 import argparse
 import io
 import math
 import re
 import shutil
+import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -40,13 +40,13 @@ from modern.comparison.sensitivity import NUMBER, Sensitivity, records_of, sensi
 from modern.formats.columns import csv_text
 
 _NARROWEST, _WIDEST = 60, 120
-# The fewest characters in a line of a statement or verdict.
+# The least width to which the column of a statement or a verdict is narrowed.
 _SHORTEST = 16
 
 
 @dataclass(frozen=True)
 class Table:
-    """A part of the report: its title, sentences above its rows, the heads of its columns, and its rows."""
+    """A part of the report: a title, sentences, the heads of the columns, and the rows below them."""
 
     title: str
     sentences: Sequence[str]
@@ -107,7 +107,7 @@ def _runs(args: argparse.Namespace, studied: Numbers) -> SampledNumbers:
 
 
 def _run(program: Program, deck: Deck, options: Options, reference: Numbers) -> tuple[Machine, Result | None]:
-    """Run the program in another arithmetic. Return None as result if that arithmetic cannot read the deck."""
+    """Run the program in the reference arithmetic. The result is None if that arithmetic cannot read the deck."""
     machine = Machine(program, deck, replace(options, numbers=reference))
     try:
         return machine, machine.run()
@@ -116,13 +116,13 @@ def _run(program: Program, deck: Deck, options: Options, reference: Numbers) -> 
 
 
 def _truth(reference: Numbers, divergence: Divergence) -> Numbers:
-    """Return the reference arithmetic, or that of 200 bits if the reference run could not finish."""
+    """Return the arithmetic of the true digits: the reference, or 200 bits if the reference could not decide a test."""
     ending = divergence.endings[1]
     return numbers("mp:200") if ending is not None and ending.kind == "undecided" else reference
 
 
 def _numbers(result: Result, truth: Numbers, reference: Result | None, runs: Sampling | Independent) -> Table:
-    """Return a table of the printed numbers with their true and estimated digits, and how many digits to believe."""
+    """Return a table of the printed numbers with their true digits, their estimated digits, and a verdict."""
     studied, exact = records_of(result), records_of(reference) if reference else []
     same = shape_of(studied) == shape_of(exact)
     estimates = {}
@@ -135,7 +135,7 @@ def _numbers(result: Result, truth: Numbers, reference: Result | None, runs: Sam
     rows = []
     for record, text in enumerate(studied, 1):
         for place, columns in enumerate(NUMBER.findall(text)):
-            # No estimate exceeds the digits that are printed.
+            # No estimate exceeds the number of digits that are printed.
             most = float(len(Decimal(columns).as_tuple().digits))
             true = _common(columns, NUMBER.findall(exact[record - 1])[place], most) if same else None
             estimated = estimates.get((record, place))
@@ -157,7 +157,7 @@ def _numbers(result: Result, truth: Numbers, reference: Result | None, runs: Sam
 
 
 def _common(first: str, second: str, digits: float) -> float:
-    """Return the number of digits in which a printed number agrees with its reference."""
+    """Return the number of digits in which a printed number agrees with the reference, at most ``digits``."""
     a, b = Fraction(first), Fraction(second)
     if abs(a - b) <= Fraction(10) ** int(Decimal(first).as_tuple().exponent):
         return digits
@@ -177,7 +177,7 @@ def _estimated(estimated: Estimate | None) -> tuple[str, str]:
 
 
 def _verdict(estimated: Estimate | None, true: float | None) -> str:
-    """Return how many digits of a number the reader may believe, as text."""
+    """Return text that says how many digits of a number the reader may believe."""
     if estimated is None:
         return "not estimated"
     if estimated.is_exact:
@@ -198,7 +198,10 @@ def _decisions(
     divergence: Divergence,
     decisions: Sequence[DecisionShares],
 ) -> Table:
-    """Return the decisions on which stochastic runs disagree, and the first that the reference decides otherwise."""
+    """Return a table of the decisions on which stochastic runs disagree.
+
+    A sentence above the table names the first decision that the reference arithmetic takes differently.
+    """
     first = divergence.first_decision
     sentences = [f"{divergence.arithmetics[1]}: {counted(divergence.tested, 'decision')} compared, none differs"]
     if first is not None:
@@ -233,7 +236,7 @@ def _decisions(
 
 
 def _statements(divergence: Divergence, sampling: Sampling) -> Table:
-    """Return the statements with the digits that they lost against the reference, and the digits estimated."""
+    """Return a table of the statements with the digits that they lost, and the digits that stochastic runs estimate."""
     losses = {loss.line.index: loss for loss in divergence.losses}
     rows = []
     for row in sorted(sampling.statements, key=lambda row: (row.worst, row.line.place.card)):
@@ -253,7 +256,7 @@ def _statements(divergence: Divergence, sampling: Sampling) -> Table:
 
 
 def _cards(rows: Sequence[Sensitivity], omitted: int) -> Table:
-    """Return how much the results change if the last digit of a number on a card changes by one, largest first."""
+    """Return a table of how much the results change if the last digit of one number on a card changes by one."""
 
     def size(row: Sensitivity) -> float:
         return math.inf if row.branches else row.change or 0.0
@@ -278,8 +281,6 @@ def _place(line: Line) -> str:
 
 
 def _terminal(heading: str, tables: Sequence[Table]) -> Iterator[str]:
-    import textwrap
-
     width = max(_NARROWEST, min(shutil.get_terminal_size((100, 24)).columns, _WIDEST))
     yield from textwrap.wrap(heading, width, subsequent_indent="  ")
     for table in tables:
@@ -300,7 +301,7 @@ def _terminal(heading: str, tables: Sequence[Table]) -> Iterator[str]:
 
 
 def _sizes(table: Table, width: int) -> dict[str, int]:
-    """Return the width of each column of a table; on a narrow terminal some cells take several lines."""
+    """Return the width of each column of a table; columns of text are narrowed to fit a narrow terminal."""
     columns = dict(zip(table.heads, zip(*table.rows, strict=True), strict=True))
     sizes = {head: max(map(len, (head, *cells))) for head, cells in columns.items()}
     if 2 * len(sizes) + sum(sizes.values()) > width:
@@ -317,7 +318,7 @@ def _aligned(cell: str, head: str, size: int) -> str:
 
 
 def _csv(tables: Sequence[Table]) -> str:
-    """Return the report as one CSV table whose rows name the part, the row, the column and the cell."""
+    """Return the report as CSV with one row for each cell: its part of the report, row, column and value."""
     cells = (
         (table.title, number, head, cell)
         for table in tables
@@ -369,7 +370,6 @@ def _html(heading: str, tables: Sequence[Table]) -> str:
 
 
 def _write_samples(path: str, printed: Sequence[Printed]) -> None:
-    """Write the values of the printed numbers as a NumPy array with a row for each run."""
     import numpy as np
 
     from emulator.files import writing_bytes

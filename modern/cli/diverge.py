@@ -1,7 +1,5 @@
 """``hull1620 diverge``: run a program in two arithmetics in step, and report where they differ."""
 
-from __future__ import annotations
-
 import argparse
 import shutil
 import textwrap
@@ -50,7 +48,6 @@ def _report(divergence: Divergence, width: int, values: bool) -> Iterator[str]:
 
 
 def _limit_message(divergence: Divergence) -> str:
-    """Return a message if the statement limit stopped both runs, otherwise an empty string."""
     return next((ending.message for ending in divergence.endings if ending and ending.kind == "limit"), "")
 
 

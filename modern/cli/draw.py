@@ -1,7 +1,5 @@
 """``hull1620 draw``: draw the exact hull of points, its construction, or its differences from punched cards."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import PurePath
 

@@ -1,7 +1,5 @@
 """``hull1620 export``: write the exact hull of points in the format of another program."""
 
-from __future__ import annotations
-
 import argparse
 
 from modern.cli.shared.console import DIFFERS, OK, UsageError, print_notes

@@ -1,7 +1,5 @@
 """``hull1620 export-job``: write a program and its data as a job for a compiler of the time, under SIMH."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import replace
 from importlib.resources import files
@@ -68,7 +66,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def folder_of(exported: Job, source: str, punched: tuple[str, ...], switches: list[int]) -> dict[str, str]:
-    """Return the files of a job for a compiler of the time, by name."""
+    """Return the texts of the files of a job, by file name."""
     decks = {"job.cards": tuple(exported.cards())}
     if exported.compiler == "pdq":
         decks = {"program.cards": exported.source, "data.cards": exported.data}

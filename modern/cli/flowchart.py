@@ -1,7 +1,5 @@
 """``hull1620 flowchart``: draw the flow of control of a program in the symbols of 1963, or print it as a table."""
 
-from __future__ import annotations
-
 import argparse
 
 from emulator.files import write_text

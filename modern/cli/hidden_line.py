@@ -1,7 +1,5 @@
 """``hull1620 hidden-line``: draw convex polyhedra without their hidden lines."""
 
-from __future__ import annotations
-
 import argparse
 import os
 from collections.abc import Iterator, Sequence
@@ -83,7 +81,7 @@ def _near_plane_notes(drawing: Drawing) -> Iterator[str]:
 
 
 def _sight(args: argparse.Namespace, sight: Sight) -> Sight:
-    """Return the view of the scene with the changes that the options request. Raise SceneError."""
+    """Return the view of the scene, changed by the options. Raise SceneError for options that do not fit together."""
     eye = None if args.eye is None else _vector(args.eye)
     towards = None if args.towards is None else _vector(args.towards)
     near = sight.near if args.near is None else _distance(args.near)

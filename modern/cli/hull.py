@@ -1,7 +1,5 @@
 """``hull1620 hull``: check a data deck, then run program 1 and the program that its typewriter names."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Sequence

@@ -1,9 +1,7 @@
 """``hull1620 listing``: list a program with the run count, the time and the lost digits of each statement.
 
-``--commentary`` adds what each block of statements of a built-in program does, and what each variable holds.
+``--commentary`` adds an explanation of each block of statements and of each variable of a built-in program.
 """
-
-from __future__ import annotations
 
 import argparse
 import shutil
@@ -39,9 +37,9 @@ _NARROWEST = 40
 class _Row:
     """The statistics of the statement that begins on a card.
 
-    count: how often it ran.  percent: its share of the processor time.  lost_digits: the most digits that one of its
-    values lost, or None if no value was compared.  significant: the fewest digits that stochastic runs estimate, or
-    None.
+    count: the number of times that it ran.  percent: its share of the processor time.  lost_digits: the greatest number
+    of digits that one of its values lost, or None if no value was compared.  significant: the least number of digits
+    that stochastic runs estimate for its values, or None.
     """
 
     count: int
@@ -77,7 +75,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _answers(name: str | None) -> tuple[str, str] | None:
-    """Return the name and the text of the operator's file, or None. Raise UsageError for a terminal."""
+    """Return the name and the text of the file of ``--operator``, or None. Raise UsageError if it names no file."""
     if name == "":
         raise UsageError(
             "--operator: the listing command cannot ask at the terminal; use --operator=FILE with a file or a log"
@@ -92,7 +90,6 @@ def _operator(answers: tuple[str, str] | None) -> Operator:
 def _compared(
     args: argparse.Namespace, program: Program, deck: Deck, options: Options, answers: tuple[str, str] | None
 ) -> Divergence | None:
-    """Compare the run with the same run in another arithmetic, unless ``--against`` is none."""
     if args.against == "none":
         return None
     reference = number_system(args.against, "--against")
@@ -104,7 +101,7 @@ def _compared(
 
 
 def _commentary(args: argparse.Namespace) -> tuple[dict[int, list[str]], list[str]]:
-    """Return the lines to print above each card that begins a block, by card, and those that explain the variables."""
+    """Return the lines to print above the first card of each block, and the lines that explain the variables."""
     if args.program not in programs.NAMES or args.layers:
         raise UsageError(
             f"--commentary: expected a program of the thesis without further layers: {', '.join(programs.NAMES)}"
@@ -134,7 +131,7 @@ def _write(path: str, lines: Iterable[str]) -> None:
 
 
 def _width(path: str) -> int | None:
-    """Return the width of the terminal that the output goes to, or None."""
+    """Return the width of the terminal to which the output goes, or None if it goes elsewhere."""
     if path == "-" and is_terminal(sys.stdout):
         return max(_NARROWEST, shutil.get_terminal_size((80, 24)).columns)
     return None
@@ -202,7 +199,7 @@ def _comparison(divergence: Divergence) -> Iterator[str]:
 def _rows(
     program: Program, result: Result, divergence: Divergence | None, sampling: Sampling | None
 ) -> dict[int, _Row]:
-    """Return the statistics of each statement by its first card."""
+    """Return the statistics of each statement by the number of its first card."""
     counts = dict(measure(program, result).statements)
     seconds = [time.seconds for time in shares(program, result)]
     total = sum(seconds) or 1.0

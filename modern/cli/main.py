@@ -1,7 +1,5 @@
 """Parse the command line, call the command, and turn errors into one line and an exit code."""
 
-from __future__ import annotations
-
 import gc
 import importlib
 import io
@@ -22,7 +20,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments: the arguments after ``hull1620``; by default those of the process.
     """
     if "_ARGCOMPLETE" in os.environ:
-        complete(build_parser([]))
+        complete(build_parser())
     tokens = sys.argv[1:] if arguments is None else list(arguments)
     # Argparse must not read the word after --operator as its value, because the option is complete without one.
     tokens = ["--operator=" if word == "--operator" else word for word in tokens]
@@ -92,8 +90,8 @@ def _call(tokens: Sequence[str]) -> int:
         return BAD_INPUT
 
 
-def build_parser(tokens: Sequence[str]) -> Parser:
-    """Return the parser for the command named by the first token, or for all commands if it names none."""
+def build_parser(tokens: Sequence[str] = ()) -> Parser:
+    """Return the parser of the command that the first token names, or of all commands if no token names one."""
     parser = Parser(
         prog="hull1620",
         description="Run Karen Jensen Butler's convex hull programs of 1963 on an emulated IBM 1620, find exact hulls, "
@@ -109,11 +107,6 @@ def build_parser(tokens: Sequence[str]) -> Parser:
         description = summary[0].upper() + summary[1:] + "."
         add_arguments(commands.add_parser(name, help=summary, description=description))
     return parser
-
-
-def parser_of_all() -> Parser:
-    """Return the parser of all commands, from which the reference of the commands is generated."""
-    return build_parser([])
 
 
 if __name__ == "__main__":

@@ -1,7 +1,5 @@
 """``hull1620 map``: print the addresses of arrays and variables, and the number of points that fit."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Iterator
 
@@ -56,7 +54,7 @@ def map_lines(program: Program, core: int) -> Iterator[str]:
 
 
 def capacity_line(program: Program, core: int) -> str:
-    """Return a line that reports how many points the program could process in a machine of ``core`` positions."""
+    """Return a line that says how many points the program could process in a machine of ``core`` positions."""
     points = largest(program, core)
     arrays = f"  with arrays of {' and '.join(array_lengths(program))} fields"
     if points:

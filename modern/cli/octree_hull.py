@@ -1,7 +1,5 @@
 """``hull1620 octree-hull``: find the digital hull of a solid from its octree, by the algorithm of Yau & Srihari."""
 
-from __future__ import annotations
-
 import argparse
 import math
 import textwrap
@@ -52,14 +50,14 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _in_space(volume: Volume) -> Volume:
-    """Return the volume with three axes. A picture without physical coordinates becomes a volume of one layer."""
+    """Return the volume; a picture without physical coordinates becomes a volume of one layer."""
     if volume.dimension == 3 or volume.world is not None:
         return volume
     return replace(volume, array=volume.array[..., None], origin=(*volume.origin, 0))
 
 
 def _printed(args: argparse.Namespace) -> Printed:
-    """Return the statements of the paper that the options apply as printed. Raise UsageError."""
+    """Return which statements of the paper are applied as printed, by the options. Raise UsageError."""
     if args.literal:
         return LITERAL
     try:
@@ -69,7 +67,7 @@ def _printed(args: argparse.Namespace) -> Printed:
 
 
 def _compared(literal: NDArray[np.bool_], corrected: NDArray[np.bool_]) -> int:
-    """Print how the hull computed with statements as printed differs from the corrected one; return the exit code."""
+    """Print how the hull by the statements as printed differs from the corrected hull; return the exit code."""
     missing, extra = int(np.count_nonzero(corrected & ~literal)), int(np.count_nonzero(literal & ~corrected))
     print(f"compared with the corrected algorithm: {counted(missing, 'voxel')} missing, {extra} extra")
     return DIFFERS if missing or extra else OK
@@ -99,7 +97,7 @@ def _summary(name: str, envelope: Envelope, columns: int) -> str:
 
 
 def _table(name: str, heights: dict[Place, int]) -> Iterator[str]:
-    """Yield the lines of a table of heights, with the greatest y in the first row."""
+    """Yield the lines of a table of heights by x and y, with the greatest y in the first row."""
     columns = range(min(x for x, _ in heights), max(x for x, _ in heights) + 1)
     rows = range(max(y for _, y in heights), min(y for _, y in heights) - 1, -1)
     width = max(len(str(number)) for number in (*heights.values(), *columns))
@@ -112,7 +110,7 @@ def _table(name: str, heights: dict[Place, int]) -> Iterator[str]:
 
 
 def _side(name: str, envelope: Envelope, columns: int, origin: Point, sign: int, trace: bool) -> Iterator[str]:
-    """Yield the report on the lower envelope (``sign`` 1), or on the upper envelope, whose heights are negated (-1)."""
+    """Yield the report on an envelope: the lower one (``sign`` 1), or the upper one, whose heights are negated (-1)."""
 
     def at(point: Point) -> Point:
         return point[0] + origin[0], point[1] + origin[1], sign * point[2] + origin[2]
@@ -149,7 +147,7 @@ def _trace(number: int, step: Step, at: Callable[[Point], Point], sign: int) -> 
 
 
 def _normal(normal: Point, sign: int) -> str:
-    """Return a normal divided by its greatest common divisor, and reflected for the ceiling."""
+    """Return a normal divided by the greatest common divisor of its components, and reflected for the ceiling."""
     a, b, c = (number // math.gcd(*normal) for number in normal)
     return _tuple((a, b, sign * c))
 
@@ -159,6 +157,5 @@ def _tuple(numbers: Iterable[int]) -> str:
 
 
 def _wrapped(points: Iterable[str]) -> list[str]:
-    """Break text into lines of at most 120 characters."""
     text = " ".join(points)
     return textwrap.wrap(text, 120, initial_indent="  ", subsequent_indent="  ", break_on_hyphens=False)

@@ -1,7 +1,5 @@
 """``hull1620 punched``: draw a deck as punched cards."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import replace
 
@@ -25,7 +23,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _draw_each_card(deck: Deck, pattern: str) -> None:
-    """Write a file for each card, but none at all if a card cannot be drawn or a file cannot be written."""
+    """Write a file for each card; if a card cannot be drawn or a file cannot be written, write no file."""
     check_numbered(pattern, "number", "card-%03d.svg")
     check_punched(deck)
     names = [pattern % card.number for card in deck.cards]

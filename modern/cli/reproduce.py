@@ -1,7 +1,5 @@
 """``hull1620 reproduce``: compute the printed results and the statements of the documents, and judge each."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import shutil
@@ -27,7 +25,6 @@ from modern.edition.reproduce import DIFFERENT, EXACT, ORDER, SPACING, Part, Rep
 
 _STATES = {"examples": "as the examples were run (program1_examples.f)", "listing": "as listed (program1.f)"}
 _COLOURS = {EXACT: "32", SPACING: "33", ORDER: "33", DIFFERENT: "31"}
-_MOST_DIFFERENCES = 8
 _PARTS: dict[Part, str] = {
     "points": "points",
     "inside": "inside points",
@@ -41,8 +38,8 @@ _REASON_FOR_ORDER = (
 )
 _PAINT_KINDS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DIFFERENT: DIFFERENT}
 _MOST_LINES = 4
+# The first words of the last line: if all results agree, and if one does not.
 _OVERALL = ("Every", "NOT every")
-"""The first words of the last line: if all results agree, and if one does not."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -97,7 +94,7 @@ def main(args: argparse.Namespace) -> int:
 
 @contextmanager
 def _skipping(left_out: list[str], is_requested: bool, name: str) -> Iterator[None]:
-    """If numpy is not installed, record in ``left_out`` the results that need it, unless the user requested them."""
+    """Append ``name`` to ``left_out`` if the block needs numpy, numpy is not installed, and no result is requested."""
     try:
         yield
     except ModuleNotFoundError as error:
@@ -111,7 +108,7 @@ def _all_results() -> list[str]:
 
 
 def _results_named(text: str) -> list[str]:
-    """Return the printed results that an argument names; a statement and a paper without results name none.
+    """Return the printed results that an argument names; the list is empty if it names only statements.
 
     Raise UsageError for an unknown name.
     """
@@ -128,7 +125,7 @@ def _results_named(text: str) -> list[str]:
 
 
 def _statements(names: Sequence[str]) -> list[Statement]:
-    """Return the statements of the named documents and those named by id; all statements if there are no names."""
+    """Return the statements of the named documents and the statements named by id; without names, all statements."""
     documents = {name.partition(".")[0] for name in names} if names else set(DOCUMENTS)
     rows = [row for name in DOCUMENTS if name in documents for row in statements_of(name)]
     return [row for row in rows if row.document in names or row.id in names] if names else rows
@@ -155,23 +152,21 @@ def _example_lines(
         ending = _ending(report)
         if ending:
             yield from _indented(ending, width)
-        if show:
+        if show or verdict.kind in (DIFFERENT, SPACING):
             paint = partial(_paint, kind=DIFFERENT, colour=colour)
             heads = ("stated" if report.stated else "print", "result")
             yield from side_by_side(report.printed, report.produced, width, heads=heads, paint=paint)
-        elif verdict.kind in (DIFFERENT, SPACING):
-            yield from _differences(report, width)
     yield ""
 
 
 def _same(verdict: Verdict) -> str:
-    """Return which parts of a result agree in another order, with their counts; nothing for other verdicts."""
+    """Return text that counts the parts of a result that agree in another order; empty for other verdicts."""
     counted = ", ".join(f"{count} {_PARTS[part]}" for part, count in verdict.same)
     return f"the same {counted}" if counted else ""
 
 
 def _ending(report: Report) -> str:
-    """Return why the program did not end normally, or an empty string."""
+    """Return the message if the program did not end normally, otherwise an empty string."""
     if report.ending is None:
         return "the program was not reached"
     return report.ending.message if isinstance(report.ending, Ending) else str(report.ending)
@@ -187,22 +182,6 @@ def _evidence(report: Report) -> str:
         f"printed: {verdict.numbers} numbers and {verdict.words} words on {verdict.cards} cards; "
         f"inferred from the FORMATs: columns and {verdict.blank} blank cards"
     )
-
-
-def _differences(report: Report, width: int) -> Iterator[str]:
-    differences = report.verdict.differences
-    half = max(24, (width - 14) // 2)
-    side_by_side = all(len(a) <= half and len(b) <= half for _, a, b in differences[:_MOST_DIFFERENCES])
-    if side_by_side:
-        yield f"      {'card':>4}  {'printed':<{half}} produced"
-    for number, printed, produced in differences[:_MOST_DIFFERENCES]:
-        if side_by_side:
-            yield f"      {number:>4}  {printed:<{half}} {produced}".rstrip()
-        else:
-            yield f"      {number:>4}  printed   {printed}"
-            yield f"            produced  {produced}"
-    if len(differences) > _MOST_DIFFERENCES:
-        yield f"      and {len(differences) - _MOST_DIFFERENCES} more"
 
 
 def _summary_lines(
@@ -307,7 +286,6 @@ def _document(
 
 
 def _side_by_side(finding: Finding, colour: bool, width: int) -> Iterator[str]:
-    """Yield the printed and the computed result of a paper side by side, if the result can be computed."""
     paint, heads = partial(_paint, kind=DIFFERENT, colour=colour), ("print", "computed")
     printed, produced = finding.result.printed, finding.produced
     if produced:

@@ -1,7 +1,5 @@
 """``hull1620 run``: run a FORTRAN program on the emulated machine."""
 
-from __future__ import annotations
-
 import argparse
 import os
 from collections.abc import Iterator, Sequence
@@ -68,7 +66,7 @@ def main(args: argparse.Namespace) -> int:
 def _logged(
     args: argparse.Namespace, log: FromFile | None, results: Sequence[tuple[Program, Result]]
 ) -> Iterator[tuple[Program, Deck]]:
-    """Yield the program and the deck of each load in an operator's log."""
+    """Yield the program and the deck of each LOAD action in an operator's log."""
     for load in log.loads if log is not None else ():
         name = load.program.removesuffix(".f")
         if log is None or not load.program:
@@ -98,7 +96,7 @@ def _logged(
 
 
 def input_deck(args: argparse.Namespace, data: Deck) -> Deck:
-    """Return the deck that the arguments name, or the cards after END.  Raise UsageError if both are present."""
+    """Return the deck that the arguments name, or the data cards after END.  Raise UsageError if both exist."""
     if not data.cards:
         return deck_for(args.program, args.deck) if args.deck else Deck("no deck", ())
     span = f"cards {data.cards[0].number} to {data.cards[-1].number}, after END"

@@ -1,7 +1,5 @@
 """``hull1620 study``: run a study of many samples, from the plan to the table, the plots and the conclusions."""
 
-from __future__ import annotations
-
 import argparse
 import inspect
 import os
@@ -22,7 +20,7 @@ def main(args: argparse.Namespace) -> int:
     from modern.study.plan import SEED, PlanError
     from modern.study.report import terminal_text
     from modern.study.run import cut_lines, run_study
-    from modern.study.tomlplan import is_plan_file, read_plan
+    from modern.study.tomlplan import read_plan
 
     if args.list:
         for entry in entries():
@@ -60,7 +58,7 @@ def main(args: argparse.Namespace) -> int:
         "command": ("hull1620", *sys.argv[1:]),
     }
     try:
-        if is_plan_file(args.name):
+        if args.name.endswith(".toml"):
             plan = read_plan(args.name, args.samples, args.seed)
             for line in () if args.quiet else cut_lines(plan):
                 print(line, file=sys.stderr)
@@ -95,7 +93,7 @@ def described(name: str, function: Callable[..., object]) -> str:
 
 
 def redrawn(folder: Path) -> int:
-    """Draw the plots of a finished study again, from its charts.json.  Raise StudyFileError or PlanError."""
+    """Draw the plots of a finished study again, from its charts.json, and return the exit code."""
     from modern.study.chartfile import read_charts
     from modern.study.plots import draw
 
@@ -106,7 +104,7 @@ def redrawn(folder: Path) -> int:
 
 
 def verified(folder: Path) -> int:
-    """Compare the rows of a study with their checksums and report each damaged file.  Raise StudyFileError."""
+    """Compare the rows of a study with their checksums, report each damaged file, and return the exit code."""
     from modern.study.run import verify_study
 
     plan, intact, messages = verify_study(folder)

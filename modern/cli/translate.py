@@ -1,7 +1,5 @@
 """``hull1620 translate``: write a program as C, modern Fortran or FPCore, or the benchmark for authors of tools."""
 
-from __future__ import annotations
-
 import argparse
 import os
 

@@ -1,7 +1,5 @@
 """``hull1620 voxel-hull``: find the hull of a voxel solid, by Kovalevsky & Schulz, or its filled digital hull."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -11,7 +9,6 @@ from modern.cli.shared.console import OK, UsageError, check_numbered, counted, p
 from modern.cli.shared.measure_tables import Row, centres_row, csv_text, filled_row, measure_lines, solid_row, table
 from modern.cli.shared.volumes import (
     array_note,
-    check_array,
     choice_of,
     coordinate_words,
     in_space,
@@ -24,7 +21,7 @@ from modern.cli.shared.volumes import (
 from modern.digital.hull import digital_hull
 from modern.digital.scans import label_boxes, label_notes, label_volume
 from modern.digital.solids import Volume
-from modern.digital.volumes import write_array
+from modern.digital.volumes import ARRAYS, write_array
 from modern.digital.world import voxel_volume
 from modern.formats import MESHES
 from modern.formats.export import mesh_text
@@ -55,7 +52,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _report_hull(args: argparse.Namespace) -> None:
-    """Find the hull of one volume, write it as a mesh, and print its counts, measures and cells."""
+    """Find the hull of one volume, write the hull as a mesh, and print its counts, measures and cells."""
     volume, notes = volume_of(args)
     hull = _hull(volume, args)
     measures = hull.measures()
@@ -70,7 +67,7 @@ def _report_hull(args: argparse.Namespace) -> None:
 
 
 def _fill(args: argparse.Namespace) -> None:
-    """Fill the hull of one volume with voxels, write them as an array, and print the counts."""
+    """Fill the hull of one volume with voxels, write the voxels as an array, and print their counts."""
     volume, notes = volume_of(args)
     hull = digital_hull(volume)
     if args.output is not None:
@@ -83,12 +80,12 @@ def _fill(args: argparse.Namespace) -> None:
         print_notes(printable(note) for note in array_note(args.output, volume))
 
 
+# A function that writes the hull of one label to the file of the given name.
 Write = Callable[[str], None]
-"""A function that writes the hull of one label to the file of the given name."""
 
 
 def _tabulate_labels(args: argparse.Namespace) -> None:
-    """Print a table of labels, and write a file for each; nothing is written if one of the labels fails."""
+    """Print a table of labels, and write a file for each label; if a label fails, nothing is written."""
     from emulator.progress import Progress  # imported here because only --each-label needs it
 
     labels = choice_of(args).labels
@@ -118,7 +115,7 @@ def _tabulate_labels(args: argparse.Namespace) -> None:
 
 
 def _label(label: int, volume: Volume, args: argparse.Namespace) -> tuple[Row, Write]:
-    """Return a label's row in the table of measures, and a function that writes the label's hull as a mesh."""
+    """Return the row of a label in the table of measures, and a function that writes its hull as a mesh."""
     hull = _hull(volume, args)
     row = (centres_row if args.centres else solid_row)(label, hull.measures())
     # The text, not the hull, is kept until all labels are done, because it needs less memory.
@@ -127,7 +124,7 @@ def _label(label: int, volume: Volume, args: argparse.Namespace) -> tuple[Row, W
 
 
 def _filled_label(label: int, volume: Volume, args: argparse.Namespace) -> tuple[Row, Write]:
-    """Return the row of the report on a label's filled hull, and a function that writes this hull as an array."""
+    """Return the row of a label whose hull is filled, and a function that writes the filled hull as an array."""
     hull = digital_hull(volume)
     return filled_row(label, hull, voxel_volume(volume.world)), hull.save
 
@@ -161,7 +158,11 @@ def _check_output(args: argparse.Namespace) -> None:
     if args.each_label:
         check_numbered(args.output, "label", "label-%d.off")
     if args.fill:
-        check_array(args.output)
+        if not args.output.lower().endswith(ARRAYS):
+            raise UsageError(
+                f"{args.output}: a filled hull is written as an array; "
+                f"expected a name that ends with {' or '.join(ARRAYS)}"
+            )
         if args.each_label and _ending(args.output) != "nrrd":
             raise UsageError(f"{args.output}: only a .nrrd file can hold the position of a label; use label-%d.nrrd")
     elif _ending(args.output) not in MESHES:

@@ -1,22 +1,23 @@
 """The measure ``alarms``: which methods of error analysis notice that a program takes a wrong branch.
 
-Each program of a run is recorded on a tape (emulator/machine/tape.py), which is repeated in other arithmetics along the
-branch that the machine took.  A decision is *wrong* if the exact value of the tested number leads to another target.
-Only decisions up to the first wrong one are judged, because after it the program computes something else.
+The operations of each program of a run are recorded on a tape (emulator/machine/tape.py) and repeated in other
+arithmetics along the branch that the machine took.  A decision is *wrong* if the exact value of the tested number leads
+to another target.  Only decisions up to the first wrong decision are judged, because after it the program computes
+something else.
 
 A method raises an *alarm* at a decision if it cannot confirm the target that the machine took:
 
 - ``cadna3`` and ``cadna10``: among 3 or 10 samples with random rounding (CESTAC), the mean has no significant digit by
   the criterion of CADNA, or leads to another target.
-- ``parker10``: the same for the criterion of Stott Parker, which asks for the digits of a single sample.
+- ``parker10``: the same by the criterion of Stott Parker, which estimates the significant digits of a single sample.
 - ``vote10``: the ten samples, each by its own sign, do not all lead to the target that the machine took.
-- ``interval``: the bounds of the number lead to different targets, or to another one.
+- ``interval``: the bounds of the number do not both lead to the target that the machine took.
 - ``double``: arithmetic with twice the digits leads to another target.
 
-``cadna3``, ``cadna10`` and ``parker10`` take the branch for zero if the number has no significant digit, and ``vote10``
+If the number has no significant digit, ``cadna3``, ``cadna10`` and ``parker10`` take the branch for zero; ``vote10``
 takes the branch of the majority.  Chapter 7's e applies to the decisions that the layer ``epsilon`` changes.  It raises
-an alarm if the number is within e of zero, but not zero, and zero leads to another target.  The least power of ten e
-that raises an alarm is recorded.
+an alarm if the number is within e of zero, but not zero, and zero leads to another target.  The measure records the
+least power of ten that raises an alarm as e.
 """
 
 import hashlib
@@ -53,9 +54,9 @@ CRITERIA = {
     "parker10": (10, 1.0),
 }
 METHODS = (*CRITERIA, "vote10", "interval", "double")
-# Methods that estimate digits.
+# The methods that estimate significant digits.
 ESTIMATING = (*CRITERIA, "interval")
-# The statements after which a recorded run ends.
+# The number of statements after which a recorded run ends.
 LIMIT = 20_000
 # The exponent recorded for a decision that no e changes.
 NO_E = 999
@@ -63,7 +64,14 @@ NO_E = 999
 
 @dataclass
 class _Tally:
-    """Counts of one run: the decisions, the alarms at right decisions and at the first wrong one, and the digits."""
+    """Counts of one run: its decisions, the alarms of each method, and its estimated digits.
+
+    first: the statement of the first wrong decision.  alarms, spoils: by method, the right decisions with an alarm, and
+    those that the method would change.  caught, repaired: by method, 1 if it raises an alarm at the first wrong
+    decision, and 1 if it takes the right branch there.  e_right, e_first: the least exponent of an e = 10**k that
+    raises an alarm, counted over right decisions, and at the first wrong one.  digits: estimates by method and by the
+    number of true digits.
+    """
 
     tests: int = 0
     first: str = ""
@@ -152,9 +160,9 @@ def _rules(seed: int) -> Rules:
 
 
 def _estimated(drawn: Any, factor: float) -> list[tuple[float, bool, float]]:
-    """Return for each number the mean of its samples, whether it lacks significant digits, and how many it has.
+    """Return for each number the mean of its samples, True if it has no significant digit, and its digits.
 
-    Samples that are all equal are certain.
+    If all samples of a number are equal, all its digits are significant.
     """
     results = []
     for mean, deviation in zip(drawn.mean(axis=0).tolist(), drawn.std(axis=0, ddof=1).tolist(), strict=True):
@@ -179,7 +187,6 @@ def _with_e(program: str) -> frozenset[str]:
 
 def _judged(tally: _Tally, test: Test, known: Mapping[str, Any], has_e: bool) -> bool:
     """Count the alarms of all methods at one decision. Return True if the machine decided wrongly."""
-
     target = test.target
     right = target(known["exact"])
     wrong = right != test.taken
@@ -218,7 +225,7 @@ def _judged(tally: _Tally, test: Test, known: Mapping[str, Any], has_e: bool) ->
 
 
 def _count_digits(tally: _Tally, known: Mapping[str, Any], bounds: Interval) -> None:
-    """Add the estimated and the true number of digits of a number to the counts, if the number has an error."""
+    """Add the estimated digits of a number to the counts for its true digits, if the number has an error."""
     mantissa, exponent = known["machine"]
     ratio = float(known["exact"]) / (mantissa * 10.0 ** (exponent - DIGITS))
     # A relative error below the last digit of the machine is a rounding error of this computation.

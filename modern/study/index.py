@@ -1,8 +1,8 @@
-"""The SQLite index of a study, from which reports are computed.  Each run builds it again from the rows.
+"""The SQLite index of a study, from which reports are computed.  Each run of the study builds the index again.
 
 The table ``samples`` has the columns cell, place (the index of the sample), n, dimension, vertices, planes, boundary,
 inside and tags (JSON); the table ``runs`` has cell, place, route, outcome, detail and figures (JSON).  The connection
-that writes locks the file, so a second run in the same folder fails.
+of a run locks the file, so a second run in the same folder fails.
 """
 
 import json
@@ -91,10 +91,7 @@ def _opened(path: Path) -> sqlite3.Connection:
 
 def clear(index: sqlite3.Connection) -> None:
     """Delete all entries."""
-    index.execute("BEGIN")
-    for table in ("samples", "runs"):
-        index.execute(f"DELETE FROM {table}")
-    index.execute("COMMIT")
+    index.executescript("BEGIN; DELETE FROM samples; DELETE FROM runs; COMMIT")
 
 
 def enter(index: sqlite3.Connection, rows: Iterable[Row]) -> None:

@@ -1,7 +1,7 @@
-"""The layout of a chart, computed before drawing: how far its series are moved apart, and whether each needs a panel.
+"""Compute the layout of a chart before it is drawn, so that no series hides another.
 
-Series with equal values are drawn side by side, shifted by a few typographic points, or, if their x values are too
-close for that, each in a separate panel.
+Series with equal values are drawn side by side, shifted by a few typographic points.  If their x values are too close
+for that, each series is drawn in a separate panel.
 """
 
 from collections.abc import Sequence
@@ -35,7 +35,7 @@ def names(chart: Chart) -> list[str]:
 
 
 def panels(chart: Chart) -> bool:
-    """Return True if each series of the chart needs separate axes, because series would hide each other."""
+    """Return True if each series of the chart needs its own axes because series would hide each other."""
     if isinstance(chart, Bars):
         return len(chart.series) * len(names(chart)) > _MANY_BARS
     return isinstance(chart, Lines) and any(part > _HIDDEN for part in hidden(chart))
@@ -91,11 +91,9 @@ def _heights(chart: Lines) -> list[dict[float, float]]:
 
 
 def _scaled(ascending: Sequence[float], size: float, logarithmic: bool) -> list[float]:
-    scaled = _logarithms(ascending) if logarithmic else list(ascending)
+    scaled = list(ascending)
+    if logarithmic:
+        least = min((value for value in ascending if value > 0), default=1.0)
+        scaled = [log(max(value, least)) for value in ascending]
     span = scaled[-1] - scaled[0] if scaled else 0.0
     return [(value - scaled[0]) / span * size if span else 0.0 for value in scaled]
-
-
-def _logarithms(numbers: Sequence[float]) -> list[float]:
-    least = min((value for value in numbers if value > 0), default=1.0)
-    return [log(max(value, least)) for value in numbers]

@@ -1,4 +1,4 @@
-"""The manifest of a study: its plan, the versions and the code of its run, and hashes to compare a repetition with."""
+"""The manifest of a study: its plan, and the versions and hashes by which a repetition can be compared with it."""
 
 import hashlib
 import json
@@ -18,11 +18,10 @@ from modern.study.store import put
 NAME = "manifest.json"
 _PACKAGES = ("hull1620", "numpy", "numba")
 _REQUIRED = ("plan", "versions", "programs_sha256")
-_LATER_PROGRAMS = ("program2", "program3")
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of Python and of the packages on which a study depends, "" if not installed."""
+    """Return the versions of Python and of the packages on which a study depends; "" for a package that is missing."""
     installed = {"python": platform.python_version()}
     for package in _PACKAGES:
         try:
@@ -40,7 +39,7 @@ _HASHED_PACKAGES = (
 
 
 def code_sums(plan: Plan) -> dict[str, str]:
-    """Return the SHA-256 of hull1620's code and of each user-defined module, which together make the rows."""
+    """Return the SHA-256 of hull1620's code and of each module of user-defined families and measures."""
     names = {cell.family for cell in plan.cells}
     names |= {name for cell in plan.cells for route in cell.routes for name in route.measures}
     modules = sorted({name.partition(":")[0] for name in names if ":" in name})
@@ -108,7 +107,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
 
 
 def first_difference(earlier: Mapping[str, Any], current: Mapping[str, Any]) -> str:
-    """Describe the first difference between the manifest in the folder and that of this run; empty if they agree."""
+    """Describe the first difference between the manifest in the folder and the current one; empty if they agree."""
     plan, current_plan = earlier["plan"], current["plan"]
     if plan.get("name") != current_plan["name"]:
         return f"the folder holds the study {plan.get('name')}, not {current_plan['name']}"
@@ -138,7 +137,7 @@ def first_difference(earlier: Mapping[str, Any], current: Mapping[str, Any]) -> 
 def _programs(route: Programs) -> dict[str, str]:
     first, load = programs_of(route)
     sums = {}
-    for name in (first, *_LATER_PROGRAMS):
+    for name in (first, "program2", "program3"):
         program = load(name)
         statements = "".join(f"{line.place.card} {line.label} {line.text}\n" for line in program.statements)
         formats = "".join(f"{number} {spec}\n" for number, spec in program.formats)

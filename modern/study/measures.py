@@ -18,7 +18,6 @@ from emulator.numbers import numbers
 from modern.geometry.hull import Hull
 from modern.study.alarms import alarms
 from modern.study.outcomes import Figures, position
-from modern.study.plan import named
 from modern.study.sample import Sample
 from modern.thesis.cards import planes_hold, read_intermediate
 from modern.thesis.job import HullRun
@@ -31,7 +30,8 @@ _MILLISECOND = Decimal("0.001")
 def machine_time(sample: Sample, run: HullRun) -> Figures:
     """Compute the seconds that a run takes on a 1620: processor, reader, punch and typewriter.
 
-    ``model_low`` and ``model_high`` bound the sum by the systematic error of the model (emulator/machine/timing.py).
+    ``model_low`` and ``model_high`` are the bounds of the total time that follow from the systematic error of the
+    timing model (emulator/machine/timing.py).
     """
     tables = [measure(step.program, step.result) for step in run.steps]
     figures = {"seconds_processor": sum(table.processor_time.seconds for table in tables)}
@@ -70,9 +70,10 @@ def plane_table(sample: Sample, run: Hull) -> Figures:
 def divergence(sample: Sample, run: HullRun) -> Figures:
     """Find the first statement at which eight-digit and exact arithmetic decide differently on the same cards.
 
-    ``diverges`` names program and statement.  It is ``cards to program3`` if all decisions of program 1 agree but a
-    plane that it punched with eight digits misses its own points, which no arithmetic of the next program can correct.
-    It is empty if all decisions agree.  ``undecided`` gives the reason if exact arithmetic cannot follow the run.
+    ``diverges`` names the program and the statement; it is empty if all decisions agree.  It is ``cards to program3``
+    if all decisions of program 1 agree but a plane that program 1 punched with eight digits misses its own points; no
+    arithmetic of the next program can correct this.  ``undecided`` gives the reason if exact arithmetic cannot follow
+    the run.
     """
     studied, exact = numbers("truncating"), numbers("exact")
     for step in run.steps:
@@ -100,8 +101,3 @@ MEASURES: Mapping[str, Measure] = {
 
 # These measures need runs of the port; all others need runs of the programs.
 OF_PORT = frozenset({"plane_table"})
-
-
-def measure_of(name: str) -> Measure:
-    """Return the measure of that name, or the function ``module:function``.  Raise PlanError if it is unknown."""
-    return named("measure", name, MEASURES)

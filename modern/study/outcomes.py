@@ -1,7 +1,7 @@
 """The outcome of a sample on a route: exactly one of eleven, with a detail (a location or the kind of fault).
 
 =====================  ============================================================================================
-outcome                meaning (detail)
+outcome                meaning (detail, in parentheses)
 =====================  ============================================================================================
 right                  the vertices, boundary and inside points of the exact hull, and each of its planes once
 reordered              right, but vertices or planes are in a different order from that of the reference route
@@ -52,7 +52,7 @@ Outcome = Literal[
     "wrong hull",
     "stopped otherwise",
 ]
-# The details of a wrong hull.
+# The possible details of the outcome "wrong hull".
 Fault = Literal[
     "dimension wrong",
     "coordinates changed",
@@ -68,6 +68,8 @@ Fault = Literal[
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 # The outcomes with the right hull.
 DETERMINED: tuple[Outcome, ...] = ("right", "reordered", "doubled plane")
+# The same outcomes as a list in SQL.
+DETERMINED_SQL = str(DETERMINED)
 TABLE: Outcome = "table full"
 WRONG: Outcome = "wrong hull"
 OTHERWISE: Outcome = "stopped otherwise"
@@ -81,7 +83,10 @@ _SHOWN = Context(prec=6)
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """The result of one route for one sample; ``order`` holds the order of the vertices and planes of a right hull."""
+    """The result of one route for one sample.
+
+    order: for a right hull, the order of its vertices and the order of its planes.
+    """
 
     outcome: Outcome
     detail: str = ""
@@ -90,7 +95,7 @@ class Answer:
 
 
 def answer_of_run(run: HullRun, sample: Sample, options: Options) -> Answer:
-    """Run the programs with the given options and return the result of the run."""
+    """Return the answer of a run of the programs; ``options`` are the options of its machine."""
     for step in run.steps:
         message = refusal(step.result)
         if message:
@@ -119,7 +124,7 @@ def answer_of_hull(hull: Hull, sample: Sample) -> Answer:
 
 
 def reordered(answer: Answer, reference: Answer) -> Answer:
-    """Return the result, marked as reordered if it and the reference are right but differ in order."""
+    """Return ``answer``; its outcome becomes "reordered" if both hulls are right but their orders differ."""
     differs = answer.outcome == reference.outcome == "right" and answer.order != reference.order
     return replace(answer, outcome="reordered") if differs else answer
 
@@ -139,7 +144,7 @@ def position(program: Program, line: Line) -> str:
 def _refused_at(step: Step, message: str) -> str:
     """Return the statement that made a program type DATA NOT ACCEPTABLE or ERROR IN PROGRAM: ``program3 119``.
 
-    A program types all its errors with one statement, so for an error the last decision before it is returned.
+    One statement of a program types all its errors, so for an error this is the last decision before that statement.
     """
     typed = next(event for event in reversed(step.result.events) if event.what == "type" and event.text == message)
     line = typed.decision if message == ERROR and typed.decision else typed.line
@@ -158,7 +163,7 @@ def _looping_at(step: Step) -> str:
 
 
 def _reached(step: Step) -> str:
-    """Return the array element with the subscript out of bounds, ``program3 A(99)``, or the statement that used it."""
+    """Return the array element that is out of bounds, ``program3 A(99)``, or the statement if it has no name."""
     ending = step.result.ending
     if not ending.name:
         return _stopped_at(step)

@@ -6,25 +6,23 @@ route (:class:`Programs`, :class:`Port`)
     One way to compute a hull: the 1620 programs with certain layers and arithmetic, or the modern port.  Reports also
     call it a treatment or a way.
 cell (:class:`Cell`)
-    Samples of one kind: one family of point sets with fixed parameters.  Every sample of a cell goes through all its
-    routes, so routes are compared on the same point sets.
+    Samples of one kind: one family of point sets with fixed parameters.  Every sample of a cell goes through all routes
+    of the cell, so routes are compared on the same point sets.
 chunk (:class:`Chunk`)
     Consecutive samples of a cell that are computed and stored together, in about a second.
 
-Nothing in this module runs anything.  A plan becomes JSON (:meth:`Plan.document`) for the manifest.  The seed of a
-sample depends only on the seed of the study, the key of the cell and the index of the sample, and not on the number of
-workers or the order of the work.
+The manifest stores a plan as JSON (:meth:`Plan.document`).  The seed of a sample depends only on the seed of the study,
+the key of the cell and the index of the sample, and not on the number of workers or the order of the work.
 """
 
 import hashlib
 import json
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from random import Random
 from traceback import extract_tb
 from typing import Any, Literal, TypeVar
 
@@ -58,7 +56,7 @@ class Programs:
     (:func:`emulator.numbers.numbers`).  epsilon: the e of chapter 7, punched on the first card; it requires the layer
     ``epsilon``.  limit: the number of statements after which a run counts as endless.  core, bounds: as in
     :class:`emulator.machine.result.Options`.  uncut: keep all digits of the numbers that pass from one program to the
-    next.  measures: the names of measures to compute (:mod:`modern.study.measures`).
+    next.  measures: the names of the measures to compute (:mod:`modern.study.measures`).
     """
 
     name: str
@@ -74,12 +72,15 @@ class Programs:
     measures: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "epsilon", str(self.epsilon))  # 0.001 is the e that "0.001" is
+        object.__setattr__(self, "epsilon", str(self.epsilon))  # 0.001 and "0.001" are the same e
 
 
 @dataclass(frozen=True, slots=True)
 class Port:
-    """A route through :func:`modern.port.convex_hull`; ``history`` keeps the stages H_1, H_2, ... for the measures."""
+    """A route through :func:`modern.port.convex_hull`.
+
+    history: keep the stages H_1, H_2, ... of the construction for the measures.
+    """
 
     name: str
     arithmetic: str = "exact"
@@ -89,7 +90,7 @@ class Port:
     measures: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "epsilon", str(self.epsilon))  # 0.001 is the e that "0.001" is
+        object.__setattr__(self, "epsilon", str(self.epsilon))  # 0.001 and "0.001" are the same e
 
 
 Route = Programs | Port
@@ -125,7 +126,10 @@ class Cell:
 
 
 def named(kind: str, name: str, known: Mapping[str, F]) -> F:
-    """Return the known function of that name, or the user's ``module:function``.  Raise PlanError if there is none."""
+    """Return the function called ``name`` in ``known``, or the user's function that ``module:function`` names.
+
+    kind: what the function is, for messages, such as "family".  Raise PlanError if there is no such function.
+    """
     if name in known:
         return known[name]
     module, colon, function = name.partition(":")
@@ -143,7 +147,7 @@ def named(kind: str, name: str, known: Mapping[str, F]) -> F:
 
 @contextmanager
 def user_code(where: str, module: str) -> Iterator[None]:
-    """Turn an exception in a user's module into a PlanError with file and line. EmulatorErrors pass unchanged."""
+    """Turn an exception of a user's module into a PlanError with file and line; raise EmulatorErrors unchanged."""
     try:
         yield
     except EmulatorError:
@@ -167,14 +171,9 @@ def _user_error(error: Exception, module: str) -> str:
     return f"{location}{type(error).__name__}{': ' + message[0] if message else ''}"
 
 
-def random_of(seed: str) -> Random:
-    """Return the random generator of the sample with this seed."""
-    return Random(int(seed, 16))
-
-
 @dataclass(frozen=True, slots=True)
 class Chunk:
-    """Consecutive samples of cell number ``cell``, from number ``start`` to before ``stop``, all counted from 0."""
+    """Consecutive samples: those of cell ``cell`` with the indices ``start`` to ``stop`` - 1, all counted from 0."""
 
     cell: int
     start: int
@@ -195,7 +194,7 @@ class Plan:
     question: str
     cells: tuple[Cell, ...]
     seed: int = SEED
-    notes: tuple[str, ...] = field(default=())
+    notes: tuple[str, ...] = ()
 
     @property
     def samples(self) -> int:
@@ -203,7 +202,7 @@ class Plan:
         return sum(cell.samples for cell in self.cells)
 
     def chunks(self) -> Iterator[Chunk]:
-        """Yield all chunks in order.  The first ones have 1, 2, 4, ... samples, so that the first rows appear soon."""
+        """Yield all chunks in order.  The first chunks are small (1, 2, 4, ... samples), so that rows appear soon."""
         size = 1
         for number, cell in enumerate(self.cells):
             start = 0
@@ -223,7 +222,7 @@ class Plan:
 
     @classmethod
     def of_document(cls, data: Mapping[str, Any]) -> "Plan":
-        """Return the plan of a document. Raise KeyError, TypeError, ValueError or AttributeError for other data."""
+        """Return a plan from its JSON data. Raise KeyError, TypeError, ValueError or AttributeError for other data."""
         cells = tuple(
             Cell(**{**cell, "key": dict(cell["key"]), "routes": tuple(map(_route_of_document, cell["routes"]))})
             for cell in data["cells"]

@@ -21,7 +21,7 @@ from modern.study.store import put
 INK, QUIET, PAPER, RULE = "#211e19", "#5d564b", "#fdfcf8", "#d8d1c1"
 # The colours of lines; each differs in lightness from all others.
 COLOURS = (INK, "#c4553a", "#b9a982", "#5f4f8f", "#8fa85f", "#7d7567")
-# The colours in a dark theme of those that would not be legible on its ground.
+# The dark theme's replacements for colours that would not be legible on its background.
 DARK = {
     INK: "#e8e3d8",
     QUIET: "#b3ab9c",
@@ -48,7 +48,7 @@ _NOTE = 0.22
 _WRAPPED = 14
 # The labels of series: characters in a line, and the height of a line as a share of the axes.
 _LABEL, _LINE_HEIGHT = 20, 0.052
-# The width of a letter as a share of the height of the axes, for names of series that stand upright.
+# The width of a letter as a share of the height of the axes, for upright names of series.
 _LETTER = 0.021
 _STYLE: Any = {
     "font.family": ["IBM Plex Sans", "DejaVu Sans"],
@@ -93,13 +93,12 @@ def draw(chart: Chart, folder: Path, kinds: Sequence[str] = ("svg", "png")) -> N
         for kind in kinds:
             file = io.BytesIO()
             metadata = {"Date": None} if kind == "svg" else {"Software": None}
-            # An SVG has no ground: the page shows through, which is white on paper.
+            # An SVG has no background, so the colour of the page shows through: white if the page is printed.
             figure.savefig(file, format=kind, metadata=metadata, facecolor="none" if kind == "svg" else PAPER)
             put(folder / f"{chart.name}.{kind}", _themed(file.getvalue()) if kind == "svg" else file.getvalue())
 
 
 def _themed(svg: bytes) -> bytes:
-    """Return an SVG file with a style that replaces its colours in a dark theme."""
     rules = "".join(
         f'[style*="{kind}: {light}"]{{{kind}:{dark}!important}}'
         for light, dark in DARK.items()
@@ -152,7 +151,7 @@ def _together(axes: Any, chart: Chart) -> None:
 
 
 def _panels(figure: Any, chart: Chart) -> None:
-    """Draw each series on separate axes with the same scales.  In a line chart the others appear in grey behind it."""
+    """Draw each series on its own axes, with equal scales.  In a line chart the other series are grey, behind it."""
     across = 3 if len(chart.series) > 4 else 2
     down = ceil(len(chart.series) / across)
     high = max(1.7, _ROW * len(names(chart))) if isinstance(chart, Bars) else 1.7
@@ -224,7 +223,7 @@ def _name_lines(axes: Any, chart: Lines) -> None:
 
 
 def _apart(preferred: Sequence[float], heights: Sequence[float]) -> list[float]:
-    """Return ascending positions near ``preferred`` at which labels of these heights do not overlap within the axes."""
+    """Return ascending positions near the preferred ones at which labels of these heights do not overlap."""
     places: list[float] = []
     for k, place in enumerate(preferred):
         least = places[-1] + (heights[k - 1] + heights[k]) / 2 if places else 0.0
@@ -242,7 +241,6 @@ def _errors(series: Series) -> list[list[float]]:
 
 
 def _line(axes: Any, chart: Lines, k: int, shift: float) -> None:
-    """Draw the line, markers and error bars of a series, moved to the right by the given number of points."""
     from matplotlib.transforms import ScaledTranslation
 
     series, colour = chart.series[k], COLOURS[k % len(COLOURS)]
@@ -279,7 +277,7 @@ def _scales(axes: Any, chart: Lines, margin: float = 0.0) -> None:
 
 
 def _range(numbers: list[float], logarithmic: bool, margin: float = 0.0) -> tuple[float, float] | None:
-    """Return the limits of an axis that shows the given numbers with a margin, or None if it can show none of them."""
+    """Return the limits of an axis with a margin around the numbers, or None if the axis can show no number."""
     finite = [value for value in numbers if isfinite(value) and (value > 0 or not logarithmic)]
     if not finite:
         return None
@@ -329,7 +327,7 @@ def _standing(axes: Any, chart: Chart) -> None:
 
 
 def _name_bars(axes: Any, chart: Chart, width: float, top: float) -> None:
-    """Write the name of each series upright above its highest bar, in free space above the highest bar of all."""
+    """Write the name of each series upright above its highest bar; make room for the names above all bars."""
     groups = names(chart)
     axes.set_yticks([tick for tick in axes.get_yticks() if tick <= top])
     lines = [textwrap.fill(typeset(series.name), _LABEL) for series in chart.series]

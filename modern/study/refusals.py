@@ -1,8 +1,8 @@
-"""Study data sheets with decimals: how often the programs reject them, and how many explain two failures in seventy
-sets.
+"""The part of the study ``seventy`` about data sheets with decimals: how often the programs reject such sets.
 
-The thesis attributes its two failures to the eight digits of the machine.  The programs reject sets like the data sheet
-of chapter 5 (:func:`modern.study.families.thesis.data_sheet`) more often if more of their coordinates are decimals.
+The thesis attributes its two failures in about seventy sets to the eight digits of the machine.  The programs reject
+sets like the data sheet of chapter 5 (:func:`modern.study.families.thesis.data_sheet`) more often if more of their
+coordinates are decimals.  The report tells how many such sets among seventy would explain two rejections.
 """
 
 from dataclasses import dataclass
@@ -40,7 +40,11 @@ def cells(samples: int, route: Programs) -> tuple[Cell, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Sheets:
-    """Counts for one share and form of decimals: data sheets drawn, rejected, and failing in another way."""
+    """The results of all data sheets with one share and form of decimals.
+
+    share: how many of 1,000 coordinates are decimals.  sets: the number of data sheets.  refused: the number that the
+    programs rejected.  otherwise: the number that failed in another way.
+    """
 
     share: int
     form: str
@@ -89,7 +93,7 @@ def table(sheets: tuple[Sheets, ...]) -> Table:
 
 
 def needed(sheets: Sheets) -> str:
-    """Return how many of seventy sets must be data sheets to make two rejections most probable, as a range."""
+    """Return the range of the number of data sheets among seventy sets for which two rejections are most probable."""
     if not sheets.refused:
         return "-"
     low, high = (SEVENTY * bound / sheets.rate.value for bound in TWO_LIKELIEST)
@@ -97,9 +101,10 @@ def needed(sheets: Sheets) -> str:
 
 
 def likely_shares(rates: tuple[tuple[int, float], ...]) -> tuple[float, float] | None:
-    """Return the shares of decimals, in thousandths, for which two rejections in seventy are most probable, or None.
+    """Return the least and the greatest share of decimals for which two rejections in seventy are most probable.
 
-    ``rates`` holds (share, frequency of rejection) with ascending shares, interpolated linearly.
+    Shares are in thousandths.  ``rates`` holds pairs (share, frequency of rejection) with ascending shares, between
+    which the function interpolates linearly.  Return None if the rates do not reach both ends of the range.
     """
     crossings = []
     for bound in TWO_LIKELIEST:

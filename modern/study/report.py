@@ -3,7 +3,7 @@
 import re
 import textwrap
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import isinf
 from pathlib import Path
 
@@ -60,7 +60,7 @@ def percent(share: Interval) -> str:
 
 
 def row(*cells: object) -> tuple[str, ...]:
-    """Format the cells of a row of a table: None as a dash, an interval as a proportion in percent."""
+    """Return a row of a table: None becomes a dash, an interval a proportion in percent, anything else its text."""
     return tuple("-" if cell is None else percent(cell) if isinstance(cell, Interval) else str(cell) for cell in cells)
 
 
@@ -91,7 +91,7 @@ def _power(match: re.Match[str]) -> str:
 
 
 def unbroken(text: str) -> str:
-    """Return a typeset text whose intervals are not broken into lines: their spaces are no-break spaces."""
+    """Return a typeset text in which no line break can occur inside an interval."""
     return _TOGETHER.sub(lambda match: match[0].replace(" ", "\N{NO-BREAK SPACE}"), typeset(text))
 
 
@@ -118,7 +118,7 @@ def powers(exponents: Iterable[int]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """The values of a series, with intervals; each belongs to a named bar or to a number on the x axis."""
+    """A series of a chart: its name, and its points.  A point is the name of a bar or a number x, and an interval."""
 
     name: str
     points: tuple[tuple[Place, Interval], ...]
@@ -126,7 +126,10 @@ class Series:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A reference line across the chart, at an x if ``upright`` and otherwise at a y; ``label`` explains the line."""
+    """A reference line: a vertical line at x = ``at`` if ``upright`` is true, otherwise a horizontal one at y = ``at``.
+
+    label: the text that explains the line.
+    """
 
     at: float
     label: str
@@ -135,9 +138,10 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Chart:
-    """The common part of charts: the ``name`` of its files, labels of the axes with units, series and marks.
+    """A chart, drawn as :class:`Bars` or :class:`Lines`.
 
-    Values are proportions, shown in percent, if ``percent`` is true.
+    name: the name of its files without the ending.  x, y: the labels of the axes, with units.  percent: the values are
+    proportions and are shown in percent.  marks: reference lines.
     """
 
     name: str
@@ -146,18 +150,21 @@ class Chart:
     y: str
     series: tuple[Series, ...]
     percent: bool = False
-    marks: tuple[Mark, ...] = field(default=())
+    marks: tuple[Mark, ...] = ()
     note: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Bars(Chart):
-    """A chart of groups of bars; ``at`` of an upright mark is the index of a group, from 0."""
+    """A chart of groups of bars.  An upright mark stands at the index of a group, counted from 0."""
 
 
 @dataclass(frozen=True, slots=True)
 class Lines(Chart):
-    """A chart of values joined by lines, with error bars; ``powers`` marks exponents of ten on the x axis."""
+    """A chart of values joined by lines, with error bars.
+
+    log_x, log_y: the axis is logarithmic.  powers: the x values are exponents of ten.
+    """
 
     log_x: bool = False
     log_y: bool = False

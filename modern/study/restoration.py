@@ -1,11 +1,10 @@
-"""Measure the rules of restoration: damage programs blindly, restore them by the rules, and count the errors.
+"""Measure the rules of restoration: damage programs at random, restore them by the rules, and count the errors.
 
 The three listings and programs of a folder are damaged by :mod:`modern.edition.damage`, at the rates at which the OCR
-damaged the listings (``as the OCR``).  At these rates few signs are lost, so few readings insert a sign.  Further
-copies therefore also lose a tenth of their signs and points (``signs lost``).
+damaged the listings (``as the OCR``).  At these rates few arithmetic signs are lost, so few restored readings insert a
+sign.  Further copies therefore also lose a tenth of their signs and points (``signs lost``).
 :mod:`modern.edition.restorer` restores the copies in separate processes, which receive the damaged cards and the
-printed results and cannot open the originals.  Each emended card is right or wrong.  The intervals are Clopper and
-Pearson's (:mod:`modern.study.statistics`).
+printed results and cannot open the originals.
 """
 
 import ast
@@ -42,7 +41,7 @@ LISTINGS = "the listings"
 # The modules that damage and restore a copy.
 RULES = ("damage", "readings", "card_readings", "trials", "restorer")
 CLASSES = ("certain", "probable", "conjecture")
-# What can happen to a card: its class, the ground, and whether the restored text is right.
+# The possible results for a card: its class of certainty, the ground, and whether the restored text is right.
 KINDS = (
     *(("certain", ground, verdict) for ground in ("parse", "print") for verdict in ("right", "wrong")),
     *(("probable", ground, verdict) for ground in ("forced", "sibling") for verdict in ("right", "wrong")),
@@ -53,8 +52,8 @@ KINDS = (
     ("abstained", "a statement of several cards", ""),
     ("unnoticed", "", ""),
 )
-# The copies that a round makes of the listings and of the other programs, by the kind of damage.  There are more of the
-# other programs because these are shorter, and because their copies have more conjectures for the same work.
+# The number of copies that a round makes of the listings, and of the other programs, by the kind of damage.  A round
+# makes more copies of the other programs because they are shorter and have more conjectures for the same work.
 ROUND = {"as the OCR": (1, 120), "signs lost": (1, 50)}
 LOST_SIGNS = 0.1
 SEED = 1963
@@ -91,8 +90,8 @@ def listings() -> Group:
 def others(folder: Path) -> Group:
     """Return the programs ``*.f`` of a folder with their ``.deck``, ``.operator`` and ``.output`` files.
 
-    The name of an output has the sense switches that are on, and its lines begin with P (punched) or T (typed).
-    Raise FileError if the folder has no program.
+    The name of an output, such as ``pi-2.output``, contains the numbers of the sense switches that are on.  Its lines
+    begin with P (punched) or T (typed).  Raise FileError if the folder has no program.
     """
     paths = sorted(folder.glob("*.f"))
     if not paths:
@@ -145,8 +144,8 @@ def damaged_copy(group: Group, damage: str, seed: int) -> list[Job]:
 class Copy:
     """A restored copy of a group of programs.
 
-    ``damage`` is a key of ``ROUND``, ``number`` counts the copies of a group, ``damaged`` is the number of damaged
-    cards, and ``counts`` has the number of cards with each outcome of ``KINDS``.
+    damage: a key of ``ROUND``.  number: the number of the copy, from 0, among those of its group and damage.  damaged:
+    the number of damaged cards.  counts: the number of cards with each result of ``KINDS``.
     """
 
     damage: str
@@ -265,7 +264,7 @@ def restored_copy(damage: str, group: Group, number: int, restore: Restorer) -> 
 
 @contextmanager
 def blind_restorer() -> Iterator[Restorer]:
-    """Start a process that knows only what it is sent, and yield a function that restores damaged programs in it.
+    """Start a process that cannot read the originals, and yield a function that restores damaged programs in it.
 
     The function raises FileError if the process fails.
     """
@@ -294,10 +293,10 @@ def blind_restorer() -> Iterator[Restorer]:
 
 
 def summary(copies: Sequence[Copy]) -> list[tuple[str, ...]]:
-    """Return a table: for each damage, class and ground the emended cards, the errors, and their interval.
+    """Return a table: for each damage, class and ground the number of emended cards, and the errors with an interval.
 
-    The last column counts the errors in copies of the listings alone.  For cards without a restored text, the table
-    gives the number of damaged cards.
+    The last column counts the errors in copies of the listings.  For cards without a restored text, the table gives
+    the number of damaged cards.  Intervals are exact 95 % intervals (Clopper and Pearson).
     """
     header = ("damage", "class", "ground", "cards", "wrong", "error rate", "95 % interval", "wrong in the listings")
     lines: list[tuple[str, ...]] = [header]
@@ -321,7 +320,6 @@ def summary(copies: Sequence[Copy]) -> list[tuple[str, ...]]:
 
 
 def _total(copies: Sequence[Copy]) -> Counter[tuple[str, str, str]]:
-    """Return the number of cards of each kind in all copies."""
     total = Counter[tuple[str, str, str]]()
     for copy in copies:
         total.update(dict(zip(KINDS, copy.counts, strict=True)))

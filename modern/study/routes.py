@@ -1,10 +1,8 @@
-"""Compute the hulls of a chunk of samples by one route, and collect the results.
-
-A route is a run of the programs of 1963 or of their modern port, with its options.
-"""
+"""Compute the hulls of a chunk of samples by one route: the programs of 1963 or their modern port, with options."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
+from dataclasses import replace
 from functools import cache
 
 from emulator.errors import EmulatorError, quoted
@@ -17,16 +15,16 @@ from modern.edition import programs
 from modern.formats.deck import with_epsilon
 from modern.geometry.hull import Hull
 from modern.port import RangeError, convex_hull
-from modern.study.measures import MEASURES, measure_of
+from modern.study.measures import MEASURES
 from modern.study.outcomes import OTHERWISE, Answer, Figures, answer_of_hull, answer_of_run
-from modern.study.plan import PlanError, Port, Programs, Route, user_code
+from modern.study.plan import PlanError, Port, Programs, Route, named, user_code
 from modern.study.sample import Sample
 from modern.thesis.batch import Runs, run_hulls
 from modern.thesis.job import HullRun, Load, run_hull
 
 
 def carry_out(route: Route, samples: Sequence[Sample], runs: Runs) -> list[Answer]:
-    """Compute the hull of each sample by the route. ``runs`` stores runs that several routes of a sample share."""
+    """Compute the hull of each sample by the route; ``runs`` keeps the runs that several routes have in common."""
     if isinstance(route, Programs):
         return _programs(route, samples, runs)
     return [_port(route, sample) for sample in samples]
@@ -42,7 +40,10 @@ def options_of(route: Programs) -> Options:
 
 
 def programs_of(route: Programs) -> tuple[str, Load]:
-    """Return the name of the version of program 1, and the function that loads programs by name.  Raise PlanError."""
+    """Return the name of the route's version of program 1, and a function that returns a program by its name.
+
+    Raise PlanError if the route names an unknown layer or row.
+    """
     first = "program1_examples" if route.state == "examples" else "program1"
     rows = [row for name in programs.TEXTS for row in programs.text(name).rows]
     missing = [layer for layer in route.layers if layer not in {row.layer for row in rows}]
@@ -82,7 +83,8 @@ def _programs(route: Programs, samples: Sequence[Sample], runs: Runs) -> list[An
             continue
         answer = answer_of_run(run, sample, options)
         statements = sum(step.result.statements for step in run.steps)
-        answers.append(_with_figures(answer, {"statements": statements, **_measured(route, sample, run)}))
+        figures = {**answer.figures, "statements": statements, **_measured(route, sample, run)}
+        answers.append(replace(answer, figures=figures))
     return answers
 
 
@@ -106,7 +108,8 @@ def _port(route: Port, sample: Sample) -> Answer:
         )
     except RangeError as error:
         return Answer(OTHERWISE, str(error))
-    return _with_figures(answer_of_hull(hull, sample), _measured(route, sample, hull))
+    answer = answer_of_hull(hull, sample)
+    return replace(answer, figures={**answer.figures, **_measured(route, sample, hull)})
 
 
 def _measured(route: Route, sample: Sample, run: HullRun | Hull) -> Figures:
@@ -115,7 +118,7 @@ def _measured(route: Route, sample: Sample, run: HullRun | Hull) -> Figures:
         in_module = user_code(f"route {route.name}: measure {name}", name.partition(":")[0])
         try:
             with nullcontext() if name in MEASURES else in_module:
-                measured = measure_of(name)(sample, run)
+                measured = named("measure", name, MEASURES)(sample, run)
         except (TypeError, ValueError) as error:
             raise PlanError(f"route {route.name}: measure {name}: {error}") from error
         invalid = [figure for figure, value in measured.items() if type(value) not in (int, str)]
@@ -123,7 +126,3 @@ def _measured(route: Route, sample: Sample, run: HullRun | Hull) -> Figures:
             raise PlanError(f"route {route.name}: measure {name}: the figure {invalid[0]} is not an integer or text")
         figures.update(measured)
     return figures
-
-
-def _with_figures(answer: Answer, figures: Figures) -> Answer:
-    return Answer(answer.outcome, answer.detail, {**answer.figures, **figures}, answer.order)

@@ -15,7 +15,7 @@ from emulator.errors import expect, quoted
 from emulator.files import UNFINISHED, reason
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
-from emulator.numbers import numbers
+from emulator.numbers import Numbers, numbers
 from emulator.numbers.decimal import DecimalNumbers
 from emulator.progress import Progress
 from modern.edition import programs
@@ -24,8 +24,8 @@ from modern.port import convex_hull
 from modern.study.chartfile import write_charts
 from modern.study.families import draw_sample
 from modern.study.manifest import NAME, first_difference, manifest, plan_sum, read_manifest, versions, write_manifest
-from modern.study.measures import MEASURES, OF_PORT, measure_of
-from modern.study.plan import Cell, Plan, PlanError, Port, Programs, Route, StudyFileError
+from modern.study.measures import MEASURES, OF_PORT
+from modern.study.plan import Cell, Plan, PlanError, Port, Programs, Route, StudyFileError, named
 from modern.study.plots import can_plot, draw
 from modern.study.report import Report, outcome_report, write_report
 from modern.study.routes import options_of, programs_of
@@ -77,7 +77,7 @@ def run_study(
     ------
     PlanError
         With a one-line message, if the plan cannot be carried out, if the folder holds a study and ``resume`` is
-        false, if it holds a different study, or if a file cannot be written.  Finished chunks are kept.
+        false, if the folder holds a different study, or if a file cannot be written.  Finished chunks are kept.
     KeyboardInterrupt
         Ctrl-C stops the study at once.  Finished chunks are kept, and ``resume`` computes the others.
 
@@ -135,16 +135,16 @@ def verify_study(folder: Path) -> tuple[Plan, int, list[str]]:
 
 
 def plain_lines(plan: Plan) -> tuple[str, ...]:
-    """Return a line for each reason why routes of a plan cannot be compiled and run in the interpreter."""
+    """Return a line for each reason why routes of a plan must run in the interpreter instead of compiled code."""
     reasons = dict.fromkeys(why_plain(options_of(route)) for route in _program_routes(plan))
     return tuple(reason for reason in reasons if reason)
 
 
 @contextmanager
 def _compiling(plan: Plan, quiet: bool) -> Iterator[subprocess.Popen[bytes] | None]:
-    """Compile the code that a plan needs in another process.  Until it is ready, the workers use the interpreter.
+    """Compile the code that a plan needs in another process, while the workers use the interpreter.
 
-    Report at the end of the block that the code could not be compiled, unless ``quiet`` is true.
+    If the compilation fails, print a note at the end of the block, unless ``quiet`` is true.
     """
     calls = []
     if must_compile() and any(not why_plain(options_of(route)) for route in _program_routes(plan)):
@@ -169,18 +169,17 @@ def _program_routes(plan: Plan) -> Iterable[Programs]:
 
 
 def cut_lines(plan: Plan) -> tuple[str, ...]:
-    """Return a note for each route whose numbers lose digits because cards between the programs hold only eight."""
+    """Return a note for each route whose numbers lose digits on the cards between the programs."""
+
+    def fits_cards(arithmetic: Numbers) -> bool:
+        return isinstance(arithmetic, DecimalNumbers) and arithmetic.profile.rules.digits <= CARD_DIGITS
+
     return tuple(
         f"route {route.name}: the cards between the programs hold {CARD_DIGITS} digits of a number; "
         "uncut = true keeps all digits"
         for route in _program_routes(plan)
-        if not route.uncut and not _fits_cards(route)
+        if not route.uncut and not fits_cards(numbers(route.arithmetic))
     )
-
-
-def _fits_cards(route: Programs) -> bool:
-    arithmetic = numbers(route.arithmetic)
-    return isinstance(arithmetic, DecimalNumbers) and arithmetic.profile.rules.digits <= CARD_DIGITS
 
 
 def _complete(plan: Plan, store: Store, client: Any, workers: int, quiet: bool) -> None:
@@ -259,7 +258,7 @@ def check_route(route: Route) -> None:
     if not route.name:
         raise PlanError("expected a name for every route; one has none")
     for name in route.measures:
-        measure_of(name)
+        named("measure", name, MEASURES)
         if name in MEASURES and (name in OF_PORT) != isinstance(route, Port):
             possible = [known for known in MEASURES if (known in OF_PORT) == isinstance(route, Port)]
             kind = "the port" if isinstance(route, Port) else "the programs"

@@ -19,7 +19,7 @@ CARD_DIGITS = 8
 class Sample:
     """A sample: its deck, its exact points, and its exact hull.
 
-    ``outcome`` is the hull in the form used for comparisons. ``on`` has the vertices on each plane of the hull.
+    outcome: the exact hull in the form used for comparisons.  on: for each plane of the hull, the vertices on it.
     """
 
     drawn: Drawn

@@ -25,6 +25,8 @@ LEVEL = 0.95
 
 @dataclass(frozen=True, slots=True)
 class Interval:
+    """An estimate with the limits of its confidence interval."""
+
     value: float
     low: float
     high: float
@@ -41,7 +43,7 @@ def exact(hits: int, of: int, level: float = LEVEL) -> Interval:
 
 
 def count(hits: int, of: int, times: int, level: float = LEVEL) -> Interval:
-    """Return the expected number of hits in ``times`` samples, with its interval, if ``of`` samples had ``hits``."""
+    """Return the expected number of hits in ``times`` samples, with its interval, after ``hits`` in ``of`` samples."""
     share = exact(hits, of, level)
     return Interval(times * share.value, times * share.low, times * share.high)
 

@@ -24,18 +24,12 @@ _CHECKSUM_FIELD = b',"checksum":"'
 
 
 def put(path: Path, data: bytes | str) -> None:
-    """Write a complete file.  On failure write no file and raise StudyFileError."""
+    """Write a complete file, or raise StudyFileError and write no file."""
     try:
         with writing_bytes(str(path), durable=True) as file:
             file.write(data.encode("utf-8") if isinstance(data, str) else data)
     except FileError as error:
         raise StudyFileError(str(error)) from None
-
-
-def sweep(folder: Path) -> None:
-    """Remove the unfinished files of an interrupted run."""
-    for path in folder.glob(f"{UNFINISHED}*"):
-        path.unlink(missing_ok=True)
 
 
 @dataclass
@@ -48,14 +42,17 @@ class Store:
 
     @classmethod
     def open(cls, folder: Path, plan: Plan) -> "Store":
-        """Open the store in an existing folder.  Raise StudyFileError if that fails."""
+        """Open the store in an existing folder and remove the unfinished files of an interrupted run.
+
+        Raise StudyFileError if that fails.
+        """
         try:
             (folder / ROWS).mkdir(exist_ok=True)
         except OSError as error:
             raise StudyFileError(f"{folder / ROWS}: {reason(error)}") from None
         store = cls(folder, plan, open_index(folder))
-        sweep(folder)
-        sweep(folder / ROWS)
+        for path in (*folder.glob(f"{UNFINISHED}*"), *(folder / ROWS).glob(f"{UNFINISHED}*")):
+            path.unlink(missing_ok=True)
         return store
 
     def close(self) -> None:
@@ -64,7 +61,8 @@ class Store:
     def missing(self) -> list[Chunk]:
         """Build the index from all files of rows, and return the chunks that have no file.
 
-        Raise StudyFileError if a row is damaged.  The index is never reused, because a change in it would go unnoticed.
+        Raise StudyFileError if a row is damaged.  An earlier index is never reused, because damage in it would go
+        unnoticed.
         """
         clear(self.database)
         missing = []
@@ -111,7 +109,10 @@ class Store:
         return digest.hexdigest()
 
     def counts(self, *columns: str, cell: int | None = None, route: str | None = None) -> dict[tuple[Any, ...], int]:
-        """Count the results by the values of columns or tags (such as ``tags.kind``), sorted by these values."""
+        """Count the results by the values of columns of the index, or of tags such as ``tags.kind``.
+
+        Return the number of results for each tuple of values, sorted by the values.  cell, route: count only these.
+        """
         names = [_column(name) for name in columns]
         selected = {name: value for name, value in (("cell", cell), ("route", route)) if value is not None}
         condition = " AND ".join(f"runs.{name} = ?" for name in selected)
@@ -148,7 +149,7 @@ class Store:
 
 
 def _with_checksum(line: bytes) -> bytes:
-    """Return a row with a checksum as its last field: 16 hexadecimal digits of the SHA-256 of the row before it."""
+    """Return a row with its checksum as last field: 16 hexadecimal digits of the SHA-256 of the other fields."""
     fields = line.removesuffix(b"}")
     return b'%s%s%s"}\n' % (fields, _CHECKSUM_FIELD, hashlib.sha256(fields).hexdigest()[:16].encode("ascii"))
 

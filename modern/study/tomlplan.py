@@ -64,7 +64,10 @@ _HEADER = re.compile(r"\s*(\[\[?)\s*([\w.-]+)")
 
 @dataclass(frozen=True, slots=True)
 class _Section:
-    """A section of a plan file: ``route`` or ``cell`` with its number from 1, or the keys before all sections."""
+    """A section of a plan file: a ``[[route]]`` or ``[[cell]]``, or the keys before all sections.
+
+    path: the file.  text: its whole text.  name, number: ``route`` or ``cell``, and the number of the section, from 1.
+    """
 
     path: str
     text: str
@@ -85,7 +88,7 @@ class _Section:
             raise PlanError(f"{self._place(key)}: {error}") from error
 
     def _place(self, key: str) -> str:
-        """Return the file and the line of a key in this section or, if the key has no line, of the section."""
+        """Return the file, and the line of the key in this section; if the key has no line, that of the section."""
         sections, header_line = {"": 0}, 0
         current = ("", 0)
         for line_number, line in enumerate(_masked(self.text).split("\n"), 1):
@@ -121,11 +124,6 @@ class _Section:
 def _masked(text: str) -> str:
     """Return the text of a TOML file with the characters of strings and comments replaced by spaces."""
     return _MASKED.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
-
-
-def is_plan_file(name: str) -> bool:
-    """Return True if the name of a study on the command line is the name of a file."""
-    return name.endswith(".toml")
 
 
 def read_plan(path: str, samples: int | None = None, seed: int | None = None) -> Plan:

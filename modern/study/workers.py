@@ -1,7 +1,7 @@
 """Compute the chunks of a study in this process, in worker processes or on a dask.distributed cluster.
 
-A chunk is a run of consecutive samples of one cell.  Its result is the JSONL text of its rows.  Worker processes and
-clusters are both executors of :mod:`concurrent.futures` and share one loop, which submits chunks and waits for them.
+The result of a chunk is the JSONL text of its rows.  Worker processes and clusters are both executors of
+:mod:`concurrent.futures` and share one loop, which submits chunks and waits for them.
 """
 
 import json
@@ -11,7 +11,7 @@ import os
 import re
 import signal
 import threading
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
@@ -24,12 +24,11 @@ from emulator.compiled.replay import compile_repetitions
 from emulator.compiled.runner import must_compile
 from emulator.errors import EmulatorError
 from modern.study.families import draw_sample
-from modern.study.index import Row
 from modern.study.manifest import versions
-from modern.study.outcomes import Answer, reordered
+from modern.study.outcomes import reordered
 from modern.study.plan import Cell, Chunk, Plan, PlanError
 from modern.study.routes import carry_out
-from modern.study.sample import Sample, judge
+from modern.study.sample import judge
 from modern.thesis.batch import Runs
 
 # The number of chunks submitted for each worker: enough to keep it busy, few enough to limit memory use.
@@ -40,49 +39,38 @@ _ADDRESS = re.compile(r"(\w+://)?[^\s:/]+:\d{1,5}|\w+://\[[0-9a-fA-F:]+\]:\d{1,5
 
 # A chunk and its rows.
 FinishedChunk = tuple[Chunk, str]
-# A result: the rows of a chunk and an empty text, or an empty text and an error message.
-#
-# Text can always be sent to another process, whereas an exception might not be unpickled there.
+# The rows of a chunk and an empty text, or an empty text and an error message.  Text can always be sent to another
+# process, whereas an exception might not be unpickled there.
 RowsOrError = tuple[str, str]
 
 
 def chunk_text(cell: Cell, seed: int, chunk: Chunk, soon: bool = False) -> str:
-    """Return the rows of a chunk as JSONL text, one line per sample; ``seed`` is that of the study.
+    """Return the rows of a chunk as JSONL text, one line per sample.
 
-    With ``soon``, the interpreter is used until another process has compiled the engine.
+    seed: the seed of the study.  soon: use the interpreter until another process has compiled the engine.
     """
-    rows = chunk_rows(cell, seed, chunk, soon and must_compile())
-    return "".join(json.dumps(row, separators=(",", ":")) + "\n" for row in rows)
-
-
-def chunk_rows(cell: Cell, seed: int, chunk: Chunk, interpreted: bool = False) -> Iterator[Row]:
-    """Yield the row of each sample: its seed, its deck, the judge's figures, and the answer of each route."""
     samples = [judge(draw_sample(cell, seed, index), f"sample {index}") for index in range(chunk.start, chunk.stop)]
-    runs = Runs(interpreted)
+    runs = Runs(soon and must_compile())
     answers = {route.name: carry_out(route, samples, runs) for route in cell.routes}
     reference = answers[cell.reference or cell.routes[0].name]
+    text = ""
     for position, sample in enumerate(samples):
-        index = chunk.start + position
         of_sample = {name: reordered(answer[position], reference[position]) for name, answer in answers.items()}
-        yield _row(chunk.cell, index, cell.seed(seed, index), sample, of_sample)
-
-
-def _row(cell: int, index: int, seed: str, sample: Sample, answers: dict[str, Answer]) -> Row:
-    row: Row = {
-        "cell": cell,
-        "index": index,
-        "seed": seed,
-        "tags": dict(sample.drawn.tags),
-        "deck": [card.text for card in sample.deck.cards],
-        "judge": sample.figures(),
-        "runs": {
-            name: {"outcome": answer.outcome, "detail": answer.detail, "figures": dict(answer.figures)}
-            for name, answer in answers.items()
-        },
-    }
-    if not row["tags"]:
-        del row["tags"]
-    return row
+        index = chunk.start + position
+        row = {
+            "cell": chunk.cell,
+            "index": index,
+            "seed": cell.seed(seed, index),
+            **({"tags": dict(sample.drawn.tags)} if sample.drawn.tags else {}),
+            "deck": [card.text for card in sample.deck.cards],
+            "judge": sample.figures(),
+            "runs": {
+                name: {"outcome": answer.outcome, "detail": answer.detail, "figures": dict(answer.figures)}
+                for name, answer in of_sample.items()
+            },
+        }
+        text += json.dumps(row, separators=(",", ":")) + "\n"
+    return text
 
 
 def work_on(cell: Cell, seed: int, chunk: Chunk, soon: bool = False) -> RowsOrError:
@@ -94,12 +82,12 @@ def work_on(cell: Cell, seed: int, chunk: Chunk, soon: bool = False) -> RowsOrEr
 
 
 def processes() -> int:
-    """Return how many processors this process may use."""
+    """Return the number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def in_processes(plan: Plan, chunks: Sequence[Chunk], workers: int) -> Generator[FinishedChunk]:
-    """Yield each chunk with its rows as it is finished, in any order. Closing the generator ends the workers.
+    """Yield each chunk with its rows when the chunk is finished, in any order. Closing the generator ends the workers.
 
     Raise PlanError if a chunk cannot be carried out or a worker dies.
     """
@@ -136,7 +124,7 @@ def _submit_and_wait(
     most_submitted: int,
     work: Callable[[Cell, int, Chunk], RowsOrError],
 ) -> Generator[FinishedChunk]:
-    """Yield each chunk with its rows as the pool finishes it, keeping at most ``most_submitted`` chunks submitted."""
+    """Yield each chunk with its rows when it is finished, while at most ``most_submitted`` chunks are in the pool."""
     waiting = iter(chunks)
     submitted: dict[Future[RowsOrError], Chunk] = {}
     while True:
@@ -167,7 +155,10 @@ def _begin_worker() -> None:
 
 
 def connect(address: str) -> Any:
-    """Return a client of the cluster at ``tcp://HOST:PORT``. Raise PlanError without dask.distributed or an answer."""
+    """Return a client of the cluster whose scheduler is at ``tcp://HOST:PORT``.
+
+    Raise PlanError if dask.distributed is not installed or the scheduler does not answer.
+    """
     try:
         distributed = import_module("distributed")
     except ImportError:
@@ -183,9 +174,10 @@ def connect(address: str) -> Any:
 
 
 def on_cluster(plan: Plan, chunks: Sequence[Chunk], client: Any) -> Generator[FinishedChunk]:
-    """Yield each chunk with its rows as the cluster of ``client`` finishes it, in any order.
+    """Yield each chunk with its rows when the cluster of ``client`` has finished it, in any order.
 
-    The scheduler repeats the chunk of a dead worker. Raise PlanError if the cluster or its versions are wrong.
+    The scheduler repeats the chunk of a dead worker. Raise PlanError if the cluster fails, or if a worker has other
+    versions of packages than this process.
     """
     distributed = import_module("distributed")
     threads = sum(client.nthreads().values())

@@ -1,12 +1,10 @@
-"""Arguments that several commands share: inputs, the machine on which a program runs, and destinations of results.
+"""Arguments that several commands share: inputs, the machine on which a program runs, and the outputs of results.
 
 The end of the module lists the words with which the shell can complete an argument (package argcomplete, in the extra
-``completion``).  The names of examples are written out there, because reading them from the data would be too slow.
+``completion``).  The lists repeat the names of examples, because reading the names from the data would be too slow.
 
 Like ``modern/cli/arguments.py``, this module imports nothing that is needed only to run a command.
 """
-
-from __future__ import annotations
 
 import sys
 from argparse import Action, ArgumentParser, ArgumentTypeError, Namespace, _ActionsContainer
@@ -18,10 +16,10 @@ from modern.formats import POINTS
 
 
 def add(parser: _ActionsContainer, texts: Mapping[str, str], **settings: Any) -> None:
-    """Add arguments by their names, each followed by its metavar, and their lines in ``--help``.
+    """Add arguments to a parser.
 
-    An option with neither metavar nor ``choices`` is a switch.  ``settings`` are those of ``add_argument``, for each
-    of the arguments.
+    texts: for each argument, its names and metavar, such as ``-o --output FILE``, and its help text.  An option with
+    neither metavar nor ``choices`` is a switch.  settings: the settings of ``add_argument`` for all these arguments.
     """
     for names, text in texts.items():
         *flags, last = names.split()
@@ -34,7 +32,7 @@ def add(parser: _ActionsContainer, texts: Mapping[str, str], **settings: Any) ->
 
 
 def result_arguments(parser: ArgumentParser) -> None:
-    """Add the destinations of a run's results, the operator, and the arguments of ``machine_arguments``."""
+    """Add the options for the outputs and the operator of a run, and the arguments of ``machine_arguments``."""
     add(
         parser,
         {"--punch FILE": "write the punched cards to FILE (default: standard output)"},
@@ -56,7 +54,7 @@ def result_arguments(parser: ArgumentParser) -> None:
 
 
 def machine_arguments(parser: ArgumentParser) -> None:
-    """Add the properties of the machine on which a program runs, and ``--layers``."""
+    """Add the options that describe the machine on which a program runs, and ``--layers``."""
     switch = {"--switch N": "turn sense switch N (1 to 4) on (default: all are off)"}
     add(parser, switch, type=int, action="append", choices=(1, 2, 3, 4), default=[])
     arithmetic = (
@@ -80,7 +78,7 @@ def machine_arguments(parser: ArgumentParser) -> None:
 
 
 def compared_machine(parser: ArgumentParser) -> None:
-    """Add ``machine_arguments`` and ``--upcase``; ``--limit`` is lower because every value is compared."""
+    """Add ``machine_arguments``, with a lower limit because comparing every value is slow, and ``--upcase``."""
     machine_arguments(parser)
     upcase_argument(parser)
     parser.set_defaults(limit=1_000_000)
@@ -100,7 +98,7 @@ def output_argument(parser: ArgumentParser, metavar: str = "FILE", formats: str 
 
 
 def result_file_argument(parser: ArgumentParser, contents: str) -> None:
-    """Add an output that is written only on request."""
+    """Add ``--output`` for a command that writes a file only if the user names one."""
     add(parser, {"-o --output FILE": f"write {contents}"}, type=OutputFile)
 
 
@@ -110,7 +108,7 @@ def json_argument(parser: ArgumentParser, contents: str) -> None:
 
 
 def printed_arguments(parser: ArgumentParser, rules: str, names: str) -> None:
-    """Add the options that choose which rules a method applies as its paper prints them, instead of corrected."""
+    """Add the options that select the rules of a method that are applied as the paper prints them, uncorrected."""
     texts = {
         "--literal": f"apply every {rules} as the paper prints it",
         "--printed NAME,...": f"apply only these {rules}s as printed: {names}",
@@ -163,7 +161,7 @@ def points_argument(parser: ArgumentParser, metavar: str = "POINTS", note: str =
 
 
 def listed(names: Iterable[str]) -> str:
-    """Join items to a text such as ``a, b or c``."""
+    """Return the names joined to a text such as ``a, b or c``."""
     *others, last = names
     return f"{', '.join(others)} or {last}"
 
@@ -221,7 +219,7 @@ NAMES: dict[str, tuple[str, ...]] = {
 
 
 def complete(parser: ArgumentParser) -> None:
-    """Print the possible words for the line typed so far, and exit."""
+    """Print the words that can complete the command line that the user is typing, and exit."""
     try:
         from argcomplete import autocomplete
         from argcomplete.completers import BaseCompleter, FilesCompleter
@@ -229,7 +227,7 @@ def complete(parser: ArgumentParser) -> None:
         sys.exit(1)
 
     class Candidates(BaseCompleter):
-        """The words with which the shell may complete an argument: the given names, and files."""
+        """Complete an argument with the names in ``NAMES`` and with files."""
 
         def __call__(
             self, *, prefix: str, action: Action, parser: ArgumentParser, parsed_args: Namespace

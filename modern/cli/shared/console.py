@@ -1,8 +1,8 @@
-"""The interface to the user that all commands share: exit codes, error lines, and notes on standard error.
+"""What all commands share: exit codes, error messages, notes on standard error, and checks of outputs.
 
-OK: the run ended normally.  DIFFERS: a result differs, or a program stopped after typing DATA NOT ACCEPTABLE or ERROR
-IN PROGRAM, reached the statement limit, or used a subscript out of bounds.  BAD_INPUT: the input is invalid, which one
-line on standard error explains.
+The exit codes are OK: the run ended normally; DIFFERS: a result differs, or a program stopped after typing DATA NOT
+ACCEPTABLE or ERROR IN PROGRAM, reached the statement limit, or used a subscript out of bounds; BAD_INPUT: the input is
+invalid, and one line on standard error explains the error.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ class Folder(str):
     """An argument that names a folder to write to."""
 
 
+# A file name with one place for a number in the notation of printf: ``card-%03d.svg``.
 _NUMBERED = re.compile(r"(?:[^%]|%%)*%(?:0?[1-9])?d(?:[^%]|%%)*")
-"""A file name with one place for a number in the notation of printf: ``card-%03d.svg``."""
 # Matches a long text that a message quotes from the input: text in quotation marks, or text without a blank.
 _LONG = re.compile(r"(?<!\w)'(?:[^'\\]|\\.){120,}'|\S{200,}")
 
@@ -54,15 +54,15 @@ class Parser(argparse.ArgumentParser):
         self.exit(BAD_INPUT)
 
     def _print_message(self, message: str, file: SupportsWrite[str] | None = None) -> None:
-        """Write a message.  Argparse would ignore that an unbuffered output cannot be written."""
+        """Write a message, and raise OSError if the output cannot be written; argparse would ignore that error."""
         if stream := file or sys.stderr:
             stream.write(message)
 
 
 def print_error(message: str, source: str = "hull1620") -> None:
-    """Print one line on standard error, if it is open.
+    """Print one line on standard error, if standard error is open.
 
-    Escape control characters, which the name of a file may contain, and shorten long texts of the input.
+    Control characters, which the name of a file may contain, are escaped, and long texts of the input are shortened.
     """
     if sys.stderr is not None:
         message = _LONG.sub(lambda match: f"{match[0][:80]}...{match[0][-20:]}", message)
@@ -78,7 +78,7 @@ def print_notes(lines: Iterable[str]) -> None:
 
 
 def report_stream(args: argparse.Namespace) -> TextIO:
-    """Return the stream of a command's report: standard error if its data go to standard output."""
+    """Return the stream of a command's report: standard error if the command writes data to standard output."""
     return (
         sys.stderr
         if "-" in (vars(args).get(name) for name in ("json", "csv", "html", "samples", "output"))
@@ -93,7 +93,7 @@ def print_report(args: argparse.Namespace, lines: Iterable[str]) -> None:
 
 
 def write_folder(folder: str, texts: Mapping[str, str], encoding: str = "ascii") -> None:
-    """Write text files by name to a folder, which is made if it does not exist.  Raise FileError."""
+    """Write texts to the files of the given names in a folder, which is made if it does not exist.  Raise FileError."""
     from emulator.files import reason, writing_bytes  # imported here because --help does not need it
 
     try:

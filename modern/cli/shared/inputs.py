@@ -39,10 +39,10 @@ def points_of(name: str) -> Input:
 
 
 def deck_of(name: str, points: bool = False) -> Deck:
-    """Return a deck from a file, or an example by name.  Raise EmulatorError.
+    """Return the deck of a file or of an example.  Raise EmulatorError.
 
-    points: the deck must hold points.  If the file has points in another format, the message names the command that
-    makes a deck of it.
+    points: the deck must hold points.  If the file has points in another format, the error message names the command
+    that makes a deck of it.
     """
     data, source = read_input(name), source_name(name)
     is_figure = _FIGURE.fullmatch(name) is not None
@@ -67,12 +67,11 @@ def punch_epsilon(deck: Deck, epsilon: str) -> Deck:
 
 
 def deck_for(program: str, name: str) -> Deck:
-    """Return the deck ``name`` for a program; for program 1 the deck must hold points. Raise EmulatorError."""
+    """Return the deck ``name`` as the input of a program; for program 1 it must hold points. Raise EmulatorError."""
     return deck_of(name, points=program in ("program1", "program1_examples"))
 
 
 def _example(name: str) -> str | None:
-    """Return the text of an example, or None if no example has this name."""
     if match := _EXAMPLE.fullmatch(name):
         from modern.edition.chapter6 import input_deck  # only examples need these imports, so files are read faster
 

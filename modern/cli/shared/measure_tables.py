@@ -1,9 +1,7 @@
-"""The measures of solids and hulls as text: lines for one solid, and a table or CSV for many labels.
+"""Format the measures of solids and hulls: as lines for one solid, and as a table or CSV for many labels.
 
-Lines and tables show numbers to twelve digits.  CSV has fifty digits, and the exact fractions in further columns.
+Lines and tables show numbers to twelve digits.  CSV has fifty digits, and exact fractions in further columns.
 """
-
-from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -16,15 +14,15 @@ from modern.digital.measures import Measures
 from modern.formats import columns
 from modern.geometry.numbers import AREA_DIGITS, finite_decimal
 
+# The number of digits to which lines and tables show a number.
 TABLE_DIGITS = 12
-"""Digits of a number in lines and tables."""
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
     """A number of a row with the name of its column.
 
-    with_fraction: CSV has a second column with the exact fraction.
+    with_fraction: CSV also has the exact fraction, in a further column.
     """
 
     name: str
@@ -36,7 +34,7 @@ Row = tuple[Cell, ...]
 
 
 def centres_row(label: int, measures: Measures) -> Row:
-    """Return the row of a label whose hull is that of its voxels' centres, which excludes parts of the outer voxels."""
+    """Return the row of a label and the hull of its voxels' centres, which excludes parts of the outer voxels."""
     return (
         Cell("label", label),
         Cell("voxels", measures.voxels),
@@ -47,7 +45,7 @@ def centres_row(label: int, measures: Measures) -> Row:
 
 
 def solid_row(label: int, measures: Measures) -> Row:
-    """Return the row of a label whose hull is that of its voxels' corners, which contains the whole solid."""
+    """Return the row of a label and the hull of its voxels' corners, which contains the whole solid."""
     solidity = Cell("solidity", measures.solidity, True)
     return (*centres_row(label, measures), solidity, Cell("deficiency", measures.deficiency, True))
 
@@ -77,7 +75,7 @@ def measure_lines(measures: Measures, unit: str, corners: bool) -> Iterator[str]
 
 
 def table(rows: Sequence[Row], unit: str) -> Iterator[str]:
-    """Yield the lines of a table of measures with headings, and a line about the units."""
+    """Yield the lines of a table of measures with headings, and a line that states the unit of length."""
     lines = [[cell.name.replace("_", " ") for cell in rows[0]]]
     lines += [[_to_digits(cell.number, TABLE_DIGITS) for cell in row] for row in rows]
     yield from columns.aligned(lines, right=True)
@@ -108,7 +106,7 @@ def _to_digits(number: int | Fraction | Decimal, digits: int) -> str:
 
 
 def _with_exact(number: Fraction) -> str:
-    """Return an exact decimal if it is short, otherwise an approximation, preceded by the fraction if that is short."""
+    """Return the exact decimal if it is short; otherwise an approximation, after the fraction if that is short."""
     text = finite_decimal(number)
     if text is not None and len(text) <= 2 * TABLE_DIGITS:
         return text
@@ -117,7 +115,6 @@ def _with_exact(number: Fraction) -> str:
 
 
 def _plain(number: Decimal) -> str:
-    """Return a decimal without trailing zeros, with an exponent only if it is far from 0."""
     text = finite_decimal(Fraction(number))
     assert text is not None
     return text

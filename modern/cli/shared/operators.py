@@ -1,7 +1,5 @@
 """The operator of a run: a person at the terminal, a file or a log of answers, standard input, or nobody."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import sys
@@ -21,8 +19,8 @@ from modern.cli.shared.run_output import is_terminal
 class Attendance:
     """The operator of a run.
 
-    show: the function that shows a typed line, if the operator sits at a terminal.  file: the file of answers, if the
-    operator is one.
+    show: a function that shows a typed line to a person at the terminal, or None.  file: the file whose lines answer,
+    or None.
     """
 
     operator: Operator
@@ -30,7 +28,7 @@ class Attendance:
     file: FromFile | None
 
     def print_unused(self) -> None:
-        """Print a note if lines of the file of answers were not used."""
+        """Print a note if the run did not use all lines of the file of answers."""
         if self.file is not None and self.file.first_unused:
             print_notes([f"note: {self.file.name}: the run did not use line {self.file.first_unused} and later lines"])
 
@@ -40,8 +38,9 @@ def attended(args: argparse.Namespace, program: Program | None = None) -> Iterat
     """Yield the operator that ``--operator`` names; ``--log`` records the operator's actions.
 
     program: the program that asks the questions.  Without ``--operator``, the person at the terminal answers if the
-    program has ACCEPT or PAUSE and all standard streams are the terminal.  Otherwise the lines of standard input
-    answer, unless standard input is a deck or a terminal.  Raise UsageError, or FileError for an unreadable file.
+    program has ACCEPT or PAUSE and all standard streams are the terminal.  Otherwise the answers are the lines of
+    standard input, unless standard input is a deck or a terminal.  Raise UsageError, or FileError for an unreadable
+    file.
     """
     name: str | None = args.operator
     inputs = [getattr(args, "program", None), args.deck]
@@ -69,7 +68,6 @@ def attended(args: argparse.Namespace, program: Program | None = None) -> Iterat
 
 
 def _has_questions(args: argparse.Namespace, program: Program) -> bool:
-    """Return True if a person at the terminal can answer questions of the program (ACCEPT or PAUSE)."""
     if not (args.deck and os.path.isfile(args.deck)):
         return False
     if not all(map(is_terminal, (sys.stdin, sys.stdout, sys.stderr))):

@@ -3,8 +3,6 @@
 Like ``modern/cli/arguments.py``, this module imports nothing that is needed only to run a command.
 """
 
-from __future__ import annotations
-
 from argparse import ArgumentParser
 
 from modern.cli.shared.arguments import (

@@ -23,10 +23,10 @@ def layers_of(args: argparse.Namespace) -> tuple[str, ...]:
 
 
 def source_deck(args: argparse.Namespace) -> Deck:
-    """Return the source deck of ``PROGRAM.f``: a built-in program with its layers, or a file.
+    """Return the source deck of the argument PROGRAM.f: a built-in program with its layers, or a file.
 
-    Raise UsageError for layers of a file, because only the built-in programs have an apparatus, and for small letters
-    without ``--upcase``.
+    Raise UsageError for a file with layers, because only the built-in programs have an apparatus, and for a file with
+    small letters without ``--upcase``.
     """
     name, layers = args.program, layers_of(args)
     if name in programs.NAMES:
@@ -54,19 +54,17 @@ def load_program_and_data(args: argparse.Namespace) -> tuple[Program, Deck]:
 
 
 def machine_options(args: argparse.Namespace) -> Options:
-    """Return the machine options that the arguments describe. Raise UsageError.
-
-    Only the programs of the thesis require complete data sets.
-    """
+    """Return the machine options that the arguments describe. Raise UsageError."""
     arithmetic = number_system(args.arithmetic, "--arithmetic")
     if args.limit < 1:
         raise UsageError(f"--limit: expected at least 1 statement, found {args.limit}")
+    # Only the programs of the thesis require complete data sets.
     hopper: Literal["first", "any"] = "first" if getattr(args, "program", "program1") in programs.NAMES else "any"
     return Options(arithmetic, frozenset(args.switch), args.core, args.bounds, args.limit, hopper=hopper)
 
 
 def number_system(name: str, option: str) -> Numbers:
-    """Return an arithmetic by name.  Raise UsageError, which names the option."""
+    """Return the arithmetic that ``option`` names.  Raise UsageError if the name is unknown."""
     try:
         return numbers(name)
     except ValueError as error:
@@ -74,6 +72,6 @@ def number_system(name: str, option: str) -> Numbers:
 
 
 def card_rules(options: Options) -> Rules:
-    """Return the rules for reading numbers from cards; only decimal arithmetics limit the digits."""
+    """Return the rules for reading numbers from cards; only decimal arithmetics limit the number of digits."""
     arithmetic = options.numbers
     return arithmetic.profile.rules if isinstance(arithmetic, DecimalNumbers) else rules_of(FALLBACK.width)

@@ -1,7 +1,5 @@
 """Explain why a run of the thesis programs gave no hull: the deciding statement, its meaning, and commands to try."""
 
-from __future__ import annotations
-
 import shlex
 import textwrap
 from collections.abc import Iterator
@@ -12,10 +10,10 @@ from modern.thesis.refusals import CORRECTED, Cause
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """The options of the command that gave no hull, from which the commands to try are made.
+    """The options of the command that gave no hull; the suggested commands repeat them.
 
-    deck: the name of the deck.  points: the file from which the deck is to be made; empty if the deck exists.
-    epsilon: the tolerance e of chapter 7, or empty.
+    deck: the name of the deck.  points: the file from which the user must first make the deck, or empty if the deck
+    exists.  epsilon: the tolerance e of chapter 7, or empty.
     """
 
     deck: str
@@ -70,7 +68,7 @@ def _commands_to_try(cause: Cause, request: Request) -> Iterator[tuple[str, str]
 
 
 def _with_layer(request: Request, layer: str, arithmetic: str = "") -> str:
-    """Return the command with one more layer, and with another arithmetic if one is named."""
+    """Return the hull command of the request with one more layer, and with ``arithmetic`` if it is named."""
     layers = ",".join(dict.fromkeys((layer, *request.layers)))
     name = arithmetic or request.arithmetic
     command = f"hull1620 hull {shlex.quote(request.deck)} --layers {layers} --core 60000"
@@ -79,5 +77,5 @@ def _with_layer(request: Request, layer: str, arithmetic: str = "") -> str:
 
 
 def wrapped(text: str, lead: str = "") -> list[str]:
-    """Break a sentence into lines of 100 columns that begin with ``lead``."""
+    """Return a text broken into lines of at most 100 columns, each with the text ``lead`` in front."""
     return textwrap.wrap(text, 100, initial_indent=lead, subsequent_indent=lead + "  ", break_on_hyphens=False)

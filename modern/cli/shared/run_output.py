@@ -1,7 +1,5 @@
 """The output of a run: punched cards, typed lines, notes, the trace, and the profile of its time."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import textwrap
@@ -46,7 +44,7 @@ def print_run(
 ) -> None:
     """Print the notes on a run, its profile if ``--profile`` asks for it, and its ending if it is not normal.
 
-    reported: the card and column of fields whose notes have already been printed.
+    reported: the card and column of each field whose note has already been printed.
     """
     overlap = extent(program).overlap(args.core)
     print_notes([f"warning: {program.source}: {overlap}"] if overlap else [])
@@ -57,7 +55,7 @@ def print_run(
 
 
 def print_ending(result: Result) -> None:
-    """Print how a run ended, if it did not end normally, and the option that lets a subscript leave its array."""
+    """Print how a run ended, unless it ended normally; for a subscript out of bounds, name ``--bounds core``."""
     if not result.ending.normal:
         advice = (
             "; --bounds core reads the neighbouring field, as the machine did" if result.ending.kind == "bounds" else ""
@@ -66,7 +64,7 @@ def print_ending(result: Result) -> None:
 
 
 class _StreamError(Exception):
-    """Raised for an error of a standard stream, which ``writing`` must not report as an error of a named file."""
+    """Raised instead of the OSError of a standard stream, which ``writing`` would report as that of a named file."""
 
     def __init__(self, error: OSError) -> None:
         super().__init__()
@@ -80,7 +78,7 @@ class _Destination:
         self._path, self._file = path, file
 
     def write(self, text: str) -> None:
-        """Write text; a standard stream shows it at once, and a closed one ignores it."""
+        """Write text.  A standard stream shows the text at once; a closed standard stream ignores it."""
         if self._file is None:
             return
         try:
@@ -97,9 +95,9 @@ class _Destination:
 def streaming(args: argparse.Namespace, show: Callable[[str], None] | None = None) -> Iterator[Output]:
     """Yield a function that writes the events of a run as they occur: cards to ``--punch``, lines to ``--typewriter``.
 
-    show: the function that shows a typed line to an operator at the terminal.  Typed lines are then not repeated on
-    standard error if that is a terminal too.  A named file is written completely at the end of the run, and an
-    exception leaves an existing file unchanged.  Raise FileError.
+    show: a function that shows a typed line to an operator at the terminal, or None.  With ``show``, typed lines are
+    not repeated on standard error if standard error is a terminal.  A named file is written completely at the end of
+    the run, and an exception leaves an existing file unchanged.  Raise FileError.
     """
 
     def destination(path: str | None) -> _Destination:

@@ -3,8 +3,6 @@
 ``hull1620 reproduce --show`` uses this module to compare each printed result with the computed one.
 """
 
-from __future__ import annotations
-
 import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -12,19 +10,19 @@ from dataclasses import dataclass
 from difflib import SequenceMatcher
 from typing import Literal
 
+# "=": the two lines are equal; "~": each line occurs in the other text at another position; "|": the lines differ.
 Mark = Literal["=", "~", "|"]
-"""The two lines are equal, occur elsewhere in the other text, or differ."""
+# For each of two lines, a line of carets and blanks; a caret stands below each character that differs.
 Masks = tuple[str, str]
-"""Two lines of carets and blanks: a caret stands below each character that the other line does not have there."""
 Paint = Callable[[str], str]
 _LEGEND: dict[Mark, str] = {"=": "equal", "~": "at another position", "|": "different, marked by ^"}
+# The smallest number of columns to which a line is broken, even if the terminal is narrower.
 _NARROWEST = 24
-"""The smallest number of columns to which a line is broken, even if the terminal is narrower."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Pair:
-    """A line of each text at the same position, and the carets that mark their differences."""
+    """The lines of both texts at the same position, and the carets that mark their differences."""
 
     mark: Mark
     lines: tuple[str, str]
@@ -32,7 +30,7 @@ class _Pair:
 
 
 def masks_by_column(first: str, second: str) -> Masks:
-    """Return the marks of differences between two cards, which are compared column by column."""
+    """Return the carets for the differences between two cards, which are compared column by column."""
     width = max(len(first), len(second))
     differ = [a != b for a, b in zip(first.ljust(width), second.ljust(width), strict=True)]
     mask = "".join("^" if differs else " " for differs in differ).rstrip()
@@ -40,7 +38,7 @@ def masks_by_column(first: str, second: str) -> Masks:
 
 
 def masks_by_text(first: str, second: str) -> Masks:
-    """Return the marks of differences between two printed lines, whose spacing is ignored."""
+    """Return the carets for the differences between two printed lines, whose spacing is ignored."""
     masks = [["^" if c.strip() else " " for c in line] for line in (first, second)]
     for block in SequenceMatcher(None, first, second, autojunk=False).get_matching_blocks():
         for mask, start in zip(masks, (block.a, block.b), strict=True):
@@ -61,8 +59,8 @@ def side_by_side(
 ) -> Iterator[str]:
     """Yield two texts in two columns if ``width`` suffices, otherwise each pair of lines one below the other.
 
-    columns: compare column by column, blanks included; otherwise ignore the spacing.  paint: a function that colours
-    the lines of carets.  Lines longer than the terminal are continued on the next line.
+    heads: the headings of the two texts.  columns: compare column by column, blanks included; otherwise ignore the
+    spacing.  paint: a function that colours a line of carets.  Lines that are too long for ``width`` are broken.
     """
     pairs = list(_pairs(first, second, columns))
     if not pairs:
@@ -87,7 +85,7 @@ def side_by_side(
 def _one_below_the_other(
     number: int, pair: _Pair, heads: tuple[str, str], width: int, lead: str, paint: Paint
 ) -> Iterator[str]:
-    """Yield the lines of a pair, broken to the width; equal lines are shown once."""
+    """Yield the two lines of a pair, broken into pieces that fit the width; equal lines are shown once."""
     name_width = max(map(len, heads))
     piece = max(_NARROWEST, width - len(lead) - 8 - name_width)
     # Equal masks of cards are shown once, below the second line.

@@ -1,6 +1,4 @@
-"""Print the statements of the documents with their verdicts: in full, or as a summary per document."""
-
-from __future__ import annotations
+"""Format the statements of the documents and their verdicts as text, in full or as a summary of each document."""
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -23,10 +21,10 @@ from modern.claims.register import (
 )
 from modern.edition.reproduce import DIFFERENT, EXACT, ORDER
 
+# A function that colours a text in the colour of a kind of verdict.
 Paint = Callable[[str, str], str]
-"""A function that colours a text in the colour of a kind of verdict."""
+# A function that wraps and indents a text.
 Indented = Callable[[str], Iterable[str]]
-"""A function that wraps and indents a text."""
 
 _REASON = {CONDITION: "condition", HOLDS: "note"}
 _PAINT_KINDS = {HOLDS: EXACT, CONDITION: ORDER, FAILS: DIFFERENT}
@@ -64,7 +62,7 @@ def theorem_lines(judgements: Sequence[Judged], paint: Paint, indented: Indented
 
 
 def statement_lines(judgements: Sequence[Judged], paint: Paint, indented: Indented) -> Iterator[str]:
-    """Yield statements in full: page, text, verdict, reason, and how the verdict was obtained."""
+    """Yield the full text of each statement: page, words, verdict, reason, and how the verdict was obtained."""
     document = ""
     for judged in judgements:
         row = judged.statement
@@ -94,7 +92,7 @@ def statement_lines(judgements: Sequence[Judged], paint: Paint, indented: Indent
 
 
 def statement_summary(judgements: Sequence[Judged], paint: Paint, indented: Indented) -> Iterator[str]:
-    """Yield the statements of each document by verdict and grade, and the ids of those that do not hold."""
+    """Yield, for each document, how many statements have each verdict and grade, and the ids of the false ones."""
     yield "Statements"
     for document in DOCUMENTS:
         rows = [judged for judged in judgements if judged.statement.document == document]

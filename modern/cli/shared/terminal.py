@@ -1,10 +1,8 @@
-"""The person at the terminal as the operator of a run.
+"""Let the person at the terminal be the operator of a run.
 
-The terminal needs only lines of text and single keys: no cursor movement except backspace, and no colours.  It is the
+The terminal must show only lines of text, and send single keys; backspace is its only cursor movement.  It is the
 controlling terminal, ``/dev/tty``, even if the standard streams are redirected.
 """
-
-from __future__ import annotations
 
 import os
 import select
@@ -27,20 +25,20 @@ from modern.cli.shared.console import UsageError
 
 NARROWEST, WIDEST = 20, 100
 ATTENTION, END, ENTER, ERASE, KILL = "\x03", "\x04", "\r\n", "\x7f\x08", "\x15"
+# The keys of the sense switches: Escape or Alt with a digit, and the sequences that terminals send for F1 to F4.
 _SWITCH_KEYS = {
     **{f"\x1b{n}": n for n in (1, 2, 3, 4)},
     **{f"\x1bO{letter}": n for n, letter in enumerate("PQRS", 1)},
     **{f"\x1b[1{n}~": n for n in (1, 2, 3, 4)},
     **{f"\x1b[[{letter}": n for n, letter in enumerate("ABCD", 1)},
 }
-"""The keys of the sense switches: Escape or Alt with a digit, and the sequences that terminals send for F1 to F4."""
 _ATTENTIONS = (ATTENTION, "\x1ba", "\x1bA")
 
 
 class Keys:
     """The keyboard and the screen of a terminal, read key by key.
 
-    is_gone: the terminal has been closed.  was_interrupted: SIGINT arrived, which counts as the ATTN key.
+    is_gone: True if the terminal has been closed.  was_interrupted: True if SIGINT arrived, which counts as ATTN.
     """
 
     def __init__(self, handle: int) -> None:
@@ -50,7 +48,7 @@ class Keys:
 
     @property
     def width(self) -> int:
-        """Columns available for text."""
+        """Return the number of columns available for text."""
         try:
             columns = os.get_terminal_size(self._handle).columns
         except OSError:
@@ -82,7 +80,7 @@ class Keys:
             return ATTENTION
         key = self._byte()
         if key == "\x1b":
-            # A sequence ends with "~" or a letter, except that O is its second character; other keys follow at once.
+            # An escape sequence ends with "~" or with a letter, but an O in second place does not end it.
             while self.is_ready(1.0) and not (self.is_gone or self.was_interrupted) and len(key) < 6:
                 key += self._byte()
                 if key[-1] == "~" or (key[-1].isalpha() and key[-1] != "O") or key[1] not in "O[":
@@ -101,7 +99,7 @@ class Keys:
 class Terminal(Operator):
     """An operator who reads the typed lines at the terminal and types the answers there.
 
-    slow: lines appear at the speed of the typewriter.  waits: a machine that has just been loaded waits for START.
+    slow: show lines at the speed of the typewriter.  waits: a program that has just been loaded waits for START.
     """
 
     present = True
@@ -193,14 +191,14 @@ class Terminal(Operator):
         self._keys.write("".join(f"-- {line}\n" for line in wrapped(text, self._keys.width - 3)))
 
     def _collect(self) -> None:
-        """Collect the keys pressed while the machine runs; they answer its next question."""
+        """Collect the keys that were pressed while the machine ran; they answer the next question."""
         while not self._keys.is_gone and self._keys.is_ready():
             self._ahead.append(self._keys.key())
 
     def _read(self, prompt: str) -> str:
-        """Return a line in the capitals of the typewriter, or one of ATTENTION, END and the switch keys.
+        """Return a line that the operator types, in capitals, or one of ATTENTION, END and the switch keys.
 
-        Text typed before a switch key is kept for the next call.
+        Text that was typed before a switch key is kept for the next call.
         """
         self._keys.write(prompt + self._line)
         while not self._keys.is_gone:
@@ -225,7 +223,7 @@ class Terminal(Operator):
     def _erase(self, prompt: str, count: int) -> None:
         """Erase the last characters of the line that the operator is typing.
 
-        Backspace cannot go back to an earlier row of the screen, so that the remaining text is then shown on a new row.
+        Backspace cannot move to an earlier row of the screen, so then the remaining text is shown again on a new row.
         """
         remaining, row = self._line[: len(self._line) - count], self._keys.width + 1
         if len(prompt + remaining) // row == len(prompt + self._line) // row:

@@ -3,8 +3,6 @@
 Like ``modern/cli/arguments.py``, this module imports nothing that is needed only to run a command.
 """
 
-from __future__ import annotations
-
 from argparse import ArgumentParser
 
 from modern.cli.shared.arguments import add, printed_arguments, result_file_argument
@@ -74,7 +72,7 @@ _MESH_ENDINGS = tuple(f".{name}" for name in MESHES)
 
 
 def _volume_arguments(parser: ArgumentParser) -> None:
-    """Add the volume, the properties that its file does not state, and the selection of voxels."""
+    """Add the volume, the options that state what its file does not, and those that select voxels."""
     volume = (
         "NRRD, NPY, NPZ or a raw array; NIfTI (.nii, .nii.gz), MetaImage (.mha, .mhd), TIFF, DICOM (.dcm, or a "
         "folder with a series), read by SimpleITK (extra volumes); CSV voxels x,y,z; or ball:32, ball:32:vertex, "

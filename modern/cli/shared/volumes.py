@@ -1,7 +1,5 @@
 """Read the volume that the arguments name, and describe the selected voxels and the coordinates."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -11,7 +9,7 @@ from emulator.errors import quoted
 from modern.cli.shared.console import UsageError, counted
 from modern.digital.scans import Choice, Chosen, Scan, chosen, listed_labels
 from modern.digital.solids import Volume
-from modern.digital.volumes import ARRAYS, Stated, read_scan
+from modern.digital.volumes import Stated, read_scan
 from modern.digital.world import ANATOMICAL, World, decimal_or_fraction
 from modern.geometry.numbers import decimal
 
@@ -35,17 +33,16 @@ def scan_of(args: argparse.Namespace) -> Scan:
 
 
 def choice_of(args: argparse.Namespace) -> Choice:
-    """Return which voxels belong to the solid, by their values, as the arguments request. Raise UsageError."""
-    if args.threshold is None:
-        return Choice(labels=tuple(dict.fromkeys(args.label)))
+    """Return the values of the voxels that belong to the solid: labels or a threshold. Raise UsageError."""
     try:
-        return Choice(Fraction(decimal(args.threshold)), tuple(dict.fromkeys(args.label)))
+        threshold = None if args.threshold is None else Fraction(decimal(args.threshold))
     except ValueError as error:
         raise UsageError(f"--threshold: {error}") from None
+    return Choice(threshold, tuple(dict.fromkeys(args.label)))
 
 
 def volume_of(args: argparse.Namespace) -> tuple[Volume, tuple[str, ...]]:
-    """Return the selected voxels of ``VOLUME`` in the coordinates of ``--space``, and the notes to print at the end.
+    """Return the selected voxels of ``VOLUME`` in the coordinates of ``--space``, and notes for the user.
 
     Raise the errors of ``scan_of``.
     """
@@ -61,7 +58,10 @@ def note_lines(notes: Sequence[str]) -> Iterator[str]:
 
 
 def in_space(world: World | None, space: str) -> World | None:
-    """Return physical coordinates in the orientation that ``--space`` requests, or None for voxel indices."""
+    """Return the physical coordinates, turned as ``--space`` requests, or None for voxel indices.
+
+    Raise UsageError if the file does not state where its voxels lie, or which way its axes point.
+    """
     if space == "index" or world is None:
         if space in _SPACES:
             raise UsageError(
@@ -79,7 +79,7 @@ def in_space(world: World | None, space: str) -> World | None:
 
 
 def spacing_words(world: World | None) -> str:
-    """Return the spacing as text: ``spacing 0.5 0.5 2 mm``."""
+    """Return the spacing of the voxels as text: ``spacing 0.5 0.5 2 mm``."""
     if world is None:
         return "no spacing stated"
     lengths = world.spacings()
@@ -89,7 +89,7 @@ def spacing_words(world: World | None) -> str:
 
 
 def coordinate_words(world: World | None, corners: bool) -> str:
-    """Describe the coordinates of a hull of voxel corners, or of voxel centres, on one line."""
+    """Return a line that explains the coordinates of a hull of voxel corners or of voxel centres."""
     if world is None:
         meaning = "voxel (x, y, z) extends from (x, y, z) to (x+1, y+1, z+1)" if corners else "vertices are centres"
         return f"coordinates: voxel indices; {meaning}"
@@ -104,17 +104,8 @@ def coordinate_words(world: World | None, corners: bool) -> str:
     return f"coordinates: {space}; centre of voxel (0, 0, 0) at {start}{axes}; {vertices}"
 
 
-def check_array(path: str | None) -> None:
-    """Raise UsageError if the name of an output does not end with .npy or .nrrd."""
-    if path is not None and not path.lower().endswith(ARRAYS):
-        raise UsageError(
-            f"{path}: a filled hull is written as an array; expected a name that ends with {' or '.join(ARRAYS)}"
-        )
-
-
 def array_note(path: str, volume: Volume) -> Iterator[str]:
-    """Yield notes on the position of the array if the file is an NPY file, which cannot contain it."""
-
+    """Yield notes on the spacing and position of an array if the file is an NPY file, which cannot contain them."""
     if not path.lower().endswith(".npy"):
         return
     if volume.world is not None:
@@ -124,7 +115,7 @@ def array_note(path: str, volume: Volume) -> Iterator[str]:
 
 
 def printable(text: str) -> str:
-    """Return text on one line without control characters, which a terminal would obey."""
+    """Return the text with blanks instead of control characters, which a terminal would obey."""
     return "".join(c if c.isprintable() else " " for c in text)
 
 

@@ -14,9 +14,8 @@ from modern.study.store import Store
 class Study(Protocol):
     """The functions and constants that each module of :mod:`modern.study.builtin` defines.
 
-    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the docstring of the module says what a
-    sample is.  plan: the function that makes the plan with the given number of samples.  report: the function that
-    makes the report from the finished rows.
+    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the docstring of the module says what is
+    counted.  plan: makes the plan with the given number of samples.  report: makes the report from the finished rows.
     """
 
     TITLE: str
@@ -29,7 +28,10 @@ class Study(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A built-in study as ``--list`` shows it: its default of ``--samples``, and its numbers of sets and cells."""
+    """A built-in study as ``--list`` shows it.
+
+    samples: the default of ``--samples``.  sets, cells: the number of point sets and of cells that this makes.
+    """
 
     name: str
     title: str

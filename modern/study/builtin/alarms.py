@@ -1,8 +1,9 @@
 """Study which methods of error analysis notice that a program takes a wrong branch.
 
-Every set goes through the corrected programs in eight-digit arithmetic.  Each decision is compared with that of exact
-arithmetic on the same branch, up to the first wrong one, and with what stochastic arithmetic, intervals, sixteen digits
-and chapter 7's e report about it (modern/study/alarms.py).  ``samples`` counts the sets of each family.
+Every set goes through the corrected programs in eight-digit arithmetic.  Each decision up to the first wrong one is
+compared with the decision of exact arithmetic on the same branch.  The study counts the decisions at which stochastic
+arithmetic, intervals, sixteen digits and chapter 7's e raise an alarm (modern/study/alarms.py).  ``samples`` counts the
+sets of each family.
 """
 
 import json
@@ -83,11 +84,12 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass
 class _Group:
-    """Counts of runs: of one cell, or of several added together.
+    """Counts of the runs of one or several cells.
 
-    noticed, repaired, warned: runs whose first wrong decision a method notices, decides rightly, or announces by an
-    alarm at or before it.  alarmed, spoiled: sound runs (all decisions right) with an alarm, and with a decision that
-    the method would have changed.  false: alarms at right decisions.
+    wrong: runs with a wrong decision.  sound: runs in which all decisions are right.  The others are counted by method.
+    noticed: runs with an alarm at the first wrong decision.  repaired: runs whose first wrong decision the method takes
+    rightly.  warned: runs with an alarm at or before the first wrong decision.  alarmed: sound runs with an alarm.
+    spoiled: sound runs with a decision that the method would change.  false: alarms at right decisions.
     """
 
     wrong: int = 0
@@ -141,8 +143,9 @@ class _Group:
 
 @dataclass
 class _Rows:
-    """All counts of the report: runs by cell, runs by the statement of their first wrong decision, digits, and
-    operations.
+    """The counts of the report.
+
+    groups: by cell.  places: by the statement of the first wrong decision.
     """
 
     groups: dict[int, _Group] = field(default_factory=dict)
@@ -150,7 +153,7 @@ class _Rows:
     # For each method and number of true digits: the mean estimate of each run.
     digits: dict[tuple[str, int], list[float]] = field(default_factory=dict)
     numbers: Counter[int] = field(default_factory=Counter)
-    # For each method: the runs with an estimate, and those with one that is more than a digit too large.
+    # For each method: the number of runs with an estimate, and with an estimate that is more than a digit too large.
     estimated: Counter[str] = field(default_factory=Counter)
     optimistic: Counter[str] = field(default_factory=Counter)
     operations: Counter[str] = field(default_factory=Counter)
@@ -242,9 +245,10 @@ def _digit_table(rows: _Rows) -> Table:
         if rows.numbers[d]:
             means = [mean(rows.digits[name, d], least=0.0, most=8.0) for name in ESTIMATING]
             lines.append((str(d), str(rows.numbers[d]), *(with_interval(estimate) for estimate in means)))
-    for title, counts in (("more than one digit too many", rows.optimistic),):
-        shares = (percent(exact(counts[name], rows.estimated[name])) for name in ESTIMATING if rows.estimated[name])
-        lines.append((title, str(rows.estimated[ESTIMATING[0]]), *shares))
+    shares = (
+        percent(exact(rows.optimistic[name], rows.estimated[name])) for name in ESTIMATING if rows.estimated[name]
+    )
+    lines.append(("more than one digit too many", str(rows.estimated[ESTIMATING[0]]), *shares))
     head = ("true digits", "numbers", *(NAMES[name] for name in ESTIMATING))
     notes = (
         "The table groups the inexact numbers that decisions test by their correct digits, rounded to an integer, and "

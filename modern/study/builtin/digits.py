@@ -21,7 +21,7 @@ DIGITS = tuple(range(1, 9))
 WORKING = tuple(range(4, 29))
 POINTS = 10
 LISTED, CORRECTED = "as listed", "corrected"
-# The digits of the coordinates, in the order of the cells' numbers.
+# Pairs of the number of a cell and the digits of its coordinates.
 Cells = tuple[tuple[int, int], ...]
 _SHOWN = (1, 2, 3, 4, 6, 8)
 
@@ -66,7 +66,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 
 def least(counts: Summary, cell: int) -> int | None:
-    """Return the least number P of digits such that no set of the cell failed with P or more digits, or None."""
+    """Return the least number P of digits such that no set of the cell failed with P or more, or None."""
     return counts.sound_from(cell, working, WORKING)
 
 

@@ -2,8 +2,8 @@
 
 Each set goes through the programs as listed.  Then every program runs again in exact arithmetic on the same cards, in
 step with the first run, up to the first IF, computed GO TO or end of a DO at which the two runs diverge
-(emulator/machine/divergence.py).  The planes on the cards between two programs, truncated to eight digits, may already
-miss their own points.  ``samples`` counts the sets of each family.
+(emulator/machine/divergence.py).  On the cards between two programs, equations are truncated to eight digits, so a
+plane may already miss its own points there.  ``samples`` counts the sets of each family.
 """
 
 from collections import Counter
@@ -51,7 +51,10 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Divergences:
-    """Counts of sets, and of sets with the right hull, by cell and by the first statement that decided differently."""
+    """Counts of sets by cell and by the first statement that decided differently.
+
+    right: the sets with the right hull among them.  undecided: the number of sets that exact arithmetic cannot follow.
+    """
 
     counts: Counter[tuple[int, str]]
     right: Counter[tuple[int, str]]

@@ -1,5 +1,4 @@
-"""Study the tolerance e of chapter 7: which e avoids rejections, which e gives wrong hulls, and whether one e always
-works.
+"""Study the tolerance e of chapter 7: which e avoids rejections, which gives wrong hulls, and whether one always works.
 
 The thesis (p. 117-118) proposes to count a value from -e to +e as zero.  It warns that a point near a plane may then
 count as a point on the plane, so that a vertex is not recognized.  The programs with the layers ``epsilon`` and
@@ -10,7 +9,7 @@ count as a point on the plane, so that a vertex is not recognized.  The programs
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from modern.study.outcomes import DETERMINED, WRONG
+from modern.study.outcomes import DETERMINED_SQL, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
 from modern.study.report import INTERVALS, Lines, Report, Series, Table, listed, percent, powers, row
 from modern.study.statistics import Interval, exact
@@ -36,11 +35,10 @@ SETS: Mapping[str, tuple[str, Mapping[str, int]]] = {
     "gap of .001": ("near-coplanar", {"digits": 2, "gap": 3}),
 }
 _CHARTED = ("integers of 1 digit", "integers of 2 digits", "integers of 3 digits", "integers of 4 digits", "gap of .01")
-# The details of outcomes with a swallowed vertex: the hull lacks a vertex, or a solid counts as flat or as a line.
+# The details of outcomes in which e swallowed a vertex: the hull lacks a vertex, or a solid counts as flat or a line.
 SWALLOWED = ("vertex missed", "dimension wrong")
 
 Name = Callable[[int], str]
-_MARKS = ", ".join("?" * len(DETERMINED))
 
 
 def taken(power: int) -> str:
@@ -54,8 +52,9 @@ def ported(power: int) -> str:
 
 
 def scaled(power: int) -> str:
-    """Return the name of the route in which the port uses an e of 10**power times the largest coefficient A, B or C of
-    each equation.
+    """Return the name of the route through the port with an e of 10**power, scaled to each equation.
+
+    The scaled e is multiplied by the largest coefficient A, B or C of the equation.
     """
     return f"scaled e = 10^{power}"
 
@@ -104,7 +103,7 @@ class _Rows:
     swallowed: Mapping[tuple[int, str], int]
 
     def swallows(self, cell: int, route: str) -> Interval:
-        """Return the share of sets in which a tolerance e makes a route miss a vertex or treat a solid as flat."""
+        """Return the share of sets in which a route loses a vertex or treats a solid as flat."""
         return exact(self.swallowed.get((cell, route), 0), self.counts.of(cell, route))
 
     def clean(self, cell: int, name: Name, tried: tuple[int, ...]) -> list[int]:
@@ -112,10 +111,10 @@ class _Rows:
         return [k for k in tried if not self.counts.failed(cell, name(k))]
 
     def begins(self, cell: int, name: Name, tried: tuple[int, ...]) -> int | None:
-        """Return the least exponent k such that e = 10**k and every greater e lose a vertex of some set, or None.
+        """Return the least exponent k such that e = 10**k and every greater e swallow a vertex of some set.
 
-        Return None if the greatest e swallows none.  A vertex that is missed only at a smaller e is missed because of
-        the arithmetic and not because of e.
+        Return None if the greatest e swallows no vertex.  A vertex that is missed only at a smaller e is missed because
+        of the arithmetic and not because of e.
         """
         least = None
         for k in reversed(tried):
@@ -257,14 +256,15 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
 
 
 def _same_as_port(store: Store) -> tuple[int, int]:
-    """Return how many runs of the programs agree, except in order, with the port at the same e, and the total."""
+    """Return how many runs of the programs agree with the port at the same e, except in order, and their number."""
     same = of = 0
     for k in ABSOLUTE:
         alike, runs = next(
             store.query(
-                f"SELECT SUM(a.outcome = b.outcome OR a.outcome IN ({_MARKS}) AND b.outcome IN ({_MARKS})), COUNT(*) "
+                "SELECT SUM(a.outcome = b.outcome OR "
+                f"a.outcome IN {DETERMINED_SQL} AND b.outcome IN {DETERMINED_SQL}), COUNT(*) "
                 "FROM runs a JOIN runs b ON a.cell = b.cell AND a.place = b.place WHERE a.route = ? AND b.route = ?",
-                (*DETERMINED, *DETERMINED, taken(k), ported(k)),
+                (taken(k), ported(k)),
             )
         )
         same, of = same + (alike or 0), of + runs
@@ -272,7 +272,7 @@ def _same_as_port(store: Store) -> tuple[int, int]:
 
 
 def _wrong_outside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:
-    """Return how many sets have a wrong hull if e is below (or above) every e without failures, and the total."""
+    """Return how many sets have a wrong hull if e is below (or above) every e without failures, and their number."""
     wrong = of = 0
     for number, cell in enumerate(plan.cells):
         clean = rows.clean(number, taken, ABSOLUTE)

@@ -7,7 +7,7 @@ emulator/machine/timing.py.  ``samples`` counts the sets of each family and N.
 from dataclasses import dataclass
 
 from emulator.machine.timing import CONVERSION_MODEL, MODEL
-from modern.study.outcomes import DETERMINED
+from modern.study.outcomes import DETERMINED_SQL
 from modern.study.plan import Cell, Plan, Programs, Value
 from modern.study.report import Lines, Mark, Report, Series, Table, listed, row, with_interval
 from modern.study.statistics import Interval, mean_of
@@ -48,11 +48,11 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Time:
-    """The times of the sets of a cell in seconds: the mean time of each part of the machine, the mean total time, the
-    longest run, and the number of sets.
+    """The times of the sets of a cell, in seconds.
 
-    ``model`` holds bounds of the mean total, and ``longest`` holds bounds of the longest run.  Both follow from the
-    systematic error of the timing model.
+    sets: the number of sets.  parts: the mean time of each part of the machine.  total: the mean total time.  model:
+    the mean total time with its bounds.  longest: the time of the longest run with its bounds.  These bounds follow
+    from the systematic error of the timing model.  operations: the mean number of floating-point operations.
     """
 
     sets: int
@@ -64,7 +64,7 @@ class _Time:
 
     @property
     def processor(self) -> Interval:
-        """The bounds of the processor's mean time, which follow from the systematic error of the model."""
+        """Return the processor's mean time with the bounds that follow from the systematic error of the model."""
         devices = self.total.value - self.parts["processor"].value
         return Interval(self.parts["processor"].value, self.model.low - devices, self.model.high - devices)
 
@@ -75,12 +75,11 @@ def _times(store: Store) -> dict[int, _Time]:
     moments = ", ".join(f"AVG({s}), SUM(({s}) * ({s}))" for s in sums)
     counted = " + ".join(f"json_extract(figures, '$.{name}')" for name in ("additions", "products", "quotients"))
     ends = [f"CAST(json_extract(figures, '$.model_{end}') AS REAL)" for end in ("low", "high")]
-    # In SQLite, columns next to MAX belong to the row with the maximum.
+    # If a query of SQLite has one MAX, its other plain columns have the values of the row with the maximum.
     model = ", ".join([*ends, *(f"AVG({end})" for end in ends)])
     timed = store.query(
         f"SELECT cell, COUNT(*), AVG({counted}), MAX({sums[-1]}), {model}, {moments} FROM runs "
-        f"WHERE outcome IN ({', '.join('?' * len(DETERMINED))}) GROUP BY cell ORDER BY cell",
-        DETERMINED,
+        f"WHERE outcome IN {DETERMINED_SQL} GROUP BY cell ORDER BY cell"
     )
     times = {}
     for cell, count, operations, most, most_low, most_high, low, high, *numbers in timed:

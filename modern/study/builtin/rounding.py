@@ -1,15 +1,15 @@
 """Study the benefit of different roundings: truncation, IBM's rounded product, a guard digit, rounding, binary floats.
 
 Two tests are compared.  The exact test of the thesis requires that the three points of a plane give zero in its
-equation.  With it, decimal arithmetics run in the programs with the layer ``corrected`` and binary ones in the port.
-With the interval of chapter 7 (thesis p. 117), scaled to the largest coefficient of each equation, all of them run in
-the port.  ``samples`` counts the sets of a cell.
+equation.  For the exact test, decimal arithmetics run in the programs with the layer ``corrected``, and binary
+arithmetics in the port.  For the interval of chapter 7 (thesis p. 117), scaled to the largest coefficient of each
+equation, all arithmetics run in the port.  ``samples`` counts the sets of a cell.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from modern.study.outcomes import DETERMINED, WRONG
+from modern.study.outcomes import DETERMINED, DETERMINED_SQL, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
 from modern.study.report import INTERVALS, Bars, Lines, Report, Series, Table, listed, percent, powers, row
 from modern.study.statistics import exact
@@ -95,14 +95,14 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Pairs:
-    """The comparison of an arithmetic with truncation: the numbers of sets with better and with worse results."""
+    """The numbers of sets for which an arithmetic does better than truncation, and worse than truncation."""
 
     better: int
     worse: int
 
     @property
     def verdict(self) -> str:
-        """The verdict on an arithmetic: better than truncation, worse, or no significant difference."""
+        """Return whether the arithmetic is better than truncation, worse, or not significantly different."""
         if self.better + self.worse == 0:
             return "no difference"
         share = exact(self.better, self.better + self.worse)
@@ -128,15 +128,13 @@ def report(plan: Plan, store: Store) -> Report:
 
 
 def _compared(plan: Plan, store: Store, way: str, test: str) -> _Pairs:
-    """Compare the result of an arithmetic with that of truncation on each set."""
     better = worse = 0
     names = {way: (way, *(within(way, k) for k in WIDTHS)) for way in (way, TRUNCATING)}
     way_of = {route: way for way, routes in names.items() for route in routes}
     for number, cell in cells(plan, test=test):
         hits: dict[str, list[int]] = {way: [0] * cell.samples, TRUNCATING: [0] * cell.samples}
         with_hull = store.query(
-            f"SELECT route, place FROM runs WHERE cell = ? AND outcome IN ({', '.join('?' * len(DETERMINED))})",
-            (number, *DETERMINED),
+            f"SELECT route, place FROM runs WHERE cell = ? AND outcome IN {DETERMINED_SQL}", (number,)
         )
         for route, place in with_hull:
             if route in way_of:

@@ -1,12 +1,12 @@
 """Study the two failures in about seventy examples that the thesis reports.
 
 Sets like those of the thesis (:mod:`modern.study.families.thesis`), in groups of seventy, go through its programs as
-listed, and with the one card that corrects the last pair of inside planes (row P3-025, KNOWN-FAULTS 1).  A set fails if
-the programs do not give its hull.  ``samples`` counts the sets and is a multiple of seventy.
+listed, and with the one card that corrects the removal of the last pair of inside planes (row P3-025, KNOWN-FAULTS 1).
+A set fails if the programs do not give its hull.  ``samples`` counts the sets and is a multiple of seventy.
 
-These sets have integer coordinates, for which eight digits are sufficient, so none is rejected as DATA NOT ACCEPTABLE.
-The data sheet of chapter 5 (p. 58-59) has decimals.  So sets like it, ``samples`` / 70 for each share of decimals, go
-through the listing too.
+These sets have integer coordinates, for which eight digits are sufficient, so no set is rejected as DATA NOT
+ACCEPTABLE.  The data sheet of chapter 5 (p. 58-59) has decimals.  So sets like it, ``samples`` / 70 for each share of
+decimals, go through the programs as listed too.
 """
 
 from collections import Counter
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.study import refusals
 from modern.study.families.thesis import KINDS
-from modern.study.outcomes import DETERMINED, WRONG
+from modern.study.outcomes import DETERMINED, DETERMINED_SQL, WRONG
 from modern.study.plan import Cell, Plan, PlanError, Programs
 from modern.study.report import (
     INTERVALS,
@@ -47,7 +47,7 @@ _EXAMPLES = 0
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """Return the plan for ``samples`` sets.  Raise PlanError unless that is a multiple of seventy."""
+    """Return the plan for ``samples`` sets.  Raise PlanError unless ``samples`` is a multiple of seventy."""
     if samples < SEVENTY or samples % SEVENTY:
         raise PlanError(f"seventy: the number of samples must be a multiple of {SEVENTY}, found {samples}")
     routes = (Programs(LISTED, limit=_LIMIT), Programs(MENDED, rows=("P3-025",), limit=_LIMIT))
@@ -77,7 +77,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Route:
-    """The results of one route: the failures of each group of seventy, in order, and the number of each cause."""
+    """The results of one route: the number of failures in each group of seventy sets, and the number of each cause."""
 
     name: str
     failures: tuple[int, ...]
@@ -124,26 +124,20 @@ def report(plan: Plan, store: Store) -> Report:
 
 def _route(store: Store, name: str) -> _Route:
     groups = store.query(
-        f"SELECT SUM(outcome NOT IN ({', '.join('?' * len(DETERMINED))})) FROM runs WHERE cell = ? "
-        f"AND route = ? GROUP BY place / {SEVENTY} ORDER BY place / {SEVENTY}",
-        (*DETERMINED, _EXAMPLES, name),
+        f"SELECT SUM(outcome NOT IN {DETERMINED_SQL}) FROM runs WHERE cell = ? AND route = ? "
+        f"GROUP BY place / {SEVENTY} ORDER BY place / {SEVENTY}",
+        (_EXAMPLES, name),
     )
     failures = tuple(failed for (failed,) in groups)
-    causes = Counter(
-        {
-            key: n
-            for key, n in store.counts("outcome", "detail", cell=_EXAMPLES, route=name).items()
-            if key[0] not in DETERMINED
-        }
-    )
-    return _Route(name, failures, causes)
+    counts = store.counts("outcome", "detail", cell=_EXAMPLES, route=name)
+    causes = {cause: n for cause, n in counts.items() if cause[0] not in DETERMINED}
+    return _Route(name, failures, Counter(causes))
 
 
 def _longest(store: Store) -> int:
     longest = store.query(
-        "SELECT MAX(json_extract(figures, '$.statements')) FROM runs "
-        f"WHERE cell = ? AND outcome IN ({', '.join('?' * len(DETERMINED))})",
-        (_EXAMPLES, *DETERMINED),
+        f"SELECT MAX(json_extract(figures, '$.statements')) FROM runs WHERE cell = ? AND outcome IN {DETERMINED_SQL}",
+        (_EXAMPLES,),
     )
     return int(next(iter(longest))[0] or 0)
 
@@ -283,7 +277,7 @@ def _compared_with_two(failures: Interval) -> str:
 
 
 def _unusual(share: Interval) -> str:
-    """Describe how unusual it is that a group of seventy has two failures or more."""
+    """Describe how unusual it is that a group of seventy sets has two failures or more."""
     if share.low > _RARE:
         return "not unusual for such sets"
     return "unusual for such sets" if share.high < _RARE else "possibly unusual; there are too few groups to decide"

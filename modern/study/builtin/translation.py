@@ -1,9 +1,10 @@
-"""Study the translation of the origin to C (chapter 7): the operations and time that it saves, and its cost in digits.
+"""Study the translation of the origin to the inside point C (chapter 7): the time it saves, and its cost in digits.
 
-The thesis (p. 118-119) leaves open whether the translation is worthwhile.  With it, the sign of the constant term
-orients an equation, so that C need not be substituted, but the points must be moved and moved back.  Time is measured
-on runs of the programs without rounding, in which no set is rejected.  Digits are varied in the port.  ``samples``
-is the number of timed sets of each kind and N.  Each kind whose digits are varied has four times as many sets.
+The thesis (p. 118-119) leaves open whether the translation is worthwhile.  With the origin at C, the sign of the
+constant term orients an equation, so that C need not be substituted, but the points must be moved and moved back.  Time
+is measured on runs of the programs without rounding, in which no set is rejected.  Digits are varied in the port.
+``samples`` is the number of timed sets of each kind and N.  Each kind whose digits are varied has four times as many
+sets.
 """
 
 import json
@@ -13,7 +14,7 @@ from itertools import pairwise
 from math import inf
 
 from emulator.machine.timing import CONVERSION_MODEL, MODEL
-from modern.study.outcomes import DETERMINED
+from modern.study.outcomes import DETERMINED_SQL
 from modern.study.plan import Cell, Plan, Port, Programs, Route
 from modern.study.report import Lines, Mark, Report, Series, Table, listed, row, with_interval
 from modern.study.statistics import Interval, exact, mean
@@ -131,7 +132,10 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Pair:
-    """A set whose hull is found with and without moving the origin, and the figures of both runs."""
+    """A set whose hull is found with and without moving the origin, and the figures of both runs.
+
+    ratio: the number of planes of the hull per point.
+    """
 
     cell: int
     ratio: float
@@ -150,7 +154,7 @@ class _Pair:
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """The bounds of the processor seconds without the translation, by the systematic error of the model."""
+        """Return the bounds of the processor seconds without the move, which follow from the model's error."""
         devices = sum(self.plain[name] for name in _SECONDS[1:])
         return self.plain["model_low"] - devices, self.plain["model_high"] - devices
 
@@ -165,14 +169,13 @@ def report(plan: Plan, store: Store) -> Report:
 
 
 def _pairs(store: Store) -> list[_Pair]:
-    marks = ", ".join("?" * len(DETERMINED))
     selected = store.query(
         "SELECT a.cell, CAST(s.planes AS REAL) / s.n, a.figures, b.figures FROM runs a "
         "JOIN runs b ON a.cell = b.cell AND a.place = b.place "
         "JOIN samples s ON a.cell = s.cell AND a.place = s.place "
-        f"WHERE a.route = ? AND b.route = ? AND a.outcome IN ({marks}) AND b.outcome IN ({marks}) "
+        f"WHERE a.route = ? AND b.route = ? AND a.outcome IN {DETERMINED_SQL} AND b.outcome IN {DETERMINED_SQL} "
         "AND json_extract(a.figures, '$.seconds_processor') IS NOT NULL ORDER BY a.cell, a.place",
-        (PLAIN, MOVED, *DETERMINED, *DETERMINED),
+        (PLAIN, MOVED),
     )
     return [_Pair(cell, ratio, _numbers(first), _numbers(second)) for cell, ratio, first, second in selected]
 
@@ -183,7 +186,7 @@ def _numbers(figures: str) -> dict[str, float]:
 
 
 def _share(estimate: Interval) -> str:
-    """Format a saved share in percent with its interval, which a single set does not have."""
+    """Format a saved share in percent, with its interval unless it is the share of a single set."""
     if estimate.high == inf:
         return f"{100 * estimate.value:.1f} %"
     return f"{100 * estimate.value:.1f} ({100 * estimate.low:.1f} to {100 * estimate.high:.1f}) %"

@@ -7,8 +7,8 @@ every machine.  :data:`FAMILIES` names the built-in families; ``module:function`
 To add a family:
 
 1. Write the function in ``scattered.py`` (points drawn one by one, prisms, pyramids, nearly flat sets), ``thesis.py``
-   (sets like those of the thesis) or ``given.py`` (sets that are not drawn).  ``draws.py`` has the random numbers.
-   ``hull1620 study --families`` prints the docstring.
+   (sets like those of the thesis) or ``given.py`` (sets that are not drawn).  ``draws.py`` provides the random numbers.
+   ``hull1620 study --families`` prints the function's docstring.
 2. Enter it in :data:`FAMILIES`.
 3. Describe its parameters in a row of ``docs/how-to/own-study.md``, and add parameters for the tests to ``DRAWN`` in
    ``tests/modern/study/test_study_families.py``.
@@ -16,11 +16,12 @@ To add a family:
 
 import inspect
 from collections.abc import Callable, Mapping
+from random import Random
 
 from modern.formats.deck import coordinate_field
 from modern.study.families import given, scattered, thesis
 from modern.study.families.draws import Draw, Drawn, FamilyError
-from modern.study.plan import Cell, PlanError, named, random_of, user_code
+from modern.study.plan import Cell, PlanError, named, user_code
 
 Family = Callable[..., Drawn]
 
@@ -46,7 +47,7 @@ def family_of(name: str) -> Family:
 
 
 def check_keywords(name: str, parameters: Mapping[str, object]) -> None:
-    """Raise PlanError, with the names of a family's parameters, if the family does not accept the given ones."""
+    """Raise PlanError if a family does not accept these parameters; the message names those that it accepts."""
     signature = inspect.signature(family_of(name))
     try:
         signature.bind(None, **_keywords(parameters))
@@ -57,9 +58,12 @@ def check_keywords(name: str, parameters: Mapping[str, object]) -> None:
 
 
 def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
-    """Draw a sample of a cell. Raise PlanError for wrong parameters, and FamilyError if no points exist."""
+    """Draw a sample of a cell; ``study`` is the seed of the study.
+
+    Raise PlanError for wrong parameters, and FamilyError if the family cannot draw such points.
+    """
     family = family_of(cell.family)
-    draw = Draw(random_of(cell.seed(study, index)), index)
+    draw = Draw(Random(int(cell.seed(study, index), 16)), index)
     try:
         if cell.family in FAMILIES:
             drawn = family(draw, **_keywords(cell.parameters))
@@ -80,7 +84,7 @@ def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
 
 
 def check_points(drawn: Drawn, where: str) -> None:
-    """Raise FamilyError if there are no points, two are equal, or one does not fit a card (eight digits of E14.8)."""
+    """Raise FamilyError if there are no points, two points are equal, or a point does not fit a card (FORMAT E14.8)."""
     cards = set()
     for number, point in enumerate(drawn.points, 1):
         try:

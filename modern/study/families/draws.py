@@ -20,7 +20,7 @@ _TRIES = 200
 
 
 class FamilyError(EmulatorError):
-    """Raised if no points exist for the parameters, or if points do not fit on a card.  The message is one line."""
+    """Raised if a family cannot draw points with its parameters, or if points do not fit on a card."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class Draw:
         return self.random.randint(low, high)
 
     def count(self, n: Count) -> int:
-        """Return a number of points.  Raise FamilyError unless it lies in 1 to 51."""
+        """Return a number of points: ``n``, or a random number between its ends.  Raise FamilyError unless 1 to 51."""
         low, high = whole_range(n, "n")
         if not 1 <= low <= high <= MOST:
             raise FamilyError(
@@ -59,7 +59,7 @@ class Draw:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A drawn set: its points as decimal text, and tags by which tables may group, such as ``kind``."""
+    """A drawn set: its points as decimal text, and tags by which tables can group sets, such as ``kind``."""
 
     points: tuple[Point, ...]
     tags: Mapping[str, str | int] = field(default_factory=dict)
@@ -75,7 +75,10 @@ def _text(number: int, places: int) -> str:
 
 
 def whole_range(value: Count, name: str) -> tuple[int, int]:
-    """Return a parameter, one integer or two, as the least and the greatest integer.  Raise FamilyError otherwise."""
+    """Return the least and the greatest integer of the parameter ``name``, which is one integer or a pair.
+
+    Raise FamilyError for any other value.
+    """
     ends = (value, value) if isinstance(value, int) else value
     if not isinstance(ends, list | tuple) or len(ends) != 2 or not all(isinstance(end, int) for end in ends):
         raise FamilyError(

@@ -42,7 +42,7 @@ def published(draw: Draw, sets: Sequence[str] = (), shuffle: bool = False) -> Dr
 
 
 def points(draw: Draw, points: Sequence[Sequence[str]], n: Count = 0, shuffle: bool = False, name: str = "") -> Drawn:
-    """The points of a plan, or ``n`` of them drawn at random; ``shuffle`` changes their order at random."""
+    """The points of a plan, or ``n`` points of a plan drawn at random; ``shuffle`` changes their order at random."""
     in_plan = [(str(x), str(y), str(z)) for x, y, z in points]
     if n:
         count = draw.count(n)
@@ -63,7 +63,7 @@ def file_family(draw: Draw, path: str, n: Count = 0, shuffle: bool = False, name
 
 
 def file_points(path: str) -> list[list[str]]:
-    """Return the points of a file for the parameter ``points``. Raise EmulatorError if it cannot be read."""
+    """Return the points of a file for the parameter ``points``. Raise EmulatorError if the file cannot be read."""
     return [list(point) for point in read_input(path).points]
 
 

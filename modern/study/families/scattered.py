@@ -37,8 +37,9 @@ def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
 def decimals(draw: Draw, digits: int, n: Count, exponent: Count = (0, 1)) -> Drawn:
     """Points whose coordinates are decimals of exactly ``digits`` digits: .12345 times a power of ten, of either sign.
 
-    exponent: the power, or the least and the greatest power, from which it is drawn for each coordinate separately.
-    Coordinates with different powers have digits in different decimal places, so their difference has more digits.
+    exponent: the exponent of the power of ten, or the least and the greatest exponent, between which one is drawn for
+    each coordinate.  Coordinates with different exponents have digits in different decimal places, so their difference
+    has more digits.
     """
     low, high = whole_range(exponent, "exponent")
     if not -20 <= low <= high <= 20:
@@ -151,7 +152,6 @@ def _base(draw: Draw, count: int, size: int) -> list[tuple[int, int]]:
 
 
 def _turned(draw: Draw, points: list[Whole], kind: str) -> Drawn:
-    """Shuffle the points and exchange their axes at random."""
     axes = [0, 1, 2]
     draw.random.shuffle(axes)
     draw.random.shuffle(points)

@@ -42,9 +42,9 @@ def thesis(
 ) -> Drawn:
     """A set like those of the thesis, of a kind chosen at random (default: the kinds of chapter 6, equally likely).
 
-    n: the number of points, for kinds without a fixed number.  decimals: how many of 1,000 coordinates of a data sheet
-    are decimals.  form: ``alone`` replaces an integer by the decimal, as printed; ``added`` adds the decimal to the
-    integer (12.0146).
+    kinds: a weight for each kind that may be chosen.  n: the number of points, for kinds without a fixed number.
+    decimals: how many of 1,000 coordinates of a data sheet are decimals.  form: ``alone`` replaces an integer by the
+    decimal, as printed; ``added`` adds the decimal to the integer (12.0146).
     """
     weights = dict.fromkeys(KINDS, 1) if kinds is None else dict(kinds)
     unknown = [kind for kind in weights if kind not in (*KINDS, SHEET)]

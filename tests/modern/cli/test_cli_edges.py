@@ -293,7 +293,7 @@ def test_the_shell_completes_commands_options_and_examples() -> None:
 
 
 def test_every_completed_name_is_that_of_an_argument_and_every_example_can_be_read() -> None:
-    commands = next(a for a in build_parser([])._actions if isinstance(a, argparse._SubParsersAction)).choices
+    commands = next(a for a in build_parser()._actions if isinstance(a, argparse._SubParsersAction)).choices
     assert set(NAMES) <= {action.dest for command in commands.values() for action in command._actions}
     assert all(points_of(name).points for name in EXAMPLES)
 

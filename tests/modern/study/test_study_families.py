@@ -1,6 +1,7 @@
 """Families return distinct points that fit a card, reproducibly, with the properties of each family."""
 
 from fractions import Fraction
+from random import Random
 from typing import Any
 
 import pytest
@@ -15,7 +16,6 @@ from modern.study.families import FAMILIES, draw_sample
 from modern.study.families.draws import Draw, Drawn, FamilyError
 from modern.study.families.given import published_sets
 from modern.study.families.thesis import KINDS, SHEET
-from modern.study.plan import random_of
 
 DRAWN: dict[str, dict[str, Any]] = {
     "thesis": {},
@@ -155,7 +155,7 @@ def test_published_and_user_defined_families_are_drawn() -> None:
     shuffled = draw("published", 0, 4, sets=["example 5"], shuffle=True)
     assert sorted(shuffled.points) == sorted(published_sets()["example 5"])
     with pytest.raises(FamilyError, match="distinct points"):
-        Draw(random_of("ab")).distinct(3, lambda: (0, 0, 0))
+        Draw(Random(0)).distinct(3, lambda: (0, 0, 0))
     assert draw("modern.study.families.scattered:integers", 3, digits=2, n=4).points
     with pytest.raises(PlanError):
         draw("modern.study.families.scattered:nothing", 3, n=4)
