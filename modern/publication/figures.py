@@ -22,11 +22,11 @@ from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES
 from modern.edition.reproduce import reproduce
 from modern.publication.building import citation
-from modern.study.report import raised
+from modern.study.report import joined, raised
 from modern.study.restoration import CLASSES, read_restoration, summary
 
 _PLACE = re.compile(r"\{\{\s*([a-z][\w.-]*)\s*\}\}")
-_PERCENT = re.compile(r"(?<=[\d)]) %")
+_FENCED = re.compile(r"(^```.*?^```)", re.DOTALL | re.MULTILINE)
 
 
 class FigureError(ValueError):
@@ -52,7 +52,7 @@ _CHECKS = ("print", "machine", "equation", "sibling")
 def filled(text: str, values: Mapping[str, str]) -> str:
     """Replace every ``{{ name }}`` in a text by its value. Raise FigureError for an unknown name.
 
-    The space between a number and its percent sign becomes a no-break space.
+    Outside blocks of code, no line can break inside an estimate with its interval, or before a percent sign.
     """
 
     def value(match: re.Match[str]) -> str:
@@ -60,7 +60,8 @@ def filled(text: str, values: Mapping[str, str]) -> str:
             raise FigureError(f"unknown figure {match[1]!r}")
         return values[match[1]]
 
-    return _PERCENT.sub("\N{NO-BREAK SPACE}%", _PLACE.sub(value, text))
+    pieces = _FENCED.split(_PLACE.sub(value, text))
+    return "".join(piece if n % 2 else joined(piece) for n, piece in enumerate(pieces))
 
 
 def named(text: str) -> tuple[str, ...]:

@@ -92,7 +92,12 @@ def _power(match: re.Match[str]) -> str:
 
 def unbroken(text: str) -> str:
     """Return a typeset text in which no line break can occur inside an interval."""
-    return _TOGETHER.sub(lambda match: match[0].replace(" ", "\N{NO-BREAK SPACE}"), typeset(text))
+    return joined(typeset(text))
+
+
+def joined(text: str) -> str:
+    """Return a text with no-break spaces inside an estimate with its interval, and before a percent sign."""
+    return _TOGETHER.sub(lambda match: match[0].replace(" ", "\N{NO-BREAK SPACE}"), text)
 
 
 def share_of(hits: int, of: int) -> str:
@@ -101,12 +106,12 @@ def share_of(hits: int, of: int) -> str:
 
 
 def listed(items: Iterable[object]) -> str:
-    """Join items: ``a; b; c``; ``none`` if there are no items."""
+    """Return the items joined to a text, ``a; b; c``, or ``none`` if there are no items."""
     return "; ".join(map(str, items)) or "none"
 
 
 def powers(exponents: Iterable[int]) -> str:
-    """Format powers of ten with ascending exponents: ``10^-6 to 10^-3, 10^1``; otherwise ``none``."""
+    """Format powers of ten with ascending exponents: ``10^-6 to 10^-3, 10^1``, or ``none`` without exponents."""
     runs: list[tuple[int, int]] = []
     for number in exponents:
         if runs and runs[-1][1] + 1 == number:

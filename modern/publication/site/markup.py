@@ -9,6 +9,8 @@ from collections.abc import Iterable
 from html import escape as escape
 from urllib.parse import urlencode
 
+from modern.study.report import joined
+
 # The prefix of addresses within the site; :func:`relative` replaces it when the depth of the page is known.
 HERE = "@/"
 _OPERATOR = re.compile(r"(?<=[\w)])[-+*/=,](?=\S)")
@@ -87,7 +89,7 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]], name: str, caption
     body = []
     for row in rows:
         first, *rest = row
-        body.append(f'<tr><th scope="row">{first}</th>{"".join(f"<td>{cell}</td>" for cell in rest)}</tr>')
+        body.append(f'<tr><th scope="row">{first}</th>{"".join(f"<td>{joined(cell)}</td>" for cell in rest)}</tr>')
     inner = text("caption", caption) if caption else ""
     inner += f"<thead><tr>{top}</tr></thead><tbody>{''.join(body)}</tbody>"
     return element("section", element("table", inner), cls="wide", tabindex="0", aria_label=name)
