@@ -63,7 +63,8 @@ def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Chec
         for loop, ring in zip(hull.table.loops, hull.surfaces, strict=True):
             ends = [{*hull.edges[abs(entry) - 1]} for entry in loop.entries]
             checks.append(all(point in ends[k - 1] & ends[k] for k, point in enumerate(ring)))
-    return searched(SETS[3], cases, checks, f"the edges and faces of {cases} sets are those of the exact hull")
+    message = f"the edges and faces of {cases} sets are those of the exact hull, and the map lists the common points"
+    return searched(SETS[3], cases, checks, message)
 
 
 def _sides(ring: Sequence[int]) -> frozenset[frozenset[int]]:

@@ -6,7 +6,7 @@ from itertools import combinations, pairwise, permutations
 from random import Random
 
 from modern.claims.appel_will.convexity import RINGS, Flat, area, holds_origin
-from modern.claims.evidence import Check, Generator, claim, exhibited, search, searched, slip
+from modern.claims.evidence import Check, Generator, claim, exhibited, search, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import Point, counterexample_points
 from modern.papers.appel_will import Method, appel_will, printed
@@ -52,20 +52,24 @@ def _draw_images(random: Random) -> tuple[Flat, ...]:
 
 
 IMAGES: Generator[tuple[Flat, ...]] = Generator(
-    "3 to 5 images around the origin", 12, _draw_images, lambda i: len({*i}) == len(i) > 2 and (0, 0) not in i
+    "3 to 5 projected points around the origin", 12, _draw_images, lambda i: len({*i}) == len(i) > 2 and (0, 0) not in i
 )
 
 
 @claim("appel-will.131", full=5_000)
 def star_test(cases: int = 20) -> Check:
-    """Check that the star polygon test is right as printed if no two images are on one ray from the tested point."""
-    general: list[bool] = []
-    on_ray: list[bool] = []
-    for images in IMAGES.cases(cases):
-        right = as_printed(images) != holds_origin(images)
-        (on_ray if any(on_one_ray(a, b) for a, b in combinations(images, 2)) else general).append(right)
-    check = searched(IMAGES, cases, general, f"right for {len(general)} sets of images")
-    return check.unless(not all(on_ray), f"{on_ray.count(False)} of {len(on_ray)} sets with two images on one ray")
+    """Check that the senses of rotation about a point tell whether the point is in the hull of a set of images.
+
+    The star polygon test is used with the corrected rule for images on one ray. As printed, it gives the same result if
+    no two images are on one ray.
+    """
+
+    def is_right(images: tuple[Flat, ...]) -> bool:
+        is_outside = as_corrected(images)
+        on_ray = any(on_one_ray(a, b) for a, b in combinations(images, 2))
+        return is_outside != holds_origin(images) and (on_ray or as_printed(images) == is_outside)
+
+    return search(IMAGES, is_right, cases, "the senses of rotation tell whether the point is in the hull of each set")
 
 
 @claim("appel-will.55", "appel-will.58", full=5_000)

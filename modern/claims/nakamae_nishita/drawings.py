@@ -7,11 +7,14 @@ from functools import cache
 from itertools import combinations, product
 from random import Random
 
-from modern.claims.evidence import Check, Generator, claim, search
+from modern.claims.evidence import Check, Generator, claim, search, searched
+from modern.claims.hulls import exact_hull
 from modern.claims.nakamae_nishita.tables import overlap
+from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
+from modern.drawing.visible import CONTOUR, INNER
 from modern.papers.nakamae_nishita.hidden import Drawing, Piece, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING
-from modern.papers.nakamae_nishita.polyhedron import Polyhedron
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
 
@@ -80,13 +83,44 @@ def _agrees(boxes: tuple[Box, ...]) -> bool:
     return all(piece.visible != any(_behind(at, box) for box in boxes) for piece, at in samples(_drawn(boxes)))
 
 
-@claim("nakamae-nishita.11", full=600)
 def pieces_against_rays(cases: int = 3) -> Check:
     """Check that a piece of an edge is visible if and only if no box hides its midpoint and points next to its ends.
 
     All edges of the boxes are divided into pieces. Those of edges between two back faces are never visible.
     """
-    return search(SCENES, _agrees, cases, "a piece is visible if and only if no box hides three of its points")
+    message = "boxes hide none of three points of each visible piece of an edge, and all three of each other piece"
+    return search(SCENES, _agrees, cases, message)
+
+
+# Directions parallel to no face of a sampled hull: the components of the faces' normals are integers up to 200.
+DIRECTIONS: tuple[Point, ...] = ((1, 401, 401**2), (-(401**2), 1, 401), (401, -(401**2), -1))
+# A line in such a direction that enters a hull at the midpoint of an edge is inside for more than 1 / SHARE of it.
+SHARE = 10**8
+
+
+@claim("nakamae-nishita.11", full=200)
+def edges_that_can_be_visible(cases: int = CASES) -> Check:
+    """Check that a hull hides the midpoints of its own edges exactly if they are neither inner nor contour edges.
+
+    A hull hides a midpoint if the point next to it, in the direction of the eye, is inside the hull.
+    """
+    outcomes, hidden = [], 0
+    for sampled in sampled_sets(3, cases):
+        points = [sampled.points[k] for k in sampled.judge.vertices]
+        rings = tuple(tuple(map(sampled.judge.vertices.index, facet.polygon)) for facet in sampled.judge.facets)
+        hull = checked(Polyhedron("hull", tuple((Fraction(x), Fraction(y), Fraction(z)) for x, y, z in points), rings))
+        # Coordinates are multiplied by twice SHARE, so that midpoints and the points next to them have integers.
+        enlarged = [tuple(2 * SHARE * c for c in point) for point in points]
+        for way in DIRECTIONS:
+            (solid,) = draw([hull], parallel(way)).solids
+            for edge in solid.edges:
+                ends = zip(points[edge.start], points[edge.end], way, strict=True)
+                beside = tuple(SHARE * (a + b) + 2 * w for a, b, w in ends)
+                is_hidden = exact_hull([*enlarged, beside]).inside == (len(enlarged),)
+                outcomes.append(is_hidden != (edge.kind in (INNER, CONTOUR)))
+                hidden += is_hidden
+    message = f"hulls hide {hidden} of {len(outcomes)} of their own edges, none of them an inner or a contour edge"
+    return searched(SETS[3], cases, [*outcomes, hidden], message)
 
 
 @claim("nakamae-nishita.15", full=600)
