@@ -24,11 +24,12 @@ NEAR = Fraction(1, 1000)
 class Disagreement:
     """The differences between a computed hull and the exact hull of the same points.  Points are input indices.
 
-    ``misfiled`` points have the wrong class, boundary or inside.  ``error`` is the largest error of a coefficient among
-    the matched equations.  The error of A, B or C is relative to the largest of these three coefficients, that of D to
-    the largest of all four.  ``excluded`` is the largest distance by which an input point is outside of an equation, to
-    about twelve digits.  ``places`` has for each equation of the outcome the index of the exact equation that it
-    matches, or -1.
+    ``missed`` points are vertices only of the exact hull, ``added`` points only of the computed hull.  ``misfiled``
+    points have the wrong class, boundary or inside.  ``error`` is the largest error of a coefficient among the matched
+    equations.  The errors of A, B and C are relative to the largest of these three coefficients, the error of D to the
+    largest of all four.  ``excluded`` is the largest distance by which an input point, ``excluded_point``, is outside
+    of an equation, to about twelve digits.  ``places`` has for each equation of the computed hull the index of the
+    exact equation that it matches, or -1.
     """
 
     missed: frozenset[int]
@@ -98,7 +99,7 @@ class _Match(NamedTuple):
 
 
 def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Match]:
-    """Find the nearest exact equation for each equation; of several that are equally near, the first."""
+    """Find for each equation the nearest exact equation, or the first of several that are equally near."""
     by_integers: dict[tuple[int, ...], int] = {}
     for place, equation in enumerate(exact):
         by_integers.setdefault(lowest_equation(equation), place)
@@ -167,7 +168,9 @@ class UnrelatedCards(EmulatorError):
 class CardDifferences:
     """The differences between a hull on punched cards and the exact hull: missing and false vertices and faces.
 
-    ``polygons`` gives each false face as the vertices on its cards; ``others`` counts false faces with fewer than two.
+    ``missed`` and ``added`` are vertices, and ``not_found`` are faces of the exact hull.  ``polygons`` has for each
+    false face on the cards the vertices that the cards name for it.  A false face with fewer than two vertices cannot
+    be drawn; ``others`` is the number of such faces.
     """
 
     missed: tuple[int, ...] = ()
@@ -208,7 +211,6 @@ def card_differences(cards: CardHull, hull: Hull, source: str) -> CardDifference
 
 
 def _program(cards: CardHull) -> str:
-    """Return which of Butler's programs, 1 to 3, punched the cards, judged by the kinds of cards."""
     if not cards.satisfied or not cards.equations:
         return "program1"
     return "program2" if cards.plane else "program3"

@@ -34,8 +34,9 @@ class Outcome:
     """The hull of a point set, computed in any way, in the form used for comparisons.  Points are input indices.
 
     ``status`` is ``determined``, or the reason why there is no hull. ``dimension`` is -1 if the hull is not determined.
-    ``strange`` counts points in the result that are not in the input. ``faulty`` holds the equations of program 1 that
-    do not vanish at the points that they should contain. ``ending`` is the ending of a failed run.
+    ``strange`` is the number of points in the result that are not in the input. ``faulty`` has the numbers, from 1, of
+    the equations of program 1 that do not vanish at the points that they should contain. ``ending`` is the ending of a
+    failed run.
     """
 
     name: str
@@ -120,9 +121,9 @@ def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
 
 
 def as_hull(judged: ExactHull) -> Hull:
-    """Convert an exact hull to the same type as the result of Butler's procedure.  Points keep their order.
+    """Convert an exact hull to the type of the result of Butler's procedure.  Points keep their order.
 
-    Numbers are exact text.  The points of a polyhedron, and its faces except for their polygons, are made on access.
+    Numbers become exact text.  The texts of points, and the equations of a polyhedron, are computed on access.
     """
     scaled, scale = judged.scaled, judged.scale
     coordinates = scaled if isinstance(scaled, Coordinates) else Coordinates(scaled, scale)

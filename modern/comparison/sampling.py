@@ -31,11 +31,11 @@ from modern.comparison.sensitivity import NUMBER, shape_of
 
 @dataclass(frozen=True, slots=True)
 class StatementDigits:
-    """The estimated number of significant digits of the values that one statement stored in the random runs.
+    """The estimated numbers of significant digits of the values that one statement stored in the random runs.
 
-    ``worst`` and ``median`` are those of Stott Parker's estimate, and ``sure`` is the fewest by Sohier's.
-    ``times`` counts the values, ``inexact`` those that differ between the runs, and ``zeros`` the computational zeros
-    among the latter.
+    ``worst`` and ``median`` are the fewest digits and the median by Stott Parker's estimate, and ``sure`` is the fewest
+    digits by Sohier's.  ``times`` is the number of values, ``inexact`` the number of values that differ between the
+    runs, and ``zeros`` the number of computational zeros among these.
     """
 
     line: Line
@@ -49,10 +49,11 @@ class StatementDigits:
 
 @dataclass(frozen=True, slots=True)
 class DecisionShares:
-    """An IF on floating-point numbers: how often it was executed, and how often the random runs disagreed.
+    """The decisions of an IF on floating-point numbers in the random runs.
 
-    ``shares`` are the numbers of runs with a negative, zero and positive value at the first disagreement, which is
-    execution ``time``, and ``taken`` is the sign of the common branch there.
+    ``times`` is the number of its executions, and ``disputed`` the number of executions at which the runs disagreed.
+    The first of these is execution ``time``.  ``shares`` are the numbers of runs with a negative, a zero and a positive
+    value there, and ``taken`` is the sign whose branch was taken.
     """
 
     line: Line
@@ -65,7 +66,7 @@ class DecisionShares:
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """A number on a card or typed line: where it was printed, its values in the random runs, and their digits."""
+    """A printed number: its record (a card or typed line, from 1), its values in the runs, and their digits."""
 
     record: int
     columns: str
@@ -126,7 +127,10 @@ def in_step(
     options: Options | None = None,
     operator: Callable[[], Operator] = Operator,
 ) -> Sampling:
-    """Run a program N times at once with random rounding; all runs follow one branch.  Raise CardError or DeckError."""
+    """Run a program N times at once with random rounding, where all runs follow one branch.
+
+    Raise CardError or DeckError for an invalid deck.
+    """
     written: list[tuple[int, str, Values]] = []
     sampled = replace(numbers, on_write=lambda columns, values: written.append((run.record, columns, values)))
     run = JournaledRun(program, deck, replace(options or Options(), numbers=sampled), True, operator(), ())
@@ -167,7 +171,7 @@ def _fraction(value: Fraction | int | None) -> Fraction | None:
 
 
 def _vote(votes: _Votes, signs: Sequence[int], branch: Sequence[int], taken: int) -> None:
-    """Count an execution of an IF, and count it as disputed if a run would take another branch than the common one."""
+    """Count an execution of an IF, as disputed if a run would take another branch than the common branch."""
     votes.times += 1
     if {branch[1 + sign] for sign in signs} != {branch[1 + taken]}:
         votes.disputed += 1
@@ -232,7 +236,7 @@ def independent(
 
 
 def _compared(program: Program, pc: int, signs: Sequence[Sequence[int]]) -> DecisionShares:
-    """Compare the signs that each run finds at the successive executions of an IF.  The most frequent one is taken."""
+    """Compare the signs that the runs find at each execution of an IF.  The most frequent sign is taken."""
     votes = _Votes()
     for execution in zip_longest(*signs):
         reached = [sign for sign in execution if sign is not None]

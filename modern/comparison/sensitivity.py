@@ -26,8 +26,8 @@ _LAST = re.compile(r"(\d)(\.?\s*(?:E\s*[+-]?\s*\d*|[+-]\s*\d+)?\s*)$")
 class Sensitivity:
     """The effect on a program's output of changing one number on a card by one unit in its last digit.
 
-    ``change`` is the largest relative change of a printed number, and ``record`` the number of its record, from 1; both
-    are None if nothing changes.  ``branches`` is True if the run prints other records or ends otherwise.
+    ``change`` is the largest relative change of a printed number, and ``record`` the number of its record, from 1.
+    Both are None if nothing changes.  ``branches`` is True if the run prints records of another form or ends otherwise.
     """
 
     card: int
@@ -45,7 +45,7 @@ def records_of(result: Result) -> list[str]:
 
 
 def shape_of(texts: Sequence[str]) -> list[str]:
-    """Return cards and lines with a mark for each number and without blanks, to compare their layout."""
+    """Return cards and lines without blanks and with # in place of each number, to compare their form."""
     return ["".join(NUMBER.sub("#", text).split()) for text in texts]
 
 

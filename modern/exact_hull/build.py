@@ -30,7 +30,7 @@ from modern.geometry.points import Points
 SEED = 1963
 # The number of points from which the hull is first proposed in rounded numbers, which is faster, and then proved.
 MANY = 500
-# The number of first points among which four are sought that do not lie in a plane, and of signs computed singly.
+# Four points that span space are first sought among this number of points.  Fewer signs than this are computed singly.
 _FEW = 64
 
 
@@ -45,7 +45,7 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
 def _on_facets(
     points: Coordinates, facets: Sequence[Facet], others: Ints | None = None, likely: Ints | None = None
 ) -> Ints:
-    """Return the points that are not vertices but lie in the plane of a facet.  ``others`` restricts the search.
+    """Return the points among ``others``, by default all points that are not vertices, that lie in a facet's plane.
 
     ``likely`` has for each point of ``others`` a facet that is tried first, or -1.
     """
@@ -83,7 +83,7 @@ def _proposed(points: Coordinates, basis: Sequence[int], fast: bool | None) -> t
         others = np.unique(np.concatenate([proposal.near, triangles.ravel()]))
         others = others[candidate[others]]
         return facets, _on_facets(points, facets, others, at[others])
-    except (RuntimeError, ValueError, KeyError):  # with the exact points the triangles are not a closed surface
+    except (RuntimeError, ValueError, KeyError):  # the triangles are not a closed surface of the exact points
         return None
 
 
@@ -93,8 +93,8 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     points: three coordinates for each point, or an array of shape (n, 3).  A coordinate is an int, a Fraction, a
     Decimal, a decimal string such as ``"-.25E-3"``, a fraction ``"p/q"``, or a float, also of numpy, which has the
     binary value that it stores.
-    fast: propose a hull with a compiled kernel (numba, the extra ``fast``).  None uses the kernel if it is already
-    loaded or there are very many points.  The result is the same.
+    fast: True to propose a hull with a compiled kernel (numba, the extra ``fast``), False to do it without.  None uses
+    the kernel if it is already loaded or there are very many points.  The result is the same.
 
     For many points in space a hull is first proposed in rounded numbers.  If its proof fails, the hull is constructed
     exactly.

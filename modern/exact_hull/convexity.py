@@ -63,7 +63,7 @@ _BLOCK = 1 << 12
 # (x - o) < -|N| r + |N| r = 0 for every plane.  The computed r and distance have errors below 128e each, |N| being at
 # least 1/2. Points within r - 2**-40 are accepted in this way.
 _BALL = 2.0**-40
-# The number of triangles among which the first triangle of a walk to a point's cone is chosen.
+# The walk to a point's cone begins at one of this number of triangles.
 _STARTS = 256
 # The maximum number of steps of a walk in integers, which begins near the cone of the point.
 _STEPS = 64
@@ -123,7 +123,7 @@ def _product(u: Floats, v: Floats) -> Floats:
 
 @dataclass
 class _Proof:
-    """The data of a proof of convexity; ``evaluations`` counts the computed signs of planes at points."""
+    """The data of a proof of convexity, and the checks of its conditions."""
 
     hull: ExactHull
     sides: Polygons
@@ -160,7 +160,7 @@ class _Proof:
             raise CertificateError(f"point {beyond[side]} is outside of facet {sides.facet[side]}, or in its plane")
 
     def wall_sign(self, triangle: int, edge: int, place: Floats | int) -> int:
-        """Return the exact sign that tells on which side of a cone's wall a point lies.
+        """Return the exact sign that shows on which side of a cone's wall a point lies.
 
         ``place`` is the index of the point, or its coordinates in the unit box.
         """

@@ -1,6 +1,6 @@
-"""Read points exactly.  Arrays of integers and floats stay arrays; integers with a common scale are made on access.
+"""Read points exactly.  Arrays of integers and floats remain arrays; the scaled integers of floats are made on access.
 
-:class:`Coordinates` also gives the float64 images of the points, with which the filters of the proof compute.
+:class:`Coordinates` also provides the float64 images of the points, with which the filters of the proof compute.
 """
 
 import math
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from modern.geometry.hull import LazyMembers, PointTexts
 from modern.geometry.numbers import Exact, PointsError, real
-from modern.geometry.points import Points, check_array, point_rows
+from modern.geometry.points import Points, check_array, converted
 
 ExactPoint = tuple[Exact, Exact, Exact]
 IntPoint = tuple[int, int, int]
@@ -26,13 +26,13 @@ Objects = NDArray[np.object_]
 
 # Three odd numbers.  Equal rows have equal sums of products with them modulo 2**64.
 _HASH = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
-# Floats of at least 2**_HUGE are halved this number of times before their difference is computed.
+# Floats of at least 2**_HUGE are halved _HALVINGS times before their difference is computed.
 _HUGE, _HALVINGS = 1000, 64
-# Decimals without an exponent, one on each line, and the digits after their points.  Powers of ten up to 10**18 are
-# exact in float64 and in int64.
+# These expressions match decimals without an exponent, one on each line, and the digits after their points.  Powers of
+# ten up to 10**18 are exact in float64 and in int64.
 _DECIMALS = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:\n[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))*")
 _FRACTIONS, _EXACT_POWER = re.compile(r"\.([0-9]*)"), 18
-# The number of bits that the sides of the bounding box of small points have together.
+# The largest sum of the numbers of bits of the three sides of the bounding box of small points.
 _SMALL_BITS = 48
 
 
@@ -55,7 +55,7 @@ class Images:
         return sum(self.shifts) <= _SMALL_BITS
 
     def exactly(self, place: Floats) -> tuple[IntPoint, int]:
-        """Return the exact point that belongs to a scaled one, as three numerators and their common denominator."""
+        """Return the exact point that has the image ``place``, as three numerators and their common denominator."""
         pairs = [number.as_integer_ratio() for number in place.tolist()]
         weight = max(under for _, under in pairs)  # powers of two
         x, y, z = (
@@ -66,11 +66,10 @@ class Images:
 
 
 class Coordinates(LazyMembers[IntPoint]):
-    """Points as integers divided by a common ``scale``.  An instance equals the tuple of its integers, made on
-    access.
+    """Points as integers divided by a common ``scale``.  An instance equals the tuple of its points as integers.
 
-    ``numbers`` (n, 3) holds the integers as int64 or, if they do not fit, as Python integers.  Floats that do not fit
-    in int64 with their scale, a power of two, are held as they are, in float64.
+    ``numbers`` (n, 3) holds the integers as int64 or, if they do not fit, as Python integers.  If the input is floats
+    whose integers do not fit in int64, ``numbers`` holds the floats, and their integers are made on access.
     """
 
     def __init__(self, points: Sequence[IntPoint] | NDArray[Any], scale: int = 1) -> None:
@@ -236,8 +235,16 @@ def read_points(points: Points) -> Coordinates:
     if _plain(points, str) and (short := _from_short_decimals(points)):
         return short
     exact = read_exact(points)
-    scale = common_scale(exact)
-    return Coordinates(tuple(to_integers(exact, scale)), scale)
+    scale = math.lcm(*{value.denominator for point in exact for value in point})
+    integers = tuple(
+        (
+            x.numerator * (scale // x.denominator),
+            y.numerator * (scale // y.denominator),
+            z.numerator * (scale // z.denominator),
+        )
+        for x, y, z in exact
+    )
+    return Coordinates(integers, scale)
 
 
 def _from_short_decimals(points: Sequence[Sequence[str]]) -> Coordinates | None:
@@ -277,32 +284,4 @@ def _from_floats(floats: Floats) -> Coordinates:
 
 def read_exact(points: Points) -> list[ExactPoint]:
     """Return the exact coordinates of every point as integers and fractions.  Raise PointsError for invalid points."""
-    exact: list[ExactPoint] = []
-    for index, row in enumerate(point_rows(points)):
-        numbers: list[Exact] = []
-        for axis, value in zip("xyz", row, strict=True):
-            try:
-                numbers.append(real(value))
-            except ValueError as error:
-                raise PointsError(f"point {index}, coordinate {axis}: {error}") from None
-        exact.append((numbers[0], numbers[1], numbers[2]))
-    return exact
-
-
-def common_scale(points: Sequence[ExactPoint]) -> int:
-    """Return the least positive integer by which every coordinate becomes an integer: the lcm of the denominators."""
-    return math.lcm(*{value.denominator for point in points for value in point})
-
-
-def to_integers(points: Sequence[ExactPoint], scale: int) -> list[IntPoint]:
-    """Return all coordinates times ``scale``, which must be a common multiple of their denominators."""
-    if scale == 1:
-        return [(x.numerator, y.numerator, z.numerator) for x, y, z in points]
-    return [
-        (
-            x.numerator * (scale // x.denominator),
-            y.numerator * (scale // y.denominator),
-            z.numerator * (scale // z.denominator),
-        )
-        for x, y, z in points
-    ]
+    return converted(points, real)

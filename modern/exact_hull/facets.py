@@ -118,7 +118,6 @@ def faces(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint
 
 
 def _face(triangles: Sequence[tuple[int, ...]], points: Sequence[IntPoint]) -> tuple[int, ...]:
-    """Return the polygon that triangles in one plane fill together, as a facet."""
     return rotated(triangles[0] if len(triangles) == 1 else corners_only(_outline(triangles), points))
 
 
@@ -169,7 +168,7 @@ def planes_of(triangles: Ints, points: Coordinates) -> Objects:
 
 
 def segment(points: Sequence[IntPoint]) -> list[Facet]:
-    """Return the two facets of collinear points: each end, with the plane through it perpendicular to the line."""
+    """Return the two facets of collinear points: each end, with the plane through it at right angles to the line."""
     # The lexicographic order of coordinates is the order of the points along the line.
     indices = range(len(points))
     low, high = min(indices, key=points.__getitem__), max(indices, key=points.__getitem__)

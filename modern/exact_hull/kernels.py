@@ -77,9 +77,9 @@ def surface(places: NDArray[np.float64], exact: bool) -> Surface:
 
 
 class Room(NamedTuple):
-    """Temporary arrays for the insertion of a point.  The arrays are allocated once, because numba compiles functions
-    faster if they allocate nothing.
+    """Temporary arrays for the insertion of a point.
 
+    They are allocated once, because numba compiles functions faster if they allocate nothing.
     ``near`` is a triangle in whose plane each point lay when it was compared last, or -1.  ``visible`` and ``fresh``
     are the visible and the new triangles of a step.  ``heads`` has the first point in the list of each visible
     triangle. ``edges`` (n, 2) holds the horizon as (slot, edge), and ``outer`` (n, 3) as (start, end, triangle beyond).
@@ -236,7 +236,7 @@ def distribute(known: Any, p: int, slots: Any, count: int) -> int:
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
-    """Find the triangles that a point is outside of, and the edges around them.  Return how many of each."""
+    """Find the triangles that a point is outside of, and the edges around them.  Return the numbers of both."""
     mark, neighbours = known.mark, known.neighbours
     visible[0] = start
     mark[start] = 2 * step

@@ -34,7 +34,7 @@ BOUND = 2.0**-47
 # Numbers below 2**900 may be multiplied by 2**100 in float64 without overflow.
 _WIDE, _APART = 2.0**900, 100
 _LOW = (1 << 31) - 1
-# The number of values computed at a time. So few values stay in the cache. Their matrix product is also too small for
+# The number of values computed at a time, small enough to stay in the cache. Their matrix product is also too small for
 # numpy's library to split it among threads, which would cost more than it gains while other programs are running.
 _BLOCK = 1 << 16
 
@@ -53,7 +53,7 @@ def normal_images(planes: Objects, shifts: Sequence[int]) -> Floats:
 
 
 def normal_image(plane: Sequence[int], shifts: Sequence[int]) -> tuple[float, float, float]:
-    """Return one plane's normal scaled to the unit box, like :func:`normal_images`; its integers may have any size."""
+    """Return the normal of one plane scaled to the unit box, as :func:`normal_images` does for many planes."""
     a, b, c = plane[:3]
     k, l, m = shifts  # noqa: E741
     power = max(a.bit_length() + k if a else 0, b.bit_length() + l if b else 0, c.bit_length() + m if c else 0)
@@ -113,7 +113,10 @@ class Planes:
 
     @cached_property
     def _small(self) -> tuple[Ints, bool] | None:
-        """The normals as int64, and True if single products suffice to find exact signs; None if int64 does not."""
+        """The normals as int64, and True if int64 also holds all scalar products with them, or None if they do not fit.
+
+        If False, :func:`long_signs` finds the signs of the scalar products.
+        """
         if self.points.kind != "i":
             return None
         sides = [1 << shift for shift in self.points.images.shifts]
@@ -149,7 +152,7 @@ class Planes:
         return signs
 
     def outside(self, facets: Ints, indices: Ints) -> Ints:
-        """Return the pairs of a facet and one of the given points that does not lie in the facet's plane.
+        """Return the numbers of those pairs of a facet and a point in which the point is not in the facet's plane.
 
         The given pairs must include the base point of each facet.
         """
@@ -180,9 +183,9 @@ class Planes:
         return signs
 
     def near(self, indices: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
-        """Compare each point with all planes, and yield the pairs that the filter does not show to be negative.
+        """Compare each point with all planes, and yield the pairs whose sign the filter does not prove to be -1.
 
-        Each block holds rows of ``indices``, planes, and exact signs: 0, 1, or -1.
+        Each block holds positions in ``indices``, planes, and exact signs (0, 1 or -1) of the planes at these points.
         """
         count, whole = len(self.table), self.whole
         if whole is None:

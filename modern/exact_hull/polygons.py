@@ -49,7 +49,8 @@ class Polygons:
     """The directed sides of all polygons of a surface, as arrays with one entry for each side, facet after facet.
 
     A side of ``facet`` begins at the point ``corner``. ``next`` is the following side of the facet. ``twin`` is the
-    same edge as a side of the neighbouring facet. ``first`` and ``count`` give the sides of each facet.
+    same edge as a side of the neighbouring facet. ``first`` has the first side of each facet, and ``count`` the number
+    of its sides.
     """
 
     corner: Ints
@@ -97,7 +98,7 @@ def polygons(hull: ExactHull, facets: Facets) -> Polygons:
 
 
 def check_planes(hull: ExactHull, facets: Facets, sides: Polygons) -> Planes:
-    """Check that each polygon's corners lie in its plane, which is in lowest terms, and return the planes."""
+    """Return the planes of the facets.  Check that they are in lowest terms and contain the corners of their facets."""
     columns = facets.planes.T.tolist()
     planes = list(zip(*columns, strict=True))
     ordered = all(map(operator.lt, planes, planes[1:]))

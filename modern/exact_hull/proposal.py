@@ -55,16 +55,14 @@ class Proposal:
 
 
 def _proposal(corners: Ints, alive: NDArray[np.bool_], near: Ints, at: Ints) -> Proposal:
-    """Return the remaining triangles, numbered again without gaps, as a proposal."""
     numbers = np.where(alive, np.cumsum(alive) - 1, -1)
     return Proposal(corners[alive], near, numbers[at])
 
 
 def in_doubles(points: Coordinates) -> Floats | None:
-    """Return the points scaled by a power of two on each axis, in doubles, or None if doubles cannot hold them
-    exactly.
+    """Return the points scaled by a power of two on each axis, or None if doubles cannot hold them exactly.
 
-    Differences are at most 1.
+    On each axis, scaled points differ by at most 1.
     """
     shifts, power, numbers = np.array(points.images.shifts), points.scale.bit_length() - 1, points.numbers
     if points.kind == "i" and shifts.max() <= _DOUBLE_BITS:
@@ -143,9 +141,9 @@ def _exact_planes(points: Coordinates, corners: Ints) -> Planes:
 
 
 class _Growing:
-    """The surface while it grows: triangles in arrays, where a removed triangle keeps its index, and the points
-    outside.
+    """The surface while it grows, as arrays of triangles, and the points that wait outside it.
 
+    A removed triangle keeps its index.
     ``corners`` (T, 3) are counterclockwise seen from outside. ``neighbours`` (T, 3) are the triangles beyond the edges.
     ``images`` (T, 4) are the planes with A, B and C at most 1, and ``bounds`` the bounds for errors of their values.
     ``home`` is a triangle that each of the ``waiting`` points sees, and ``height`` the value of its plane there.
@@ -195,7 +193,7 @@ class _Growing:
         self.made = end
 
     def _signed(self, values: Floats, points: Ints, triangles: Ints) -> Floats:
-        """Return values of planes at points.  If rounding hides a sign, the value is the exact sign times 1e-300."""
+        """Return values of planes at points.  A value whose sign is in doubt becomes its exact sign times 1e-300."""
         doubtful = np.flatnonzero(~(abs(values) > self.bounds[triangles]))
         if doubtful.size and not self.exact:
             distinct, places = np.unique(triangles[doubtful], return_inverse=True)
@@ -204,7 +202,6 @@ class _Growing:
         return values
 
     def _outside(self, points: Ints, chosen: Ints, largest: Floats) -> tuple[Ints, Ints, Floats]:
-        """Return the points that are outside of their chosen triangle, and record the points in its plane."""
         on, outside = largest == 0, largest > 0
         self.near.append(np.stack([points[on], chosen[on]]))
         return points[outside], chosen[outside], largest[outside]
@@ -230,7 +227,8 @@ class _Growing:
     def _tried_against_own(self, points: Ints, remover: Ints, starts: Ints, counts: Ints) -> tuple[Ints, Ints, Floats]:
         """Compare each point only with the new triangles that replaced the triangle at which it waited.
 
-        The new triangles are ``counts`` triangles from ``starts`` on. The result is that of ``_tried_against_all``.
+        The inserted point ``remover`` of a waiting point made ``counts`` triangles from ``starts`` on. The result has
+        the form of that of ``_tried_against_all``.
         """
         # Make one row for each pair of a point and a new triangle of the point that removed its triangle.
         pairs = counts[remover]
@@ -298,8 +296,7 @@ class _Growing:
         return nominee[at], at
 
     def _regions(self, nominated: Ints, at: Ints) -> tuple[Ints, Ints, Ints, Ints, Ints]:
-        """Return the triangles that each point to be inserted is outside of, and the edges around them (its
-        horizon).
+        """Return the triangles that each nominated point is outside of, and the edges around them, its horizon.
 
         The result has pairs (rank, triangle) and triples (rank, triangle, edge); rank is an index into ``nominated``.
         """

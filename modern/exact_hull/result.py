@@ -42,7 +42,8 @@ class Facet:
 class Facets(LazyTuple[Facet]):
     """The facets of a hull as arrays.  An instance equals the tuple of the facets, which are made on access.
 
-    ``planes`` (m, 4) are Python integers. ``corners`` are those of all polygons in a row, of ``counts`` corners each.
+    ``planes`` (m, 4) are Python integers. ``corners`` has the corners of all polygons in a row, and ``counts`` the
+    number of corners of each polygon.
     """
 
     def __init__(self, planes: Objects, corners: Ints, counts: Ints) -> None:
@@ -58,7 +59,7 @@ class Facets(LazyTuple[Facet]):
 
 
 def facets_as_arrays(facets: Sequence[Facet]) -> Facets:
-    """Return the facets as arrays.  Raise CertificateError if a plane or a polygon has anything but Python integers."""
+    """Return the facets as arrays.  Raise CertificateError if a plane or polygon does not consist of integers."""
     if isinstance(facets, Facets):
         planes, counts = facets.planes, facets.counts
         is_index = facets.corners.dtype == counts.dtype == np.int64 and counts.sum() == len(facets.corners)
@@ -77,8 +78,7 @@ def facets_as_arrays(facets: Sequence[Facet]) -> Facets:
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """Counts from a successful proof that a hull is correct.  If the proof fails, CertificateError is raised
-    instead.
+    """Counts from a successful proof that a hull is correct.
 
     dimension, points, vertices, edges, facets: those of the hull.
     arithmetic: "int64", or "float64 and integers" if a floating-point filter was used, or "none" for a point.

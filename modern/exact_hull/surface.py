@@ -40,7 +40,7 @@ class Surface:
 
     Corners are counterclockwise seen from outside. ``neighbours[t][k]`` is the triangle beyond edge k of triangle t.
     ``waiting`` has the points waiting outside each triangle, and ``home`` the triangle of each point, or -1. ``mark``
-    is the result of the last test of visibility with its point (see ``_visible``).
+    encodes which point last tested each triangle, and if the point saw it (see ``_visible``).
     """
 
     def __init__(self, points: Coordinates, simplex: Sequence[int]) -> None:
@@ -179,7 +179,7 @@ class Surface:
 
 
 def convex_surface(points: Coordinates, simplex: Sequence[int], order: Sequence[int]) -> list[tuple[Triangle, Plane]]:
-    """Return the hull as triangles.  It starts from four points, ``simplex``, and inserts the others in ``order``."""
+    """Return the hull as triangles, built from four points, ``simplex``, by inserting the other points in ``order``."""
     surface = Surface(points, simplex)
     for p in order:
         surface.insert(p)

@@ -36,7 +36,7 @@ def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def _normalised(line: str, separator: str) -> str:
-    """Return a line in the form that the csv module reads: a comment becomes empty, a run of blanks one blank."""
+    """Return a line for the csv module: empty for a comment; if blanks separate the fields, with single blanks."""
     if line.lstrip().startswith("#"):
         return ""
     return line if separator else " ".join(line.split())

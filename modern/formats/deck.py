@@ -2,9 +2,8 @@
 
 A data set is a card with N, the number of points, in columns 1-2, followed by N cards with x, y, z in columns 1-14,
 15-28, 29-42 (thesis p. 58-59; its data sheet gives columns 29 to 52 to z, but the FORMAT reads 29 to 42).  A deck may
-hold several data sets.  In a deck for programs that were changed to use a
-tolerance e (the layer ``epsilon`` of the edition), the first card also holds e in columns 3-16, after N
-(OPEN-QUESTIONS 28).
+hold several data sets.  In a deck for programs that were changed to use a tolerance e (the layer ``epsilon`` of the
+edition), the first card also holds e in columns 3-16 (OPEN-QUESTIONS 28).
 """
 
 from collections.abc import Iterable, Sequence
@@ -15,7 +14,7 @@ from fractions import Fraction
 from emulator.errors import ArgumentError, CardError, DeckError
 from emulator.language.cards import Card, Deck, deck_from_lines
 from emulator.numbers.arithmetic import TRUNCATING, Rules, profile
-from emulator.numbers.fields import Field, FieldError, FieldNumber, Remark, read_fixed, read_floating
+from emulator.numbers.fields import Field, FieldError, FieldNumber, read_fixed, read_floating
 from modern.geometry.numbers import Point, exact_text, finite_decimal, read_epsilon, split_decimal
 
 # The largest number of points for which the arrays of the hull programs have room.
@@ -40,22 +39,17 @@ class DataSet:
 
 @dataclass(frozen=True, slots=True)
 class DeckWarning:
-    """A warning about a card: its place, and a text, or a remark about the number called ``name``."""
+    """A warning about a card, with its place."""
 
     source: str
     card: int
     column: int
-    text: str = ""
-    name: str = ""
-    remark: Remark | None = None
+    text: str
 
     @property
     def message(self) -> str:
         """The warning as one line for the user."""
-        message = self.text
-        if self.remark is not None:
-            message = f"{self.name}: {self.remark.message}" if self.name else f"{self.remark.message}: {self.text}"
-        return f"{self.source}: card {self.card}, column {self.column}: {message}"
+        return f"{self.source}: card {self.card}, column {self.column}: {self.text}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +61,7 @@ class CheckedDeck:
     warnings: tuple[DeckWarning, ...]
 
     def deck(self, index: int) -> Deck:
-        """Return one data set as a deck; the cards keep their numbers."""
+        """Return the data set with this index as a deck.  Its cards keep their numbers."""
         return Deck(self.source, self.sets[index].cards)
 
 
@@ -78,8 +72,8 @@ class TooManyDigits(ArgumentError):
 def coordinate_field(text: str, truncate: bool = False) -> str:
     """Return a decimal number as the 14 columns of a field E14.8, such as ``+.20000000E+01``.
 
-    Raise TooManyDigits for more than eight significant digits, which ``truncate`` truncates instead.  Raise ValueError
-    if the text is not a decimal number, or if its exponent is outside -99 to 99.
+    If ``truncate`` is true, digits after the eighth significant digit are dropped, otherwise they raise TooManyDigits.
+    Raise ValueError if the text is not a decimal number, or if its exponent is outside -99 to 99.
     """
     minus, whole, fraction, exponent = split_decimal(text.strip())
     digits = (whole + fraction).lstrip("0")
@@ -95,7 +89,11 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
 
 
 class UnfitPoint(ArgumentError):
-    """Raised for a coordinate that no card can hold; ``point`` and ``field`` number the point and coordinate from 1."""
+    """Raised for a coordinate that no card can hold.
+
+    ``point`` and ``field`` are the numbers of the point and of the coordinate, from 1, and ``why`` is the reason.
+    ``digits`` is True if the number only has too many digits.
+    """
 
     def __init__(self, point: int, field: int, why: str, digits: bool) -> None:
         super().__init__(f"point {point}, field {field}: {why}")
@@ -103,7 +101,7 @@ class UnfitPoint(ArgumentError):
 
 
 def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = False) -> Deck:
-    """Return a deck of one data set for at least one point; ``source`` becomes its name.
+    """Return a deck of one data set for at least one point.  ``source`` becomes the name of the deck.
 
     Raise UnfitPoint for a coordinate that no card holds, and ArgumentError for more than 99 points.
     """
@@ -146,9 +144,9 @@ def read_coordinates(card: Card, rules: Rules) -> tuple[FieldNumber, FieldNumber
 
 
 def exact_points(deck: Deck) -> tuple[dict[int, Point], tuple[str, ...]]:
-    """Return the points of a deck's first data set, by card number, and warnings.
+    """Return the points of a deck's first data set, keyed by card number, and warnings.
 
-    All digits of a field are read, whereas the programs would truncate it after the eighth digit.
+    All digits of a field are read, whereas the programs would drop those after the eighth digit.
     """
     every = check(deck, _RULES)
     notes = []
@@ -171,7 +169,7 @@ def _decimal(number: FieldNumber) -> str:
 
 
 def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) -> CheckedDeck:
-    """Check every data set of a deck.  If ``epsilon`` is true, the card with N also holds e.
+    """Check every data set of a deck.  If ``epsilon`` is true, the card with N may also hold the tolerance e.
 
     Raise CardError for an invalid coordinate or e, or if N is not from 1 to 51.  Raise DeckError if the deck has fewer
     than N points.
@@ -221,7 +219,7 @@ def _count(deck: Deck, card: Card, warnings: list[DeckWarning], last: int) -> in
     if not 1 <= n <= MAX_POINTS:
         raise CardError(deck.source, card.number, 1, f"N is {n}; the programs accept 1 to {MAX_POINTS} points")
     if number.remark:
-        warnings.append(DeckWarning(deck.source, card.number, 1, f"N is {n}", remark=number.remark))
+        warnings.append(DeckWarning(deck.source, card.number, 1, f"{number.remark.message}: N is {n}"))
     if card.text[last:].strip():
         message = f"the programs do not read the columns after {'N' if last < _E_FIRST else 'e'}"
         warnings.append(DeckWarning(deck.source, card.number, last + 1, message))
@@ -239,20 +237,20 @@ def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning])
     if number.mantissa < 0:
         raise CardError(deck.source, card.number, _E_FIRST, "e is negative, so that no value lies from -e to +e")
     if number.remark:
-        warnings.append(DeckWarning(deck.source, card.number, _E_FIRST, name="e", remark=number.remark))
+        warnings.append(DeckWarning(deck.source, card.number, _E_FIRST, f"e: {number.remark.message}"))
 
 
 def _point(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) -> tuple[tuple[int, int], ...]:
-    """Check a card, and return mantissa and exponent of its three numbers, which are the same for +0 and -0."""
+    """Check the card of a point.  Return mantissa and exponent of its three numbers; the exponent of a zero is 0."""
     numbers = []
     for axis, (first, columns) in zip("xyz", _fields(card), strict=True):
         try:
-            number: FieldNumber = read_floating(COORDINATE, columns, rules)
+            number = read_floating(COORDINATE, columns, rules)
         except FieldError as error:
             raise CardError(deck.source, card.number, first, f"{axis}: {error}") from None
         numbers.append((number.mantissa, number.exponent if number.mantissa else 0))
         if number.remark:
-            warnings.append(DeckWarning(deck.source, card.number, first, name=axis, remark=number.remark))
+            warnings.append(DeckWarning(deck.source, card.number, first, f"{axis}: {number.remark.message}"))
     if card.text[_LAST_COLUMN:].strip():
         message = "the programs do not read the columns after z"
         warnings.append(DeckWarning(deck.source, card.number, _LAST_COLUMN + 1, message))

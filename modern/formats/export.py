@@ -18,7 +18,8 @@ from modern.geometry.mesh import ExportError, Mesh, mesh
 def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
     """Return the text of a file in one of the formats ``HULLS``.
 
-    Except in JSON, coordinates without a finite decimal are rounded to ``digits`` digits; None raises ExportError.
+    Except in JSON, a coordinate without a finite decimal expansion is rounded to ``digits`` digits, or raises
+    ExportError if ``digits`` is None.
     """
     if form == "json":
         return json.write(hull)
@@ -34,7 +35,7 @@ def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:
 
 
 def format_of(path: str) -> str:
-    """Return the format that belongs to the extension of a file name.  Raise ExportError if no format belongs to it."""
+    """Return the format that the extension of a file name denotes.  Raise ExportError for an unknown extension."""
     extension = path.rpartition(".")[2].lower() if "." in path else ""
     if extension not in HULLS:
         raise ExportError(f"{path}: the name must end with one of {', '.join('.' + form for form in HULLS)}")
@@ -42,9 +43,10 @@ def format_of(path: str) -> str:
 
 
 def write_hull(hull: Hull, path: str, form: str | None = None, digits: int | None = None) -> None:
-    """Write a hull to a file, ``-`` for standard output, in ``form`` or the format of the extension, atomically.
+    """Write a hull to a file, or to standard output for ``-``, in the format ``form`` or that of the extension.
 
-    Raise ExportError if the format cannot hold the hull, and FileError if the file cannot be written.
+    An existing file is replaced only after all of the text was written.  Raise ExportError if the format cannot hold
+    the hull, and FileError if the file cannot be written.
     """
     write_text(path, export_text(hull, form or format_of(path), digits))
 

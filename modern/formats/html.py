@@ -12,7 +12,7 @@ from modern.geometry.mesh import ExportError, Mesh
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """Return the page as HTML.  Coordinates are exact, or rounded to ``digits`` digits if not finite decimals."""
+    """Return the page as HTML.  Coordinates without a finite decimal expansion are rounded to ``digits`` digits."""
     try:
         points = [[float(number) for number in point] for point in mesh.numbers()]
     except OverflowError:

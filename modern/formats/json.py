@@ -62,7 +62,7 @@ def _face(face: Face) -> dict[str, Any]:
 
 
 def parse(text: str, source: str) -> tuple[Point, ...]:
-    """Return the points of a JSON file as text.  If they are invalid, raise FileError with the line or the point."""
+    """Return the points of a JSON file as text.  Raise FileError, with the line or the point, if it is invalid."""
     try:
         data = json.loads(text, parse_float=str, parse_int=str, parse_constant=str)
     except json.JSONDecodeError as error:

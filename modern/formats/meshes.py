@@ -1,7 +1,7 @@
 """Read surfaces, points with faces, from OFF, OBJ, PLY and STL files, of which PLY and STL may be binary.
 
-The result holds the points and faces of the file.  The caller decides whether the faces close and what they enclose.
-Equal corners of an STL file are one point; every vertex of OFF, OBJ and PLY is a separate point.
+The readers do not check that the faces close.  Equal corners of an STL file are one point; every vertex of OFF, OBJ and
+PLY is a separate point.
 """
 
 from emulator.errors import FileError
@@ -12,7 +12,7 @@ from modern.formats.tokens import FileMesh
 
 
 def surface_kind(data: bytes, source: str) -> str:
-    """Return the format of a file with a surface, one of ``MESHES``, or "" if its format holds only points.
+    """Return the format of a file if it is one of ``MESHES``, or "" if it is a format of points without faces.
 
     Raise FileError if the format is unknown.
     """

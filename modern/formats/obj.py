@@ -1,9 +1,8 @@
 """Write and read the Wavefront OBJ format: polygons and decimal text, both preserved.
 
 A polyhedron is written with its faces (``f``), a polygon with one face, a segment as a line (``l``), a point as ``p``.
-The reader returns the vertices (``v``) and ignores anything after their x, y and z (a weight or a colour).  For a
-surface it also returns the faces.  A vertex of a face is numbered from 1, or backwards from the last vertex if the
-number is negative; the reader ignores anything after a slash.
+The readers ignore anything after the x, y and z of a vertex (``v``), such as a weight or a colour.  A face numbers its
+vertices from 1, or from -1 backwards from the last vertex before the face; anything after a slash is ignored.
 """
 
 import re
@@ -34,7 +33,7 @@ def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
 
 
 def surface(text: str, source: str) -> FileMesh:
-    """Return the vertices and faces.  Raise FileError if a vertex is invalid or a face names one not in the file."""
+    """Return the vertices and faces.  Raise FileError for an invalid vertex, or a face of vertices not in the file."""
     points, point_lines = parse(text, source)
     faces = []
     vertices_before = 0

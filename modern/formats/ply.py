@@ -48,7 +48,7 @@ _MOST_HEADER = 1 << 16
 class _Element:
     """A kind of item in a PLY file (vertex or face), with its properties.
 
-    For each property: its name, its struct code, and for a list the struct code of its length, else "".
+    A property is its name, the struct code of its values and, for a list, the struct code of its length, otherwise "".
     """
 
     name: str

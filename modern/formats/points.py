@@ -1,8 +1,8 @@
 """Read points from files of every supported format: decks, CSV lists, OFF, OBJ, PLY, STL, JSON and NPY.
 
-Numbers are exact: a decimal has the value of its text, a binary float the value it stores.  All digits of a deck's
-field are read, whereas the programs on the machine would truncate it after the eighth digit.  The format of a file is
-recognised by its first bytes or its first line, and by the file's extension only if these fit several formats.
+Numbers are exact: a decimal has the value of its text, a binary float the value that it stores.  All digits of a field
+on a card are read, whereas the programs would drop those after the eighth digit.  The format of a file is recognised by
+its first bytes or its first line, and by the extension of its name only if these fit several formats.
 """
 
 import io
@@ -25,7 +25,7 @@ _NPY, _DOUBLE = b"\x93NUMPY", 8
 class Input:
     """The points of a file as decimal text, the place of each in the file (such as ``card 3``), and warnings.
 
-    The texts of an array are made on access.
+    For an array of numbers, the texts are made when they are accessed.
     """
 
     source: str
@@ -76,10 +76,10 @@ def kind_of(data: bytes, source: str) -> str:
 
 
 def deck_or_points(data: bytes, source: str) -> str:
-    """Return the format of a file of points; "deck" if it is not clearly one of the other formats.
+    """Return the format of a file of points, or "deck" if it is not clearly one of the other formats.
 
-    The reader of decks then reports what is wrong with it.  A line of several words is a list only if it holds three
-    numbers, because the card with N may also hold e.
+    The reader of decks then reports the error in the file.  A text whose first line has several words is a list only if
+    they are three numbers, because the first card of a deck may hold e after N.
     """
     try:
         kind = kind_of(data, source)

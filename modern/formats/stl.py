@@ -1,8 +1,8 @@
 """Read ASCII and binary STL files, write ASCII ones (3D Systems, "StereoLithography Interface Specification", 1989).
 
-Writing: each face is split into triangles from its first vertex.  Corners are exact decimal text, and a vertex always
-has the same text.  Unit normals have no finite decimal and are truncated to nine decimals.  A polygon becomes a
-one-sided sheet of triangles.  A segment or a point has no area and raises ExportError.
+Writing: each face is split into triangles from its first vertex.  The coordinates of a vertex are exact decimals, the
+same in each of its triangles.  Unit normals have no finite decimals and are truncated to nine digits.  A polygon
+becomes a one-sided sheet of triangles.  A segment or a point has no area and raises ExportError.
 
 Reading: STL repeats a vertex in each of its triangles, so equal corners become one point, in the order in which they
 first appear.
@@ -60,8 +60,9 @@ def is_binary(data: bytes) -> bool:
 
 
 def surface_binary(data: bytes, source: str) -> FileMesh:
-    """Return the triangles of a binary STL file as exact decimals.  In place of the line of a point, return the number
-    of its triangle.
+    """Return the triangles of a binary STL file, with exact decimals.
+
+    The member ``lines`` of the result has for each point the number of its first triangle, from 1.
     """
     indices: dict[Point, int] = {}
     first_triangles: list[int] = []

@@ -15,7 +15,10 @@ Line = tuple[int, list[Token]]
 
 @dataclass(frozen=True, slots=True)
 class FileMesh:
-    """The surface in a file: points as decimal text, the lines (or triangles) that hold them, and faces as indices."""
+    """The surface in a file: points as decimal text, and faces as indices of points.
+
+    ``lines`` has the number of the line (in a binary file, of the vertex or triangle) that holds each point.
+    """
 
     source: str
     points: tuple[Point, ...]
@@ -24,7 +27,7 @@ class FileMesh:
 
 
 def lines(text: str, comment: str = "#") -> Iterator[Line]:
-    """Yield the lines of a text that have tokens, without comments, which begin with the mark ``comment``."""
+    """Yield the lines of a text that have tokens.  Comments, which begin with the mark ``comment``, are dropped."""
     for line_number, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
         content = line.split(comment, 1)[0] if comment else line
         tokens = [(match[0], match.start() + 1) for match in re.finditer(r"\S+", content)]
@@ -59,14 +62,14 @@ def vertex(source: str, line: int, tokens: list[Token], first: int = 0, allow_mo
 
 
 def count(source: str, line: int, token: Token) -> int:
-    """Return a token as an integer of at most nine digits.  Raise FileError if it is not one."""
+    """Return a token as an integer of at most nine digits.  Raise FileError for any other token."""
     if not re.fullmatch(r"[0-9]{1,9}", token[0]):
         raise error(source, line, token, f"{quoted(token[0])} is not a count")
     return int(token[0])
 
 
 def decimal(source: str, line: int, token: Token) -> str:
-    """Return the text of a token that is a decimal number.  Raise FileError if it is not one."""
+    """Return the text of a token, a decimal number.  Raise FileError for any other token."""
     try:
         if "/" in token[0]:
             raise ValueError(f"{quoted(token[0])} is not a decimal number")

@@ -9,8 +9,8 @@ the hull as it is and derives a second hull with joined faces from it:
    Distances are compared exactly, by their squares.
 3. The joined face is the polygon that bounds this group of faces.  A vertex in the interior of the polygon is dropped.
 
-E is too large for the solid, and raises CoplanarError, if all points lie within E of the plane of the largest face, if
-fewer than four faces remain, or if a joined face is not a simple polygon that is convex to within E.
+E is too large for the solid if all points lie within E of the plane of the largest face, if fewer than four faces
+remain, or if a joined face is not a simple polygon that is convex to within E.  Joining then raises CoplanarError.
 """
 
 from collections.abc import Sequence
@@ -40,9 +40,9 @@ class Joined:
     """A convex surface with faces joined ``within`` the distance E.
 
     ``groups`` has for each joined face the indices of the faces that it replaces.  The joined face has the plane of the
-    first one.  ``loops`` are the polygons of the joined faces, counterclockwise seen from outside.  ``left_out`` points
-    belong to no polygon.  ``square`` is the square of the largest distance of a vertex from the plane of its joined
-    face.  ``beyond`` is the square of the smallest E that would join one more face, or None.
+    first of them.  ``loops`` are the polygons of the joined faces, counterclockwise seen from outside.  ``left_out``
+    points belong to no polygon.  ``square`` is the square of the largest distance of a vertex from the plane of its
+    joined face.  ``beyond`` is the square of the smallest E that would join one more face, or None.
     """
 
     within: Fraction
@@ -145,8 +145,8 @@ def coplanar(hull: Hull, within: object) -> tuple[Hull, Joined | None]:
 
     A hull without volume is returned unchanged, with None.  A joined face has the equation of the largest face that it
     replaces, and its vertices lie within the distance of that plane.  Vertices inside joined faces become boundary
-    points.  Raise CoplanarError if the distance is invalid or too large,
-    and ExportError if the hull was not determined.
+    points.  Raise CoplanarError if the distance is invalid or too large, and ExportError if the hull was not
+    determined.
     """
     limit = parse_distance(within)
     surface = mesh(hull)
@@ -182,7 +182,7 @@ def _face(hull: Hull, group: Sequence[int], loop: Sequence[int], left_out: set[i
 
 
 def join_summary(joined: Joined) -> str:
-    """Return a line for the user: numbers of faces, largest deviation, and the next distance that joins more faces."""
+    """Return a line for the user: numbers of faces, largest deviation, and the smallest E that joins one more face."""
     within = distance_text(joined.within)
     following = "" if joined.beyond is None else f"the next face is joined if E is at least {root_text(joined.beyond)}"
     if len(joined.groups) == joined.faces:
@@ -210,7 +210,7 @@ def root_text(square: Fraction) -> str:
 
 
 def distance_text(value: Fraction) -> str:
-    """Return a distance for a message: exact if that is short, otherwise to six digits."""
+    """Return a distance for a message: exact if that is short, otherwise rounded to six digits."""
     exact = finite_decimal(value)
     text = str(value) if exact is None else _plain(Decimal(exact))
     work = Context(prec=6, Emin=MIN_EMIN, Emax=MAX_EMAX)

@@ -86,7 +86,8 @@ class LazyMembers(LazyTuple[T]):
 class PointTexts(LazyMembers[tuple[str, str, str]]):
     """A sequence of points whose coordinates are exact text, computed when they are accessed.
 
-    ``floats`` returns a new array of the nearest doubles (n, 3).  ``numbers`` is an array of them, or None.
+    ``floats`` returns a new array of the nearest doubles (n, 3).  ``numbers`` is the array of numbers that the texts
+    denote, or None if the points do not come from an array.
     """
 
     def __init__(
@@ -152,8 +153,8 @@ class Stage:
 
     number: j.
     added: the point that became a vertex.  For H_1 these are its initial points.
-    checked: the number of the equation that the point was found outside of (NETC in the listing); 0 for H_1.
-    outside: how many equations the added point is outside of.
+    checked: the number of the equation that the point was found outside of, called NETC in the listing; 0 for H_1.
+    outside: the number of equations that the added point is outside of.
     struck: the points inside H_j, which the procedure eliminates.
     equations: the defining points of each equation, in the order of the table.
     """
@@ -168,7 +169,7 @@ class Stage:
 
 @dataclass(frozen=True, slots=True)
 class Coplanar:
-    """A description of how coplanar faces were joined (``modern.geometry.coplanar``); all distances are decimals.
+    """A description of how coplanar faces were joined (``modern.geometry.coplanar``).  All distances are decimals.
 
     within: the distance E.
     faces: the number of faces of the hull before joining.

@@ -22,8 +22,9 @@ class Mesh:
     """The surface of a hull.
 
     points: the vertices in the order of ``Hull.vertices``, as exact text, which may be made on access.
-    faces: indices into ``points``, counterclockwise seen from outside.  A polygon is one face, counterclockwise seen
-        from the side to which (A, B, C) of its plane points.  A segment or a point has no faces.
+    faces: for each face the indices of its vertices in ``points``, counterclockwise seen from outside.  The face of a
+        polygon is counterclockwise seen from the side to which (A, B, C) of its plane points.  A segment or a point has
+        no faces.
     """
 
     dimension: int

@@ -1,8 +1,8 @@
 """Convert decimals and fractions to exact numbers, and exact numbers to text.
 
 ``exact_text`` formats the numbers of a hull. ``decimal_text`` and ``finite_decimal`` format numbers in files and
-messages.  They switch to a decimal exponent at different lengths.  The module must not import numpy, which is missing
-in the browser.
+messages, and use a decimal exponent for shorter numbers than ``exact_text``.  The module must not import numpy, which
+is missing in the browser.
 """
 
 import re
@@ -107,10 +107,9 @@ def real(value: object) -> Exact:
 
 
 def read_epsilon(epsilon: object) -> tuple[Fraction, bool] | None:
-    """Read a tolerance e.  Return its value, and True if it is relative (``"rel:E"``), or None if ``epsilon``
-    is None.
+    """Return the value of a tolerance e, and True if it is relative (``"rel:E"``).  Return None if ``epsilon`` is None.
 
-    Raise ArgumentError unless e is a real number, also as text, that is not negative.
+    Raise ArgumentError unless e is a real number, or its text, that is not negative.
     """
     if epsilon is None:
         return None
@@ -165,7 +164,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
 
 
 def sum_of_roots(squares: Iterable[Fraction], digits: int) -> Decimal:
-    """Return the sum of the square roots of ``squares`` to ``digits`` digits, exact if every root is that short."""
+    """Return the sum of the square roots of ``squares``, rounded to ``digits`` digits."""
     work, total = Context(prec=digits + _GUARD, Emin=MIN_EMIN, Emax=MAX_EMAX), Decimal(0)
     for square in squares:
         # The quotient of two roots, unlike the root of a quotient, is exact if both roots are integers.

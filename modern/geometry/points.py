@@ -1,12 +1,12 @@
-"""Check that arguments are a sequence or an array of points, with three coordinates each.
+"""Check arguments that must be points, a sequence or an array with three coordinates for each, and convert them.
 
 Every public function that accepts points uses these checks, so that all raise the same errors.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from modern.geometry.numbers import PointsError
 
 Coordinate = int | float | Fraction | Decimal | str | np.integer[Any] | np.floating[Any]
 Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
+T = TypeVar("T")
 
 # Types of iterables that are rejected as sequences of points or coordinates: a set, for example, has no order.
 _NO_SEQUENCE = (str, bytes, bytearray, memoryview, Set, Mapping)
@@ -54,3 +55,20 @@ def point_rows(points: Any) -> Iterator[list[Any]]:
         yield row
     if index < 0:
         raise PointsError("there are no points")
+
+
+def converted(points: Points, convert: Callable[[object], T]) -> list[tuple[T, T, T]]:
+    """Return the points with every coordinate converted by ``convert``.
+
+    Raise PointsError, which names the coordinate, if ``convert`` raises ValueError, or if the points are not points.
+    """
+    rows = []
+    for index, row in enumerate(point_rows(points)):
+        numbers = []
+        for axis, value in zip("xyz", row, strict=True):
+            try:
+                numbers.append(convert(value))
+            except ValueError as error:
+                raise PointsError(f"point {index}, coordinate {axis}: {error}") from None
+        rows.append((numbers[0], numbers[1], numbers[2]))
+    return rows

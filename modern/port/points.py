@@ -1,6 +1,7 @@
 """Read input points exactly, and convert them to the arithmetic that the caller names."""
 
 from collections.abc import Iterable
+from itertools import chain
 
 import numpy as np
 
@@ -8,7 +9,7 @@ from emulator.errors import ArgumentError, expect, quoted
 from emulator.numbers import RANDOM, numbers
 from emulator.numbers.arithmetic import FAMILIES, PROFILES
 from modern.geometry.numbers import Exact, PointsError, real
-from modern.geometry.points import Points, check_array, point_rows
+from modern.geometry.points import Points, check_array, converted
 from modern.port.arithmetic import Arithmetic, RangeError, Vector
 from modern.port.binary import FloatArithmetic, MultiprecisionArithmetic
 from modern.port.exact import exact_arithmetic
@@ -19,23 +20,11 @@ Read = tuple[Exact, bool]
 
 
 def read_number(value: object) -> Read:
-    """Read one coordinate.  Return its exact value, and True for a minus zero.  Raise ValueError for anything else."""
+    """Return the exact value of a coordinate, and True if it is a minus zero.  Raise ValueError if it is no number."""
     number = real(value)
     if number:
         return number, False
     return number, value.strip().startswith("-") if isinstance(value, str) else str(value).startswith("-")
-
-
-def read_points(points: Points) -> list[Read]:
-    """Return the coordinates of all points in one list. Raise PointsError for invalid input."""
-    numbers: list[Read] = []
-    for index, row in enumerate(point_rows(points)):
-        for axis, value in zip("xyz", row, strict=True):
-            try:
-                numbers.append(read_number(value))
-            except ValueError as error:
-                raise PointsError(f"point {index}, coordinate {axis}: {error}") from None
-    return numbers
 
 
 def first_of_equals(keys: Iterable[object]) -> tuple[list[int], tuple[tuple[int, int], ...]]:
@@ -69,11 +58,14 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:
-    """Return the named arithmetic, and the points as three rows of its numbers.  If ``wide``, do not use int64."""
+    """Return the named arithmetic, and the points as three rows of its numbers.
+
+    If ``wide`` is true, exact arithmetic does not use int64.
+    """
     arithmetic = fixed_arithmetic(name)
     if isinstance(arithmetic, FloatArithmetic) and isinstance(points, np.ndarray) and points.dtype == arithmetic.dtype:
         return arithmetic, _floats(points)
-    read = read_points(points)
+    read = list(chain.from_iterable(converted(points, read_number)))
     if arithmetic is None:
         arithmetic = exact_arithmetic([value for value, _ in read], wide)
     return arithmetic, _numbers(arithmetic, read)

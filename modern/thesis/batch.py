@@ -16,7 +16,7 @@ from modern.thesis.job import HullRun, Load, Step, punched_deck, second_program
 class Runs:
     """A cache of finished runs, because several batches often need the same run of program 1 or 2.
 
-    If ``interpreted`` is true, the interpreter runs the programs, because the compiled engine is not ready yet.
+    If ``interpreted`` is true, the interpreter runs the programs instead of the compiled engine.
     """
 
     interpreted: bool = False

@@ -1,8 +1,9 @@
 """Compute for how many points the hull programs fit into the core storage of a 1620.
 
-Arrays of length 51 have one entry for each point, those of length 98 one for each plane: 2N-4 for N points in space.
-With the modern corrections to the listings (layer ``corrected``) the lengths are 52 and 193: N+1 and 4N-11.  The length
-of the object program is that of :mod:`emulator.objectdeck.extent`.
+The programs have arrays of length 51, with one entry for each of N points, and of length 98, with one entry for each
+plane: a hull of N points in space has at most 2N-4 planes.  With the modern corrections to the listings (layer
+``corrected``) the lengths are 52, or N+1, and 193, or 4N-11.  :mod:`emulator.objectdeck.extent` gives the length of the
+object program.
 """
 
 from collections.abc import Callable
@@ -22,7 +23,7 @@ _FORMULAS = {51: "N", 52: "N+1", 98: "2N-4", 193: "4N-11"}
 
 
 def data_positions(program: Program, points: int) -> int:
-    """Return the core positions for a program's data if its arrays have room for this number of points."""
+    """Return the number of core positions for a program's data if its arrays have room for this number of points."""
     fields = program.storage.fields
     for entry in program.storage.arrays():
         size = _SIZES.get(entry.size)

@@ -28,7 +28,11 @@ SECTIONS = ("inside", "boundary", "vertices", "equations", "plane")
 
 @dataclass(frozen=True, slots=True)
 class CardHull:
-    """A hull read from punched cards. ``satisfied`` pairs vertex numbers with an equation they satisfy."""
+    """A hull read from punched cards.
+
+    ``satisfied`` has pairs of the numbers of vertices and the number of an equation that these vertices satisfy, all
+    counted from 1.  ``plane`` has the equation of the plane of a polygon.
+    """
 
     inside: tuple[Point, ...]
     boundary: tuple[Point, ...]
@@ -38,13 +42,9 @@ class CardHull:
     plane: tuple[Point, ...]
 
 
-def number(text: str) -> Fraction:
-    """Return the exact value of a number in an E field of a card; minus zero becomes zero."""
-    return Fraction(text)
-
-
 def floats(card: str) -> Point:
-    return tuple(number(text) for text in _FLOAT.findall(card))
+    """Return the exact values of the numbers in the E fields of a card.  Minus zero becomes zero."""
+    return tuple(map(Fraction, _FLOAT.findall(card)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,7 @@ def read_hull(cards: Sequence[str]) -> CardHull:
         expect(card, str, "a card")
     texts = sections(cards)
     inside, boundary, vertices, equations, plane = (
-        tuple(tuple(map(number, row)) for row in texts.points[name]) for name in SECTIONS
+        tuple(tuple(map(Fraction, row)) for row in texts.points[name]) for name in SECTIONS
     )
     satisfied = tuple((numbers[:-1], numbers[-1]) for numbers in texts.satisfied)
     return CardHull(inside, boundary, vertices, equations, satisfied, plane)
@@ -123,7 +123,11 @@ def scaled(equation: Point, oriented: bool) -> Point:
 
 @dataclass(frozen=True, slots=True)
 class IntermediateDeck:
-    """The cards that program 1 punches as input for program 2 or 3: N, KPROJ if coplanar, points, and planes."""
+    """The cards that program 1 punches as input for program 2 or 3.
+
+    ``planes`` has equations, each with the numbers of the points that define it.  ``count`` has N and, for coplanar
+    points, the projection KPROJ.
+    """
 
     planes: tuple[tuple[Point, tuple[int, ...]], ...]
     count: tuple[str, ...]
@@ -131,7 +135,7 @@ class IntermediateDeck:
 
 
 def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
-    """Read the cards that program 1 punched for program 2 or 3; return None if there is no card with N."""
+    """Read the cards that program 1 punched for program 2 or 3.  Return None if there is no card with N."""
     cards = [card[:PUNCH_COLUMNS] for card in cards]
     for i, card in enumerate(cards):
         if card.strip() and not floats(card):
@@ -141,7 +145,7 @@ def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
 
 
 def planes_hold(deck: IntermediateDeck) -> bool:
-    """Return True if each plane equation is zero at the points that its card names (at all points if it names none)."""
+    """Return True if every plane equation holds at the points named on its card, or, without names, at all points."""
     unprojected = _unprojected(deck)
     for plane, named in deck.planes:
         points = [unprojected[k - 1] for k in named if 1 <= k <= len(unprojected)] if named else unprojected

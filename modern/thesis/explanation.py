@@ -1,4 +1,4 @@
-"""Word the reason why a run of the thesis programs found no hull, and where exact arithmetic would branch
+"""Word the reason why a run of the thesis programs found no hull, and the first branch that exact arithmetic takes
 differently.
 
 The commands ``hull`` and ``diff`` and the page of the site on points of the reader's choice print the same sentences.
@@ -81,19 +81,10 @@ def explanation(cause: Cause, arithmetic: str = "truncating") -> tuple[str, str,
 
 
 def first_disagreement(run: HullRun, options: Options) -> str:
-    """Return a sentence on the first branch of a run that exact arithmetic takes differently.
+    """Return a sentence on the first branch of a run, with these options, that exact arithmetic takes differently.
 
-    Parameters
-    ----------
-    run
-        A run of program 1 and the program that it names.
-    options
-        The options of the run.
-
-    Notes
-    -----
-    The exact run loses no digits on the cards between the programs either.  If it could not continue, for example
-    because it divided by zero, the sentence gives the reason.
+    In the exact run, the cards between the programs also hold all digits.  If that run cannot continue, for example
+    because it divides by zero, the sentence gives the reason.
     """
     exact = replace(options, numbers=numbers("exact"), uncut=True)
     deck = run.steps[0].deck

@@ -21,7 +21,7 @@ Watch = Callable[[Program, Machine], None]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Step:
-    """The run of one hull program: its name, its number in the thesis, the deck it read, and the result."""
+    """The run of one hull program: its name, its number in the thesis, the deck that it read, and the result."""
 
     name: str
     number: int
@@ -45,12 +45,12 @@ class HullRun:
 
     @property
     def typed_refusal(self) -> str:
-        """The message DATA NOT ACCEPTABLE or ERROR IN PROGRAM with which a program stopped, or empty if none did."""
-        return next((r for r in (refusal(step.result) for step in self.steps) if r), "")
+        """The message DATA NOT ACCEPTABLE or ERROR IN PROGRAM if a program stopped with it, otherwise empty."""
+        return next(filter(None, (refusal(step.result) for step in self.steps)), "")
 
     @property
     def refusal(self) -> str:
-        """The reason why there is no hull: the message typed, or how the machine stopped.  Empty if there is a hull."""
+        """The reason why there is no hull: the typed message or the ending of the run.  Empty if there is a hull."""
         endings = (step.result.ending for step in self.steps)
         return self.typed_refusal or next((ending.message for ending in endings if not ending.normal), "")
 
@@ -64,9 +64,7 @@ class HullRun:
 
 
 class Refusals:
-    """A detector of typed messages with which a program rejects its data.  The events of the run are passed to
-    :meth:`see`.
-    """
+    """A detector of the typed messages with which a program rejects its data, among the events of a run."""
 
     def __init__(self) -> None:
         self._last = self._stopped = ""
@@ -85,7 +83,7 @@ class Refusals:
 
     @property
     def stopped(self) -> str:
-        """The message that rejected the data set and after which no card was punched for it, or an empty text."""
+        """The message that rejected the data set, if no card was punched for the set afterwards, otherwise empty."""
         return self._stopped or self._last
 
 

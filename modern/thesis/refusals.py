@@ -35,9 +35,10 @@ CORRECTED = {1: "P3-025", 2: "P3-026", 3: "P3-027", 5: "P3-028", 16: "P2-023"}
 class Cause:
     """The reason why one of the programs found no hull.
 
-    ``message`` is the refusal that the program typed, if any, and ``decision`` is the last IF before it. ``fault`` is
-    the number of the known fault. ``equation`` is the number of the equation, or 0. ``point`` does not satisfy the
-    equation, whose value there is ``value``.
+    ``message`` is the refusal that the program typed, or empty, and ``decision`` is the last IF before it. ``fault`` is
+    the number of a known fault that explains the refusal, or 0. ``equation`` is the number of the equation concerned,
+    or 0. If a point that defines the equation does not satisfy it, ``point`` has its coordinates, and ``value`` is the
+    value of the equation there.
     """
 
     program: int
@@ -51,7 +52,7 @@ class Cause:
 
 
 def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tuple[HullRun, Cause | None]:
-    """Run the hull programs by calling ``run``.  Return the run, and the cause if there is no hull, else None."""
+    """Run the hull programs by calling ``run``.  Return the run, and the cause if no hull was found, else None."""
     machines: list[Machine] = []
 
     def record(program: Program, machine: Machine) -> None:
@@ -73,8 +74,8 @@ def cause(step: Step, machine: Session) -> Cause | None:
     if ending.normal or ending.kind in ("operator", "input"):
         return None
     if ending.kind == "limit":
-        # If a search runs beyond the end of the table, it deletes entries that do not exist, and NE decreases without
-        # end.
+        # If a search runs beyond the end of the table, it deletes entries that do not exist, and NE, the number of
+        # equations, decreases without end.
         beyond = step.number == 3 and _integer(machine, "NE") < 0
         searches = [_SEARCHES[search] for line in ending.loop if line.label and (search := _search(line.label))]
         # The last IF of the loop; the last IF executed depends on the limit.

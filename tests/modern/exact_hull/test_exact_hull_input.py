@@ -3,6 +3,7 @@
 import re
 from decimal import Decimal
 from fractions import Fraction
+from math import lcm
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from modern.exact_hull import PointsError, certify, exact_hull
-from modern.exact_hull.coordinates import common_scale, read_exact, read_points, to_integers
+from modern.exact_hull.coordinates import read_exact, read_points
 from modern.exact_hull.facets import lowest_terms, plane_at, plane_through, value
 from modern.exact_hull.planes import BOUND, Planes, normal_image
 from modern.geometry.numbers import decimal
@@ -172,8 +173,8 @@ def test_strings_have_the_same_coordinates_as_their_fractions(points) -> None:
             read_points(points)
         return
     coordinates = read_points(points)
-    assert coordinates.scale == common_scale(exact)
-    assert list(coordinates) == to_integers(exact, coordinates.scale)
+    assert coordinates.scale == lcm(*(number.denominator for point in exact for number in point))
+    assert list(coordinates) == [tuple(number * coordinates.scale for number in point) for point in exact]
 
 
 def test_tiny_and_huge_floats_have_the_hull_of_fractions() -> None:
