@@ -1,4 +1,4 @@
-"""The FORTRAN language: the compiler, from a deck of cards to object code.  Nothing here runs a program.
+"""The compiler of 1620 FORTRAN, from a deck of cards to object code.  Nothing in this package runs a program.
 
 A deck passes through ``cards.py`` (card code), ``statements.py`` (statements and their kinds), ``parser.py`` with
 ``dialect.lark`` and ``formats.py`` (syntax tree of ``tree.py``), and ``compiler.py`` with ``expressions.py`` and
@@ -9,8 +9,8 @@ To add a kind of statement:
 1. ``tree.py``: a frozen dataclass with the manual's page, and its name in ``Body``.
 2. ``dialect.lark``: a rule for the text of the statement without its number and blanks.
 3. ``statements.py``: a row of ``_PREFIXES`` that names the rule.  The first prefix that matches decides.
-4. ``parser.py``: the rule in ``_FORMS``, with its form for messages and its error type, and a method of ``_Builder``
-   that makes the dataclass.  A rule named like a keyword of Python needs an alias (``-> if_``).
+4. ``parser.py``: the rule in ``_FORMS``, with the statement's form for messages and its error type, and a method of
+   ``_Builder`` that makes the dataclass.  A rule named like a keyword of Python needs an alias (``-> if_``).
 5. ``foreign.py``: remove the statement if it is listed there as one of another FORTRAN.
 6. ``compiler.py``: a case of ``_Translation._body`` that emits operations, an entry of ``_NO_DO_END`` if no DO may end
    with the statement, and an entry of ``_EFFECTS`` if a trace should show its effect.

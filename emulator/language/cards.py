@@ -1,7 +1,7 @@
 """Punched cards: 80 columns, the character set of the IBM 026 card punch, and decks read from files.
 
-The card code is that of the 1620 reference card, form X26-5743-2, page 4.  A deck file holds one card per line.  The
-trailing blanks of a line are the blank columns of its card.
+The card code is that of the 1620 reference card, form X26-5743-2, page 4.  A deck file holds one card per line, without
+the blank columns at the end of the card.
 """
 
 from __future__ import annotations
@@ -17,21 +17,19 @@ from emulator.files import read_bytes, source_name
 COLUMNS = 80
 MAX_CARDS = 100_000
 
-# The characters that stand for the record mark in transcribed decks: as in simulators, as in the 1960s, as on the 1620.
+# The characters that stand for the record mark (punched 0-2-8) in decks: of simulators, of the 1960s, and of the 1620.
 RECORD_MARKS = "|?\u2021"
 RECORD_MARK = re.compile(f"[{RECORD_MARKS}]")
 
-_ZONES = {"": "0123456789", "12": "ABCDEFGHI", "11": "JKLMNOPQR"}
-
 
 def _punches() -> dict[str, str]:
-    # A zone punch (12, 11 or 0) with a digit punch makes a letter.  Special characters add an 8 punch.
+    # A letter is a zone punch (12, 11 or 0) with a digit punch.
     code = {" ": "", "+": "12", "-": "11", "/": "0-1"}
     code.update({str(d): str(d) for d in range(10)})
-    code.update({c: f"12-{i}" for i, c in enumerate(_ZONES["12"], 1)})
-    code.update({c: f"11-{i}" for i, c in enumerate(_ZONES["11"], 1)})
+    code.update({c: f"12-{i}" for i, c in enumerate("ABCDEFGHI", 1)})
+    code.update({c: f"11-{i}" for i, c in enumerate("JKLMNOPQR", 1)})
     code.update({c: f"0-{i}" for i, c in enumerate("STUVWXYZ", 2)})
-    # Special characters have three punches, or two (3-8 and 4-8).
+    # A special character has an 8 punch with a 2, 3 or 4 punch, and in most cases a zone punch.
     code.update({".": "12-3-8", ")": "12-4-8", "$": "11-3-8", "*": "11-4-8"})
     code.update({",": "0-3-8", "(": "0-4-8", "=": "3-8", "@": "4-8", "'": "4-8"})
     code.update(dict.fromkeys(RECORD_MARKS, "0-2-8"))
@@ -43,8 +41,8 @@ PUNCHES: dict[str, str] = _punches()
 
 CHARACTERS = frozenset(PUNCHES)
 
-# Characters of the commercial (A) arrangement, which has the same punches.  Decks with them are rejected with an
-# explanation.
+# Characters of the commercial (A) arrangement of the 026, each with the scientific character of the same punches.  A
+# deck with a commercial character is rejected with an explanation.
 COMMERCIAL = {"#": "=", "%": "(", "&": "+", "\u2311": ")", "\u00a4": ")"}
 
 
@@ -118,7 +116,6 @@ def read_line(source: str, number: int, line: str, unit: str = "card") -> Card:
 
     A card with C in column 1 is not checked, because it may be a comment, and a comment may contain any character.
     """
-    # A comment of a source deck may hold any character, so it is not checked here.
     if not line.startswith("C"):
         check_characters(source, number, line, unit)
     text = line.rstrip(" ")
@@ -142,8 +139,4 @@ def _explain_character(char: str) -> str:
         return f"{char!r} is the commercial graphic of the punch that FORTRAN prints as {COMMERCIAL[char]!r}"
     if char.upper() in CHARACTERS:
         return f"{char!r} is not in the card code: letters are capitals"
-    return (
-        f"{char!r} is not in the card code"
-        if char.isprintable()
-        else f"character {ord(char):#04x} is not in the card code"
-    )
+    return f"{repr(char) if char.isprintable() else f'character {ord(char):#04x}'} is not in the card code"

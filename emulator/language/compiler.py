@@ -1,8 +1,8 @@
-"""The compiler: translates the syntax tree to object code, with statement numbers, DO loops, input, output and storage.
+"""The compiler: it translates the syntax tree to object code: statement numbers, DO loops, input, output and storage.
 
-Sources: C26-5619 for the forms of statements and, on p. 56, for the error types.  The DO behaves as IBM's object code
-did when we executed it.  The code at the bottom of the loop steps the variable and compares it with the limit.  So a
-loop runs at least once, and its variable ends at the first value beyond the limit.
+Sources: C26-5619 for the forms of statements and, on p. 56, for the error types.  A DO behaves as in IBM's object code,
+which we executed: the code at the end of the loop adds the step to the variable and compares the variable with the
+limit.  So a loop runs at least once, and its variable ends at the first value beyond the limit.
 """
 
 from __future__ import annotations
@@ -62,6 +62,8 @@ def translate(deck: Deck) -> tuple[Program | None, tuple[Diagnostic, ...]]:
 
 @dataclass
 class _OpenDo:
+    """A DO whose last statement, number ``label``, has not been compiled yet."""
+
     label: int
     loop: int
     statement: int
@@ -72,8 +74,8 @@ class _OpenDo:
 class _Translation:
     """The state of one compilation.
 
-    ``jumps`` holds each statement number that is branched to, with the place of the branch.  ``opened`` counts the open
-    DO loops by the number of their last statement.  ``refused`` and ``foreign_names`` come from
+    ``jumps`` pairs the statement number to which each branch leads with the place of the branch.  ``opened`` counts the
+    open DO loops by the number of their last statement.  ``refused`` and ``foreign_names`` come from
     :class:`~emulator.language.parser.Parsed`.
     """
 
@@ -119,8 +121,7 @@ class _Translation:
         if (used := self.emitter.allocator.used) > _LARGEST:
             message = f"OVERLAP: the data need {used * FIELD} positions of core, more than any 1620 has"
             self._error(tree.Place(1, 0), message)
-        # If the parser rejected statements, the numbers that branches refer to may belong to them, so they cannot be
-        # checked.
+        # If the parser rejected statements, a branch may lead to one of them, so branches cannot be checked.
         if not broken:
             for label, place in self.jumps:
                 if label not in self.targets and str(label) not in self.refused:
@@ -211,7 +212,7 @@ class _Translation:
         if statement.label:
             self.emitter.allocator.place("statement number", str(statement.label))
         if isinstance(body, tree.Format):
-            # The second field is the target of a branch around the text.
+            # A FORMAT has a second field, for the branch that leads around its text.
             self.emitter.allocator.place("statement number", f"after {statement.label}")
             self.format_lines.setdefault(statement.label, len(self.lines))
             return
@@ -226,7 +227,7 @@ class _Translation:
         self.emitter.begin_statement()
         self.emitter.count(index, True, "statement")
         self._body(body, statement, index)
-        # The last instruction shows what the statement did: a store, a test or the end of a list.
+        # The last instruction tells which effect a trace can show: a store, a test or the end of a list.
         effect = _EFFECTS.get(self.emitter.code[-1].operation)
         if effect:
             self.lines[index] = replace(line, effect=effect)
@@ -254,7 +255,7 @@ class _Translation:
                 emitter.emit(op.PAUSE, second=int(number or 0))
             case tree.Stop():
                 emitter.emit(op.STOP)
-            # END stops the run as STOP does.  The second operand tells the ending of the run which of the two it was.
+            # END stops the run as STOP does.  The second operand, 1 for END, distinguishes the two.
             case tree.End():
                 self.ended = True
                 emitter.emit(op.STOP, second=1)
@@ -322,7 +323,7 @@ class _Translation:
                 bounds.append(self._fixed_variable(bound, "a bound of a DO"))
             else:
                 raise Refused(bound.place, "a bound of a DO must be an integer or a fixed-point variable")
-        # Only the first value is stored now.  DOTEST reads step and limit from their fields at each pass.
+        # Only the first value is stored here.  DOTEST reads step and limit from their fields at the end of each pass.
         first, last, step = bounds
         self.emitter.emit(op.TOFIX, first)
         self.emitter.emit(op.FMFIX, variable)
@@ -343,8 +344,7 @@ class _Translation:
             return
         if isinstance(statement.body, _NO_DO_END):
             self._error(statement.place, "a DO cannot end with this statement; use CONTINUE")
-        # Close the innermost DO first.  An open DO with another last statement has a range that overlaps without
-        # nesting.
+        # Close the innermost DO first.  If it has another last statement, the two ranges overlap but are not nested.
         while self.opened[statement.label]:
             do = self.open_dos.pop()
             self.opened[do.label] -= 1
@@ -384,7 +384,7 @@ class _Translation:
             emitter.emit(op.DOTEST, address=number)
             emitter.count(index, False, op.LIST_REST)
             return
-        # The sign of the second operand tells the engines the mode of the item.
+        # A negative second operand tells the engines that the item is fixed point.
         sign = -1 if is_fixed_name(item.name) else 1
         # In a list, an array without subscripts stands for all of its elements.
         if item.name in emitter.arrays and not item.arguments:

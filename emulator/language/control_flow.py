@@ -77,9 +77,9 @@ def _jumps_into_loops(program: Program, follow: Sequence[Sequence[int]]) -> Iter
         if instruction.operation not in (op.BRANCH, op.IF, op.IFX, op.SWITCH, op.SELECT):
             continue
         for target in dict.fromkeys(follow[pc]):
-            # A jump that leaves the range again without reaching the DOTEST is harmless: program 3 of the thesis jumps
-            # to 133, a message and a GO TO.  A jump into nested ranges is reported for the innermost one, which begins
-            # last.
+            # A jump into a range is harmless if the program then leaves the range before the DOTEST: program 3 of the
+            # thesis jumps to 133, where it types a message and goes to a statement outside.  A jump into nested ranges
+            # is reported for the innermost range, which begins last.
             entered = [inside for inside in ranges if target in inside and pc not in inside]
             entered = [inside for inside in entered if inside[-1] in _reached(follow, target, inside)]
             if entered:

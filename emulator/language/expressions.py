@@ -1,12 +1,12 @@
 """Generate code for expressions, in the order of operations that determines the sign of every zero result.
 
-The order was determined from the object code of PDQ FORTRAN, and agrees with every zero that the thesis prints and with
-IBM's compilation of 1962.  Operations run from left to right (C26-5619 p. 19).  If the right operand is itself an
-expression, it is computed in FAC, and the left operand is then combined with it.  Signs are deferred: the compiler
-remembers whether the accumulator or a temporary field holds the negative of its value, and chooses addition or
-subtraction accordingly.  The sign is reversed only before the value is stored, tested, or passed to a function or a
-power.  So ``A-B*C-D`` is computed as B*C - A + D, whose sign is reversed at the end, so that a result of zero becomes
-minus zero.
+The order was determined from the object code of PDQ FORTRAN.  It agrees with every zero that the thesis prints and with
+the only known program that IBM's compiler of 1962 compiled.  Operations run from left to right (C26-5619 p. 19).  If
+the right operand is itself an expression, it is computed in FAC, and the left operand is then combined with FAC.  Signs
+are deferred: the compiler remembers whether the accumulator or a temporary field holds the negative of its value, and
+chooses addition or subtraction accordingly.  The sign is reversed only before the value is stored, tested, or passed to
+a function or a power.  So ``A-B*C-D`` is computed as B*C - A + D.  The sign of this sum is reversed at the end, which
+makes a result of zero a minus zero.
 """
 
 from __future__ import annotations
@@ -49,9 +49,6 @@ class Emitter:
     subscripts: dict[Subscript, int] = field(default_factory=dict)
     arrays: dict[str, tuple[int, ...]] = field(default_factory=dict)
     counters: list[Counter] = field(default_factory=list)
-    # Operands of array elements, by array name and subscript.  Only subscripts that are a single name are cached here,
-    # because they repeat most often.
-    elements: dict[tuple[str, str], Operand] = field(default_factory=dict)
     # Products and parenthesized sums of the current statement are groups, numbered as they are completed.  ``held`` is
     # the number of the group in the accumulator, or -1.
     groups: int = 0
@@ -71,7 +68,7 @@ class Emitter:
         self.emit(op.COUNT, address=len(self.counters) - 1)
 
     def begin_statement(self) -> None:
-        """Forget the intermediate results of the previous statement, so that this one reuses their fields."""
+        """Free the fields of the previous statement's intermediate results for the next statement."""
         self.groups, self.held = 0, -1
         self.modes.clear()
 
@@ -80,7 +77,7 @@ class Emitter:
         self.held, self.groups = self.groups, self.groups + 1
 
     def temporary(self) -> Operand:
-        """Return the temporary field reserved for the intermediate result that is now in the accumulator."""
+        """Return the temporary field that is reserved for the intermediate result in the accumulator."""
         if self.held < 0:
             self.group()
         return Operand(self.allocator.place("temporary", f"temporary {self.held}").first)
@@ -102,17 +99,6 @@ class Emitter:
             return Operand(self.allocator.place("variable", reference.name).first)
         if not reference.arguments:
             raise Refused(reference.place, f"the array {reference.name} needs a subscript here")
-        (first, *others) = reference.arguments
-        # Only a single name as subscript is cached: it is frequent and cheap to recognise.
-        key = (reference.name, first.name) if isinstance(first, Reference) and not (first.arguments or others) else None
-        if key is None:
-            return self._element(reference, shape)
-        if key not in self.elements:
-            self.elements[key] = self._element(reference, shape)
-        return self.elements[key]
-
-    def _element(self, reference: Reference, shape: tuple[int, ...]) -> Operand:
-        """Return the operand of an array element.  Raise Refused if its subscripts are invalid."""
         if len(reference.arguments) != len(shape):
             raise Refused(
                 reference.place,
@@ -133,7 +119,10 @@ class Emitter:
         return Operand(entry.first, self.subscripts.setdefault(description, len(self.subscripts)))
 
     def subscript(self, argument: Expression) -> tuple[int, int, int]:
-        """Split a subscript c*v+k into the storage field of v (or -1), c and k.  Raise Refused for other forms."""
+        """Return the parts of a subscript ``c*v+k``: the storage field of v (or -1), c and k.
+
+        Raise Refused if the subscript has another form.
+        """
         term, addend = argument, 0
         if isinstance(argument, Sum):
             if argument.minus or len(argument.rest) != 1:
@@ -169,9 +158,8 @@ class Emitter:
         return int(expression.text)
 
     def fixed(self, expression: Expression) -> bool:
-        """Return True for a fixed-point (integer) expression.  Raise Refused if integers and floats are mixed."""
-        # Every level of parentheses calls this method, so the mode is cached to keep the time for deep expressions
-        # linear.
+        """Return True for a fixed-point expression.  Raise Refused if fixed and floating point are mixed."""
+        # Every level of parentheses calls this method.  The cache keeps the time for nested parentheses linear.
         mode = self.modes.get(id(expression))
         if mode is None:
             mode = self.modes[id(expression)] = self._mode(expression)
@@ -245,12 +233,13 @@ class Emitter:
         return None
 
     def _chain(self, expression: Sum | Product, table: dict[str, int]) -> bool:
-        """Emit code that combines the operands of a sum or product from left to right.  Return True if the result is
-        negated.
+        """Emit code that combines the operands of a sum or product from left to right.
 
-        ``waiting`` is the left operand while it is in a field.  If the right operand must be computed, it needs the
-        accumulator.  The left operand then stays in a field, if necessary a temporary one, and the operation is
-        reversed.  ``minus`` is True if the left operand has the wrong sign, and ``negative`` if the right one has.
+        Return True if the accumulator then holds the negative of the result.
+
+        ``waiting`` is the left operand while it is in a field.  A right operand that must be computed needs the
+        accumulator, so the left operand stays in a field, if necessary a temporary one, and the operation is reversed.
+        ``minus`` is True if the left operand has the wrong sign, ``negative`` if the right operand has.
         """
         first, minus = _unsigned(expression.first)
         minus ^= isinstance(expression, Sum) and expression.minus
@@ -302,7 +291,7 @@ class Emitter:
             self.emit(op.POWER, operand)
             self.held = -1
             return
-        # A square is a product with itself, as in the object code of the time.
+        # The known object code computes a square as the product of the base with itself.
         if isinstance(exponent, Number) and exponent.text == "2":
             self._load_part(base)
             if operand is None:
@@ -354,7 +343,7 @@ def unknown_function(reference: Reference) -> Refused:
 
 
 def _unsigned(expression: Expression) -> tuple[Expression, bool]:
-    """Strip the minus signs from a factor.  Return it, and True if the number of signs was odd."""
+    """Return an expression without the minus signs before it, and True if the number of these signs was odd."""
     if isinstance(expression, Sum) and not expression.rest:
         inner, odd = _unsigned(expression.first)
         return inner, odd ^ expression.minus

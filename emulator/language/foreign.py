@@ -7,7 +7,7 @@ Sources: the statements of 1620 FORTRAN II (C26-5876), of FORTRAN II-D with its 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from emulator.language import tree
@@ -18,9 +18,9 @@ from emulator.language.cards import RECORD_MARK
 class ForeignStatement:
     """A statement of another FORTRAN: its name in messages, the language it belongs to, and a replacement for it.
 
-    ``has_body`` is True if the cards after the statement, up to an END, belong to it.  ``declares`` is ``all`` if its
-    names may be arrays, functions or of another type, so that statements using them cannot be checked, and ``(`` if
-    this holds only for names followed by a parenthesis.  ``number`` is IBM's error type, or 0.
+    ``has_body`` is True if the cards after the statement, up to an END, belong to it.  ``declares`` is ``all`` if every
+    name in the statement may be an array, a function or of another type, so that statements using the name cannot be
+    checked.  It is ``(`` if only names followed by a parenthesis may be.  ``number`` is IBM's error type, or 0.
     """
 
     name: str
@@ -107,7 +107,7 @@ _KINDS = {"unknown", "input_output", "go_to", "if", "assignment"}
 _COMPILED = tuple((re.compile(pattern), word) for pattern, word in _STATEMENTS)
 _LOGIC = re.compile(r"\.(EQ|NE|LT|LE|GT|GE|AND|OR|NOT|TRUE|FALSE)\.")
 _LOGICAL = ForeignStatement("a logical expression", _IV, "write IF (A-B) n1, n2, n3 for less, equal, greater")
-# Every statement that :func:`identify` knows.
+# Every statement that :func:`identify` recognises.
 FOREIGN_STATEMENTS = (*(statement for _, statement in _STATEMENTS), _LOGICAL)
 STATEMENT_FUNCTION = ForeignStatement("a statement function", _II, "write its expression where it is used")
 
@@ -202,20 +202,14 @@ _PARTS: dict[type[object], tuple[str, ...]] = {
 
 def references(node: object) -> list[tree.Reference]:
     """Return every name used in an expression or statement, in order, except the names that a DIMENSION declares."""
-    references_so_far: list[tree.Reference] = []
-    _collect(node, references_so_far)
-    return references_so_far
-
-
-def _collect(node: object, references_so_far: list[tree.Reference]) -> None:
+    parts: Iterable[object]
     if isinstance(node, tuple):
-        for part in node:
-            _collect(part, references_so_far)
-        return
-    parts = _PARTS.get(type(node))
-    if parts is None:
-        return
-    if isinstance(node, tree.Reference):
-        references_so_far.append(node)
-    for name in parts:
-        _collect(getattr(node, name), references_so_far)
+        parts = node
+    elif names := _PARTS.get(type(node)):
+        parts = [getattr(node, name) for name in names]
+    else:
+        return []
+    found = [node] if isinstance(node, tree.Reference) else []
+    for part in parts:
+        found += references(part)
+    return found

@@ -1,7 +1,7 @@
 """The reader of FORMAT statements.  It works column by column, because Hollerith fields keep their blanks.
 
-Sources: C26-5619 p. 35 to 43 (I, F, E, X, H, slash, repeat counts, records, the width of X and H, and that X needs no
-comma after it) and p. 56 (error types 10 to 12).  Parenthesised groups: OPEN-QUESTIONS 5.
+Sources: C26-5619 p. 35 to 43 (I, F, E, X, H, slash, repeat counts, records, the width of X and H, no comma after X) and
+p. 56 (error types 10 to 12).  OPEN-QUESTIONS 5 treats groups in parentheses.
 """
 
 from __future__ import annotations
@@ -45,9 +45,8 @@ Spec = Literal | Field | Slash
 class FormatSpec:
     """A FORMAT as a flat sequence of specifications, with repeat counts and groups expanded.
 
-    ``again`` is the index at which a list with more items than fields continues: the start of the last group that
-    contains a field, with all its repetitions, or without such a group the first specification (as in IBM FORTRAN
-    II-D).
+    ``again`` is the index of the specification at which a list with more items than fields continues, as in IBM FORTRAN
+    II-D: the start of the last group that contains a field, before all its repetitions, or 0 without such a group.
     """
 
     specs: tuple[Spec, ...]
@@ -59,9 +58,9 @@ class FormatSpec:
 
     @property
     def charge(self) -> int:
-        """The cost of one pass through this FORMAT, added to the count that limits the run.  A statement costs 1.
+        """The work of one pass through this FORMAT, in units that :mod:`emulator.numbers.work` defines.
 
-        The cost is 0 unless the FORMAT is very long.
+        It is 0 unless the FORMAT is very long.
         """
         columns = sum(len(spec.text) for spec in self.specs if isinstance(spec, Literal))
         return len(self.specs) // STEPS + columns // _COLUMNS_A_UNIT
@@ -84,9 +83,9 @@ class FormatSpec:
         yield width
 
 
-def _refused(place: Place, message: str, number: int = 11) -> Refused:
-    """Return the error for an invalid FORMAT.  Type 11 is IBM's number for invalid specifications (C26-5619 p. 56)."""
-    return Refused(place, message, number)
+def _refused(place: Place, message: str) -> Refused:
+    """Return an error of type 11, IBM's number for an invalid specification of a FORMAT (C26-5619 p. 56)."""
+    return Refused(place, message, 11)
 
 
 def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]:
@@ -111,10 +110,10 @@ def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]
 
 
 def _suggest_width(failed: _Reader) -> Refused | None:
-    """Return an error that suggests another width for the last Hollerith field, or None if no width makes it parse.
+    """Return an error that suggests another width for the last Hollerith field, or None if no width helps.
 
-    A field that is too wide includes the delimiter after its text.  A field that is too narrow leaves part of its text
-    unread, and the reader fails there.
+    A field that is too wide includes the delimiter after its text.  If a field is too narrow, the reader fails at the
+    rest of its text.
     """
     if failed.hollerith is None:
         return None
@@ -136,7 +135,7 @@ def _suggest_width(failed: _Reader) -> Refused | None:
 
 
 class _Reader:
-    """A single pass over the columns of a FORMAT.  ``group`` calls itself for a parenthesised group.
+    """A reader that passes once over the columns of a FORMAT.
 
     ``instead`` gives one Hollerith field another width: the index at which the field's text starts, and the new width.
     ``begun`` is the index at which the last specification began.  ``hollerith`` holds the index of the last Hollerith

@@ -1,7 +1,7 @@
 """The interface of IBM's library of 1962: entry points, and the digits of numbers, FORMATs and calls in core storage.
 
-The facts come from running the library in a simulator with object code made by hand (docs/reference/ibm-library.md).
-A position of core storage is an integer: its digit, plus FLAG if it has a flag.
+The facts were found by running the library in a simulator with hand-written object code
+(docs/reference/ibm-library.md).  A position of core storage is an integer: its digit, plus FLAG if it has a flag.
 """
 
 from __future__ import annotations
@@ -15,22 +15,23 @@ from emulator.numbers.fields import Field
 FLAG = 16
 RECORD_MARK = 10
 
-# The entry points. An input or output statement calls its verb with the field of its FORMAT's label, then ITEM for each
-# number of its list except the last one, for which it calls LAST_ITEM. The low-order position of a field is its
-# address.
+# Entry points for input and output.  A statement first calls the routine of its verb with the address of the field that
+# belongs to the number of its FORMAT.  It then calls ITEM with the address of each number of its list except the last
+# one, for which it calls LAST_ITEM.  The address of a field is that of its last digit.
 VERBS = {"READ": 4512, "ACCEPT": 4548, "ACCEPT TAPE": 4596}
 VERBS |= {"PUNCH": 4748, "TYPE": 4796, "PRINT": 4796, "PUNCH TAPE": 4844}
 ITEM, LAST_ITEM = 4992, 4940
 
-# Arithmetic.  Each routine receives the field of its operand.  A floating-point number enters and leaves FAC by TO_FAC
-# and FROM_FAC, and so does a fixed-point number.
+# Entry points of arithmetic.  Each routine receives the address of its operand.  TO_FAC loads a field into FAC, and
+# FROM_FAC stores FAC into a field, for both kinds of numbers.
 TO_FAC, FROM_FAC = 1238, 1306
 OPERATIONS = {"FAD": 518, "FSB": 408, "FMP": 1378, "FDV": 1862, "FDVR": 1756, "POWERX": 3670}
 FIXED = {"XAD": 2644, "XSB": 2700, "XMP": 2748, "XDV": 2876, "XDVR": 2816}
 # Operations on FAC alone.
 ALONE = {"RSGN": 2546, "FLOAT": 3222, "FIX": 3494}
 
-# A word of a FORMAT is the address of a routine or, for a field, a digit for the letter, the width and the decimals.
+# The library stores a FORMAT in words of five digits.  A word is the address of a routine or, for a field, one digit
+# for its letter, two for its width and two for its decimals.
 OPEN, CLOSE, SLASH, LITERAL = 4044, 4076, 4136, 4264
 KINDS = {"E": 5, "F": 6, "I": 9}
 
@@ -123,7 +124,8 @@ def _literal(item: Literal) -> Iterator[list[int]]:
 def call(entry: int, address: int = 0) -> list[int]:
     """Return the twelve positions of an instruction that calls a library routine (BTM) or an input/output verb (BT).
 
-    An operation on FAC alone is called by BT with the position before its entry, so that the call changes nothing.
+    A call transmits its operand to the position before the entry.  An operation on FAC alone is called by BT with this
+    position itself as the operand, so that nothing is transmitted.
     """
     if entry in ALONE.values():
         return [int(digit) for digit in f"27{entry:05}{entry - 1:05}"]

@@ -3,8 +3,8 @@
 Operations have the names of IBM's subroutine set (C26-5619 p. 60-69).  An instruction is four integers: operation,
 address or table index, subscript (an index into :attr:`Program.subscripts`, or -1), and second operand.  An address is
 the number of a field of the storage map (emulator/language/storage.py), counted from 0 downward from the top of core.
-The second operand of an ITEM is the number of fields that the list transfers, beginning at its address: one field or a
-whole array.  That number of fields is negative if the item is fixed point.
+The second operand of an ITEM is the number of fields that it transfers, beginning at its address: one field or a whole
+array.  The number is negative if the fields hold fixed-point numbers.
 """
 
 from __future__ import annotations
@@ -19,8 +19,7 @@ from emulator.language.storage import Storage
 from emulator.language.tree import Place
 from emulator.numbers.work import STEPS
 
-# Operations with an address come first: the engines resolve a subscript before they decode the operation.
-# Every operation and its meaning. An operation is the index of its name, and the names below have the same order.
+# Every operation and its meaning.  An operation is the index of its name; the names below have the same order.
 MEANINGS = {
     "TOFAC": "field to FAC",
     "FMFAC": "FAC to field",
@@ -99,7 +98,7 @@ class Subscript:
 
 
 def repeats(instruction: Instruction) -> int:
-    """Return how many times an instruction is executed in a row: once for each element of a whole array in a list."""
+    """Return how many times an instruction is executed in a row: an ITEM once for each field that it transfers."""
     return abs(instruction.second) if instruction.operation == ITEM else 1
 
 
@@ -111,16 +110,14 @@ def element_after(element: int, second: int) -> int:
     return element + 1 if element + 1 < abs(second) else 0
 
 
-# The name of a COUNT in the body of an indexed list.  Each pass through the list counts as a statement for the limit.
-LIST_PASS = "pass of the list"
-
-# The name of a COUNT after an indexed list.
-LIST_REST = "rest of the list"
+# The names of a COUNT in the body of an indexed list, and of a COUNT after the list.  Each pass through the body counts
+# as a statement for the limit.
+LIST_PASS, LIST_REST = "pass of the list", "rest of the list"
 
 
 @dataclass(frozen=True, slots=True)
 class Counter:
-    """The meaning of a COUNT instruction: the beginning of a statement, or of a part of one that runs separately.
+    """The meaning of a COUNT instruction: the beginning of a statement, or of a part that is executed separately.
 
     ``statement`` is an index into :attr:`Program.statements`.  ``begins`` is True at the beginning of the statement,
     and False for the closing of a DO or the body of an indexed list.
@@ -135,9 +132,8 @@ class Counter:
 class Line:
     """A statement as messages and traces show it.
 
-    ``effect`` is the kind of result that a trace shows: ``store``, ``test``, ``test fixed``, ``list`` (the values of a
-    list of input or output) or empty.
-    ``index`` is the position in :attr:`Program.statements`.
+    ``effect`` is the kind of result that a trace shows: ``store``, ``test``, ``test fixed``, ``list`` (the numbers of
+    an input or output list) or empty.  ``index`` is the position in :attr:`Program.statements`.
     """
 
     label: int
@@ -202,8 +198,8 @@ class Program:
         return tuple(numbers)
 
 
-# The number of the indicator that the reader turns on when it reads the last card.  Testing it turns it off (PDQ
-# FORTRAN, executed).
+# The number of the indicator that the reader turns on when it reads the last card.  A test turns the indicator off, as
+# we found by executing PDQ FORTRAN.
 LAST_CARD = 9
 
 # The number of entries of :attr:`Flat.table` per subscript.
@@ -219,7 +215,7 @@ class Flat(NamedTuple):
     step, limit, and first instruction.  ``begins`` is 1 for a counter at which a statement begins, 2 for a pass of an
     indexed list, and 0 for others.  ``charges`` is the amount that a counter adds to the work of the run: 1 if
     ``begins`` is not 0, and 1 more for every STEPS operations up to the next counter (emulator/numbers/work.py).
-    ``fields`` is the number of fields that a subscript can reach.
+    ``fields`` is the number of fields that a subscript may reach.
     """
 
     operations: Sequence[int]
@@ -250,7 +246,7 @@ def flatten(program: Program) -> Flat:
             address = starts[address]
         elif instruction.operation == SELECT:
             second = starts[second]
-        # Each loop takes four entries of the flat table.
+        # Each loop takes four entries of ``loops``.
         elif instruction.operation == DOTEST:
             address *= 4
         operations.append(instruction.operation)

@@ -27,9 +27,7 @@ from emulator.language.statements import (
     statement_columns,
 )
 
-# For each rule of the grammar the form shown in messages, and the error type (C26-5619 p. 56) or 0.
-#
-# The error type of an IF with a comma after its parenthesis is also 7.
+# For each rule of the grammar: the form of the statement in messages, and IBM's error type (C26-5619 p. 56), or 0.
 _FORMS = {
     "assignment": ("variable = expression", 0),
     "go_to": ("GO TO n", 0),
@@ -48,20 +46,18 @@ _FORMS = {
 MAX_NESTING = 60
 # The longest statement in characters, without blanks: its object code would fill the largest machine.
 MAX_LENGTH = 20_000
-_AFTER_MARK = "a record mark (punched 0-2-8) ends a statement, but other characters follow it"
-_EDGE = (LAST_COLUMN, LAST_COLUMN + 1)
+# Characters that suggest that columns 73 to 80 hold part of a statement and not an identification.
 _CODE = re.compile(r"[=+*/(),]")
-"""Characters that suggest that columns 73 to 80 hold part of a statement and not an identification."""
 _FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
 
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """The result of parsing a deck: the statements that parse, and a message for each that does not.
+    """The result of parsing a deck: the statements that parse, and a message for each statement that does not.
 
     ``refused`` holds the statement numbers of the statements that do not parse.  ``foreign_names`` holds the names that
     statements of another FORTRAN declare as arrays or functions, so that statements using these names cannot be
-    checked.  ``data`` holds the cards after END, without the blank cards before them and any control card after them.
+    checked.  ``data`` holds the data cards after END: without leading blank cards, and up to the first control card.
     """
 
     statements: tuple[tree.Statement, ...]
@@ -72,7 +68,7 @@ class Parsed:
 
 
 def parse(deck: Deck) -> Parsed:
-    """Parse every statement of ``deck``.  A statement that does not parse gives a Diagnostic, and parsing continues."""
+    """Parse every statement of ``deck``.  For a statement that does not parse, add a Diagnostic and continue."""
     statements: list[tree.Statement] = []
     diagnostics: list[Diagnostic] = []
     labels: set[str] = set()
@@ -86,8 +82,11 @@ def parse(deck: Deck) -> Parsed:
             in_subprogram = source.kind != "end"
             end = source.cards[-1] if end and not in_subprogram else end
             continue
-        if end and not _begins_subprogram(source):
-            data = _data(deck, end)
+        foreign = identify(source.kind, source.text) if end else None
+        # The statement after END is data unless it begins a subprogram.
+        if end and not (foreign and foreign.has_body):
+            after = dropwhile(lambda card: not card.text, deck.cards[end.number :])
+            data = tuple(takewhile(lambda card: not is_control_card(card), after))
             diagnostics.extend(_data_warnings(deck, end, data))
             break
         end = source.cards[-1] if source.kind == "end" else end
@@ -120,12 +119,6 @@ def parse(deck: Deck) -> Parsed:
     return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels), frozenset(foreign_names), data)
 
 
-def _data(deck: Deck, end: Card) -> tuple[Card, ...]:
-    """Return the data cards after the END of a program: without leading blank cards, and up to a control card."""
-    after = dropwhile(lambda card: not card.text, deck.cards[end.number :])
-    return tuple(takewhile(lambda card: not is_control_card(card), after))
-
-
 def _data_warnings(deck: Deck, end: Card, data: Sequence[Card]) -> Iterator[Diagnostic]:
     """Yield warnings about cards after END: those that are data, and the first control card among them."""
     if data:
@@ -137,25 +130,20 @@ def _data_warnings(deck: Deck, end: Card, data: Sequence[Card]) -> Iterator[Diag
         yield Diagnostic(control.number, 0, message, warning=True, about="END of the job")
 
 
-def _begins_subprogram(source: Source) -> bool:
-    foreign = identify(source.kind, source.text)
-    return foreign is not None and foreign.has_body
-
-
 def _column_warnings(source: Source) -> Iterator[Diagnostic]:
     """Yield warnings about punches in columns that other compilers would read differently or would ignore."""
     first = source.cards[0]
     if source.label and not first.columns(1, 5).strip() and first.columns(6, 6).isdigit():
         what = f"statement number {source.label} begins in column 6, where other compilers expect a continuation mark"
         yield Diagnostic(first.number, 6, what, warning=True, about="column 6")
-    not_read = f"columns {_EDGE[1]} to 80 are identification and not read"
+    not_read = "columns 73 to 80 are identification and not read"
     for card in source.cards:
-        if " " not in card.columns(*_EDGE):
-            what = f"{not_read}, but a punch in column {_EDGE[0]} suggests that the statement continues there"
-            yield Diagnostic(card.number, _EDGE[1], what, warning=True, about="identification")
-        elif _CODE.search(card.columns(_EDGE[1], COLUMNS)):
+        if " " not in card.columns(72, 73):
+            what = f"{not_read}, but a punch in column 72 suggests that the statement continues there"
+            yield Diagnostic(card.number, 73, what, warning=True, about="identification")
+        elif _CODE.search(card.columns(73, COLUMNS)):
             what = f"{not_read}, but they look like a part of the statement"
-            yield Diagnostic(card.number, _EDGE[1], what, warning=True, about="code")
+            yield Diagnostic(card.number, 73, what, warning=True, about="code")
 
 
 def _foreign_message(place: tree.Place, foreign: ForeignStatement) -> Diagnostic:
@@ -180,12 +168,13 @@ def _taken_as_comment(card: Card, why: str) -> Diagnostic:
 
 @lru_cache(2048)
 def parse_statement(source: Source) -> tree.Statement:
-    """Parse a statement.  Results are cached, because many decks differ from others in single cards only."""
+    """Parse a statement.  Results are cached, because many decks differ from others in a few cards only."""
     if not source.text:
         raise Refused(source.place, f"expected a statement after the statement number {source.label}")
     for card in source.cards:
         if statement_columns(card).rstrip() != card.columns(1, LAST_COLUMN).rstrip(f"{RECORD_MARKS} "):
-            raise Refused(source.place, _AFTER_MARK)
+            message = "a record mark (punched 0-2-8) ends a statement, but other characters follow it"
+            raise Refused(source.place, message)
     label = _statement_number(source.label, source.place) if source.label else 0
     if len(source.text) > MAX_LENGTH:
         raise Refused(source.place, f"the statement has more than {MAX_LENGTH} characters")
@@ -254,7 +243,7 @@ def _grammar() -> Lark:
 
 
 class _Builder:
-    """The converter from lark's syntax tree to the classes of tree.py, with one method per grammar rule."""
+    """The converter from lark's syntax tree to the classes of tree.py, with one method for each grammar rule."""
 
     def __init__(self, places: Sequence[tree.Place]) -> None:
         self._places = places

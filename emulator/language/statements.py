@@ -1,8 +1,8 @@
 """Group the cards of a deck into statements: comments, continuation cards, statement numbers and statement kinds.
 
 Source: C26-5619 p. 12.  The columns printed on the coding form are only guides: a statement may start in any of columns
-1 to 72.  A card that begins with C and two blanks is a comment.  Columns 73 to 80 are identification.  The manual does
-not settle continuation cards and blank cards (OPEN-QUESTIONS 1 and 2).
+1 to 72.  A card that begins with C and two blanks is a comment.  Columns 73 to 80 identify the card and are not
+compiled.  The manual leaves the rules for continuation cards and blank cards open (OPEN-QUESTIONS 1 and 2).
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ _PREFIXES = (
 class Source:
     """A statement before parsing.
 
-    ``text`` is the statement without its number and without blanks, and ``places`` holds the place of each of its
-    characters.  For a FORMAT both include every column from the opening parenthesis on, blanks too.  ``kind`` is the
-    start rule of the grammar, ``format`` for a FORMAT, or ``unknown`` if no statement form matches.
+    ``text`` is the statement without its number (``label``) and without blanks, and ``places`` holds the place of each
+    character of ``text``.  The text of a FORMAT has every column from the opening parenthesis on, also the blank ones.
+    ``kind`` is the start rule of the grammar, ``format`` for a FORMAT, or ``unknown`` if no statement form matches.
     """
 
     label: str
@@ -70,9 +70,9 @@ def statement_columns(card: Card, first: int = 1) -> str:
 def is_comment(card: Card) -> bool:
     """Return True for a card that is a comment: blank, or with C in column 1 and not in the form of a statement.
 
-    A card with C and two blanks is always a comment, as the manual (p. 12) requires.  IBM's FORTRAN II-D and PDQ
-    FORTRAN, when executed, also accept ``C-----`` and ``C TEXT``.  :func:`may_be_comment` treats a card with C in
-    column 1 that has the form of a statement but does not parse.
+    A card with C and two blanks is always a comment, as the manual (p. 12) requires.  ``C-----`` and ``C TEXT`` are
+    comments too, as in IBM's FORTRAN II-D and PDQ FORTRAN, which we executed.  A card with C in column 1 may have the
+    form of a statement but not parse: see :func:`may_be_comment`.
     """
     if not statement_columns(card).strip() or card.text.ljust(3).startswith("C  "):
         return True
@@ -96,7 +96,7 @@ def may_be_comment(source: Source) -> bool:
 
 
 def resembles_statement(card: Card) -> bool:
-    """Return True if a comment, a card with C in column 1, looks like a statement: its C may be a mistake."""
+    """Return True if a comment begins like CONTINUE, COMMON or CALL: the card may be a statement in column 1."""
     text = card.columns(1, LAST_COLUMN).replace(" ", "")
     return not card.text.ljust(3).startswith("C  ") and text.startswith(("CONTIN", "COMMON", "CALL"))
 
@@ -107,7 +107,8 @@ def sources(deck: Deck) -> Iterator[Source]:
     for card in deck.cards:
         if is_comment(card):
             continue
-        # What follows END may be data of any form.  Three cards hold END at most, so longer groups are not checked.
+        # The cards after END may be data of any form, so they never continue END.  END takes at most three cards, so
+        # longer groups of cards are not checked for END.
         if group and _continues(card) and (len(group) > len("END") or _source(tuple(group)).kind != "end"):
             group.append(card)
             continue
@@ -136,14 +137,14 @@ def classify(text: str) -> str:
 
 
 def _continues(card: Card) -> bool:
-    """Return True for a continuation card: column 6 punched with other than 0, and columns 1 to 5 blank.
+    """Return True for a continuation card: columns 1 to 5 blank, and in column 6 a character other than 0.
 
-    Statements may start in any column, so a card that reads as a complete statement is not a continuation.
+    A statement may start in column 6 too, so a card that has the form of a complete statement is not a continuation.
     """
     if card.columns(1, 5).strip() or card.columns(6, 6) in (" ", "0"):
         return False
-    # The card continues the previous one only if its text is not a statement, or begins with an equals sign, or has
-    # unbalanced parentheses or a stray comma.
+    # The card has no such form if its text is of no kind, begins with an equals sign, has unbalanced parentheses, or is
+    # an assignment with a comma outside parentheses.
     source = _source((card,))
     if source.kind == "format":
         return False

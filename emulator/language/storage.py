@@ -3,13 +3,14 @@
 Fields are assigned downward from the top of core in order of first appearance.  An array takes one field per element,
 with element 1 at the highest address, and the arrays of one DIMENSION follow each other without a gap (C26-5619
 p. 66-69).  The 120 positions at the top hold the names of the library functions.  The object program begins at 08300
-(p. 67).  The rest is read from the symbol table of an object deck that IBM's compiler punched in 1962
-(docs/reference/object-decks.md): a FORMAT takes two fields, the constants of a DO take none, and every product and
-quotient reserves a temporary field.
+(p. 67).  The symbol table of an object deck that IBM's compiler punched in 1962 (docs/reference/object-decks.md) shows
+three more rules: a FORMAT takes two fields, the constants of a DO take none, and every product and quotient reserves a
+temporary field.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from bisect import bisect_right
 from collections.abc import Iterator
@@ -35,7 +36,7 @@ class Entry:
 
     def element(self, index: int) -> str:
         """Return the name of an array element, ``index`` fields after the first: ``X(3)`` or ``A(2,1)``."""
-        # Arrays of two dimensions are stored by columns: the first subscript varies fastest.
+        # Arrays of two dimensions are stored column by column: the first subscript varies fastest.
         if not self.shape:
             return self.name
         if len(self.shape) == 1:
@@ -48,8 +49,8 @@ class Storage:
     """A storage map: the entries in order of address, and the constants.
 
     ``constants`` pairs the field of each constant with its text in the source.  ``immediates`` does the same for the
-    constants of DO statements.  In the object program they are parts of instructions.  The emulator keeps them after
-    the ``fields`` of the map, where no subscript reaches them.
+    constants of DO statements, which have no field on the 1620, because they are parts of instructions.  The emulator
+    keeps them after the ``fields`` of the map, where no subscript reaches them.
     """
 
     entries: tuple[Entry, ...]
@@ -72,7 +73,7 @@ class Storage:
         return self.entries[bisect_right(self.entries, address, key=attrgetter("first")) - 1]
 
     def fields_of(self, text: str) -> range:
-        """Return the fields of a variable, array or element such as ``X`` or ``A(2,1)``, or none if unknown."""
+        """Return the fields of a variable, array or element such as ``A(2,1)``, or none if the name is unknown."""
         parts = re.fullmatch(r"([A-Z][A-Z0-9]*)(?:\((\d{1,4})(?:,(\d{1,4}))?\))?", text)
         named = (e for e in self.entries if parts and e.name == parts[1] and e.kind in ("variable", "array"))
         entry = next(named, None)
@@ -90,7 +91,7 @@ class Storage:
         return range(field, field + 1)
 
     def name_of(self, address: int) -> str:
-        """Return the name of what a storage field holds, such as ``NE``, ``X(3)`` or ``constant 4.``."""
+        """Return the name of the variable, element or constant in a field: ``NE``, ``X(3)`` or ``constant 4.``."""
         if self.fields <= address < self.length:
             return f"constant {self.immediates[address - self.fields][1]}"
         try:
@@ -107,7 +108,7 @@ def core_address(index: int, core: int) -> int:
 
 @dataclass
 class Allocator:
-    """The allocation of a storage field to each name in order of first appearance, while a program compiles."""
+    """The storage map of a program that is being compiled: each name receives a field when it first appears."""
 
     entries: dict[tuple[str, str], Entry] = field(default_factory=dict)
     used: int = 0
@@ -118,16 +119,14 @@ class Allocator:
         return self.immediates.setdefault(text, _PROVISIONAL + len(self.immediates))
 
     def final(self, address: int) -> int:
-        """Return the final address of a field or DO constant.  Call it after the whole program has been translated."""
+        """Return the final address of a field or DO constant, which is known when the whole program is translated."""
         return address if address < _PROVISIONAL else address - _PROVISIONAL + self.used
 
     def place(self, kind: str, name: str, shape: tuple[int, ...] = ()) -> Entry:
-        """Return the storage of a name of a ``kind`` such as ``variable``, reserved when the name first appears."""
+        """Return the entry of a name of the given kind, such as ``variable``.  Make the entry if the name is new."""
         key = (kind, name)
         if key not in self.entries:
-            size = 1
-            for dimension in shape:
-                size *= dimension
+            size = math.prod(shape)
             self.entries[key] = Entry(name, kind, self.used, size, shape)
             self.used += size
         return self.entries[key]

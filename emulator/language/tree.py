@@ -12,7 +12,7 @@ from emulator.errors import Place as Place
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A constant as written.  It is fixed point if it has no decimal point (p. 14)."""
+    """A constant as the statement writes it.  A constant without a decimal point is fixed point (p. 14)."""
 
     text: str
     place: Place
@@ -33,7 +33,7 @@ class Reference:
 
 @dataclass(frozen=True, slots=True)
 class Power:
-    """The expression ``base ** exponent``, a power (p. 19, rule 2)."""
+    """The power ``base ** exponent`` (p. 19, rule 2)."""
 
     base: Expression
     exponent: Expression
@@ -42,7 +42,7 @@ class Power:
 
 @dataclass(frozen=True, slots=True)
 class Product:
-    """A factor followed by further factors, each preceded by ``*`` or ``/``; evaluated from left to right (p. 19)."""
+    """A product or quotient: a first factor, and each further factor with the ``*`` or ``/`` before it (p. 19)."""
 
     first: Expression
     rest: tuple[tuple[str, Expression], ...]
@@ -51,7 +51,7 @@ class Product:
 
 @dataclass(frozen=True, slots=True)
 class Sum:
-    """A term, negated if ``minus`` is set, followed by further terms, each preceded by ``+`` or ``-``."""
+    """A sum or difference: a first term, negated if ``minus`` is set, and each further term with its ``+`` or ``-``."""
 
     minus: bool
     first: Expression

@@ -1,9 +1,9 @@
 """Addresses in the object program, and the code that computes the address of an array element.
 
 Element 1 of an array has the highest address, and each element takes ten positions.  The code for a subscript writes
-the address of element 0 into the next instruction and subtracts ten times the subscript from it, by placing the
-subtraction one digit further left.  Before that, it multiplies the variable by its factor or, for the second subscript,
-by the number of rows.
+the address of element 0 into the next instruction, and subtracts ten times the subscript from this address.  It
+multiplies by ten by subtracting one digit further left.  Before that, the code multiplies the variable by its factor
+or, for the second subscript, by the number of rows.
 """
 
 from dataclasses import dataclass
@@ -35,7 +35,10 @@ class Addresses:
         return {entry.name: self.units(entry.first) for entry in entries if entry.kind == "statement number"}
 
     def branch(self, label: int | str) -> int:
-        """Return the address to which a branch to a statement goes: a field of storage that branches on to it."""
+        """Return the address to which a branch to a statement goes: the field of the statement's number.
+
+        The field holds a second branch, which goes to the statement itself.
+        """
         return self.labels[str(label)] - FIELD + 1
 
     def format(self, label: int) -> int:
@@ -58,12 +61,12 @@ class Addresses:
         if subscript < 0:
             return call + address(self.units(field))
         part = self.program.subscripts[subscript]
-        # The address for subscripts of which the variables are 0.
+        # The address of the element if all variables of its subscripts are 0.
         base = self.units(part.array) - FIELD * (part.o1 - 1 + (part.rows * (part.o2 - 1) if part.columns else 0))
         steps = self._steps(part)
         if not steps:
             return call + address(base)
-        # Each step ends with an instruction that subtracts.  One more instruction first sets the address of element 0.
+        # Each step ends with a subtraction.  One more instruction first writes the address ``base``.
         length = sum(len(code) for code, _ in steps) + _INSTRUCTION * (len(steps) + 1)
         place = at + length + _INSTRUCTION - 1
         text = steps[0][0] + d.TRANSMIT_FIELD_IMMEDIATE + address(place) + address(base)
@@ -75,9 +78,7 @@ class Addresses:
         return text + call + address(self.units(variable))
 
     def _steps(self, part: Subscript) -> list[tuple[str, int]]:
-        """Return the code that computes a subscript, in steps.  Each step has the position of the number that the step
-        subtracts.
-        """
+        """Return the steps that compute a subscript, each with its code and the position of the number to subtract."""
         steps = []
         if part.v2 >= 0:
             code = self._product(part.v2, part.rows * part.c2)
@@ -91,6 +92,6 @@ class Addresses:
         return steps
 
     def _product(self, variable: int, factor: int) -> str:
-        """Return code that multiplies a variable by a constant and leaves the four-digit product in a field."""
+        """Return code that multiplies a variable by a constant, and marks the product as a field of four digits."""
         multiply = d.MULTIPLY_IMMEDIATE + address(self.units(variable)) + d.wide_immediate(factor)
         return multiply + d.SET_FLAG + f"{d.PRODUCT - 3:05d}" + d.NONE

@@ -1,9 +1,9 @@
 """Object decks: the cards of an object program, and their place in a deck with IBM's library.
 
-A card of the program holds four control digits, the length of its code, the code and a record mark.  IBM's loader
-precedes it in the deck.  The loader stores the code of a card behind that of the card before, and then advances by the
-length.  The code is followed by a card with the lengths of program and data, and by the symbol table, which has six
-fields on a card, from the top of core storage downward.  Columns 77 to 80 number all cards of a deck.
+The cards of IBM's loader precede the program in a deck.  A card of the program holds four control digits, the length of
+its code, the code and a record mark.  The loader stores the code of each card after the code of the previous card, and
+advances by the length.  A card with the lengths of program and data follows the code.  The symbol table comes next,
+with six fields on each card, from the top of core storage downward.  Columns 77 to 80 number all cards of a deck.
 """
 
 from collections.abc import Iterator, Sequence
@@ -29,10 +29,10 @@ END_OF_CODE = "]0]0999" + "0" + d.RECORD_MARK
 
 
 def object_cards(program: Program, core: int) -> list[str]:
-    """Return the object deck of a program, without card numbers, for a machine with ``core`` positions of storage.
+    """Return the cards of a program, without the library and card numbers, for a machine with ``core`` positions.
 
-    Raise DeckError if the program needs a function that neither the library nor this project supplies, or if it does
-    not fit the machine.
+    Raise DeckError if the program needs a function that neither the library nor this project supplies, or if the
+    program does not fit the machine.
     """
     code = generate(program, core)
     if code.missing:
@@ -42,7 +42,8 @@ def object_cards(program: Program, core: int) -> list[str]:
         raise DeckError(f"{program.source}: {overlap}")
     table = list(symbol_table(program, code, core))
     lowest = Addresses(program, core).units(program.storage.fields)
-    # The end of the code, the last position below the data, the end of the table as the compiler kept it, and the top.
+    # This card holds the end of the code, the last position below the data, the end of the symbol table and the top of
+    # core storage.
     lengths = address(code.end) + address(lowest) + address(core - 1 - FIELD * len(table)) + "]]000" + "0" * 45
     cards = [*_code_cards(code.units), END_OF_CODE, lengths + address(core - 1) + d.RECORD_MARK]
     for start in range(0, len(table), _FIELDS_A_CARD):
@@ -51,13 +52,13 @@ def object_cards(program: Program, core: int) -> list[str]:
 
 
 def _code_cards(units: Sequence[Unit]) -> Iterator[str]:
-    """Yield the cards that hold the code.  A record mark ends a card, because the loader stops there."""
+    """Yield the cards that hold the code.  A record mark in the code ends its card, because the loader stops there."""
     for unit in units:
         digits = unit.digits
         while digits:
             mark = digits.find(d.RECORD_MARK)
             piece = digits[: min(_CODE_COLUMNS, mark + 1 if mark >= 0 else _CODE_COLUMNS)]
-            # Zeros after a record mark belong to the length of the card, but need not be loaded.
+            # Zeros after a record mark count in the length of the card, but are not punched.
             length = len(piece)
             while piece.endswith(d.RECORD_MARK) and digits[length : length + 1] == "0":
                 length += 1
@@ -106,9 +107,9 @@ def _constant(text: str) -> str:
 
 
 def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> list[str]:
-    """Insert the cards of a program into a deck with IBM's library, in place of the program there.
+    """Replace the program in a deck with IBM's library by the cards of another program.
 
-    The cards of data that follow the library are left out.  Raise DeckError if ``library`` is not such a deck.
+    The data cards after the library are left out.  Raise DeckError if ``library`` is not a deck with the library.
     """
     end = 0
     while end < len(library) and library[end][_NUMBER_COLUMN:].rstrip() == _number(end + 1):

@@ -4,8 +4,8 @@ One character stands for one position of core storage: ``0`` to ``9``, ``]`` for
 1 to 9 with a flag, and ``|`` for a record mark.  An instruction has twelve digits: two of operation code, five of
 address P and five of address Q.  An immediate instruction takes the digits of Q themselves as its second operand.
 
-A call transmits the address of its operand to the position before the entry. Arithmetic works with the accumulator in
-positions 51 to 60. A floating-point number fills the accumulator, and a fixed-point number takes its last four digits.
+A call of a routine transmits the address of the operand to the position before the routine's entry.  The accumulator is
+in positions 51 to 60.  A floating-point number fills all of them, and a fixed-point number the last four.
 """
 
 from collections.abc import Iterable
@@ -28,9 +28,9 @@ CALL_IMMEDIATE, CALL = "J7", "K7"
 HIGH, EQUAL, HIGH_OR_EQUAL = "01100", "01200", "01300"
 NONE = "00000"
 
-# The units positions of the accumulator's mantissa and of the whole accumulator.
+# The positions of the last digit of the accumulator's mantissa and of the whole accumulator.
 MANTISSA, ACCUMULATOR = 58, 60
-# The units position of a product, whose digits begin at position 80.
+# The position of a product's last digit.  The digits begin at position 80.
 PRODUCT = 99
 
 # Entry points of the library by operation.  The compiler punched the first two without a flag.  The known object deck
@@ -58,12 +58,12 @@ def address(position: int) -> str:
 
 
 def immediate(value: int) -> str:
-    """Return an integer as the second operand of an instruction that contains the number itself (Q part)."""
+    """Return an integer as the second operand (Q) of an immediate instruction, with a flag over its first digit."""
     return "0" + flagged(f"{value:04d}")
 
 
 def wide_immediate(value: int) -> str:
-    """Return an integer as the second operand of an instruction, with a second flag, as in DO limits and subscripts."""
+    """Return an integer as :func:`immediate` does, with another flag over Q's first digit (DO limits, subscripts)."""
     return "]" + flagged(f"{value:04d}")
 
 

@@ -1,8 +1,8 @@
-"""The core storage that a program and its data need if IBM's compiler of 1962 compiles it.
+"""The core storage that a program and its data need if IBM's compiler of 1962 compiles the program.
 
 The lengths are those of :mod:`emulator.objectdeck.generator`.  The known object deck does not show every construct, and
 the lengths of IBM's function routines are unknown.  :attr:`Extent.inferred` counts the positions without evidence.  A
-program is refused only if it cannot fit without them.
+program is rejected only if it does not fit even without these positions.
 """
 
 from dataclasses import dataclass
@@ -11,9 +11,9 @@ from functools import lru_cache
 from emulator.language import objectcode as op
 from emulator.language.objectcode import Program
 from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
-from emulator.objectdeck.generator import ObjectProgram, generate
+from emulator.objectdeck.generator import generate
 
-# The positions of an instruction's code that are inferred, beyond the twelve that it needs in any case.
+# The inferred positions of an instruction's code, in addition to the twelve that are certain.
 _INFERRED = {op.IF: 32, op.STOP: 8}
 
 
@@ -29,7 +29,7 @@ class Extent:
     inferred: int
 
     def excess(self, core: int) -> int:
-        """Return by how many positions program and data exceed a machine's core; negative if positions remain free."""
+        """Return the positions that program and data need in excess of a machine's core; negative if some are free."""
         return self.data + self.code - _room(core)
 
     def overlap(self, core: int) -> str:
@@ -69,9 +69,7 @@ def extent(program: Program) -> Extent:
     code = generate(program)
     temporaries = sum(entry.kind == "temporary" for entry in program.storage.entries)
     inferred = sum(_INFERRED.get(instruction.operation, 0) for instruction in program.code)
-    inferred += FIELD * temporaries + _routines(code)
+    # This project's function routines stand at the end of the code.
+    routines = code.end - min(code.functions.values(), default=code.end)
+    inferred += FIELD * temporaries + routines
     return Extent(program.storage.fields * FIELD, code.end - OBJECT_PROGRAM, inferred)
-
-
-def _routines(code: ObjectProgram) -> int:
-    return code.end - min(code.functions.values(), default=code.end)

@@ -1,8 +1,8 @@
 """Translate a program to the machine code that IBM's compiler of 1962 generated, as its object deck shows it.
 
-Every statement begins at an even position; a record mark fills the odd position before it, if any.  A branch to a
-statement goes first to the field of the statement's number. This field holds a second branch, which goes to the
-statement itself.  The object program begins at 08300.
+Every statement begins at an even position.  If the code before it has an odd number of digits, a record mark follows
+that code.  A branch to a statement goes first to the field of the statement's number.  This field holds a second
+branch, which goes to the statement itself.  The object program begins at 08300.
 """
 
 from dataclasses import dataclass, field
@@ -17,9 +17,9 @@ from emulator.objectdeck.addresses import Addresses
 from emulator.objectdeck.digits import address
 from emulator.objectdeck.square_root import square_root
 
-# The Q address of the branch at the end of a DO, which repeats the DO while the variable does not exceed the limit, and
-# the position of the variable's copy.
+# The Q address of the branch at the end of a DO, which repeats the DO while the variable does not exceed the limit.
 _NOT_HIGH = "011" + d.RECORD_MARK + "0"
+# The position of a copy of a loop's variable, which is stepped and compared to find the last pass of a list.
 _POSITION = "00060"
 
 # Routines of this project for functions that the library lacks.  Each function returns the code of its routine for the
@@ -39,8 +39,8 @@ class Unit:
 class ObjectProgram:
     """An object program: its digits, the positions of its statement numbers and functions, and its end.
 
-    ``labels`` has the names of the storage map.  ``missing`` names the functions of the program that neither the
-    library nor this project supplies.
+    The keys of ``labels`` are the names of statement numbers in the storage map.  ``missing`` names the functions of
+    the program that neither the library nor this project supplies.
     """
 
     units: tuple[Unit, ...]
@@ -59,8 +59,9 @@ def generate(program: Program, core: int = CORES[-1]) -> ObjectProgram:
 class _Generator:
     """The state of the translation of one program to machine code.
 
-    ``places`` holds the position of each instruction of the emulator's object code, ``operands`` the operand
-    digits of the last arithmetic instruction, and ``unused`` a digit that the compiler left in its buffer.
+    ``places`` holds the position of each instruction of the emulator's object code.  ``formats`` is the number of
+    FORMATs translated so far.  IBM's compiler punched old digits from its buffer where an instruction has no operand:
+    ``operands`` holds those of the last call, and ``unused`` a digit of an earlier address.
     """
 
     program: Program
@@ -132,8 +133,7 @@ class _Generator:
         first = self.program.code[self.program.loops[loop][3] - 2].address
         target = address(self.addresses.units(variable))
         code = self._with_bound(d.TRANSMIT_FIELD_IMMEDIATE, d.TRANSMIT_FIELD, target, first)
-        # IBM's compiler punched an unused digit to the left of a constant: the last digit of an earlier address in its
-        # buffer.
+        # To the left of a constant, IBM's compiler punched the last digit of an earlier address.
         if code.startswith(d.TRANSMIT_FIELD_IMMEDIATE):
             code = code[:7] + self.unused + code[8:]
         else:
@@ -200,8 +200,7 @@ class _Generator:
                 entry = VERBS[self.program.verbs[instruction.address]]
                 return d.CALL + address(entry) + address(self.addresses.format(label))
             case op.PAUSE:
-                # PAUSE uses no operands.  IBM's compiler punched those of the last call, which were still in its
-                # buffer.
+                # PAUSE uses no operands, so IBM's compiler punched those of the last call.
                 return "M8" + self.operands
             case op.STOP:
                 # After a halt, START executes the next instruction, so a branch back to the halt follows it.
@@ -251,7 +250,10 @@ class _Generator:
         )  # fmt: skip
 
     def _items(self, instruction: Instruction, loops: tuple[int, ...] | None) -> None:
-        """Output the calls that transfer a list item.  ``loops`` are the loops that end after it, or None."""
+        """Output the calls that transfer a list item.
+
+        ``loops`` is None unless the item is the last one of its list; it then holds the loops that end after the item.
+        """
         count = op.repeats(instruction)
         for element in range(count):
             is_last = loops is not None and element == count - 1
@@ -276,7 +278,7 @@ class _Generator:
 
 
 def _loops_closed_by_lists(program: Program) -> dict[int, tuple[int, ...]]:
-    """Map the last item of each list to the loops inside the list that end after it, all as instruction indices."""
+    """Return the loops of each list that end after its last item, by the index of the last item's instruction."""
     closing: dict[int, tuple[int, ...]] = {}
     for pc, instruction in enumerate(program.code):
         if instruction.operation != op.FINISH:
