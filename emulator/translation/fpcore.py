@@ -1,8 +1,8 @@
 """Formulas and programs in FPCore 2.0, the format of floating-point benchmarks (https://fpbench.org).
 
-A formula is a Python function of numbers.  Called with :class:`Symbol` objects, it records its operations, so that the
-FPCore has the operations of the code in their order.  The numbers of a formula are those of ``:precision``; FPCore has
-no decimal formats, so the eight decimal digits of the 1620 cannot be named there.
+A formula is a Python function of numbers.  Called with :class:`Symbol` objects, the function records its operations, so
+that the FPCore has the operations of the code in their order.  The precision is always binary64, because FPCore cannot
+express numbers of eight decimal digits.
 """
 
 from __future__ import annotations
@@ -48,17 +48,17 @@ class Formula:
     Attributes
     ----------
     name, cite, description
-        The name, the key of the source and a sentence on the formula.
+        The name, the key of the source and a sentence about the formula.
     arguments
         The names of the arguments.
     computed
-        The function that computes the formula, in the order of its operations.
+        The function that computes the formula, with the operations in their original order.
     spec
-        A function that equals it in real numbers, if it has a simpler or an independent form, otherwise ``computed``.
+        A function with the same value in real numbers, in a simpler or independent form; otherwise ``computed``.
     most
         The largest absolute value of an argument on the input cards.
     condition
-        A further precondition, as FPCore.
+        A further precondition, as FPCore text.
     """
 
     name: str
@@ -126,10 +126,10 @@ def _parts(node: Expression) -> Iterator[Expression]:
 
 
 def statements(program: Program) -> str:
-    """Translate the floating-point assignments and IFs of a program to FPCore: the value of each, as an expression.
+    """Translate the floating-point expressions of a program's assignments and IFs to FPCore.
 
-    Subscripts become parts of names: ``X(2*I+1)`` is ``X_2xIp1``.  A comment names each statement that is omitted,
-    because fixed-point arithmetic has no counterpart.
+    Subscripts become parts of names: ``X(2*I+1)`` is ``X_2xIp1``.  A statement with fixed-point arithmetic, which
+    FPCore lacks, is omitted, and a comment names the statement.
     """
     written, line = [], program.statements[0]
     for step in steps(program):

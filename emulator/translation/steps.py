@@ -1,7 +1,8 @@
 """Convert object code to steps (assignments, decisions, input and output) from which C or Fortran is written.
 
-The accumulator is followed symbolically through the instructions of a statement, so that every expression has the
-operations of the object code in their order.  The signs of zeros therefore agree with those of the emulator.
+The instructions of a statement are executed with expressions in place of numbers in the accumulator.  So every
+expression has the operations of the object code in their order, and the signs of zeros agree with those of the
+emulator.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from emulator.language.objectcode import Instruction, Line, Program
 
 @dataclass(frozen=True, slots=True)
 class Constant:
-    """A constant of the program, as the text that the source has for it."""
+    """A constant of the program, as its text in the source."""
 
     text: str
 
@@ -32,11 +33,14 @@ class Index:
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """A variable, or an array element with its subscripts, as an operand."""
+    """A variable, or an array element with its subscripts, as an operand.
+
+    ``is_copied`` is True if the statement only copies the field.  The field may then be the undefined element N+1 of
+    an array of N elements.
+    """
 
     name: str
     indices: tuple[Index, ...] = ()
-    # True if a statement only copies the field: the copy may be the undefined element N+1 of an array of N elements.
     is_copied: bool = False
 
 
@@ -44,9 +48,9 @@ class Field:
 class Operation:
     """An operation on operands.
 
-    The operator is ``+``, ``-``, ``*``, ``/``, ``negate`` or ``square``, a library function such as ``sqrt``, ``power``
-    (floating-point exponent), ``integer_power`` or a conversion, ``fixed`` or ``float``.  ``is_fixed`` is the mode of
-    the result.
+    The operator is ``+``, ``-``, ``*``, ``/``, ``negate``, ``square``, a library function such as ``sqrt``, ``power``
+    (with a floating-point exponent), ``integer_power``, or the conversion ``fixed`` or ``float``.  ``is_fixed`` is True
+    if the result is fixed point.
     """
 
     operator: str
@@ -59,7 +63,7 @@ Expression = Constant | Field | Operation
 
 @dataclass(frozen=True, slots=True)
 class Begin:
-    """The beginning of a statement, with its label, or 0 if no branch leads to it."""
+    """The beginning of a statement.  ``label`` is its statement number, or 0 if no branch leads to the statement."""
 
     line: Line
     label: int
@@ -134,7 +138,7 @@ class List:
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """A number in an input or output list, or all ``count`` elements of an array."""
+    """A number in an input or output list, or a whole array of ``count`` elements."""
 
     target: Field
     is_input: bool
@@ -144,7 +148,7 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Simple:
-    """A step without operands: the end of a list, PAUSE, STOP, or the end of the deck."""
+    """A step without operands: the end of a list, PAUSE with its number, or STOP, which also stands for END."""
 
     kind: Literal["end of list", "PAUSE", "STOP"]
     number: int = 0
@@ -161,7 +165,10 @@ _FIXED = {op.XAD: "+", op.XSB: "-", op.XSBR: "-", op.XMP: "*", op.XDV: "/", op.X
 
 @dataclass
 class _Walk:
-    """The expressions in the accumulators and temporary fields, while the instructions are followed in order."""
+    """The expressions in the accumulators and temporary fields, while the instructions are executed symbolically.
+
+    ``pc`` is the index of the last COUNT.
+    """
 
     program: Program
     floating: Expression = field(default_factory=lambda: Constant("0."))
@@ -169,7 +176,6 @@ class _Walk:
     sent: Expression = field(default_factory=lambda: Constant("0"))
     temporaries: dict[int, Expression] = field(default_factory=dict)
     is_input: bool = False
-    # The last COUNT.
     pc: int = 0
 
     def __post_init__(self) -> None:

@@ -1,8 +1,8 @@
 """Write a program as C or Fortran source text, which begins with a runtime for devices and FORMATs.
 
-Both languages keep the statement numbers as labels.  A fixed-point result keeps four digits, a subscript is checked,
-and a decision calls a function of the runtime, which can write it to a file.  ``runtime.c`` and ``runtime.f90``, next
-to this module, contain the devices and the FORMATs.
+Both languages keep the statement numbers as labels.  A fixed-point result is truncated to four digits, a subscript is
+checked, and a decision calls a function of the runtime, which can write the decision to a file.  The files
+``runtime.c`` and ``runtime.f90`` next to this module implement the devices and FORMATs.
 """
 
 from __future__ import annotations
@@ -40,9 +40,10 @@ _SUM, _PRODUCT, _OPERAND = range(3)
 
 
 def layout(spec: FormatSpec, is_read: bool) -> tuple[str, int]:
-    """Return a FORMAT as one text, and the index in it at which a longer list continues, or -1 if it has no field.
+    """Return a FORMAT as one text, and the index in this text at which a longer list continues.
 
-    If a READ or ACCEPT uses the FORMAT, its X fields become H fields, because they keep the columns that they skip.
+    The index is -1 if the FORMAT has no field for a number.  If a READ or ACCEPT uses the FORMAT, its X fields become H
+    fields, because reading stores the skipped columns in them.
     """
     tokens = []
     for part in spec.specs:
@@ -56,7 +57,10 @@ def layout(spec: FormatSpec, is_read: bool) -> tuple[str, int]:
 
 @dataclass
 class Writer(ABC):
-    """The base class of the writers.  ``every_read_ends``: an empty hopper is a normal end at any READ."""
+    """The base class of the writers.
+
+    If ``every_read_ends`` is True, an empty hopper is a normal end at any READ.
+    """
 
     program: Program
     every_read_ends: bool
@@ -369,7 +373,7 @@ def _runtime(name: str) -> list[str]:
 
 
 def _wrapped(text: str) -> Iterator[str]:
-    """Yield the lines of a Fortran statement, broken if it is long, also within a quoted text."""
+    """Yield the lines of a Fortran statement.  A long one is divided, if necessary within a quoted text."""
     lines = [text[at : at + _LINE] for at in range(0, len(text), _LINE)]
     for n, line in enumerate(lines):
         yield ("&" if n else "") + line + ("&" if n < len(lines) - 1 else "")
@@ -381,7 +385,7 @@ WRITERS: dict[str, type[Writer]] = {"c": CWriter, "fortran": FortranWriter}
 def translated(deck: Deck, language: str, every_read_ends: bool = True) -> str:
     """Translate a FORTRAN deck of the 1620 to C or Fortran, and return the source text.
 
-    ``every_read_ends`` tells whether an empty hopper is a normal end at every READ, or only at the one that begins a
-    data set.  Raise CompileError, with card and column, for a deck that does not compile.
+    An empty hopper is a normal end at the READ that begins a data set, and at every READ if ``every_read_ends`` is
+    True.  Raise CompileError, with card and column, for a deck that does not compile.
     """
     return WRITERS[language](compile_deck(deck), every_read_ends).text()
