@@ -2,15 +2,16 @@
 
 :mod:`~modern.digital.solids` defines a volume and :mod:`~modern.digital.world` its position in physical coordinates.
 :mod:`~modern.digital.volumes` reads files and :mod:`~modern.digital.scans` selects voxels by value.
-:mod:`~modern.digital.hull` computes the digital hull with :mod:`~modern.digital.polytope` and
-:mod:`~modern.digital.intervals`. :mod:`~modern.digital.measures` measures it.
+:mod:`~modern.digital.hull` computes the digital hull with :mod:`~modern.digital.intervals`, and
+:mod:`~modern.digital.measures` computes volumes and areas.
 
 To add a file format:
 
-1. Write a reader in a module of this package that returns a :class:`modern.digital.scans.Scan`, the values and their
-   position. ``nrrd.py`` is an example. Raise VolumeError, with the file and the place in it, for invalid data.
-2. Call it in ``_parsed`` in ``volumes.py`` after recognising the first bytes of the file. If SimpleITK reads the
-   format, an entry for the file's ending in ``KINDS`` in ``itk.py`` is sufficient instead.
+1. Write a reader in a module of this package that returns a :class:`modern.digital.scans.Scan`: the values and their
+   position. ``nrrd.py`` is an example. Raise VolumeError for invalid data; the message names the file and the place.
+2. Call the reader in ``_parsed`` in ``volumes.py`` for files that begin with the first bytes of the format. If
+   SimpleITK reads the format, add the file name extension to ``KINDS`` in ``itk.py`` instead; steps 1 and 2 are then
+   complete.
 3. To write the format, add its ending to ``ARRAYS`` and a case to ``write_array``, both in ``volumes.py``.
 4. Test it in ``tests/modern/digital/test_volumes.py``, and damage it in ``test_damaged_volumes.py`` next to it.
 5. Describe it in ``docs/reference/files.md`` and ``docs/how-to/voxels.md``.

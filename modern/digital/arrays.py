@@ -1,4 +1,4 @@
-"""Read arrays of numbers from the bytes of a file: NPY, NPZ, and raw data whose shape and type the user states."""
+"""Read arrays of numbers from the bytes of a file: NPY, NPZ, or raw data whose shape and type the user states."""
 
 import io
 import math
@@ -46,16 +46,16 @@ def parse_npy(data: bytes, source: str) -> NDArray[Any]:
 
 
 def parse_npz(data: bytes, source: str, name: str | None = None) -> NDArray[Any]:
-    """Return the array called ``name`` in an NPZ file, or its only array.
+    """Return the array called ``name`` of an NPZ file, or its only array if ``name`` is None.
 
-    Raise VolumeError if there is no such array, if ``name`` is needed, and in the cases of ``parse_npy``.
+    Raise VolumeError if the file has no such array or several arrays without ``name``, or as ``parse_npy`` does.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as packed:
             members = {info.filename.removesuffix(".npy"): info for info in packed.infolist()}
             array_name = _member(sorted(members), source, name)
             with packed.open(members[array_name]) as file:
-                # A damaged file may unpack to any size. One byte more than the header states shows it.
+                # A damaged file may unpack to any size. Reading one byte more than the header states shows the damage.
                 size = members[array_name].file_size
                 if size > 16 * MAX_CELLS:
                     raise VolumeError(f"{source}: {array_name}: expected at most {MAX_CELLS} numbers")
@@ -70,19 +70,22 @@ def parse_npz(data: bytes, source: str, name: str | None = None) -> NDArray[Any]
 def _member(names: Sequence[str], source: str, name: str | None) -> str:
     if name is None and len(names) == 1:
         return names[0]
-    there = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
+    names_text = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
     if name is None:
-        raise VolumeError(f"{source}: found {len(names)} arrays; select one with --array: {there}")
+        raise VolumeError(f"{source}: found {len(names)} arrays; select one with --array: {names_text}")
     if name not in names:
-        raise VolumeError(f"{source}: there is no array {quoted(name)}; the file has {there or 'none'}")
+        raise VolumeError(f"{source}: there is no array {quoted(name)}; the file has {names_text or 'none'}")
     return name
 
 
 def parse_raw(data: bytes, source: str, shape: Sequence[int] | None, dtype: str) -> NDArray[Any]:
-    """Return an array of raw data in which x varies fastest. Raise VolumeError if shape, type and size do not match."""
+    """Return the array in a file of raw data, in which x varies fastest.
+
+    Raise VolumeError if the shape or the type is invalid or does not match the number of bytes.
+    """
     try:
         kind = np.dtype(dtype)
-    except (TypeError, ValueError, SyntaxError, OverflowError):  # numpy accepts more than names of types here
+    except (TypeError, ValueError, SyntaxError, OverflowError):  # numpy parses structured types too
         raise VolumeError(
             f"--dtype: {quoted(dtype)} is not a type of numbers; examples are uint8, int16, >i2"
         ) from None
@@ -110,7 +113,7 @@ def check_size(shape: Sequence[int], source: str) -> None:
 
 
 def _as_truth(array: NDArray[Any]) -> NDArray[Any]:
-    """Convert the bytes of truth values to 0 and 1, because numpy assumes that they have no other values."""
+    """Convert the bytes of truth values to 0 and 1, because numpy assumes that they are 0 or 1."""
     return array.view(np.uint8) != 0 if array.dtype == np.bool_ else array
 
 

@@ -1,9 +1,9 @@
 """The digital hull of a volume: all grid points in the convex hull of its voxel centres, computed exactly.
 
-Only the two ends of a column can be vertices of the hull. Of these ends, only the vertices of the hulls of rows and
-columns are used. Planes have integer coefficients, and integers decide whether a voxel on a plane belongs to the hull.
-For a 6-connected solid this is the digital convex hull of Yau and Srihari (section 3.3), and the set of grid points in
-Kovalevsky and Schulz's polyhedron of voxel centres.
+Only the two ends of a column of voxels can be vertices of the hull. The exact hull of these ends has planes with
+integer coefficients, and integers decide whether a voxel on a plane belongs to the digital hull. If the voxels are
+connected through their faces, the digital hull is the digital convex hull of Yau and Srihari (section 3.3). It is also
+the set of grid points in Kovalevsky and Schulz's polyhedron of voxel centres.
 """
 
 import os
@@ -16,15 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from emulator.jit.functions import NotInstalled
-from modern.digital.intervals import Grid, Truth, below_edges, below_facets, column_ends, fill, in_plane, reduced
-from modern.digital.polytope import compiled_hull, polyhedron
+from modern.digital.intervals import Grid, Truth, below_edges, below_faces, column_ends, fill, reduced
 from modern.digital.solids import NoVoxels, Volume, VolumeError
 from modern.digital.world import World, voxel_volume, world_of
+from modern.exact_hull import exact_hull
 
-# The largest volume for which a product of three lengths fits in 64 bits. No memory holds as many voxels.
+# The largest number of voxels for which the computation fits in 64 bits. No memory holds as many voxels.
 MAX_VOXELS = 1 << 56
-# Compiled code is used if numba is installed and there are at least this number of candidates for vertices.
-WORTH_COMPILING = 1000
 Kind = Literal["point", "segment", "polygon", "polyhedron"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
@@ -38,11 +36,11 @@ class DigitalHull:
     filled
         Truth values in the volume's shape and memory order.
     dimension
-        The dimension of the set of voxel centres: 3, or 2 in one plane, 1 on one line, 0 for a single voxel.
+        The dimension of the set of voxel centres: 3, 2 if they lie in one plane, 1 on one line, 0 for a single voxel.
     given
         The number of voxels of the volume.
     source
-        The volume, which also holds the position of its voxels.
+        The volume whose hull it is.
     """
 
     filled: Truth
@@ -60,12 +58,12 @@ class DigitalHull:
 
     @property
     def deficiency(self) -> int:
-        """The number of voxels that are in the hull but not in the volume (the convex deficiency)."""
+        """The convex deficiency: the number of voxels that are in the hull but not in the volume."""
         return self.voxels - self.given
 
     @property
     def world(self) -> World | None:
-        """The position of the hull's voxels in physical coordinates, or None if it is unknown."""
+        """The map from indices of ``filled`` to physical coordinates, or None if it is unknown."""
         world = self.source.world
         return None if world is None else world.moved(self.source.origin)
 
@@ -100,8 +98,8 @@ def digital_hull(
     volume
         A volume, a SimpleITK image, or an array with two or three axes; every value other than 0 is a voxel.
     fast
-        True for compiled code (numba, the extra ``fast``), False for plain Python, None for the faster one. The result
-        is the same.
+        As in :func:`modern.exact_hull.build.exact_hull`: True requires compiled code (numba, the extra ``fast``). The
+        result is the same.
     spacing, origin, directions
         The position of an array's voxels, as in :func:`modern.digital.world.world_of`. The position affects the hull's
         ``world`` and ``volume`` but not its voxels.
@@ -109,9 +107,9 @@ def digital_hull(
     Raises
     ------
     VolumeError
-        For an invalid array or position, and if ``fast`` is True and numba is missing.
+        The array or its position is invalid, or ``fast`` is True and numba is missing.
     NoVoxels
-        If the volume has no voxels. This is also a PointsError.
+        The volume has no voxels. NoVoxels is a subclass of PointsError too.
     """
     source = placed(volume, spacing, origin, directions)
     array, count = source.array, source.count
@@ -128,7 +126,10 @@ def placed(
     origin: Sequence[Any] | None = None,
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> Volume:
-    """Return a volume unchanged, or convert an array to the volume of its nonzero values, at the given position."""
+    """Return a volume unchanged, or the volume of the nonzero values of an array, at the given position.
+
+    A SimpleITK image has its own position.
+    """
     if hasattr(volume, "GetDirection"):
         return placed(*_of_image(volume))
     if not isinstance(volume, Volume):
@@ -165,7 +166,7 @@ def _truth(array: NDArray[Any]) -> Truth:
     if array.ndim not in (2, 3) or array.dtype.kind not in "biuf":
         raise VolumeError(
             f"expected an array of numbers or truth values with two or three axes, found {array.dtype} "
-            f"with {array.ndim}"
+            f"with {array.ndim} axes"
         )
     if array.size > MAX_VOXELS:
         raise VolumeError(f"a volume of more than {MAX_VOXELS} voxels has no exact hull in 64 bits")
@@ -176,55 +177,25 @@ def _truth(array: NDArray[Any]) -> Truth:
 
 
 def _hull(solid: Truth, fast: bool | None) -> tuple[int, Truth]:
+    """Return the dimension of the hull, and the volume of the voxels in it."""
     # Candidates for vertices: the lower and the upper ends of the columns, reduced separately.
     x, y, low, high = column_ends(solid)
     lower = np.stack(reduced(x, y, low), axis=1)
     upper = np.stack(reduced(x, y, -high), axis=1) * (1, 1, -1)
     points = np.unique(np.concatenate((lower, upper)), axis=0)
-    simplex = independent(points)
-    if len(simplex) < 4:
-        _compile(bool(fast), len(points))  # raises VolumeError if ``fast`` is True and numba is missing
-        filled = np.zeros(solid.shape, dtype=np.bool_)
-        if len(simplex) == 3:
-            _fill_polygon(filled, points, simplex)
-        else:
-            _fill_segment(filled, points[simplex[0]], points[simplex[-1]])
-        return len(simplex) - 1, filled
-    a, b, c, d = simplex
-    corner, plane = polyhedron(points, (a, b, c, d), _compile(fast, len(points)))
-    return 3, fill(*below_facets(points, corner, plane, (solid.shape[0], solid.shape[1])), solid.shape[2])
-
-
-def _compile(fast: bool | None, candidates: int) -> bool:
-    """Decide whether to use compiled code.  Raise VolumeError if it was requested and is not available."""
-    if not (candidates >= WORTH_COMPILING if fast is None else fast):
-        return False
     try:
-        compiled_hull()
+        hull = exact_hull(points, fast)
     except NotInstalled as error:
-        if fast:
-            raise VolumeError(str(error)) from None
-        return False
-    return True
-
-
-def independent(points: Grid) -> list[int]:
-    """Return the indices of as many affinely independent points as possible, at most four.
-
-    The two ends of a segment are always among them.
-    """
-    if len(points) == 1:
-        return [0]
-    # The points are sorted, so the first and the last are extreme.
-    along = points[-1] - points[0]
-    chosen = [0, len(points) - 1]
-    normals = np.cross(points - points[0], along)
-    third = int(np.abs(normals).max(axis=1).argmax())
-    if not normals[third].any():
-        return chosen
-    heights = np.abs((points - points[0]) @ normals[third])
-    fourth = int(heights.argmax())
-    return [*chosen, third] + ([fourth] if heights[fourth] else [])
+        raise VolumeError(str(error)) from None
+    if hull.dimension == 3:
+        faces = ((points[list(facet.polygon)], facet.plane) for facet in hull.facets)
+        return 3, fill(*below_faces(faces, (solid.shape[0], solid.shape[1])), solid.shape[2])
+    filled = np.zeros(solid.shape, dtype=np.bool_)
+    if hull.plane is not None:
+        _fill_polygon(filled, points, np.array(hull.plane[:3]))
+    else:
+        _fill_segment(filled, points[hull.vertices[0]], points[hull.vertices[-1]])
+    return hull.dimension, filled
 
 
 def _fill_segment(filled: Truth, first: Grid, last: Grid) -> None:
@@ -232,20 +203,19 @@ def _fill_segment(filled: Truth, first: Grid, last: Grid) -> None:
     filled[tuple((first + np.arange(steps + 1)[:, None] * ((last - first) // steps)).T)] = True
 
 
-def _fill_polygon(filled: Truth, points: Grid, simplex: list[int]) -> None:
+def _fill_polygon(filled: Truth, points: Grid, normal: Grid) -> None:
     """Fill the convex hull of coplanar points, given as the indices of voxels.
 
     The points are projected along the axis of the largest component of their plane's normal, and the projection is
-    filled as a polygon.  A position in this polygon is lifted back to the plane, and its voxel is filled if the lifted
+    filled as a polygon. A position in this polygon is lifted back to the plane, and its voxel is filled if the lifted
     coordinate is an integer.
     """
-    origin = points[simplex[0]]
-    normal = np.cross(points[simplex[1]] - origin, points[simplex[2]] - origin)
-    normal //= np.gcd.reduce(normal)
+    origin = points[0]
     axis = int(np.abs(normal).argmax())
     first, second = (k for k in range(3) if k != axis)
     low, high = below_edges(points[:, first], points[:, second], filled.shape[first])
-    inside = in_plane(low, high, filled.shape[second])
+    v = np.arange(filled.shape[second])
+    inside = (low[:, None] <= v) & (v <= high[:, None])
     if abs(normal[axis]) == np.abs(normal).sum():
         np.moveaxis(filled, axis, 0)[origin[axis]] = inside
         return

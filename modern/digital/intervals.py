@@ -1,12 +1,13 @@
-"""The columns of a volume: where they begin and end, and which part of each column lies in a hull, computed exactly.
+"""The columns of a volume: their first and last voxels, and the part of each column that lies in a hull.
 
-A column is a line of voxels along the last axis. The hull of a volume is the hull of the ends of its columns.
-
-If a plane or a line passes between two grid points, an integer division rounds up on the lower side and down on the
-upper side. A grid point on the plane or line belongs to the hull.
+A column is a line of voxels along the last axis. The hull of a volume is the hull of the ends of its columns. The part
+of a column in the hull is computed exactly: if a plane or a line passes between two grid points, an integer division
+rounds up on the lower side of the hull and down on the upper side. A grid point on the plane or line belongs to the
+hull.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,11 +15,13 @@ from numpy.typing import NDArray
 
 # The approximate number of voxels processed at a time.
 SLAB = 1 << 24
-# Removal is repeated as long as the last round removed at least one of this number of points.
+# Rounds of removing points are repeated as long as a round removes at least one in this number of points.
 STILL_PAYS = 64
 
 Grid = NDArray[np.int64]
 Truth = NDArray[np.bool_]
+# The coefficients a, b, c, d of a plane a x + b y + c z + d = 0.
+Plane = tuple[int, int, int, int]
 
 
 def slabs(array: NDArray[Any]) -> list[slice]:
@@ -27,7 +30,7 @@ def slabs(array: NDArray[Any]) -> list[slice]:
 
 
 def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
-    """Return the non-empty columns of a volume: their indices on axes 0 and 1, lowest and highest index on axis 2."""
+    """Return the non-empty columns of a volume as four arrays: x, y, and the lowest and highest z of each column."""
     slab_ends: list[tuple[Any, Any, Any, Any]] = []
     last = volume.shape[2] - 1
     for part in slabs(volume):
@@ -41,9 +44,9 @@ def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
 
 
 def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove points that cannot be lower vertices of the hull: those on or above a chord of their row or column.
+    """Remove points that cannot be lower vertices of the hull: points on or above a chord of their row or column.
 
-    The arrays x, y, z hold one point for each (x, y), in raster order, and so does the result.
+    The arrays x, y, z hold at most one point for each (x, y), in raster order, and so does the result.
     """
     x, y, z = _along(x, y, z)
     order = np.lexsort((x, y))
@@ -53,7 +56,7 @@ def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Repeatedly remove points that lie on or above the chord between their two neighbours in the same line."""
+    """Repeatedly remove the points that lie on or above the chord between their neighbours in the same line."""
     removed = np.ones(len(line), dtype=np.bool_)
     while len(line) > 2 and STILL_PAYS * np.count_nonzero(removed) >= len(line):
         before, after = t[1:-1] - t[:-2], t[2:] - t[1:-1]
@@ -66,7 +69,7 @@ def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def fill(low: Grid, high: Grid, depth: int) -> Truth:
-    """Return a volume in which the column (x, y) is filled from low[x, y] to high[x, y], of ``depth`` voxels."""
+    """Return a volume of ``depth`` layers in which each column (x, y) is filled from low[x, y] to high[x, y]."""
     filled = np.empty((*low.shape, depth), dtype=np.bool_)
     index = np.arange(depth, dtype=np.int32)
     for part in slabs(filled):
@@ -76,7 +79,9 @@ def fill(low: Grid, high: Grid, depth: int) -> Truth:
 
 
 def lower_chain(points: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Return the lower side of the hull of points (t, z), which are sorted by distinct t, by Andrew's scan."""
+    """Return the vertices on the lower side of the hull of points (t, z), which are sorted by distinct t (Andrew's
+    scan).
+    """
     chain: list[tuple[int, int]] = []
     for t, z in points:
         while len(chain) > 1:
@@ -92,28 +97,37 @@ def lower_chain(points: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
 BATCH = 1 << 20
 
 
-def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]) -> tuple[Grid, Grid]:
+def below_faces(faces: Iterable[tuple[Grid, Plane]], shape: tuple[int, int]) -> tuple[Grid, Grid]:
     """Return the lowest and highest grid point of a polyhedron at each position (x, y) of a grid of this shape.
 
-    ``points`` has the shape (n, 3). ``corner`` has three point indices for each facet, counterclockwise as seen from
-    outside, and ``plane`` its four coefficients, positive outside. At a position without a grid point of the
-    polyhedron, the lowest is above the highest.
+    A face has its vertices, shape (n, 3), counterclockwise as seen from outside, and the coefficients of its plane,
+    positive outside. At a position without a grid point of the polyhedron, the lowest is above the highest.
     """
     low = np.ones(shape, dtype=np.int64)
     high = np.zeros(shape, dtype=np.int64)
-    down, up = plane[:, 2] < 0, plane[:, 2] > 0
-    # Seen from above, the facets of the lower side run clockwise.
-    write_heights(low, points[corner[down][:, ::-1]], -plane[down], rounded_up=True)
-    write_heights(high, points[corner[up]], plane[up], rounded_up=False)
+    lower, upper = [], []
+    for corners, (a, b, c, d) in faces:
+        if c < 0:
+            # Seen from above, the faces of the lower side run clockwise.
+            lower.append((corners[::-1], (-a, -b, -c, -d)))
+        elif c > 0:
+            upper.append((corners, (a, b, c, d)))
+    write_heights(low, lower, rounded_up=True)
+    write_heights(high, upper, rounded_up=False)
     return low, high
 
 
-def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) -> None:
-    """Write the height of each triangle, rounded to integers, into ``grid`` at the positions (x, y) that it covers.
+def write_heights(grid: Grid, faces: Sequence[tuple[Grid, Plane]], rounded_up: bool) -> None:
+    """Write the height of each face, rounded to integers, into ``grid`` at the positions (x, y) that it covers.
 
-    A later triangle overwrites an earlier one.  ``triangles`` (n, 3, 3) are counterclockwise seen from above. ``plane``
-    has four coefficients, the third positive.
+    A face has its vertices, counterclockwise as seen from above, and the four coefficients of its plane, the third
+    positive. A later face overwrites an earlier one.
     """
+    fans = [(corners[0], *pair, plane) for corners, plane in faces for pair in pairwise(corners[1:])]
+    if not fans:
+        return
+    triangles = np.array([fan[:3] for fan in fans])
+    planes = np.array([fan[3] for fan in fans])
     x, y = triangles[:, :, 0], triangles[:, :, 1]
     first, rows = x.min(axis=1), np.ptp(x, axis=1) + 1
     which = np.repeat(np.arange(len(triangles)), rows)
@@ -123,10 +137,10 @@ def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) ->
     count = np.maximum(most - least + 1, 0)
     ends = np.cumsum(count)
     # Split the rows into batches of about BATCH positions, so that memory stays bounded.
-    cuts = np.searchsorted(ends, np.arange(BATCH, int(ends[-1]) if len(ends) else 0, BATCH))
+    cuts = np.searchsorted(ends, np.arange(BATCH, int(ends[-1]), BATCH))
     for part in np.split(np.arange(len(which)), np.unique(cuts)):
         column = np.repeat(part, count[part])
-        a, b, c, d = plane[which[column]].T
+        a, b, c, d = planes[which[column]].T
         at_x, at_y = row[column], least[column] + _count_up(count[part])
         # The plane a x + b y + c z + d = 0, solved for z by an integer division.
         above = a * at_x + b * at_y + d
@@ -134,7 +148,7 @@ def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) ->
 
 
 def _sides(x: Grid, y: Grid, row: Grid, width: int) -> tuple[Grid, Grid]:
-    """Return the least and greatest y of each triangle in its row ``row`` of a grid."""
+    """Return the least and greatest integer y of each triangle in a row of the grid, x = ``row``."""
     least, most = np.zeros(len(row), dtype=np.int64), np.full(len(row), width - 1, dtype=np.int64)
     for k in range(3):
         run, rise = x[:, (k + 1) % 3] - x[:, k], y[:, (k + 1) % 3] - y[:, k]
@@ -147,13 +161,17 @@ def _sides(x: Grid, y: Grid, row: Grid, width: int) -> tuple[Grid, Grid]:
 
 
 def _count_up(counts: Grid) -> Grid:
-    """Return one array with the numbers 0, 1, ..., count - 1 for each of the counts."""
+    """Return one array that has the numbers 0, 1, ..., count - 1 for each of the counts in turn."""
     ends = np.cumsum(counts)
     return np.arange(int(ends[-1]) if len(ends) else 0) - np.repeat(ends - counts, counts)
 
 
 def below_edges(u: Grid, v: Grid, width: int) -> tuple[Grid, Grid]:
-    """Return, for each u below ``width``, the lowest and highest grid point (u, v) of a polygon with corners (u, v)."""
+    """Return the least and greatest integer v in a polygon for each integer u from 0 to ``width`` - 1.
+
+    The arrays ``u`` and ``v`` hold the corners. For a value u without a grid point in the polygon, the least v is above
+    the greatest.
+    """
     low, high = np.ones(width, dtype=np.int64), np.zeros(width, dtype=np.int64)
     places = np.arange(u.min(), u.max() + 1)
     low[places] = _chain(u, v, places)
@@ -162,7 +180,7 @@ def below_edges(u: Grid, v: Grid, width: int) -> tuple[Grid, Grid]:
 
 
 def _chain(u: Grid, v: Grid, places: Grid) -> Grid:
-    """Return the lower side of the points' hull at each of the given positions, rounded up to an integer."""
+    """Return the height v of the lower side of the points' hull at each of the positions u, rounded up."""
     order = np.lexsort((v, u))
     u, v = u[order], v[order]
     lowest = np.concatenate(([True], u[1:] != u[:-1]))
@@ -174,9 +192,3 @@ def _chain(u: Grid, v: Grid, places: Grid) -> Grid:
     run, rise = t[k + 1] - t[k], z[k + 1] - z[k]
     height: Grid = z[k] - (-(rise * (places - t[k])) // run)
     return height
-
-
-def in_plane(low: Grid, high: Grid, depth: int) -> Truth:
-    """Return an array of truth values that is True at (u, v) if low[u] <= v <= high[u]."""
-    v = np.arange(depth)
-    return (low[:, None] <= v) & (v <= high[:, None])

@@ -1,11 +1,10 @@
-"""Read volumes with SimpleITK (the extra ``volumes``): NIfTI, MetaImage, TIFF, and DICOM files or folders of a
-series.
+"""Read volumes with SimpleITK (the extra ``volumes``): files in NIfTI, MetaImage, TIFF or DICOM, and DICOM series.
 
-The modules of :mod:`modern.digital.integrity` check the file first, because the library accepts damaged files. The
-library runs in a separate process, ``itk_child.py``. Its output is hidden from the user, and any failure (an
+The modules of :mod:`modern.digital.integrity` check a file first, because SimpleITK accepts damaged files. SimpleITK
+runs in a separate process, ``itk_child.py``. The output of this process is hidden from the user, and its failure (an
 error, a crash, a hang) becomes a one-line error message. The process returns the array as an NPY file in a temporary
-folder. It returns spacing, origin and directions as the shortest decimal text that identifies each double. This project
-treats these decimals as exact.
+folder. It returns each double of spacing, origin and directions as the shortest decimal text that identifies the
+double. These decimals are treated as exact.
 """
 
 import importlib.util
@@ -42,7 +41,7 @@ KINDS = {
     ".tiff": "TIFF",
     ".dcm": "DICOM",
 }
-# The seconds allowed for reading a file, plus one for each megabyte.
+# The number of seconds allowed for reading a file, to which one second is added for each megabyte.
 LIMIT = 60
 _NO_PIXELS = "expected pixel data, found none"
 _NOT_DICOM = "not a DICOM file with the mark DICM"
@@ -61,10 +60,10 @@ def kind_of(path: str) -> str | None:
 def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
     """Read a file or a folder with SimpleITK into a scan indexed [x, y] or [x, y, z].
 
-    ``series`` identifies one of several DICOM series in a folder. Positions are those of the library: LPS, in
-    millimetres if the format states it. A TIFF file has no position. Raise FileError if the file cannot be read. Raise
-    VolumeError if the file is damaged, if SimpleITK is not installed, rejects the file, crashes or exceeds ``LIMIT``,
-    if voxels have several values, or for more than ``MAX_CELLS`` voxels.
+    ``series`` identifies one of several DICOM series in a folder. Positions are those of SimpleITK: in LPS, and in
+    millimetres if the format states the unit. A TIFF file has no position. Raise FileError if the file cannot be read.
+    Raise VolumeError if the file is damaged, if SimpleITK is not installed, rejects the file, crashes or exceeds the
+    time limit, if a voxel has several values, or if there are more than ``MAX_CELLS`` voxels.
     """
     if kind == SERIES:
         _check_folder(path)
@@ -77,7 +76,10 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
     with tempfile.TemporaryDirectory(prefix="hull1620-") as folder:
         seconds = LIMIT + _bytes(path) // 10**6
         code = _run([kind, os.path.abspath(path), folder, str(MAX_CELLS), series or ""], path, seconds)
-        facts = _facts(Path(folder, "facts.json"))
+        try:
+            facts = json.loads(Path(folder, "facts.json").read_text(encoding="ascii"))
+        except (OSError, ValueError):
+            facts = None
         if code != 0 or facts is None:
             raise VolumeError(f"{path}: SimpleITK {_ended(code)} while it read the file")
         if "error" in facts:
@@ -96,7 +98,7 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
 
 
 def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | None, str]:
-    """Check a file for damage.  Return, if known, the sizes of its axes, its NIfTI header, and a note for the user.
+    """Check a file for damage. Return the sizes of its axes and its NIfTI header, or None, and a note, or "".
 
     Raise VolumeError if the file is damaged.
     """
@@ -115,10 +117,10 @@ def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | 
 
 
 def _slices(folder: str) -> dict[str, str]:
-    """Check every DICOM file of a folder. Return a remark for each file, which is empty for an intact image.
+    """Check every file of a folder. Return the fault of each file by its name, or "" for an intact image.
 
-    Raise VolumeError for a damaged file, because SimpleITK may leave it out of its series. A file without pixel data is
-    damaged if its object is of the same class as an image.
+    Raise VolumeError for a damaged DICOM file, because SimpleITK may omit it from its series. A file without pixel data
+    is damaged if its object is of the same DICOM class as an image.
     """
     remarks, classes = {}, {}
     with os.scandir(folder) as entries:
@@ -141,7 +143,7 @@ def _slices(folder: str) -> dict[str, str]:
 
 
 def _slice_notes(folder: str, used: Sequence[str], remarks: Mapping[str, str]) -> list[str]:
-    """Return notes about files that are not part of the image.  Raise VolumeError if a slice was not verified."""
+    """Return notes about files that are not part of the image. Raise VolumeError if a used slice has a fault."""
     for name in used:
         remark = remarks.get(name, _NOT_DICOM)
         if remark:
@@ -173,7 +175,7 @@ def _check_file(path: str) -> None:
 
 
 def _check_folder(path: str) -> None:
-    """Raise VolumeError for a folder without DICOM files, which have their signature after 128 bytes."""
+    """Raise VolumeError for a folder in which no file has the signature of DICOM."""
     try:
         with os.scandir(path) as entries:
             if any(entry.is_file() and has_signature(entry.path) for entry in entries):
@@ -184,7 +186,7 @@ def _check_folder(path: str) -> None:
 
 
 def _bytes(path: str) -> int:
-    """Return an upper bound for the bytes that will be read: the size of the file, or of the folder with its data."""
+    """Return an upper bound for the number of bytes to read: the size of the file, or of the folder with the data."""
     try:
         if path.lower().endswith(".mhd"):
             path = os.path.dirname(os.path.abspath(path))
@@ -197,7 +199,10 @@ def _bytes(path: str) -> int:
 
 
 def _run(arguments: Sequence[str], path: str, seconds: float) -> int:
-    """Run the child process and return its exit code, negative for a signal. Raise VolumeError after the time limit."""
+    """Run ``itk_child.py`` and return its exit code, which is negative if a signal ended the process.
+
+    Raise VolumeError after the time limit.
+    """
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS": "1"}
     command = [sys.executable, "-P", "-W", "ignore", _CHILD, *arguments]
     try:
@@ -215,14 +220,6 @@ def _run(arguments: Sequence[str], path: str, seconds: float) -> int:
     except OSError as error:
         raise VolumeError(f"{path}: a process for SimpleITK cannot be started: {reason(error)}") from None
     return process.returncode
-
-
-def _facts(path: Path) -> dict[str, Any] | None:
-    try:
-        facts: dict[str, Any] = json.loads(path.read_text(encoding="ascii"))
-    except (OSError, ValueError):
-        return None
-    return facts
 
 
 def _ended(code: int) -> str:
@@ -250,5 +247,5 @@ def _world(facts: dict[str, Any], path: str) -> World | None:
 
 
 def _plain(message: str) -> str:
-    """Return a message of the library SimpleITK as one line, without control characters."""
+    """Return a message of SimpleITK as one line, without control characters."""
     return " ".join("".join(c if c.isprintable() else " " for c in message).split())

@@ -1,8 +1,8 @@
-"""The separate process in which SimpleITK reads a file.  It imports nothing of the project and prints nothing.
+"""The separate process in which SimpleITK reads a file. It imports nothing of the project and prints nothing.
 
-The arguments are the format, the path, a folder for the result, the largest number of voxels and a series identifier.
-The result is ``array.npy``, in which x varies fastest, and ``facts.json``. The latter has spacing, origin and direction
-as text and the names of the files of a series, or an ``error``.
+The arguments are the format, the path, a folder for the result, the largest number of voxels, and the identifier of a
+DICOM series or "". The result is two files: ``array.npy``, in which x varies fastest, and ``facts.json``, which has
+spacing, origin and direction as text, notes for the user and the names of the files of a series, or an error message.
 """
 
 import contextlib
@@ -43,9 +43,9 @@ def main(arguments: Sequence[str]) -> None:
 
 
 def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str, Any]:
-    """Read an image file, write its voxels to ``target`` as a numpy array, and return the other facts.
+    """Read an image file, write its voxels to ``target`` as an NPY file, and return the contents of ``facts.json``.
 
-    Raise Refused if the image is not a volume, or the library's own errors.
+    Raise Refused if the image is not a volume. Errors of SimpleITK are not caught.
     """
     import numpy as np
 
@@ -78,7 +78,7 @@ def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str
         array, width = array[..., 0], 3
         direction = [direction[4 * row + column] for row in range(3) for column in range(3)]
     if array.ndim not in (2, 3):
-        raise Refused(f"expected two or three axes, found {array.ndim}, {' x '.join(map(str, size))}")
+        raise Refused(f"expected two or three axes, found {array.ndim} axes, {' x '.join(map(str, size))}")
     np.save(target, array, allow_pickle=False)
     placed = kind != "TIFF"
     if kind == "TIFF" and any(length != 1 for length in spacing[:2]):
@@ -104,13 +104,13 @@ def _check(size: Sequence[int], numbers: int, most: int) -> None:
     if numbers != 1:
         raise Refused(f"expected one number for each voxel, found {numbers}")
     if len(size) > 4 or (len(size) == 4 and size[3] != 1):
-        raise Refused(f"expected two or three axes, found {len(size)}, {sides}")
+        raise Refused(f"expected two or three axes, found {len(size)} axes, {sides}")
 
 
 def _nifti(reader: Any, notes: list[str]) -> str:
-    """Return ``mm``, to which SimpleITK converts the unit of a NIfTI file, or "" if the file states no unit.
+    """Return "mm" if a NIfTI file states a unit of length, because SimpleITK converts it to millimetres, otherwise "".
 
-    Add a note if the file states no orientation.
+    Add to ``notes`` if the file states no orientation.
     """
     metadata = {key: reader.GetMetaData(key) for key in reader.GetMetaDataKeys()}
     if metadata.get("qform_code") == "0" and metadata.get("sform_code") == "0":
@@ -159,12 +159,12 @@ def _floats(text: str) -> list[float]:
 
 
 def _message_of(error: Exception) -> str:
-    """Return the essential part of a library's error message, without locations in its source or in memory."""
+    """Return the essential part of SimpleITK's error message, without locations in its source or in memory."""
     message = " ".join(str(error).split())
     message = re.split(r"(?:itk::|sitk::|ITK )ERROR: ", message)[-1]
     message = re.sub(r"\b\w+\((?:0x)?[0-9a-fA-F]+\): ", "", message)
     message = re.sub(r"(?:/[^\s/]+)+/", "", message)
-    message = re.sub(r"\W*Reason: Success\W*$", "", message)  # The text that the system has for "no error".
+    message = re.sub(r"\W*Reason: Success\W*$", "", message)  # the operating system's text for "no error"
     return (message or type(error).__name__)[:_LONGEST_MESSAGE]
 
 

@@ -1,7 +1,7 @@
 """Exact measures of a voxel solid and of its hull: volumes, areas, solidity, convex deficiency.
 
-The hull's vertices have integer coordinates (of voxel centres or corners). Volumes are fractions. The area of a surface
-is a sum of square roots, computed to ``AREA_DIGITS`` significant digits. The area is exact if no root has more digits.
+The hull's vertices are voxel centres or corners with integer coordinates. Volumes are fractions. The area of a surface
+is a sum of square roots, rounded to ``AREA_DIGITS`` significant digits.
 """
 
 import math
@@ -22,7 +22,8 @@ Whole = tuple[int, int, int]
 class Measures:
     """The measures of a solid and its hull, in physical units, or in voxels if the position is unknown.
 
-    The volume and area of a flat hull are 0, but the area of a polygon is that of one side.
+    ``voxels`` is the number of the solid's voxels, and ``volume`` their volume. A flat hull has the volume 0. The area
+    of a polygon is that of one side; the area of a segment or a point is 0.
     """
 
     voxels: int
@@ -32,14 +33,17 @@ class Measures:
 
     @property
     def solidity(self) -> Fraction:
-        """The fraction of the hull of the voxels' corners that the solid fills. Raise VolumeError for a flat hull."""
+        """The fraction of the hull that the solid fills, if the hull is that of the voxels' corners.
+
+        Raise VolumeError for a flat hull.
+        """
         if not self.hull_volume:
             raise VolumeError("a flat hull has no volume, so its solidity is undefined")
         return self.volume / self.hull_volume
 
     @property
     def deficiency(self) -> Fraction:
-        """The volume of the hull that the solid does not fill, the convex deficiency (Yau and Srihari, section 1)."""
+        """The convex deficiency: the volume of the part of the hull that the solid does not fill."""
         return self.hull_volume - self.volume
 
 
@@ -48,9 +52,9 @@ def measures(
 ) -> Measures:
     """Return the measures of a solid with ``voxels`` voxels and of its hull.
 
-    ``points`` are the vertices of the hull, with integer coordinates. ``faces`` list indices of ``points`` in cyclic
-    order: all faces of a polyhedron, in the same orientation, the only face of a polygon, and none for other hulls.
-    ``world`` has three steps in a space with three axes.
+    ``points`` are the vertices of the hull. ``faces`` are cycles of indices of ``points``: all faces of a polyhedron in
+    the same orientation, or a polygon as its only face, or no faces for other hulls. ``world`` is the position of the
+    voxels, with three steps in a space with three axes.
     """
     polygons = [tuple(face) for face in faces]
     six = six_volumes(points, polygons) if len(polygons) > 1 else 0

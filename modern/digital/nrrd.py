@@ -1,10 +1,10 @@
 """Read and write NRRD files (Kindlmann, "Definition of NRRD File Format", teem.sourceforge.net/nrrd/format.html).
 
 The reader accepts arrays with two or three axes of the standard number types, encoded raw or gzip, with the data after
-the header or in one file that a detached header names (``data file: NAME``). The first axis is the fastest, so the
+the header or in one file that a detached header names (``data file: NAME``). The first axis varies fastest, so the
 array is indexed [x, y, z]. The position (``spacings`` or ``space directions``, ``space origin``, ``space`` and units)
-is kept as the exact value of its decimal text. ``space origin`` is the centre of the first voxel. The writer stores
-truth values as compressed uint8 with the position.
+has the exact values of its decimal text. ``space origin`` is the centre of the first voxel. The writer stores truth
+values as compressed uint8 together with the position.
 """
 
 import gzip
@@ -60,9 +60,9 @@ _MOST_AXES = 3
 def parse_nrrd(data: bytes, source: str) -> Scan:
     """Return the array of an NRRD file, indexed [x, y] or [x, y, z], and its position.
 
-    ``source`` is the name in messages, and the data file of a detached header is relative to it. Raise VolumeError,
-    with the header's line, for a field that is missing, unknown or not a number, and for data that are too short, too
-    long or damaged. Raise FileError if the data file cannot be read.
+    ``source`` is the path of the file, used in messages and to find the data file of a detached header. Raise
+    VolumeError for an invalid or missing field, and for data that are too short, too long or damaged. Raise FileError
+    if the data file cannot be read.
     """
     head, body = _split(data)
     fields = _fields(head, source)
@@ -102,9 +102,9 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
 
 
 def write_nrrd(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
-    """Write an array of truth values, with the position of a volume, as an NRRD file.
+    """Write an array of truth values with the position of a volume as an NRRD file.
 
-    Raise VolumeError if a number of the position has no finite decimal.
+    Raise VolumeError if a number of the position has no finite decimal expansion.
     """
     world = volume.world
     if world is None and any(volume.origin):
@@ -135,7 +135,10 @@ def _split(data: bytes) -> tuple[bytes, bytes]:
 
 
 def _fields(head: bytes, source: str) -> dict[str, tuple[int, str]]:
-    """Return the fields of a header by name in lower case, with their lines, but no comments and key/value pairs."""
+    """Return the fields of a header, without comments and key/value pairs.
+
+    The keys are the names in lower case, the values pairs of the line number and the text.
+    """
     fields: dict[str, tuple[int, str]] = {}
     for line, raw in enumerate(head.decode("latin-1").splitlines(), 1):
         if line == 1 or raw.startswith("#") or not raw.strip():
@@ -190,7 +193,7 @@ def _read_data_file(source: str, line: int, name: str) -> bytes:
 
 
 def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -> tuple[World | None, tuple[str, ...]]:
-    """Return the position of the voxels, or None if the header does not state it, and notes on ignored fields."""
+    """Return the position of the voxels, or None if the header states none that can be used, and notes for the user."""
     notes = [
         f"{source}: line {fields[name][0]}: {name} is ignored; space origin states the position"
         for name in _IGNORED
@@ -222,7 +225,10 @@ def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -
 def _steps(
     fields: Mapping[str, tuple[int, str]], dimension: int, source: str
 ) -> tuple[int, tuple[Position, ...] | None]:
-    """Return the line of the header that states the vectors between voxels (0 if none), and the vectors, or None."""
+    """Return the number of the header's line that states the steps between voxels, and the steps.
+
+    The line number is 0 if there is no such line. The steps are None if an axis of the array is not spatial.
+    """
     if "space directions" not in fields:
         if "spacings" not in fields:
             return 0, None
@@ -258,7 +264,7 @@ def _origin(fields: Mapping[str, tuple[int, str]], width: int, source: str) -> P
 
 
 def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | None]:
-    """Read ``count`` vectors of equal length, such as ``(1,0,0)``.  The word ``none`` gives None."""
+    """Read ``count`` vectors of equal length, such as ``(1,0,0)``. The word ``none`` becomes None."""
     matches = list(_VECTOR.finditer(text))
     if len(matches) != count or _VECTOR.sub("", text).strip():
         raise VolumeError(f"{what}: expected {count} vectors such as (1,0,0), found {quoted(text)}")
@@ -268,7 +274,7 @@ def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | N
 
 
 def _lengths(texts: Sequence[str], count: int, what: str) -> list[Fraction | None]:
-    """Read ``count`` numbers of a header; a nan becomes None."""
+    """Read ``count`` numbers of a header. The word ``nan`` becomes None."""
     if len(texts) != count:
         raise VolumeError(f"{what}: expected {count} numbers, found {len(texts)}")
     try:

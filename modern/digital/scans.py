@@ -1,6 +1,8 @@
-"""Arrays of values from a file, and the selection of voxels: all but 0, from a threshold on, or by label.
+"""Arrays of values from a file, and the selection of voxels: all values except 0, or those above a threshold, or
+labels.
 
-Nothing is rounded. A threshold is a decimal, and the exact value of a binary floating-point number is compared with it.
+Nothing is rounded: a threshold is a decimal, which is compared with the exact value of each binary floating-point
+number.
 """
 
 from collections.abc import Iterator, Sequence
@@ -40,7 +42,7 @@ class Scan:
         if array.dtype.kind not in "biuf" or array.ndim not in (2, 3):
             raise VolumeError(
                 f"{self.source}: expected numbers or truth values with two or three axes, found an array of "
-                f"{array.dtype} with {array.ndim}"
+                f"{array.dtype} with {array.ndim} axes"
             )
         if array.dtype.kind == "f" and any(np.isnan(part).any() for part in _parts(array)):
             raise VolumeError(f"{self.source}: a value is not a number (nan), so its voxel cannot be classified")
@@ -50,7 +52,7 @@ class Scan:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The user's selection of voxels by value: at least ``threshold``, or one of ``labels``; else all except 0."""
+    """The user's selection of voxels by value: at least ``threshold``, or one of ``labels``, or all values except 0."""
 
     threshold: Fraction | None = None
     labels: tuple[int, ...] = ()
@@ -60,9 +62,8 @@ class Choice:
 class Chosen:
     """The voxels selected from a scan, and facts about the scan.
 
-    ``lowest`` and ``highest`` are the least and greatest of all values. ``present`` has all labels of the scan, its
-    integer values except 0, if labels were selected. ``truth`` is True if the scan holds truth values, which need no
-    selection.
+    ``lowest`` and ``highest`` are the least and greatest of all values, or None for an infinity. ``present`` has all
+    labels of the scan if labels were selected. ``truth`` is True if the scan holds truth values.
     """
 
     volume: Volume
@@ -76,8 +77,8 @@ class Chosen:
 def chosen(scan: Scan, choice: Choice | None = None) -> Chosen:
     """Return the voxels of a scan whose values the user has selected.
 
-    Raise VolumeError if both a threshold and labels are given and for a label without voxels, NoVoxels if no voxel is
-    selected.
+    Raise VolumeError if both a threshold and labels are given. Raise NoVoxels if no voxel is selected or a label has no
+    voxels.
     """
     choice = choice or Choice()
     if choice.threshold is not None and choice.labels:
@@ -105,12 +106,12 @@ def chosen(scan: Scan, choice: Choice | None = None) -> Chosen:
 
 
 def labels_of(scan: Scan) -> tuple[int, ...]:
-    """Return the labels of a scan: its integer values except 0, in order.  Other values are not labels."""
+    """Return the labels of a scan, which are its integer values except 0, in increasing order."""
     return tuple(sorted({label for part in _parts(scan.values) for label in _labels(part)}))
 
 
 def label_notes(scan: Scan) -> tuple[str, ...]:
-    """Return a note that counts the voxels whose values are not integers and therefore no labels."""
+    """Return a note with the number of voxels whose values are no labels because they are not integers, if any."""
     if scan.values.dtype.kind != "f":
         return ()
     count, distinct = 0, np.empty(0, scan.values.dtype)
@@ -195,7 +196,7 @@ def _at_least(values: NDArray[Any], threshold: Fraction) -> NDArray[np.bool_]:
 
 
 def _least(kind: Any, threshold: Fraction) -> Any:
-    """Return the least number of a binary floating-point type that is not below the threshold."""
+    """Return the least number of the floating-point type ``kind`` that is not below the threshold."""
     text = finite_decimal(threshold)
     try:
         near = kind(float(threshold) if text is None else text)
@@ -229,7 +230,7 @@ def _text(number: Fraction | None) -> str:
 
 
 def listed_labels(labels: Sequence[int]) -> str:
-    """Return labels as text, such as ``1, 2, 3, 7``; of many labels only the first ones, the last and their number."""
+    """Return labels as text, such as ``1, 2, 3, 7``. Of more than 12 labels, list the first four and the last."""
     if len(labels) <= 12:
         return ", ".join(map(str, labels))
     return f"{', '.join(map(str, labels[:4]))}, ... {labels[-1]} ({len(labels)} labels)"

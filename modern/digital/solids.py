@@ -1,7 +1,7 @@
 """Voxel solids: the class Volume, volumes from arrays and from lists of coordinates, digital balls and half-balls.
 
 A voxel is identified by its integer coordinates (x, y, z). Its centre is that point, and as a cube it extends half a
-unit in each direction. The pixels of a plane picture are voxels with two coordinates.
+unit in each direction. The pixels of a picture are voxels with two coordinates.
 """
 
 import math
@@ -30,10 +30,10 @@ class Volume:
     """A finite set of voxels in a box.
 
     ``array`` holds truth values of shape (nx, ny) or (nx, ny, nz), indexed [x, y, z], in any memory order. ``origin``
-    is the coordinates of the voxel at index 0, 0, 0, so array[i, j, k] is voxel origin + (i, j, k). ``source`` is the
-    name in messages, and ``notes`` has one line for each remark of the reader. ``world`` is the position of the voxels
-    by their coordinates, or None if it is unknown. Raise VolumeError for an array of another type or dimension, and
-    for a world with another number of axes.
+    has the coordinates of the voxel at index 0, 0, 0, so array[i, j, k] is the voxel origin + (i, j, k). ``source`` is
+    the name in messages, and ``notes`` are notes of the reader for the user, one line each. ``world`` maps the
+    coordinates of voxels to physical coordinates, or is None if their position is unknown. Raise VolumeError for an
+    array of another type or dimension, and for an origin or a world with another number of axes.
     """
 
     array: Voxels
@@ -46,7 +46,7 @@ class Volume:
         if self.array.dtype != np.bool_ or self.array.ndim not in (2, 3):
             raise VolumeError(
                 f"{self.source}: expected an array of truth values with two or three dimensions, "
-                f"found {self.array.dtype} with {self.array.ndim}"
+                f"found {self.array.dtype} with {self.array.ndim} dimensions"
             )
         if len(self.origin) != self.array.ndim:
             raise VolumeError(
@@ -81,10 +81,10 @@ def as_volume(volume: Volume | Voxels) -> Volume:
 
 
 def listed(coordinates: Sequence[Sequence[int]] | NDArray[np.integer[Any]], source: str = "volume") -> Volume:
-    """Return the volume of the voxels with these integer coordinates, given in any order; shape (n, 2) or (n, 3).
+    """Return the volume of the voxels with these integer coordinates, of shape (n, 2) or (n, 3), in any order.
 
-    Repeated voxels count once and are reported in a note. Raise VolumeError for coordinates of another shape or type
-    or with more than ``DIGITS`` digits, and for voxels in a box of more than ``MAX_CELLS``. Raise NoVoxels for an
+    Repeated voxels count once, and a note reports them. Raise VolumeError for coordinates of another shape or type or
+    with more than ``DIGITS`` digits, and if the bounding box has more than ``MAX_CELLS`` voxels. Raise NoVoxels for an
     empty list.
     """
     rows = np.asarray(coordinates)
@@ -111,21 +111,21 @@ def listed(coordinates: Sequence[Sequence[int]] | NDArray[np.integer[Any]], sour
 
 
 def ball(diameter: int, centre: str = VOXEL) -> Volume:
-    """Return the digital ball of an integer diameter: the voxels whose centres lie in it or on its surface.
+    """Return the digital ball of an integer diameter: the voxels whose centres lie in a ball or on its surface.
 
-    With ``centre`` ``voxel`` the ball's centre is that of voxel (0, 0, 0), as in Kovalevsky and Schulz's ball of
-    diameter 32 with 17077 voxels. With ``vertex`` it is the corner (1/2, 1/2, 1/2) of voxels (0, 0, 0) and (1, 1, 1),
-    as in the half-balls of their Table 5. Raise VolumeError for another centre, or a diameter that is too small or too
-    large.
+    If ``centre`` is ``voxel``, the centre of the ball is that of voxel (0, 0, 0), as in Kovalevsky and Schulz's ball of
+    diameter 32 with 17077 voxels. If it is ``vertex``, the centre is (1/2, 1/2, 1/2), the common corner of voxels
+    (0, 0, 0) and (1, 1, 1), as in the half-balls of their Table 5. Raise VolumeError for another value of ``centre``,
+    or a diameter that is too small or too large.
     """
     return _ball(f"ball:{diameter}:{centre}", diameter, centre, half=False)
 
 
 def half_ball(diameter: int, centre: str = VERTEX) -> Volume:
-    """Return the half of ``ball(diameter, centre)`` at or above its centre in z.
+    """Return the voxels of ``ball(diameter, centre)`` whose centres are not below the centre of the ball in z.
 
-    With the centre at a vertex these are the layers z = 1, 2, ... and exactly half of the voxels (Kovalevsky and
-    Schulz, Table 5). With the centre at a voxel the layer z = 0 belongs to it entirely. Raise VolumeError as ``ball``
+    If ``centre`` is ``vertex``, these are exactly half of the voxels, in the layers z = 1, 2, ... (Kovalevsky and
+    Schulz, Table 5). If it is ``voxel``, the whole layer z = 0 belongs to the half-ball. Raise VolumeError as ``ball``
     does.
     """
     return _ball(f"half-ball:{diameter}:{centre}", diameter, centre, half=True)
@@ -143,7 +143,8 @@ def _ball(name: str, diameter: int, centre: str, half: bool) -> Volume:
         raise VolumeError(f"{name}: expected a positive integer as the diameter")
     if (diameter + 1) ** 3 > MAX_CELLS:
         raise VolumeError(f"{name}: expected a diameter of at most {_widest()}, for a box of {MAX_CELLS} voxels")
-    # Along each axis, twice the distance from the centre is an integer: even if the centre is a voxel, otherwise odd.
+    # Along each axis, twice the distance of a voxel from the ball's centre is an integer, even for the centre ``voxel``
+    # and odd for ``vertex``.
     shift = 0 if centre == VOXEL else 1
     first = -((diameter - shift) // 2)
     twice = 2 * np.arange(first, (diameter + shift) // 2 + 1, dtype=np.int64) - shift

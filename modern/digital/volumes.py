@@ -1,8 +1,8 @@
 """Read volumes from files, create digital balls by name, and write arrays.
 
-NPY, NPZ, NRRD, raw data and lists of coordinates are read here. SimpleITK (the extra ``volumes``) reads NIfTI,
-MetaImage, TIFF and DICOM, see :mod:`modern.digital.itk`. The coordinates of an array's voxels are its indices from 0,
-in the order x, y, z. A list of coordinates keeps its coordinates.
+This module reads NPY, NPZ, NRRD, raw data and lists of coordinates. SimpleITK (the extra ``volumes``) reads NIfTI,
+MetaImage, TIFF and DICOM, see :mod:`modern.digital.itk`. In an array, the coordinates of a voxel are its indices from
+0, in the order x, y, z.
 """
 
 import os
@@ -27,7 +27,7 @@ from modern.formats.csv import rows
 from modern.formats.meshes import surface_kind
 from modern.geometry.numbers import real
 
-# The file name extensions for a filled hull.
+# The file name extensions of arrays that can be written.
 ARRAYS = (".npy", ".nrrd")
 _BALL = re.compile(r"(half-)?ball:([0-9]{1,9})(?::(voxel|vertex))?", re.ASCII)
 _INTEGER = re.compile(r"[+-]?[0-9]+", re.ASCII)
@@ -37,11 +37,10 @@ _PAIR = (".hdr", ".img", ".hdr.gz", ".img.gz")
 
 @dataclass(frozen=True, slots=True)
 class Stated:
-    """Facts about a file that the user states on the command line because the file does not contain them.
+    """Facts about a file that the user states because the file does not contain them; the parameters of
+    ``read_volume``.
 
-    ``shape`` and ``dtype`` describe raw data, x fastest (``uint8`` if only the shape is given). ``array`` selects one
-    of several arrays (NPZ) and ``series`` one of several DICOM series. ``spacing`` and ``origin`` have one number for
-    each axis, for files without a position; see ``world_of``.
+    If only the shape of raw data is given, their type is ``uint8``.
     """
 
     shape: Sequence[int] | None = None
@@ -64,18 +63,20 @@ def read_volume(
     array: str | None = None,
     series: str | None = None,
 ) -> Volume:
-    """Read the voxels of a file (``-`` for standard input), a folder with a DICOM series, or a ball: ``ball:32``.
+    """Return the voxels of a file (``-`` for standard input), of a folder with a DICOM series, or of a ball.
+
+    ``ball:32`` is the name of a ball of diameter 32.
 
     Parameters
     ----------
     shape, dtype
-        The shape and type of a file of raw data, x fastest.
+        The shape and type of a file of raw data, in which x varies fastest.
     threshold
-        Values of at least this number are voxels.
+        The least value of a voxel that belongs to the solid.
     labels
-        Values that are voxels. Without threshold and labels all values except 0 are voxels.
+        The values of voxels that belong to the solid. Without threshold and labels all values except 0 do.
     spacing, origin
-        The position of voxels, for a file that does not state it.
+        The position of voxels, for a file that does not state it: one number for each axis, as in ``world_of``.
     array
         The name of one of several arrays in an NPZ file.
     series
@@ -84,9 +85,9 @@ def read_volume(
     Raises
     ------
     FileError
-        If the file cannot be read.
+        The file cannot be read.
     VolumeError
-        If the volume is invalid.
+        The volume is invalid.
     """
     expect(path, (str, os.PathLike), "path")
     stated = Stated(None if shape is None else tuple(shape), dtype, array, series, spacing, origin)
@@ -98,7 +99,7 @@ def read_volume(
 
 
 def read_scan(path: str, stated: Stated | None = None) -> Scan:
-    """Read the values of a file, a folder or a ball, without selecting voxels yet; see ``read_volume``."""
+    """Return the values in a file, a folder or a ball, from which voxels can be selected; see ``read_volume``."""
     stated = stated or Stated()
     ball_name = _BALL.fullmatch(path)
     if ball_name:
@@ -119,26 +120,17 @@ def read_scan(path: str, stated: Stated | None = None) -> Scan:
     return _with_position(_parsed(read_bytes(path, limit=VOLUME_LIMIT), source_name(path), stated), stated)
 
 
-def parse_volume(data: bytes, source: str, shape: Sequence[int] | None = None, dtype: str | None = None) -> Volume:
-    """Return the voxels in the bytes of a file. Every value other than 0 is a voxel; see ``read_volume``."""
-    return chosen(_parsed(data, source, Stated(shape, dtype))).volume
-
-
-def write_npy(path: str, array: NDArray[Any]) -> None:
-    """Write an array as NPY (``-`` for standard output), atomically. Raise FileError on failure."""
-    with writing_bytes(path) as file:
-        np.save(file, array, allow_pickle=False)
-
-
 def write_array(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
-    """Write truth values as NRRD, which stores the volume's position, or as NPY, which does not.
+    """Write truth values as NRRD, which stores the position of ``volume``, or as NPY, which does not.
 
-    Raise FileError, and VolumeError for another file name extension and as ``write_nrrd`` does.
+    Raise FileError if the file cannot be written. Raise VolumeError for another file name extension, or as
+    ``write_nrrd`` does.
     """
     if path.lower().endswith(".nrrd"):
         write_nrrd(path, array, volume)
     elif path.lower().endswith(".npy"):
-        write_npy(path, array)
+        with writing_bytes(path) as file:
+            np.save(file, array, allow_pickle=False)
     else:
         raise VolumeError(f"{path}: the name must end with {' or '.join(ARRAYS)}")
 
@@ -188,7 +180,7 @@ def _scan(volume: Volume) -> Scan:
 
 
 def _with_position(scan: Scan, stated: Stated) -> Scan:
-    """Return the scan at the position that the user states.  Raise VolumeError if the file states a position too."""
+    """Return a scan at the position that the user states. Raise VolumeError if the file states a position too."""
     if stated.spacing is None and stated.origin is None:
         return scan
     if scan.world is not None:
@@ -205,7 +197,7 @@ def _with_position(scan: Scan, stated: Stated) -> Scan:
 
 
 def _listed(text: str, source: str) -> Volume:
-    """Return the voxels of a list with a line ``x,y,z`` (or ``x,y``) for each."""
+    """Return the voxels of a text that has a line ``x,y,z`` or ``x,y`` for each voxel."""
     voxels: list[tuple[int, ...]] = []
     for line, row in rows(text, source):
         if len(row) not in (2, 3) or (voxels and len(row) != len(voxels[0])):

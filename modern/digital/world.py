@@ -1,9 +1,9 @@
 """The position of voxels: the exact affine map from a voxel's integer coordinates to physical coordinates.
 
-A position is that of a voxel's centre. The centre of voxel (0, 0, 0) is the origin, and the next voxel along an axis of
-the array is one step of that axis away. As a solid, a voxel extends half a step from its centre in each direction.
-Spacing, origin and directions are read as decimal text and stay exact. Therefore a hull in physical coordinates is the
-exact image of the hull of indices.
+The position of a voxel is that of its centre. The centre of voxel (0, 0, 0) is the origin, and the centres of
+neighbouring voxels along an axis of the array differ by the step of that axis, a vector. As a solid, a voxel extends
+half a step from its centre in each direction. Spacing, origin and directions are read exactly, as decimals. Therefore a
+hull in physical coordinates is the exact image of the hull of indices.
 """
 
 from collections.abc import Sequence
@@ -37,10 +37,10 @@ class NoVoxels(VolumeError, PointsError):
 class World:
     """The position of a volume in physical coordinates.
 
-    ``steps`` has for each axis of the array the vector from a voxel's centre to the next. ``origin`` is the centre of
-    voxel (0, 0, 0). ``space`` is the meaning of the physical axes, ``left-posterior-superior`` or any name from the
-    file. ``unit`` is the unit of lengths, such as ``mm``. Both are empty if unknown. Raise VolumeError for steps of
-    different lengths, and for steps that are linearly dependent.
+    ``steps`` has for each axis of the array the vector from the centre of a voxel to the centre of the next voxel.
+    ``origin`` is the centre of voxel (0, 0, 0). ``space`` names the directions of the physical axes, such as
+    ``left-posterior-superior``, and ``unit`` the unit of lengths, such as ``mm``; both are empty if unknown. Raise
+    VolumeError if steps and origin have different numbers of coordinates or if the steps are linearly dependent.
     """
 
     steps: tuple[Position, ...]
@@ -56,7 +56,10 @@ class World:
             raise VolumeError("the spacing of an axis is 0, or the directions of the axes are linearly dependent")
 
     def place(self, voxel: Sequence[Exact]) -> Position:
-        """Return the physical coordinates of a voxel's centre (integer indices) or of a corner (half-integers)."""
+        """Return the physical coordinates of the point with these voxel coordinates.
+
+        Integers denote the centre of a voxel, and half-integers a corner.
+        """
         return tuple(
             sum((step[k] * number for step, number in zip(self.steps, voxel, strict=True)), start)
             for k, start in enumerate(self.origin)
@@ -68,11 +71,11 @@ class World:
         return len(self.steps) == len(self.origin) == 3 and determinant(self.steps) < 0
 
     def moved(self, voxel: Sequence[int]) -> "World":
-        """Return the same position for voxel coordinates that are counted from ``voxel``."""
+        """Return the same position for other voxel coordinates, in which ``voxel`` is (0, 0, 0)."""
         return replace(self, origin=self.place(voxel))
 
     def turned(self, space: str) -> "World":
-        """Return the same position with the axes of another anatomical space, such as ``right-anterior-superior``.
+        """Return the same position in another anatomical space, such as ``right-anterior-superior``.
 
         Raise VolumeError if either space is not anatomical.
         """
@@ -86,11 +89,11 @@ class World:
         return replace(self, steps=steps, origin=tuple(map(_product, signs, self.origin)), space=space)
 
     def spacings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the length of each step as decimal text, and True if it is exact; otherwise it has six digits."""
+        """Return the length of each step as decimal text, and True if it is exact; other lengths have six digits."""
         return tuple(_length(step) for step in self.steps)
 
     def bearings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the anatomical direction of each axis, such as ``left``, and True if the axis points exactly there.
+        """Return the anatomical direction of each axis of the array, such as ``left``, and True if it is exact.
 
         The result is empty if the space is not anatomical.
         """
@@ -114,10 +117,10 @@ def world_of(
 ) -> World | None:
     """Return the position of the voxels of an array from the given numbers, or None if no argument is given.
 
-    ``spacing`` is a length for each axis (default 1), ``origin`` the position of the first voxel's centre (default 0),
-    and ``directions`` a vector for each axis, which is multiplied by its spacing (default along x, y, z). Numbers may
-    have any real type and are read exactly. Raise VolumeError for a wrong count or kind of numbers, and as ``World``
-    does.
+    ``spacing`` has a length for each axis (default 1), ``origin`` is the centre of the first voxel (default 0), and
+    ``directions`` has a vector for each axis, which is multiplied by the spacing (default: along x, y and z). Numbers
+    may have any real type and are read exactly. Raise VolumeError for a wrong count or type of numbers, and as
+    ``World`` does.
     """
     if spacing is None and origin is None and directions is None:
         return None
@@ -136,7 +139,7 @@ def world_of(
 
 
 def voxel_volume(world: World | None) -> Fraction:
-    """Return the exact volume of a voxel (in a plane its area), or 1 if the position is unknown.
+    """Return the exact volume of a voxel, or the area of a pixel, or 1 if the position is unknown.
 
     Raise VolumeError for a picture in a space with three axes, because the area of its pixels is irrational.
     """
@@ -150,7 +153,10 @@ def voxel_volume(world: World | None) -> Fraction:
 
 
 def length_text(text: str) -> Fraction:
-    """Return the exact length in a file header.  Raise ValueError for more than 100 digits or a huge exponent."""
+    """Return the exact value of a number in a file header.
+
+    Raise ValueError for more than 100 digits or an exponent beyond 400.
+    """
     _, whole, fraction, exponent = split_decimal(text)
     if len(whole) + len(fraction) > _MOST_DIGITS or abs(exponent) > _MOST_EXPONENT:
         raise ValueError(f"{quoted(text)} has more than {_MOST_DIGITS} digits or an exponent beyond {_MOST_EXPONENT}")

@@ -1,7 +1,6 @@
-"""Check a DICOM file for damage (PS3.5 and PS3.10): every element to the end of the file, and the pixel data's
-length.
+"""Check every element of a DICOM file for damage, and the length of the pixel data (PS3.5 and PS3.10).
 
-SimpleITK silently omits a file from a series if it is truncated early. Pixel data in a compressed transfer syntax have
+SimpleITK silently omits a file that is truncated early from its series. Pixel data in a compressed transfer syntax have
 no checksum and are rejected.
 """
 
@@ -16,8 +15,8 @@ from modern.digital.solids import VolumeError
 
 # A DICOM file has these bytes, its signature, at this position.
 SIGNATURE = (128, b"DICM")
+# Types of values, first those with two reserved bytes and a four-byte length, then those with a two-byte length.
 _LONG = frozenset({b"OB", b"OD", b"OF", b"OL", b"OV", b"OW", b"SQ", b"SV", b"UC", b"UN", b"UR", b"UT", b"UV"})
-# Types of values: first those with two reserved bytes and a four-byte length, then those with a two-byte length.
 _SHORT = frozenset(
     {b"AE", b"AS", b"AT", b"CS", b"DA", b"DS", b"DT", b"FD", b"FL", b"IS", b"LO", b"LT", b"PN", b"SH", b"SL", b"SS"}
     | {b"ST", b"TM", b"UI", b"UL", b"US"}
@@ -123,24 +122,24 @@ class _Elements:
 
 
 def has_signature(path: str) -> bool:
-    """Return True if a file has the DICOM signature. Raise OSError if it cannot be read."""
+    """Return True if a file has the signature of DICOM. Raise OSError if the file cannot be read."""
     position, mark = SIGNATURE
     with open(path, "rb") as file:
         return file.read(position + len(mark))[position:] == mark
 
 
 def check_dicom(path: str) -> tuple[tuple[int, ...] | None, bytes]:
-    """Check a DICOM file.  Return its columns, rows and frames (None without pixel data), and the class of the
-    object.
+    """Check a DICOM file. Return the numbers of its columns, rows and frames, and the identifier of its object's class.
 
-    Raise VolumeError if an element is damaged or truncated, and Unverifiable if the pixel data are compressed.
+    The numbers are None if the file has no pixel data. Raise VolumeError if an element is damaged or truncated, and
+    Unverifiable if the pixel data are compressed.
     """
     with open(path, "rb") as file:
         elements = _Elements(file, path, os.fstat(file.fileno()).st_size)
         position, mark = SIGNATURE
         if file.read(position + len(mark))[position:] != mark:
             raise VolumeError(f"{path}: not a DICOM file: expected the bytes DICM at position {position}")
-        # The file meta information states its own length and is always explicit little endian.
+        # The file meta information begins with its length. Its types are explicit, its byte order is little endian.
         tag = elements.tag()
         if tag != (0x0002, 0x0000) or elements.length(tag) != (b"UL", 4):
             raise VolumeError(f"{path}: damaged: the length of the file meta information is missing")

@@ -1,8 +1,8 @@
-"""Check a MetaImage file (``.mha``, ``.mhd``): its header, and length and checksum of the data that the header
-names.
+"""Check the header of a MetaImage file (``.mha``, ``.mhd``), and the length and the checksum of its data.
 
-The data follow the header (``ElementDataFile = LOCAL``) or are in one file or in several: a ``LIST`` of names, one on
-each line, or a pattern ``NAME%03d.raw FIRST LAST STEP``. SimpleITK leaves memory uninitialised if a list is too short.
+The data follow the header (``ElementDataFile = LOCAL``), or the header names one or more files: one name, the word
+``LIST`` with one name on each following line, or a pattern ``NAME%03d.raw FIRST LAST STEP``. If a list is too short,
+SimpleITK returns uninitialised memory.
 """
 
 import math
@@ -29,7 +29,7 @@ _LONGEST_HEADER = 1 << 20
 
 
 def check_metaimage(path: str) -> tuple[tuple[int, ...], str]:
-    """Return the number of voxels along each axis, and a note if data are outside the header's folder, else "".
+    """Return the number of voxels along each axis, and a note, which is "" if all data are in the header's folder.
 
     Raise VolumeError if the header or the data are damaged.
     """
@@ -64,7 +64,7 @@ def check_metaimage(path: str) -> tuple[tuple[int, ...], str]:
 
 
 def _check_data(source: str, path: str, start: int, expected: int, fields: Mapping[str, str]) -> None:
-    """Check one file of data, which begin at byte ``start`` unless the header states their position."""
+    """Check one file of data. The data begin at byte ``start`` unless the header states their position."""
     skipped = _integer(fields, "HeaderSize", source, 0)
     is_packed = _flag(fields, "CompressedData", source)
     try:
@@ -92,7 +92,7 @@ def _check_data(source: str, path: str, start: int, expected: int, fields: Mappi
 
 
 def _fields(head: bytes, path: str) -> tuple[dict[str, str], int]:
-    """Return the fields of a MetaImage header, and the position after its last line, which names the data."""
+    """Return the fields of a MetaImage header, and the position after its last line, ``ElementDataFile``."""
     fields: dict[str, str] = {}
     position = 0
     for number, line in enumerate(head.splitlines(keepends=True), 1):
@@ -114,7 +114,7 @@ def _fields(head: bytes, path: str) -> tuple[dict[str, str], int]:
 
 
 def _listed(lines: bytes, name: str, sizes: tuple[int, ...], path: str) -> tuple[list[str], int]:
-    """Return the names of the data files that a header lists, and the number of axes that each file has."""
+    """Return the names of the data files that a header lists, and the number of axes of each file's array."""
     tokens = name.split()
     axes = int(tokens[1]) if len(tokens) == 2 and re.fullmatch("[1-9]", tokens[1], re.ASCII) else len(sizes) - 1
     if tokens[0] != "LIST" or len(tokens) > 2 or not 1 <= axes < len(sizes):

@@ -1,8 +1,8 @@
-"""Check a NIfTI-1 image file (nifti1.h): its header, the length of its data, and whether its positions agree.
+"""Check the header of a NIfTI-1 image file (nifti1.h), the length of its data, and the agreement of its positions.
 
 SimpleITK replaces invalid sizes, offsets and spacings. It also applies ``scl_inter`` if ``scl_slope`` is 0, although
-the standard says that values are then not scaled. Such headers are rejected. If ``qform`` and ``sform`` differ, or the
-spacing of ``sform`` differs from ``pixdim``, notes say which one is used.
+the standard says that values are then not scaled. Such headers are rejected. If the positions ``qform`` and ``sform``
+differ, or the spacing of ``sform`` differs from ``pixdim``, a note says which of them SimpleITK uses.
 """
 
 import math
@@ -20,18 +20,10 @@ from modern.digital.world import World
 
 _HEADER, _FIRST_DATA = 348, 352
 _NIFTI_2 = 540
-# The codes of types by the number of bits of a value, and the reverse.
-_TYPES = {
-    8: (2, 256),
-    16: (4, 512),
-    24: (128,),
-    32: (8, 16, 768, 2304),
-    64: (32, 64, 1024, 1280),
-    128: (1536, 1792),
-    256: (2048,),
-}
-_BITS = {code: bits for bits, codes in _TYPES.items() for code in codes}
-# The length in millimetres of other units of length, by their code.
+# The number of bits of a value by the code of its type.
+_BITS = {2: 8, 256: 8, 4: 16, 512: 16, 128: 24, 8: 32, 16: 32, 768: 32, 2304: 32}
+_BITS |= {32: 64, 64: 64, 1024: 64, 1280: 64, 1536: 128, 1792: 128, 2048: 256}
+# The number of millimetres in a metre and in a micrometre, by the code of the unit.
 _MILLIMETRES = {1: 1000.0, 3: 0.001}
 _WIDEST = 16 * MAX_CELLS
 _TO_LPS = np.diag([-1.0, -1.0, 1.0])
@@ -44,7 +36,11 @@ Affine = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class NiftiHeader:
-    """The contents of a NIfTI header: sizes, positions by name (qform, sform), and a note about scaled values or ""."""
+    """The contents of a NIfTI header.
+
+    ``sizes`` and ``spacing`` (in millimetres) have a number for each axis. ``forms`` has the positions of the voxels,
+    ``qform`` and ``sform``, if the header states them. ``scaling`` is a note if the values are scaled, otherwise "".
+    """
 
     sizes: tuple[int, ...]
     spacing: tuple[float, ...]
@@ -53,7 +49,7 @@ class NiftiHeader:
 
 
 def check_nifti(path: str) -> NiftiHeader:
-    """Check a NIfTI file and return its header.  Raise VolumeError if the header or the length of the data is wrong."""
+    """Check a NIfTI file and return its header. Raise VolumeError if the header or the length of the data is wrong."""
     with open(path, "rb") as file:
         head = file.read(_FIRST_DATA)
         available = os.fstat(file.fileno()).st_size
@@ -68,7 +64,7 @@ def check_nifti(path: str) -> NiftiHeader:
 
 
 def _parsed(head: bytes, path: str) -> tuple[NiftiHeader, int, int]:
-    """Read the header of a NIfTI file.  Return it, and the position and length of the data in bytes."""
+    """Return the header of a NIfTI file, and the position and the length of the data in bytes."""
     order = next((mark for mark in "<>" if head[:4] == struct.pack(f"{mark}i", _HEADER)), "")
     if any(head[:4] == struct.pack(f"{mark}i", _NIFTI_2) for mark in "<>"):
         raise VolumeError(f"{path}: NIfTI-2 is not supported; convert the file to NIfTI-1")
@@ -142,7 +138,10 @@ def _forms(
 
 
 def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
-    """Return notes for the user if the positions in the header disagree; the notes name the one that ``world`` uses."""
+    """Return notes for the user if the positions in the header disagree.
+
+    ``world`` is the position that SimpleITK returned. The notes name the position of the header that it agrees with.
+    """
     if world is None or len(world.steps) != 3:
         return []
     used = np.array([[float(number) for number in vector] for vector in (*world.steps, world.origin)]).T
@@ -161,9 +160,10 @@ def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
 
 
 def _distance(first: Affine, second: Affine, header: NiftiHeader, spacing: bool = True) -> float:
-    """Return the largest distance between two positions of a corner of the volume, or 0 if it is negligible.
+    """Return the largest distance between the places that two affine maps give to a corner of the volume.
 
-    If ``spacing`` is false, only directions and origins are compared: both positions are given the steps of ``pixdim``.
+    Return 0 if the distance is negligible. If ``spacing`` is False, compare only directions and origins: both maps are
+    changed to have the spacing of ``pixdim``.
     """
     sides = np.array([*header.sizes, 1, 1][:3], dtype=np.float64)
     corners = np.array([[x, y, z, 1] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * [*sides, 1]

@@ -1,4 +1,4 @@
-"""Check the length of data, and decompress data to verify their checksum without keeping them."""
+"""Check the length of data, and verify the checksum of compressed data without keeping the decompressed data."""
 
 import gzip
 import math
@@ -23,7 +23,7 @@ def check_length(source: str, expected: int, available: int) -> None:
 
 
 def check_sizes(source: str, sizes: Sequence[int]) -> None:
-    """Raise VolumeError if a size is not positive or the sizes have more than ``MAX_CELLS`` voxels."""
+    """Raise VolumeError if a size is not positive, or if an array of these sizes has more than ``MAX_CELLS`` voxels."""
     text = " x ".join(map(str, sizes))[:80]
     if not sizes or min(sizes) < 1:
         raise VolumeError(f"{source}: expected positive sizes, found {text or 'none'}")
@@ -40,7 +40,7 @@ def outside_note(header: str, name: str) -> str:
 
 
 def chunks_of(file: BinaryIO, count: int) -> Iterator[bytes]:
-    """Yield, in pieces, the next ``count`` bytes of a file, or fewer if the file ends before."""
+    """Yield the next ``count`` bytes of a file in pieces, or fewer bytes if the file ends before."""
     while count > 0 and (chunk := file.read(min(CHUNK, count))):
         count -= len(chunk)
         yield chunk
@@ -49,7 +49,8 @@ def chunks_of(file: BinaryIO, count: int) -> Iterator[bytes]:
 def check_compressed(source: str, file: BinaryIO, stored: int, expected: int) -> None:
     """Check that the next ``stored`` bytes of a file are one undamaged zlib or gzip stream.
 
-    Raise VolumeError if they are damaged, have data after the stream, or do not decompress to ``expected`` bytes.
+    Raise VolumeError if the stream is damaged, if other data follow it, or if it does not decompress to ``expected``
+    bytes.
     """
     decompressor = zlib.decompressobj(_ZLIB_OR_GZIP)
     size, remaining = 0, stored
@@ -77,10 +78,10 @@ def check_compressed(source: str, file: BinaryIO, stored: int, expected: int) ->
 
 
 def read_gzip(source: str, stored: str | BinaryIO, most: int, keep: int) -> tuple[bytes, int]:
-    """Return the first ``keep`` decompressed bytes of a gzip stream, and its whole length, counted up to
-    ``most`` + 1.
+    """Return the first ``keep`` decompressed bytes of a gzip stream, and the number of all decompressed bytes.
 
-    Raise VolumeError if it is damaged. The checksum is verified unless there are more than ``most`` bytes.
+    The count stops at ``most`` + 1; up to ``most`` bytes, the checksum is verified. Raise VolumeError if the stream is
+    damaged.
     """
     try:
         with gzip.open(stored) as file:

@@ -1,7 +1,7 @@
-"""Check a TIFF file (TIFF 6.0, BigTIFF): its directories, and the length of each strip or tile.
+"""Check the directories of a TIFF file (TIFF 6.0, BigTIFF), and the length of each strip or tile of its images.
 
-SimpleITK stops at a missing directory and fills truncated strips, so it would read a damaged stack with fewer or empty
-slices. Strips and tiles must be uncompressed, or compressed with Deflate, which has a checksum.
+SimpleITK stops at a missing directory and fills truncated strips. Thus it would read a damaged stack with missing or
+empty slices. Strips and tiles must be uncompressed, or compressed with Deflate, which has a checksum.
 """
 
 import os
@@ -12,7 +12,8 @@ from typing import Any, BinaryIO
 from modern.digital.integrity.streams import check_compressed, check_sizes
 from modern.digital.solids import MAX_CELLS, VolumeError
 
-# The ``struct`` code of a value by the TIFF code of its type. The types of fractions are not needed.
+# The ``struct`` code of a value by the TIFF code of its type. The types of fractions are omitted, as no check needs
+# them.
 _FORMATS = {1: "B", 2: "B", 3: "H", 4: "I", 6: "b", 7: "B", 8: "h", 9: "i", 11: "f", 12: "d", 13: "I", 16: "Q", 17: "q"}
 _WIDTH, _HEIGHT, _BITS, _COMPRESSION, _DESCRIPTION, _SAMPLES, _ROWS, _PLANAR = 256, 257, 258, 259, 270, 277, 278, 284
 _STRIPS, _TILES = (273, 279), (324, 325)
@@ -27,7 +28,11 @@ Tags = Mapping[int, tuple[int, ...] | bytes]
 
 
 def check_tiff(path: str) -> tuple[int, ...]:
-    """Check a TIFF file.  Return its width, height and number of pages.  Raise VolumeError if pages differ."""
+    """Check a TIFF file. Return its width, height and number of pages.
+
+    Raise VolumeError if the file is damaged, is compressed without a checksum, or has pages of different sizes or
+    types.
+    """
     with open(path, "rb") as file:
         reader = _Reader(file, path)
         pages = reader.pages()
@@ -109,7 +114,7 @@ class _Reader:
         return tag, inline[:length] if kind in (2, 7) else struct.unpack(form, inline[:length])
 
     def check_page(self, page: Tags, source: str) -> None:
-        """Check that every piece (strip or tile) of a page's image is complete."""
+        """Raise VolumeError unless every strip or tile of a page's image is complete."""
         width, height = _one(page, _WIDTH, source), _one(page, _HEIGHT, source)
         samples = _one(page, _SAMPLES, source, 1)
         planes = samples if _one(page, _PLANAR, source, 1) == 2 else 1
@@ -148,7 +153,7 @@ class _Reader:
 
 
 def _one(page: Tags, tag: int, source: str, default: int = 0) -> int:
-    """Return the only value of a TIFF tag.  If the tag has a value for each colour sample, all must be equal."""
+    """Return the only value of a TIFF tag. If a tag has a value for each colour sample, all must be equal."""
     values = page.get(tag, (default,))
     if not values or isinstance(values, bytes) or len(set(values)) != 1 or not isinstance(values[0], int):
         raise VolumeError(f"{source}: damaged: tag {tag} has no valid value")
@@ -156,9 +161,9 @@ def _one(page: Tags, tag: int, source: str, default: int = 0) -> int:
 
 
 def _images(page: Tags) -> int:
-    """Return the number of images that ImageJ states in the description of a TIFF page, or 0.
+    """Return the number of images that a page's description by ImageJ states, or 0 without such a description.
 
-    ImageJ writes more than 4 GB of images as one page.
+    ImageJ writes a stack of more than 4 GB with a single page.
     """
     description = page.get(_DESCRIPTION, b"")
     if isinstance(description, bytes) and description.startswith(b"ImageJ="):

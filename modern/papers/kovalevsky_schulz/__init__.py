@@ -12,8 +12,16 @@ V. Kovalevsky and H. Schulz, "Convex Hulls in a 3-dimensional Space".
 
 from modern.papers.kovalevsky_schulz.cells import CellList, CellListError, Economical, expanded
 from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES, Of, local_corners
-from modern.papers.kovalevsky_schulz.hull import RASTER, SHUFFLED, Surface, VoxelHull, merged, straightened, voxel_hull
-from modern.papers.kovalevsky_schulz.outcome import hull_cells
+from modern.papers.kovalevsky_schulz.hull import (
+    RASTER,
+    SHUFFLED,
+    Surface,
+    VoxelHull,
+    hull_cells,
+    merged,
+    straightened,
+    voxel_hull,
+)
 from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, VISIBLE, Coplanar, Flat, convex_polyhedron
 from modern.papers.kovalevsky_schulz.reconstruction import reconstructed
 

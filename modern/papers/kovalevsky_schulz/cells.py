@@ -245,17 +245,12 @@ def _check_convex(points: Sequence[IntPoint], sizes: Numbers, vertex: Numbers, f
     kind = np.float64 if greatest < 2**53 else shifted.dtype
     planes = np.column_stack([normals, constants]).astype(kind)
     columns = np.array([*shifted.T, np.ones(len(points), np.int64)], dtype=kind)
-    width = min(len(points), _BLOCK)
-    height = max(1, _BLOCK // width)
-    for first_point in range(0, len(points), width):
-        block = np.ascontiguousarray(columns[:, first_point : first_point + width])
-        for first_plane in range(0, len(planes), height):
-            values = planes[first_plane : first_plane + height] @ block
-            if values.max() > 0:
-                plane, point = (int(number) + 1 for number in np.argwhere(values > 0)[0])
-                raise CellListError(
-                    f"face {first_plane + plane}: vertex {first_point + point} lies outside of its plane"
-                )
+    height = max(1, _BLOCK // len(points))
+    for first in range(0, len(planes), height):
+        values = planes[first : first + height] @ columns
+        if values.max() > 0:
+            plane, point = (int(number) + 1 for number in np.argwhere(values > 0)[0])
+            raise CellListError(f"face {first + plane}: vertex {point} lies outside of its plane")
     off_plane = np.flatnonzero((normals[face] * shifted[vertex - 1]).sum(axis=1) + constants[face])
     if off_plane.size:
         raise CellListError(f"face {face[off_plane[0]] + 1}: its vertices do not lie in one plane")

@@ -7,7 +7,7 @@ The test by 6 neighbours runs slab by slab over whole arrays. The other 10 pairs
 remain.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import product
 from typing import Final, Literal
 
@@ -24,6 +24,8 @@ VERTICES: Final = "vertices"
 NEIGHBOURS = (6, 26)
 
 Points = NDArray[np.int64]
+# Ten of the 26 neighbours of a grid point as steps to them: one of each pair of opposite ones, without the nearest six.
+_DIAGONAL_STEPS = [step for step in product((-1, 0, 1), repeat=3) if step > (0, 0, 0) and sum(map(abs, step)) > 1]
 # The approximate number of grid points tested at a time, which fit the processor's cache.
 _SLAB = 1 << 20
 
@@ -37,16 +39,15 @@ def places(volume: Volume, of: Of = VERTICES) -> Voxels:
 
     Raise VolumeError for a volume of two dimensions.
     """
-    if not _extra(volume, of):
-        return volume.array
-    nx, ny, nz = volume.array.shape
-    corners = np.zeros((nx + 1, ny + 1, nz + 1), dtype=np.bool_)
-    corners[:nx, :ny, :nz] = volume.array
-    # Spreading the voxels by one step along each axis in turn reaches all eight corners.
+    return _with_corners(np.pad(volume.array, (0, 1))) if _extra(volume, of) else volume.array
+
+
+def _with_corners(voxels: Voxels) -> Voxels:
+    """Mark the eight corners of each voxel, by spreading the voxels by one step along each axis in turn."""
     for axis in range(3):
-        view = np.moveaxis(corners, axis, 0)
+        view = np.moveaxis(voxels, axis, 0)
         view[1:] |= view[:-1].copy()
-    return corners
+    return voxels
 
 
 def _extra(volume: Volume, of: Of) -> int:
@@ -58,51 +59,42 @@ def _extra(volume: Volume, of: Of) -> int:
     return int(of == VERTICES)
 
 
-def corners_by_neighbours(volume: Volume, of: Of = VERTICES, numbers: Sequence[int] = NEIGHBOURS) -> dict[int, Points]:
+def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points]:
     """Return the local corners (points that can be vertices) by the number of neighbours of their test: 6 or 26."""
     extra = _extra(volume, of)
     # The slabs are cut across the axis with the largest stride, so that each is contiguous in memory.
     order = sorted(range(3), key=lambda axis: -abs(volume.array.strides[axis]))
     solid = volume.array.transpose(order)
-    corners: dict[int, list[NDArray[np.intp]]] = {neighbours: [] for neighbours in numbers}
+    corners: dict[int, list[NDArray[np.intp]]] = {neighbours: [] for neighbours in NEIGHBOURS}
     for first, slab in _slabs(solid, extra):
         flat = slab.ravel()
         strides = (slab.shape[1] * slab.shape[2], slab.shape[2], 1)
-        at = _by_six_neighbours(flat, strides)
-        for neighbours in numbers:
-            if neighbours != 6:
-                for step in _steps():
-                    if sum(map(abs, step)) > 1:
-                        # In the flat array two opposite neighbours are ``offset`` entries after and before the point.
-                        offset = sum(way * stride for way, stride in zip(step, strides, strict=True))
-                        at = at[~(flat[at + offset] & flat[at - offset])]
+        local = {6: _by_six_neighbours(flat, strides)}
+        local[26] = local[6]
+        for step in _DIAGONAL_STEPS:
+            # In the flat array two opposite neighbours are ``offset`` entries after and before the point.
+            offset = sum(way * stride for way, stride in zip(step, strides, strict=True))
+            local[26] = local[26][~(flat[local[26] + offset] & flat[local[26] - offset])]
+        for neighbours, at in local.items():
             indices = np.stack(np.unravel_index(at, slab.shape), axis=1)
             corners[neighbours].append(indices + np.array((first - 1, -1, -1)))
     return {neighbours: _in_raster_order(parts, order, volume.origin) for neighbours, parts in corners.items()}
 
 
 def _slabs(solid: Voxels, extra: int) -> Iterator[tuple[int, Voxels]]:
-    """Yield the grid points in slabs along the first axis, each with its first index and a margin of one point all
-    around.
+    """Yield the grid points in slabs along the first axis, each with the index of its first point.
 
-    Along the first axis the margin repeats the neighbouring slabs. Along the other axes it is empty.
+    A slab has a margin of one point all around. Along the first axis the margin repeats points of the neighbouring
+    slabs. Along the other axes it is empty.
     """
     nx, ny, nz = solid.shape
     height = max(1, _SLAB // ((ny + extra + 2) * (nz + extra + 2)))
     for first in range(0, nx + extra, height):
-        rows = min(height, nx + extra - first)
-        slab = np.zeros((rows + 2, ny + extra + 2, nz + extra + 2), dtype=np.bool_)
-        # Points first - 1 to first + rows come from voxels with the same index and, for corners, with one index less.
-        for shift in range(extra + 1):
-            low, high = max(0, first - 1 - shift), min(nx, first + rows + 1 - shift)
-            if low < high:
-                begin = low + shift - (first - 1)
-                slab[begin : begin + high - low, 1 : ny + 1, 1 : nz + 1] |= solid[low:high]
-        flat = slab.ravel()
-        for stride in (slab.shape[2], 1) if extra else ():
-            # The point before the first of a row or a layer belongs to the empty margin.
-            flat[stride:] |= flat[:-stride].copy()
-        yield first, slab
+        # A corner with index i belongs to voxels with the indices i - 1 and i.
+        begin, end = first - 1 - extra, first + height + 1
+        missing = max(0, -begin), max(0, min(end, nx + extra + 1) - nx)
+        slab = np.pad(solid[max(0, begin) : end], (missing, (1, 1 + extra), (1, 1 + extra)))
+        yield first, (_with_corners(slab) if extra else slab)[extra:]
 
 
 def _by_six_neighbours(flat: Voxels, strides: tuple[int, ...]) -> NDArray[np.intp]:
@@ -130,9 +122,4 @@ def local_corners(volume: Volume, of: Of = VERTICES, neighbours: int = 26) -> Po
     """
     if neighbours not in NEIGHBOURS:
         raise ValueError(f"expected 6 or 26 neighbours, found {neighbours}")
-    return corners_by_neighbours(volume, of, (neighbours,))[neighbours]
-
-
-def _steps() -> Iterator[tuple[int, ...]]:
-    """Yield 13 of the 26 neighbours of a grid point, one of each pair of opposite ones, as steps to them."""
-    return (step for step in product((-1, 0, 1), repeat=3) if step > (0, 0, 0))
+    return corners_by_neighbours(volume, of)[neighbours]

@@ -11,14 +11,15 @@ from typing import Final, Literal
 import numpy as np
 
 from emulator.errors import quoted
+from modern.digital.intervals import reduced
 from modern.digital.measures import Measures, measures
 from modern.digital.solids import NoVoxels, Volume, VolumeError, Voxels, as_volume
 from modern.digital.world import World, decimal_or_fraction
+from modern.exact_hull import exact_hull
 from modern.geometry.mesh import Mesh
 from modern.papers.kovalevsky_schulz.cells import CellList, Economical, IntPoint, Plane, expanded
 from modern.papers.kovalevsky_schulz.corners import NEIGHBOURS, VERTICES, Of, Points, corners_by_neighbours
-from modern.papers.kovalevsky_schulz.outcome import hull_cells
-from modern.papers.kovalevsky_schulz.polyhedron import VISIBLE, Coplanar, Flat, convex_polyhedron
+from modern.papers.kovalevsky_schulz.polyhedron import VISIBLE, Coplanar, Flat, convex_polyhedron, flat_hull
 
 # The order in which local corners are inserted.
 Order = Literal["raster", "shuffled"]
@@ -43,7 +44,13 @@ def merged(cells: CellList) -> CellList:
         if group_1 != group_2:
             successors[group_1][edge.start] = edge.end
             successors[group_2][edge.end] = edge.start
-    return _renumbered(cells, [_cycle(successor) for successor in successors])
+    cycles = []
+    for successor in successors:
+        cycle = [min(successor)]
+        while successor[cycle[-1]] != cycle[0]:
+            cycle.append(successor[cycle[-1]])
+        cycles.append(cycle)
+    return _renumbered(cells, cycles)
 
 
 def straightened(cells: CellList) -> CellList:
@@ -58,12 +65,31 @@ def straightened(cells: CellList) -> CellList:
     return _renumbered(cells, [[v for v in face.vertices if v not in removed] for face in cells.faces])
 
 
-def _cycle(successor: dict[int, int]) -> list[int]:
-    """Return a cycle of vertices from its lowest one; ``successor`` maps each vertex to the next."""
-    cycle = [min(successor)]
-    while successor[cycle[-1]] != cycle[0]:
-        cycle.append(successor[cycle[-1]])
-    return cycle
+def hull_cells(points: Points) -> CellList | Flat:
+    """Return the hull of distinct points, shape (n, 3), as a cell list, without inserting the points one by one.
+
+    The result is ``Flat`` if all points lie in one plane. The faces are those of the exact hull, sorted by their cycles
+    of vertices. Each cycle begins with its lowest number.
+
+    For points in raster order, the paper's procedure with coplanar faces visible finds the same vertices in the same
+    order and the same faces. Each inserted point is later in raster order than the points before, and a point in line
+    or in a plane with later points disappears, because all faces at it are visible. Only the numbers of the faces and
+    edges differ.
+    """
+    # Only the first and the last point of a column (the points with equal x and y) can be vertices of the hull.
+    x, y, z = points[np.lexsort(points.T[::-1])].T
+    first = np.concatenate(([True], (x[1:] != x[:-1]) | (y[1:] != y[:-1])))
+    last = np.concatenate((first[1:], [True]))
+    lower = np.stack(reduced(x[first], y[first], z[first]), axis=1)
+    upper = np.stack(reduced(x[last], y[last], -z[last]), axis=1) * (1, 1, -1)
+    candidates = np.unique(np.concatenate((lower, upper)), axis=0)
+    hull = exact_hull(candidates[np.lexsort(candidates.T)])
+    if hull.dimension < 3:
+        return flat_hull(hull)
+    # The vertices are numbered in raster order, as in the paper's procedure.
+    numbers = {index: number for number, index in enumerate(hull.vertices, 1)}
+    cycles = sorted(tuple(numbers[index] for index in facet.polygon) for facet in hull.facets)
+    return expanded(Economical(tuple(hull.scaled[index] for index in hull.vertices), tuple(cycles)))
 
 
 def _renumbered(cells: CellList, cycles: list[list[int]]) -> CellList:

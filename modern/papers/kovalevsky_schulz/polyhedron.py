@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from emulator.errors import quoted
-from modern.exact_hull import exact_hull
+from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
 
@@ -240,7 +240,7 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
         raise ValueError("there are no points")
     simplex = independent(distinct)
     if len(simplex) < 4:
-        return flat_hull(distinct)
+        return flat_hull(exact_hull(distinct))
     polyhedron = CurrentPolyhedron(distinct, simplex, coplanar)
     remaining = sorted(set(range(len(distinct))).difference(simplex))
     # Raster order (by z, then y, then x) allows the first of the two ways to find a visible face.
@@ -257,9 +257,8 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
     return polyhedron.cell_list()
 
 
-def flat_hull(points: Sequence[IntPoint]) -> Flat:
-    flat = exact_hull(points)
-    return Flat(flat.dimension, tuple(points[number] for number in flat.polygon or flat.vertices))
+def flat_hull(hull: ExactHull) -> Flat:
+    return Flat(hull.dimension, tuple(hull.scaled[index] for index in hull.polygon or hull.vertices))
 
 
 def independent(points: Sequence[IntPoint]) -> list[int]:

@@ -256,16 +256,14 @@ def _update_queue(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tu
 
 def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
     """Return the tree with the heights of all faces entered; their columns are marked as done, except vertices."""
-    triangles, planes = [], []
+    # From above the vertices run clockwise, and the plane's coefficient of z must be positive.
+    reversed_faces = []
     for face in faces:
-        first, *rest = face.vertices
         a, b, c = face.normal
-        plane = (-a, -b, -c, a * first[0] + b * first[1] + c * first[2])
-        for p, q in pairwise(rest):
-            triangles.append((first, q, p))  # counterclockwise as seen from above
-            planes.append(plane)
+        x, y, z = face.vertices[0]
+        reversed_faces.append((np.array(face.vertices[::-1]), (-a, -b, -c, a * x + b * y + c * z)))
     values = np.where(tree.there, tree.values, NO_COLUMN)
-    write_heights(values, np.array(triangles), np.array(planes), rounded_up=True)
+    write_heights(values, reversed_faces, rounded_up=True)
     there = values < NO_COLUMN
     marked = there.copy()
     x, y, _ = np.array([vertex for face in faces for vertex in face.vertices]).T

@@ -1,4 +1,4 @@
-"""The digital hull compared with the exact judge, with scikit-image, and between its own implementations."""
+"""Compare the digital hull with the planes of the exact hull, evaluated at every grid point, and with scikit-image."""
 
 import itertools
 import random
@@ -14,8 +14,7 @@ from hypothesis.extra import numpy as arrays
 
 from emulator.jit.functions import NotInstalled
 from modern.digital import intervals
-from modern.digital.hull import KINDS, WORTH_COMPILING, digital_hull
-from modern.digital.polytope import polyhedron
+from modern.digital.hull import KINDS, digital_hull
 from modern.digital.solids import VERTEX, NoVoxels, VolumeError, ball
 from tests.support.digital_judge import judged, random_solid, solid_of
 
@@ -123,39 +122,18 @@ def test_batch_size_does_not_change_the_hull(monkeypatch) -> None:
     assert agrees(array)
 
 
-def test_compiled_facets_equal_plain_facets() -> None:
+def test_compiled_code_finds_the_same_hull() -> None:
     pytest.importorskip("numba")
-    points = np.argwhere(ball(24).array)
-    simplex = (0, len(points) - 1, len(points) // 2, len(points) // 3)
-    for plain, compiled in zip(polyhedron(points, simplex, False), polyhedron(points, simplex, True), strict=True):
-        assert np.array_equal(plain, compiled)
     source = random.Random(3)
     for _ in range(30):
         assert agrees(random_solid(source, side=8), fast=True)
 
 
-def no_numba() -> None:
-    raise NotInstalled("compiled code needs numba")
-
-
-def test_compiled_code_runs_for_large_volumes_only(monkeypatch) -> None:
-    calls = []
-
-    def recorded(points: Any, simplex: Any, fast: bool) -> Any:
-        calls.append((len(points) >= WORTH_COMPILING, fast))
-        return polyhedron(points, simplex, False)
-
-    monkeypatch.setattr("modern.digital.hull.polyhedron", recorded)
-    monkeypatch.setattr("modern.digital.hull.compiled_hull", lambda: None)
-    digital_hull(ball(10))
-    digital_hull(ball(64))
-    monkeypatch.setattr("modern.digital.hull.compiled_hull", no_numba)
-    digital_hull(ball(64))
-    assert calls == [(False, False), (True, True), (True, False)]
-
-
 def test_compiled_code_without_numba_is_an_error(monkeypatch) -> None:
-    monkeypatch.setattr("modern.digital.hull.compiled_hull", no_numba)
+    def no_numba() -> None:
+        raise NotInstalled("compiled code needs numba")
+
+    monkeypatch.setattr("modern.exact_hull.build.require_numba", no_numba)
     for volume in (ball(6), np.ones((3, 3)), np.ones((1, 2, 1)), np.ones((1, 1))):
         with pytest.raises(VolumeError, match="needs numba"):
             digital_hull(volume, fast=True)

@@ -114,7 +114,7 @@ def test_a_single_point_in_time_is_a_volume_and_several_are_refused(name: str) -
     assert scan.world is not None
     assert [text for text, _ in scan.world.spacings()] == ["0.5", "0.25", "2"]
     sitk.WriteImage(sitk.JoinSeries([image, image]), name)
-    with pytest.raises(VolumeError, match=f"{name}: expected two or three axes, found 4, 2 x 3 x 4 x 2"):
+    with pytest.raises(VolumeError, match=f"{name}: expected two or three axes, found 4 axes, 2 x 3 x 4 x 2"):
         read_scan(name)
 
 

@@ -12,7 +12,6 @@ from hypothesis.extra import numpy as arrays
 from hull1620 import digital_hull, read_volume
 from modern.digital.scans import Choice, Scan, chosen, label_boxes, label_notes, label_volume, labels_of, listed_labels
 from modern.digital.solids import NoVoxels, VolumeError
-from modern.digital.volumes import write_npy
 
 TYPES = ["?", "i1", "u1", ">i2", "u2", "i4", "i8", "u8", "f2", "f4", "f8", ">f8"]
 values = arrays.arrays(
@@ -126,7 +125,7 @@ def test_invalid_selections_are_reported(array: Any, choice: Choice, message: st
 
 def test_read_volume_selects_by_threshold_and_by_label(tmp_path: Any) -> None:
     path = tmp_path / "a.npy"
-    write_npy(str(path), np.array([[[0, 1, 2, 3]]], np.int16))
+    np.save(path, np.array([[[0, 1, 2, 3]]], np.int16))
     assert read_volume(path).count == 3
     assert read_volume(path, threshold="1.5").count == 2
     assert read_volume(path, labels=[2]).coordinates().tolist() == [[0, 0, 2]]

@@ -13,8 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from emulator.errors import EmulatorError, FileError
+from modern.digital.scans import chosen
 from modern.digital.solids import Volume, VolumeError, ball, half_ball, listed
-from modern.digital.volumes import parse_volume, read_volume, write_npy
+from modern.digital.volumes import Stated, _parsed, read_volume
 
 STEPS = np.arange(24).reshape(2, 3, 4) % 5
 """Values 0 to 4 that change under every exchange of axes."""
@@ -33,6 +34,10 @@ def nrrd(array: np.ndarray, kind: str, *fields: str, encoding: str = "raw", data
     body = array.tobytes(order="F")
     packed = gzip.compress(body) if encoding in ("gzip", "gz") else body
     return ("\n".join(head) + "\n\n").encode() + (packed if data is None else data)
+
+
+def parse_volume(data: bytes, source: str, shape: Any = None, dtype: str | None = None) -> Volume:
+    return chosen(_parsed(data, source, Stated(shape, dtype))).volume
 
 
 def same(volume: Volume, array: np.ndarray) -> bool:
@@ -160,7 +165,7 @@ def test_balls_are_read_by_name_and_accept_no_shape() -> None:
 
 def test_a_written_array_is_restored(tmp_path: Path) -> None:
     path = str(tmp_path / "a.npy")
-    write_npy(path, STEPS != 0)
+    np.save(path, STEPS != 0)
     assert same(read_volume(path), STEPS)
 
 

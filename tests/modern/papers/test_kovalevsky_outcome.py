@@ -1,4 +1,4 @@
-"""The cell list computed from the digital polytope, compared with the paper's procedure and with the exact hull."""
+"""Compare the cell list that is computed without inserting points with that of the paper's procedure."""
 
 import numpy as np
 import pytest
