@@ -95,8 +95,6 @@ def test_names_are_replaced_by_figures_and_unknown_ones_rejected() -> None:
     assert text == "a 1\N{NO-BREAK SPACE}% b 2 {no} {{ X }}"
     code = "```\n2 (1 to 3) %\n```\n"
     assert filled(f"{code}is 2 (1 to 3) %", {}) == f"{code}is 2\xa0(1\xa0to\xa03)\xa0%"
-        filled("```\n2 (1 to 3) %\n```\nis 2 (1 to 3) %", {}) == "```\n2 (1 to 3) %\n```\nis 2\xa0(1\xa0to\xa03)\xa0%"
-    )
     assert named("{{ b }} {{ a.c }} {{ b }}") == ("b", "a.c", "b")
     with pytest.raises(FigureError, match=r"unknown figure 'seventy\.mean'"):
         filled("{{ seventy.mean }}", {"seventy.sets": "1"})
