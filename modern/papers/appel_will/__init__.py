@@ -1,8 +1,9 @@
 """Appel and Will's algorithm (1976): the hull of a polyhedron from its convex edges, in exact arithmetic.
 
-``appel_will(points)`` projects all points parallel to the line through each pair of them. The pair is a *convex edge*,
-an edge of the hull, if its image C is outside the *star polygon*, which joins the other images in order of their angle
-about C. The convex edges are then assembled into loops, and each loop bounds a face of the hull.
+For each pair of points, ``appel_will(points)`` projects all points parallel to the line through the pair. The line
+then has a point C as its image. The pair is a *convex edge*, an edge of the hull, if C is outside the *star polygon*,
+which joins the other images in order of their angle about C. The convex edges are then assembled into loops, and each
+loop bounds a face of the hull.
 
 References
 ----------

@@ -18,11 +18,11 @@ PLANES = 3
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """An edge of the polyhedron and a number whose sign tells if the edge is reentrant (Fig. 18).
+    """An edge of the polyhedron, and a number whose sign tells if the edge is reentrant (Fig. 18).
 
-    The number is the triple product [IKL] of the edge's direction and the normals of its two surfaces. All three
-    vectors are in lowest terms and the normals point into the solid. The product is negative for an inside corner (a
-    reentrant edge), positive for an outside corner, and 0 if both surfaces lie in one plane.
+    The number is the triple product [IKL] of the edge's direction I and the normals K and L of its two surfaces. All
+    three vectors are in lowest terms, and the normals point into the solid. The product is negative for an inside
+    corner (a reentrant edge), positive for an outside corner, and 0 if both surfaces lie in one plane.
     """
 
     line: Line
@@ -31,17 +31,17 @@ class Corner:
 
 @dataclass(frozen=True, slots=True)
 class Preprocessing:
-    """The points deleted before the projections, and the name of the rule that deleted them."""
+    """The points that a rule deleted before the projections, and all inside corners."""
 
     rule: Rule
     inside: tuple[Corner, ...]
     deleted: tuple[int, ...]
-    # Points on more than three planes. If there are any, the object is not well behaved.
+    # The points on more than three planes. If there is such a point, the object is not well behaved.
     crowded: tuple[int, ...]
 
 
 def triple_product(i: IntPoint, k: IntPoint, l: IntPoint) -> int:  # noqa: E741  # the paper's letters
-    """Return the triple product of three vectors, [IKL] in the paper: the determinant with these columns."""
+    """Return the triple product of three vectors ([IKL] in the paper), the determinant whose columns they are."""
     return dot(i, cross(k, l))
 
 
@@ -51,21 +51,21 @@ def corners(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[Co
 
 
 def vectors(points: Sequence[IntPoint], surfaces: Sequence[Surface], line: Line) -> tuple[IntPoint, IntPoint, IntPoint]:
-    """Return three vectors of an edge, in lowest terms: its direction, and the inward normals of its two surfaces."""
+    """Return the direction of an edge and the inward normals of its two surfaces, each in lowest terms."""
     direction = lowest(minus(points[line.ends[1]], points[line.ends[0]]))
     return direction, _inward(points, surfaces[line.on]), _inward(points, surfaces[line.beyond])
 
 
 def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Rule) -> Preprocessing:
-    """Choose the points to delete before the projections.
+    """Return the points to delete before the projections, chosen by a rule.
 
-    ``any`` deletes each point on at least one inside corner, which is correct for well behaved objects only (Fig. 15).
-    ``two`` deletes a point on at least two inside corners and at most one outside corner (Fig. 16, 1). This is correct
-    for every object, because a vertex of the hull is on at least three outside corners. ``concave`` deletes a point on
-    an inside corner that is a concave point of a surface (Fig. 16, 2). This is correct for every object too, because
-    the angle of a surface at a vertex of the hull is less than 180 degrees.
+    ``any`` deletes each point on at least one inside corner. This is correct for well behaved objects only (Fig. 15).
+    ``two`` deletes each point on at least two inside corners and at most one outside corner (Fig. 16, 1). This is
+    correct for every object, because a vertex of the hull is on at least three outside corners. ``concave`` deletes
+    each point on an inside corner that is a concave point of a surface (Fig. 16, 2). This is correct for every object
+    too, because the angle of a surface at a vertex of the hull is less than 180 degrees.
 
-    Raise MapError if the surfaces do not form a closed polyhedron, ValueError for an unknown rule.
+    Raise MapError if the surfaces do not form a closed polyhedron, and ValueError for an unknown rule.
     """
     # Fig. 18: the sign of [IKL] classifies a line only if the surfaces are oriented.
     surfaces_outward = oriented(points, surfaces)

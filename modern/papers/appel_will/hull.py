@@ -54,13 +54,14 @@ def printed(*names: str) -> Method:
 
 @dataclass(frozen=True, slots=True)
 class Assembled:
-    """A hull assembled from its convex edges. Points are named by their index in the input, from 0.
+    """A hull assembled from its convex edges. Points are named by their indices in the input, from 0.
 
-    ``points`` are the input coordinates times ``scale``, as integers, and ``duplicates`` the pairs of an index and that
-    of the first equal point. ``preprocessing`` has the points deleted at inside corners, if a rule was chosen, and
-    ``deleted`` those found between two others in the projections. ``edges`` is the convex edge list. ``table`` is the
-    loop table: a polygon has one loop, which uses every edge once, a segment or a point none. ``surfaces`` is the
-    topological map, the points of each loop. ``dimension`` is that of the point set, 0 to 3.
+    ``points`` are the input coordinates multiplied by ``scale``, as integers. ``duplicates`` has pairs of a point and
+    the first point that is equal to it. ``preprocessing`` has the points deleted at inside corners, if a rule was
+    chosen, and ``deleted`` the points found between two others in the projections. ``edges`` is the convex edge list
+    and
+    ``table`` the loop table. A polygon has one loop, which uses every edge once; a segment or a point has no loop.
+    ``surfaces`` is the topological map: the points of each loop. ``dimension`` is that of the point set, from 0 to 3.
     """
 
     points: tuple[IntPoint, ...]
@@ -81,7 +82,7 @@ class Assembled:
 
     @property
     def fault(self) -> str:
-        """The reason why the result is no hull, or an empty string.  Only rules used as printed can cause one."""
+        """The reason why the result is not a hull, or "". Only rules applied as printed can cause such a result."""
         v, e, f = len(self.vertices), len(self.edges), len(self.surfaces)
         if self.table.stopped:
             return self.table.stopped
@@ -94,26 +95,26 @@ class Assembled:
         return ""
 
     def outward(self) -> tuple[Surface, ...]:
-        """Return the faces with their points counterclockwise as seen from outside; a polygon stays as it is."""
+        """Return the faces with their points counterclockwise as seen from outside, or a polygon unchanged."""
         counterclockwise = []
         for points in self.surfaces:
             normal, origin = area_vector(self.points, points), self.points[points[0]]
-            # The appendix fixes no sense of rotation. A normal with vertices in front of it points inwards.
+            # The appendix fixes no sense of rotation. If a vertex is on the side of the normal, it points inwards.
             inward = any(dot(normal, minus(self.points[index], origin)) > 0 for index in self.vertices)
             counterclockwise.append((points[0], *points[:0:-1]) if inward else points)
         return tuple(counterclockwise)
 
     def fates(self, original: Sequence[Surface]) -> Fates:
-        """Compare the surfaces of the given polyhedron with the faces of the hull (Fig. 4)."""
+        """Return what becomes of each surface of the given polyhedron on the hull (Fig. 4)."""
         return fates(self.points, original, self.surfaces)
 
 
 def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method = CORRECTED) -> Assembled:
-    """Compute the hull of at least one point by Appel and Will's method, in exact arithmetic.
+    """Return the hull of at least one point by Appel and Will's method, in exact arithmetic.
 
-    Coordinates are ints, Fractions, decimal strings, or floats (taken as the exact binary numbers they are).
-    ``surfaces`` lists the points around each surface of the polyhedron, which only the rules for inside corners need.
-    Raise PointsError for invalid points and MapError for invalid surfaces.
+    Coordinates are ints, Fractions, decimal strings, or floats, which have their exact binary values. ``surfaces``
+    lists the points around each surface of the polyhedron; only the rules for inside corners need it. Raise PointsError
+    for invalid points and MapError for invalid surfaces.
     """
     coordinates = read_points(points)
     scale, scaled = coordinates.scale, coordinates.all()
@@ -122,14 +123,14 @@ def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method 
     for index, point in enumerate(scaled):
         first.setdefault(point, index)
     duplicates = tuple((index, first[point]) for index, point in enumerate(scaled) if first[point] != index)
-    # A pair of equal points has no direction to project along, so only the first of them stays in the vertex list.
+    # A pair of equal points defines no line, so only the first of several equal points is used.
     live = set(first.values())
     preprocessing = None
     if method.inside_corners is not None:
         merged = tuple(tuple(first[scaled[index]] for index in surface) for surface in surfaces)
         preprocessing = preprocess(scaled, merged, method.inside_corners)
         live.difference_update(preprocessing.deleted)
-    # The two steps of the paper: the convex edges by projections, then their loops by the appendix.
+    # The two steps of the paper: find the convex edges by projections, then the loops by the steps of the appendix.
     convex = convex_edges(scaled, live, method.star)
     table = find_loops(scaled, convex.edges, method.printed)
     topological_map = tuple(surface(loop.entries, convex.edges) for loop in table.loops)

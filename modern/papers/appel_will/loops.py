@@ -1,7 +1,8 @@
 """Assemble convex edges into loops, the borders of faces (appendix, steps 1 to 10; Fig. 23).
 
-A line is a convex edge, an edge of the hull. Lines are numbered L from 1 and have the ends LC1(L) < LC2(L). A loop
-lists L if it runs along the line from LC1 to LC2, otherwise -L.
+A line is a convex edge, an edge of the hull. Lines have the numbers L = 1, 2, 3 and so on. Line L has the ends LC1(L)
+and LC2(L), with LC1(L) < LC2(L). A loop that runs along the line from LC1(L) to LC2(L) has the entry L, and otherwise
+the entry -L.
 """
 
 from collections.abc import Collection, Iterator, Sequence
@@ -10,16 +11,17 @@ from dataclasses import dataclass
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will.star import IntPoint, Pair
 
-# An edge is used by this number of loops, because it is the intersection of two planes of the hull.
+# The number of loops that use an edge, which is the intersection of two planes of the hull.
 TIMES = 2
 
 
 @dataclass(frozen=True, slots=True)
 class Loop:
-    """The border of a face, as a list of edges, and the state of the search when the loop was closed.
+    """The border of a face as a list of edges, and the state of the search after the loop was closed.
 
-    ``entries`` are LUP(N, 1), LUP(N, 2) and so on. ``kind`` is the type of the first intersection (Fig. 20). ``start``
-    and ``match`` are the points SP and MP of step 8. ``uses`` are the counts IUC(1), IUC(2) and so on after the loop.
+    ``entries`` are the paper's LUP(N, 1), LUP(N, 2) and so on for loop N. ``kind`` is the type of the intersection of
+    the first two edges (Fig. 20). ``start`` and ``match`` are the points SP and MP of step 8. ``uses`` are the numbers
+    of uses IUC(L) of each edge L after the loop.
     """
 
     entries: tuple[int, ...]
@@ -31,7 +33,10 @@ class Loop:
 
 @dataclass(frozen=True, slots=True)
 class LoopTable:
-    """All loops (borders of faces) in the order of the search; ``stopped`` says why the search failed, or ""."""
+    """All loops (borders of faces) in the order of the search, and the number of uses of each edge.
+
+    ``stopped`` is the reason why the search failed, or "".
+    """
 
     loops: tuple[Loop, ...]
     uses: tuple[int, ...]
@@ -45,13 +50,13 @@ class LoopTable:
 
 @dataclass(frozen=True, slots=True)
 class Intersection:
-    """Two edges L1 and L2 with a common end point, the type of their meeting (Fig. 20), and their loop entries (Fig.
+    """Two edges L1 and L2 with a common end point, the type of the intersection (Fig. 20), and the loop entries (Fig.
     21).
 
-    In type 1 both lines begin at the common point. In type 2 L1 begins and L2 ends there, in type 3 L1 ends and L2
-    begins there, and in type 4 both end there. The drawings of Figs. 20 and 21 are lost. Type 1 and its signs are
-    certain from the text of Figs. 21 and 22. The signs of the other types follow from the sense of the loop, and
-    their numbers are this project's choice.
+    ``start`` and ``match`` are the other ends of L1 and L2. In type 1 both lines begin at the common point. In type 2
+    L1 begins and L2 ends there, in type 3 L1 ends and L2 begins there, and in type 4 both end there. The drawings of
+    Figs. 20 and 21 are lost. Type 1 and its signs are certain from the text of Figs. 21 and 22. The signs of the other
+    types follow from the sense of the loop, and the numbers of these types are this project's choice.
     """
 
     first: int
@@ -64,9 +69,9 @@ class Intersection:
 
 
 def intersect(edges: Sequence[Pair], first: int, second: int) -> Intersection | None:
-    """Return how two edges meet at a common end point, or None if they share none (step 4 of the paper).
+    """Return the intersection of two edges at a common end point, or None if they have none (step 4 of the paper).
 
-    ``first`` and ``second`` are their numbers, from 0.
+    ``first`` and ``second`` are the indices of the edges, from 0.
     """
     ends_1, ends_2 = edges[first], edges[second]
     for kind, (a, b) in enumerate(((0, 0), (0, 1), (1, 0), (1, 1)), 1):
@@ -106,7 +111,7 @@ def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], printed: Colle
 
 
 def surface(entries: Sequence[int], edges: Sequence[Pair]) -> tuple[int, ...]:
-    """List the points around a face: the first end of each edge of its loop, in the direction of the loop."""
+    """Return the points around a face: the end of each edge of its loop at which the loop enters the edge."""
     return tuple(edges[abs(entry) - 1][0 if entry > 0 else 1] for entry in entries)
 
 
@@ -123,7 +128,7 @@ class _Table:
 
 
 def _begin(table: _Table) -> Intersection | None:
-    """Find the first two edges of the next loop (steps 2 to 8).  Return None if all edges have been tried."""
+    """Return the first two edges of the next loop, or None if all edges have been tried (steps 2 to 8)."""
     for first in range(len(table.edges)):
         if table.uses[first] == TIMES:
             continue
@@ -139,7 +144,7 @@ def _begin(table: _Table) -> Intersection | None:
 
 
 def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
-    """Yield the edges that span a new face of the hull together with edge ``first`` (steps 3 to 7)."""
+    """Yield the intersections of edge ``first`` with each edge that lies with it in a new face (steps 3 to 7)."""
     for second in range(len(table.edges)):
         if second == first or table.uses[second] == TIMES:
             continue
@@ -158,7 +163,7 @@ def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
 
 
 def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
-    """Return True if no point is on one of the two sides of the plane through two edges (steps 6 and 7)."""
+    """Return True if no point is on one of the sides of the plane through two edges (steps 6 and 7)."""
     normal, origin = _plane(table.points, crossing)
     heights = (dot(normal, minus(table.points[p], origin)) for p in table.vertices)
     sides = {(height > 0) - (height < 0) for height in heights}
@@ -166,9 +171,9 @@ def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
 
 
 def _follow(table: _Table, crossing: Intersection) -> list[int] | None:
-    """Complete the loop that two edges begin (steps 9 and 10).  Return its entries, or None if it does not close.
+    """Return the entries of the loop that begins with two edges, or None if it does not close (steps 9 and 10).
 
-    The edge list is searched at most once for each line, as the appendix advises.
+    The loop has at most as many lines as there are edges, as the appendix advises.
     """
     normal, origin = _plane(table.points, crossing)
     entries = [*crossing.entries]

@@ -1,10 +1,10 @@
 """Draw results of Appel and Will's method: the hull with its convex edges, and the star polygon of an edge.
 
-Points have their numbers in the input, convex edges their numbers L in the convex edge list. All decisions are made
-in integers. Floating point only places the labels.
+Points are labelled with their numbers in the input, and convex edges with their numbers L in the convex edge list. All
+decisions are made in integers. Floating-point numbers only place the labels.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -35,19 +35,17 @@ FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _LINE_FONT = f'font-family="{svg.FONT}" font-size="11" font-style="italic" fill="#444"'
 # A white outline that keeps a number legible on top of lines.
 _HALO = 'stroke="#fff" stroke-width="3" paint-order="stroke"'
-# The distance of legend lines in pixels.
-_STEP = 19
+# The distance between the lines of a legend in pixels.
+LEGEND_STEP = 19
 GIVEN = Style("given", "given line that is not a convex edge", "line", 'stroke="#777" stroke-width="0.8"')
 SIDE = Style("star", "star polygon", "line", 'stroke="#000" stroke-width="1.2" fill="none"')
 CLOCKWISE = Style("clockwise", "side that turns clockwise about C", "line", 'stroke="#000" stroke-width="3.4"')
 RAY = Style("rays", "ray from C", "line", 'stroke="#aaa" stroke-width="0.8"')
-# A row of a legend: a function that draws it on the given base line.
-Row = Callable[[int], Iterator[str]]
 CENTRE = Style("centre", "C", "dot", 'fill="#fff" stroke="#000" stroke-width="1.6"')
 
 
 class PictureError(ExportError):
-    """Raised if a picture cannot be drawn; the message, of one line, gives the reason."""
+    """Raised if a picture cannot be drawn. The message gives the reason in one line."""
 
 
 def solid_svg(
@@ -59,11 +57,12 @@ def solid_svg(
     title: str = "",
     width: int | None = None,
 ) -> str:
-    """Draw the hull, with hidden edges dashed, and the other lines of the given polyhedron.
+    """Return a picture of the hull and the other lines of the given polyhedron, with hidden edges dashed, as SVG text.
 
-    ``points`` are the coordinates as text. ``original`` are the surfaces of the polyhedron, if known, and ``joined``
-    the faces of ``as_mesh(hull)`` to merge. ``eye`` and ``width`` are those of ``modern.drawing.draw.draw_svg``. Raise
-    ExportError if there is no hull or the view or the width is invalid.
+    ``points`` are the coordinates of the input as text. ``original`` are the surfaces of the given polyhedron, if
+    known.
+    ``joined`` tells which faces of ``as_mesh(hull)`` are drawn as one face. ``eye`` and ``width`` are those of
+    ``modern.drawing.draw.draw_svg``. Raise ExportError if there is no hull, or if the view or the width is invalid.
     """
     record = as_record(hull, points, joined)
     picture = filter_scene(scene(record, eye), Show())
@@ -79,29 +78,28 @@ def solid_svg(
     lines = [(number, pair) for number, pair in enumerate(hull.edges, 1) if pair in drawn]
     numbered = len(points) <= MOST_POINTS
     labelled = numbered and 0 < len(lines) <= MOST_LINES
-    rows = [sample_row(GIVEN)] if nonconvex else []
     legend = "in italics: the number L of each edge in the convex edge list" if labelled else ""
-    rows += map(text_row, wrapped(legend, width - 2 * MARGIN))
+    rows: list[str | Style] = [*([GIVEN] if nonconvex else []), *wrapped(legend, width - 2 * MARGIN)]
     top = layout.height + band_height(picture, width, title, numbered)
     items = [
         *scene_items(record, picture, layout),
         *svg.group(GIVEN.key, GIVEN.attributes, (svg.line(at[a], at[b], named_line(a, b)) for a, b in nonconvex)),
         *(numbers(at, lines if labelled else [], [*drawn, *nonconvex], (width, layout.height)) if numbered else ()),
         *svg.group("legend", FONT, band(picture, width, layout.height, title, numbered)),
-        *svg.group("more", FONT, (item for k, row in enumerate(rows) for item in row(top + _STEP * k))),
+        *svg.group("more", FONT, legend_items(rows, top)),
     ]
-    return svg.page(width, top + _STEP * len(rows) + (4 if rows else 0), title or "Convex edges", items)
+    return svg.page(width, top + LEGEND_STEP * len(rows) + (4 if rows else 0), title or "Convex edges", items)
 
 
 def as_mesh(hull: Assembled, points: Sequence[Point]) -> Mesh:
-    """Convert the assembled hull to a mesh with its points in the order of the vertex list."""
+    """Convert the assembled hull to a mesh. Its points are in the order of ``hull.vertices``."""
     places = {index: place for place, index in enumerate(hull.vertices)}
     faces = tuple(tuple(places[index] for index in surface) for surface in hull.outward())
     return Mesh(hull.dimension, tuple(points[index] for index in hull.vertices), faces)
 
 
 def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = None) -> Record:
-    """Convert the assembled hull to the project's general type for hulls.  Raise PictureError if it is not a hull."""
+    """Convert the assembled hull to the project's general type of hulls. Raise PictureError if it is not a hull."""
     if hull.fault:
         raise PictureError(f"there is no hull to draw: {hull.fault}")
     surfaces = hull.outward() if joined is None else joined_surfaces(hull, joined)
@@ -136,24 +134,23 @@ def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = 
 
 
 def joined_surfaces(hull: Assembled, joined: Joined) -> tuple[Surface, ...]:
-    """Return the faces of the hull, after some faces of ``as_mesh(hull)`` were merged, as indices of input points."""
+    """Return the faces of the hull after merging faces of ``as_mesh(hull)``, as cycles of indices of input points."""
     return tuple(tuple(hull.vertices[place] for place in loop) for loop in joined.loops)
 
 
 def joined_points(hull: Assembled, joined: Joined) -> list[tuple[int, ...]]:
-    """List the points of each merged face, including those in its interior."""
+    """Return the indices of the input points of each merged face, including the points in its interior."""
     return [tuple(index for face in group for index in hull.surfaces[face]) for group in joined.groups]
 
 
 @dataclass(frozen=True, slots=True)
 class Star:
-    """The star polygon of a line through two points: the test whether the line is an edge of the hull (Figs. 8
-    to 12).
+    """The star polygon of a line through two points, which tells if the line is an edge of the hull (Figs. 8 to 12).
 
-    C is the image of the line, seen along it. ``line`` lists the points on the line from end to end, ``order`` the
-    points off it by the angle of their images about C, and ``images`` those images relative to C. ``outside`` is True
-    if C is outside the star polygon, so that the line is a convex edge. ``clockwise`` holds the indices of the sides
-    that turn clockwise about C (at most one).
+    The line is seen along itself and has the image C, a point. ``line`` lists the points on the line from end to end.
+    ``order`` lists the other points by the angle of their images about C, and ``images`` these images relative to C.
+    ``outside`` is True if C is outside the star polygon, so that the line is a convex edge. ``clockwise`` has the index
+    of the side that turns clockwise about C, if there is one.
     """
 
     line: tuple[int, ...]
@@ -164,7 +161,7 @@ class Star:
 
 
 def star(hull: Assembled, pair: Pair) -> Star:
-    """Compute the star polygon for the line through two points.  Raise PictureError if the points do not define one."""
+    """Compute the star polygon of the line through two points. Raise PictureError if the points define no line."""
     a, b = pair
     reason = {
         entry.point: f"it lies between {entry.between[0] + 1} and {entry.between[1] + 1}" for entry in hull.deleted
@@ -195,7 +192,10 @@ def star(hull: Assembled, pair: Pair) -> Star:
 
 
 def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = None) -> str:
-    """Draw the star polygon of two points, seen along their line.  Raise ExportError for invalid points or width."""
+    """Return a picture of the star polygon of two points, seen along their line, as the text of an SVG file.
+
+    Raise ExportError for invalid points or an invalid width.
+    """
     width = WIDTH if width is None else checked_width(width)
     polygon = star(hull, pair)
     a, b = pair
@@ -219,9 +219,12 @@ def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = N
     centre = Label(*at[a].place, f"C = {'-'.join(str(k + 1) for k in line)}")
     segments = [(at[p].place, at[q].place) for p, q in shown] + [(at[a].place, at[k].place) for k in polygon.order]
     label_places = place_labels([*labels, centre], segments, [], (float(width), float(height)))
-    legend = wrapped(_verdict(polygon, pair), width - 2 * MARGIN)
-    rows = [*([text_row(title, bold=True)] if title else []), *map(text_row, legend)]
-    rows += [sample_row(style) for style in (SIDE, *([CLOCKWISE] if bold else []), RAY)]
+    rows: list[str | Style] = [
+        *wrapped(_verdict(polygon, pair), width - 2 * MARGIN),
+        SIDE,
+        *([CLOCKWISE] if bold else []),
+        RAY,
+    ]
     items = [
         *svg.group(RAY.key, RAY.attributes, (svg.line(at[a], place) for place in together)),
         *svg.group(SIDE.key, SIDE.attributes, (svg.line(at[p], at[q], named_line(p, q)) for p, q in thin)),
@@ -229,9 +232,10 @@ def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = N
         *svg.group("points", svg.VERTEX.attributes, (svg.circle(place, svg.RADIUS) for place in together)),
         *svg.group(CENTRE.key, CENTRE.attributes, [svg.circle(at[a], "4.5")]),
         *svg.group("numbers", f'{FONT} text-anchor="middle" {_HALO}', texts([*labels, centre], label_places)),
-        *svg.group("legend", FONT, (item for k, row in enumerate(rows) for item in row(height + 12 + _STEP * k))),
+        *svg.group("legend", FONT, legend_items(rows, height + 12, title)),
     ]
-    return svg.page(width, height + _STEP * len(rows) + 12, title or f"Star polygon of line {a + 1}-{b + 1}", items)
+    total = height + LEGEND_STEP * (len(rows) + bool(title)) + 12
+    return svg.page(width, total, title or f"Star polygon of line {a + 1}-{b + 1}", items)
 
 
 def _verdict(polygon: Star, pair: Pair) -> str:
@@ -254,7 +258,10 @@ def numbers(
     size: tuple[int, int],
     occupied: Sequence[tuple[float, float]] = (),
 ) -> Iterator[str]:
-    """Draw the numbers of points, and in italics those of lines, away from ``edges`` and ``occupied`` if possible."""
+    """Yield the numbers of points and, in italics, the numbers of lines, as SVG elements.
+
+    If possible, the numbers do not overlap ``edges`` (pairs of points) and ``occupied`` (positions in pixels).
+    """
     together: dict[Pixel, list[int]] = {}
     for index, place in sorted(at.items()):
         together.setdefault(place, []).append(index)
@@ -273,19 +280,16 @@ def texts(labels: Sequence[Label], places: Sequence[tuple[float, float]]) -> Ite
         yield svg.text(Pixel(round(100 * x), round(100 * (y + label.size * 0.35))), label.text)
 
 
-def sample_row(style: Style) -> Row:
-    """Return a row of the legend with a sample of a line or mark and its name."""
-
-    def row(base: int) -> Iterator[str]:
-        yield svg.sample(style, Pixel((MARGIN + 9) * 100, base * 100 - 450))
-        yield svg.text(Pixel((MARGIN + 26) * 100, base * 100), style.name)
-
-    return row
-
-
-def text_row(text: str, bold: bool = False) -> Row:
-
-    def row(base: int) -> Iterator[str]:
-        yield svg.text(Pixel(MARGIN * 100, base * 100), text, 'font-weight="bold"' if bold else "")
-
-    return row
+def legend_items(rows: Sequence[str | Style], top: int, title: str = "") -> Iterator[str]:
+    """Yield a legend whose first base line is ``top``: a bold title, then texts, and samples of styles with their
+    names.
+    """
+    if title:
+        yield svg.text(Pixel(MARGIN * 100, top * 100), title, 'font-weight="bold"')
+    for k, row in enumerate(rows, bool(title)):
+        base = 100 * (top + LEGEND_STEP * k)
+        if isinstance(row, Style):
+            yield svg.sample(row, Pixel((MARGIN + 9) * 100, base - 450))
+            yield svg.text(Pixel((MARGIN + 26) * 100, base), row.name)
+        else:
+            yield svg.text(Pixel(MARGIN * 100, base), row)

@@ -1,9 +1,9 @@
-"""Draw a polyhedron as a planar map: each face becomes a region, and the face with most points surrounds all others.
+"""Draw a polyhedron as a planar map: each face becomes a region, and the face with most points surrounds the others.
 
 This is Tutte's embedding. The points of the outer surface lie on a circle, and every other point lies at a weighted
-mean of its neighbours. For any positive weights no two lines cross and every region is convex. Here the weights of
-lines that border large regions are increased from round to round, which makes the regions as equal in size as
-possible.
+mean of its neighbours. For any positive weights no two lines cross and every region is convex. The program increases
+the weights of lines at the borders of large regions from round to round. This makes the sizes of the regions as equal
+as possible.
 
 References
 ----------
@@ -22,32 +22,34 @@ from modern.drawing.svg import VERTEX, VISIBLE
 from modern.geometry.mesh import sides
 from modern.papers.appel_will.pictures import (
     FONT,
+    LEGEND_STEP,
     MOST_LINES,
     WIDER,
     WIDTH,
     PictureError,
+    legend_items,
     named_line,
     numbers,
-    text_row,
 )
 from modern.papers.appel_will.star import Pair
 from modern.papers.appel_will.surfaces import Surface
 
 Place = tuple[float, float]
-# A map with more points than the first number is illegible; with more than the second it needs a wider picture.
+# A map of more than MOST points is illegible. A map of more than CROWD points needs a wider picture.
 MOST, CROWD = 100, 24
-# The number of changes of the weights, of relaxations before the first and each later change, and the largest factor.
+# The weights are changed _TURNS times, each by a factor of at most _STEP. The first change follows _FIRST relaxations,
+# each later change _ROUNDS relaxations.
 _TURNS, _FIRST, _ROUNDS, _STEP = 150, 200, 10, 1.1
-# The distance of legend lines in pixels, and the smallest region, in square pixels, that has its number.
-_LINE, _SMALLEST = 19, 160.0
+# The size in square pixels from which on a region is numbered.
+_SMALLEST = 160.0
 _SURFACES = f'font-family="{svg.FONT}" font-size="15" fill="#999" text-anchor="middle"'
 
 
 def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "", width: int | None = None) -> str:
-    """Draw the planar map of a polyhedron, or of a single polygon, with numbers for its points, lines and faces.
+    """Return the planar map of a polyhedron or a polygon, with its points, lines and faces numbered, as SVG text.
 
-    ``edges`` is the convex edge list, from which the lines take their numbers. If it has more than ``MOST_LINES``
-    lines, they are not numbered. ``width`` is in pixels; the default is 640, or 1000 for more than ``CROWD`` points.
+    ``edges`` is the convex edge list, which gives the numbers of the lines. More than ``MOST_LINES`` lines are not
+    numbered. ``width`` is in pixels; the default is 640, or 1000 for more than ``CROWD`` points.
 
     Raise ExportError for a map without surfaces or with more than ``MOST`` points, and for a width out of range.
     """
@@ -66,7 +68,7 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
     at = {index: pixel(place) for index, place in exact.items()}
     lines = sorted({(min(a, b), max(a, b)) for surface in surfaces for a, b in sides(surface)})
     number = {pair: k for k, pair in enumerate(edges, 1)} if len(lines) <= MOST_LINES else {}
-    # The inside of a single polygon is its own region.
+    # A single polygon is not the outside of other regions, but a region itself.
     inner = [(k, surface) for k, surface in enumerate(surfaces) if k != outer or len(surfaces) == 1]
     polygons = [(k, [at[index] for index in surface]) for k, surface in inner]
     regions = [
@@ -79,22 +81,23 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
     legend += "lines L of the convex edge list in italics, " if number else ""
     legend += "surfaces in grey" if len(regions) == len(inner) else "surfaces in grey if there is room"
     legend += f"; surface {outer + 1} is the outside." if len(surfaces) > 1 else "."
-    rows = [*([text_row(title, bold=True)] if title else []), *map(text_row, wrapped(legend, width - 2 * MARGIN))]
+    rows = wrapped(legend, width - 2 * MARGIN)
     items = [
         *svg.group("surfaces", _SURFACES, (svg.text(Pixel(p.x, p.y + 500), name) for name, p in regions)),
         *svg.group(VISIBLE.key, VISIBLE.attributes, (svg.line(at[a], at[b], named_line(a, b)) for a, b in lines)),
         *svg.group(VERTEX.key, VERTEX.attributes, (svg.circle(at[index], svg.RADIUS) for index in sorted(at))),
         *numbers(at, numbered, lines, (width, height), [place.place for _, place in regions]),
-        *svg.group("legend", FONT, (item for k, row in enumerate(rows) for item in row(height + 12 + _LINE * k))),
+        *svg.group("legend", FONT, legend_items(rows, height + 12, title)),
     ]
-    return svg.page(width, height + _LINE * len(rows) + 12, title or "Topological map", items)
+    total = height + LEGEND_STEP * (len(rows) + bool(title)) + 12
+    return svg.page(width, total, title or "Topological map", items)
 
 
 def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
-    """Place the points of a planar map: those of the face ``outer`` on the unit circle, all others inside.
+    """Return the position of each point of a planar map: on the unit circle for the points of the surface ``outer``,
+    otherwise inside.
 
-    The first side of ``outer`` is at the bottom. The surfaces may run in either direction. Every line must be on two of
-    them.
+    The first side of ``outer`` is at the bottom. Every line must be on two surfaces, which may run in either direction.
     """
     border = surfaces[outer]
     count = len(border)
@@ -106,7 +109,7 @@ def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
     for order, surface in enumerate(surfaces):
         for a, b in sides(surface):
             owners.setdefault((min(a, b), max(a, b)), []).append(order)
-    # For every inner point, its neighbours with the two surfaces on the sides of the common line.
+    # For every inner point, its neighbours, each with the two surfaces at the line to this neighbour.
     neighbours: dict[int, list[tuple[int, int, int]]] = {}
     for line, (first, *opposite) in owners.items():
         for a, b in (line, line[::-1]):

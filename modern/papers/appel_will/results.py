@@ -1,7 +1,8 @@
 """Compute each published result of Appel and Will, as lines worded like those in the paper.
 
-The object of Fig. 4 is read from the corrected print. The paper draws the other objects without coordinates; those that
-this project chose for them are in ``coordinates.toml`` next to the print.
+The coordinates of the object of Fig. 4 are printed, and are read from the corrected print. The paper draws the other
+objects without coordinates. This project chose coordinates for them, which are in ``coordinates.toml`` next to the
+print.
 """
 
 import math
@@ -22,16 +23,16 @@ from modern.papers.appel_will.surfaces import Line, Surface, oriented
 
 # The folder below ``transcripts`` with the printed values.
 FOLDER = "appel_will_1976"
-# Here the images are sorted into star polygons, as in the paper; elsewhere the test makes one pass without sorting.
+# In this module the star polygon test sorts the images, as in the paper. By default the test does not sort them.
 BY_STAR = Method(star=as_corrected)
 ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
-# The lines of Fig. 18 by label: surface k, on which the line runs counterclockwise, and surface l.
+# The two surfaces of each line of Fig. 18, by the line's label: k, on which the line runs counterclockwise, and l.
 FIG_18_LINES = {5: (1, 2), 7: (2, 3), 6: (4, 3)}
 
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """A polyhedron shown in a figure: its points, and the points around each surface, if known, as indices from 0."""
+    """A polyhedron in a figure: its points, and for each surface, if known, the indices of the points around it."""
 
     points: tuple[IntPoint, ...]
     surfaces: tuple[Surface, ...] = ()
@@ -58,7 +59,7 @@ def printed_solid(printed: Lines) -> Solid:
 
 
 def produced(printed: Lines) -> Lines:
-    """Compute the lines of every published result that can be computed, by its id in ``results.toml``."""
+    """Return the lines of each published result that can be computed, by the result's id in ``results.toml``."""
     fig4 = printed_solid(printed)
     hull = appel_will(fig4.points, fig4.surfaces, BY_STAR)
     fig14 = appel_will(found_solid("fig14").points, method=BY_STAR)
@@ -177,7 +178,7 @@ def _first_three(hull: Assembled) -> Iterator[str]:
 
 
 def _last_two(hull: Assembled) -> Iterator[str]:
-    """Compute the lower half of the table in Fig. 22, its rows grouped as in the scanned text: 1, 2 to 6, 7 to 9."""
+    """Compute the lower half of the table in Fig. 22, with rows 1, 2 to 6 and 7 to 9 each in one line, as scanned."""
     loops = hull.table.loops[3:]
     yield " ".join(f"{_numbers(len(loop.entries))} {_joined(loop.entries)}" for loop in loops)
     for first, last in ((1, 1), (2, 6), (7, 9)):
@@ -187,7 +188,7 @@ def _last_two(hull: Assembled) -> Iterator[str]:
 
 
 def _loop_rows(hull: Assembled, groups: Iterable[Pair]) -> Iterator[str]:
-    """Compute the table of loops in Fig. 23, with its rows grouped as in the scanned text."""
+    """Compute the table of loops in Fig. 23. Each of the ``groups`` of rows is one line, as in the scanned text."""
     for first, last in groups:
         cells = (_joined(loop.entries[first:last]) for loop in hull.table.loops)
         yield f"{_numbers(last, first + 1)} {' '.join(cells)}"
@@ -201,7 +202,7 @@ def _map_rows(hull: Assembled) -> Iterator[str]:
 
 
 def _from_lowest(surface: Surface) -> Surface:
-    """List the points around a surface, beginning with the lowest number and going to the lower of its neighbours."""
+    """Return the points around a surface, first the lowest number and then the lower of its two neighbours."""
     start = surface.index(min(surface))
     cycle = surface[start:] + surface[:start]
     return cycle if cycle[1] < cycle[-1] else (cycle[0], *cycle[:0:-1])

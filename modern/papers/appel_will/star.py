@@ -1,10 +1,9 @@
-"""Find the edges of the hull by the star polygon test, in a projection parallel to the line through each pair of
-points.
+"""Find the edges of the hull: project all points parallel to the line through each pair of points, and test the image.
 
-The line itself projects to a point C. The test (section "Polygon star test") receives the other points' images relative
-to C as pairs of integers, none of them at C. The test returns True if C is outside the star polygon of these images,
-that is, if C is a corner of the hull of the images and C. The edge whose image is C is then convex. Only the sense of
-rotation of the images about C matters, so they may be known up to an affine map.
+The line through the pair projects to a point C. The star polygon test (section "Polygon star test") receives the other
+images relative to C as pairs of integers, none of them at C. It returns True if C is outside the star polygon of these
+images, that is, if C is a corner of the hull of the images and C. The pair is then an edge of the hull. Only the sense
+of rotation of the images about C matters, so an affine map of the images does not change the result.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -17,25 +16,25 @@ StarTest = Callable[[Sequence[Image]], bool]
 
 
 def vorticity(a: Image, b: Image) -> int:
-    """Return twice the area of the triangle of C, the origin, and two points, positive if counterclockwise (Fig. 8)."""
+    """Return twice the area of the triangle C, a, b, positive if it runs counterclockwise (Fig. 8); C is the origin."""
     return a[0] * b[1] - a[1] * b[0]
 
 
 def on_one_ray(a: Image, b: Image) -> bool:
-    """Return True if two projected points lie in the same direction from C, the origin (I and II of Fig. 12)."""
+    """Return True if two images lie in the same direction from C, the origin (cases I and II of Fig. 12)."""
     return vorticity(a, b) == 0 and a[0] * b[0] + a[1] * b[1] > 0
 
 
 def star_polygon(images: Sequence[Image]) -> list[Image]:
-    """Sort projected points by polar angle about the origin C, from 0 to below 360 degrees (Figs. 10, 11)."""
+    """Return the images sorted by polar angle about C, the origin, from 0 to below 360 degrees (Figs. 10 and 11)."""
     return sorted(images, key=cmp_to_key(_angle))
 
 
 def as_printed(images: Sequence[Image]) -> bool:
-    """Apply the test as printed: C is outside if a side turns clockwise *or if two projected points are on one ray*.
+    """Apply the test as printed: C is outside if a side turns clockwise *or if two images are on one ray* from C.
 
     The second condition ("In instances I and II ... the point being tested is considered as being outside") is wrong.
-    C is inside if it is between two successive opposite images (III). Equal images count as one.
+    C is inside if it lies between two successive images in opposite directions (case III). Equal images count as one.
     """
     sides = _sides(star_polygon([*dict.fromkeys(images)]))
     if any(vorticity(a, b) == 0 and not on_one_ray(a, b) for a, b in sides):
@@ -44,20 +43,20 @@ def as_printed(images: Sequence[Image]) -> bool:
 
 
 def as_corrected(images: Sequence[Image]) -> bool:
-    """Apply the corrected test: C is outside if a side turns clockwise, or if all projected points are on one ray.
+    """Apply the corrected test: C is outside if a side turns clockwise, or if all images are on one ray from C.
 
-    A side of exactly 180 degrees (possibility III of Fig. 12) contains C, so C is not a corner.
+    A side that spans exactly 180 degrees (case III of Fig. 12) contains C, so C is not a corner.
     """
-    # Two images on one ray say nothing about the angle between the rays, so sides along a ray are skipped.
+    # A side along a ray does not tell how far the images spread about C, so it is skipped.
     sides = [(a, b) for a, b in _sides(star_polygon(images)) if not on_one_ray(a, b)]
     return not sides or any(vorticity(a, b) < 0 for a, b in sides)
 
 
 def in_one_pass(images: Sequence[Image]) -> bool:
-    """Return the result of :func:`as_corrected` without sorting the images.
+    """Return the result of :func:`as_corrected`, computed without sorting the images.
 
-    C is outside if all images lie within an angle of less than 180 degrees. ``first`` and ``last`` are the images that
-    bound the angle of the images read so far, counterclockwise.
+    C is outside if all images lie within an angle of less than 180 degrees. ``first`` and ``last`` are the images at
+    the clockwise and counterclockwise ends of the angle that the images examined so far span.
     """
     if not images:
         return True
@@ -65,7 +64,8 @@ def in_one_pass(images: Sequence[Image]) -> bool:
     for image in images:
         from_first, from_last = vorticity(first, image), vorticity(last, image)
         if from_first >= 0 >= from_last:
-            # The image is within the angle, unless the angle is still a single ray and the image lies opposite to it.
+            # The image is within the angle, unless the angle is a single ray and the image is in the opposite
+            # direction.
             if from_first == 0 and from_last == 0 and not on_one_ray(first, image):
                 return False
             continue
@@ -84,7 +84,7 @@ def _sides(star: Sequence[Image]) -> list[tuple[Image, Image]]:
 
 
 def _angle(a: Image, b: Image) -> int:
-    """Compare two projected points by polar angle, for sorting: negative if ``a`` comes first."""
+    """Return a negative number if image ``a`` has the smaller polar angle, 0 if the angles are equal."""
     lower_a, lower_b = _is_lower(a), _is_lower(b)
     return lower_a - lower_b if lower_a != lower_b else -vorticity(a, b)
 
@@ -99,7 +99,7 @@ Pair = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Deleted:
-    """A point that was deleted from the list because it lies on the line between two others (Fig. 13)."""
+    """A point that was deleted because it lies on the line between two other points (Fig. 13)."""
 
     point: int
     between: Pair
@@ -116,11 +116,11 @@ class Edges:
 
 @dataclass(frozen=True, slots=True)
 class Projection:
-    """The other points projected parallel to the line of a pair, relative to the point C to which the line projects.
+    """A projection parallel to the line through a pair of points.
 
-    ``images`` are the images of the points off the line, up to one affine map. ``line`` lists the points on the line,
-    the pair included, sorted along it ("the distance from the orthographic projection plane can serve as a basis for
-    sorting").
+    ``images`` are the images of the points off the line, relative to the line's image C and up to one affine map.
+    ``line`` lists the points on the line, including the pair, sorted along it ("the distance from the orthographic
+    projection plane can serve as a basis for sorting").
     """
 
     images: list[Image]
@@ -128,19 +128,19 @@ class Projection:
 
 
 def project(points: Sequence[IntPoint], pair: Pair, live: Iterable[int]) -> Projection:
-    """Project the points ``live`` parallel to the line through ``pair``, two distinct points.
+    """Project the points with the indices ``live`` parallel to the line through ``pair``, two distinct points.
 
-    Each point is moved along the line to the coordinate plane perpendicular to the largest component of the line's
-    direction. Its image is the other two coordinates times that component. Images are thus integers, and the
-    common factor does not change the sense of rotation between any two of them.
+    Each point is moved parallel to the line into a coordinate plane, which is perpendicular to the axis of the largest
+    component of the line's direction. The image is the pair of the other two coordinates, multiplied by that component
+    to make them integers. This common factor does not change the sense of rotation between any two images.
     """
     origin, end = points[pair[0]], points[pair[1]]
     along = [q - p for p, q in zip(origin, end, strict=True)]
     k = max(range(3), key=lambda axis: abs(along[axis]))
     u, v = (k + 1) % 3, (k + 2) % 3
     du, dv, dk = along[u], along[v], along[k]
-    # The image of p is dk (p - origin) - (p - origin)_k along. Its constant part does not depend on p, so it is
-    # computed once: this loop runs for every point and every pair, which is where the method spends its time.
+    # The image of p is dk (p - origin) - (p - origin)_k along. The part (cu, cv) does not depend on p and is computed
+    # once, because the loop runs for every point and every pair and takes most of the time of the method.
     cu, cv = dk * origin[u] - du * origin[k], dk * origin[v] - dv * origin[k]
     images: list[Image] = []
     line: list[int] = []
@@ -156,11 +156,11 @@ def project(points: Sequence[IntPoint], pair: Pair, live: Iterable[int]) -> Proj
 
 
 def convex_edges(points: Sequence[IntPoint], live: Iterable[int], outside: StarTest) -> Edges:
-    """Test all pairs of the points ``live`` in order, and return those that are edges of the hull.
+    """Test all pairs of the points with the indices ``live`` in order, and return the pairs that are edges of the hull.
 
-    The points must be distinct. Points between the ends of a line are deleted as soon as a pair on that line is
-    projected, so the pair that is tested spans the whole line. Edges found earlier at a point that is deleted later are
-    dropped at the end. Only the star polygon test as printed produces such edges.
+    The points must be distinct. As soon as a pair is projected, all points on its line except the two ends are deleted.
+    Therefore only a pair of ends is tested. An edge at a point that is deleted later is not returned; only the star
+    polygon test as printed finds such edges.
     """
     remaining = dict.fromkeys(sorted(live))
     order = list(remaining)
@@ -178,7 +178,7 @@ def convex_edges(points: Sequence[IntPoint], live: Iterable[int], outside: StarT
             for inner in projection.line[1:-1]:
                 del remaining[inner]
                 deleted.append(Deleted(inner, (min(ends), max(ends))))
-            # i or j may have been deleted just now. The pair of the line's ends is then tested in its own turn.
+            # If i or j has just been deleted, the pair of the line's ends is tested in its own turn.
             if i in remaining and j in remaining and outside(projection.images):
                 edges.append((i, j))
     final = (edge for edge in edges if edge[0] in remaining and edge[1] in remaining)

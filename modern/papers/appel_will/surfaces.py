@@ -14,7 +14,7 @@ Surface = tuple[int, ...]
 
 
 class MapError(EmulatorError):
-    """Raised if lists of points do not describe a polyhedron.  The message names the surface and its points."""
+    """Raised if the surfaces do not describe a polyhedron. The message names the surface."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,11 +31,11 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Fates:
-    """What becomes of each surface of the given polyhedron on the hull (Fig. 4).
+    """What becomes of each surface of the given polyhedron on the hull (Fig. 4); surfaces are numbered from 0.
 
-    ``of`` gives for every given surface the number, from 0, of the hull's surface in whose plane it lies, or None if
-    the surface is deleted. ``unchanged`` holds the given surfaces that are identical with a surface of the hull.
-    ``added`` holds the hull's surfaces that contain no given one.
+    ``of`` has, for every given surface, the number of the hull's surface in whose plane it lies, or None if the given
+    surface is deleted. ``unchanged`` has the numbers of the given surfaces that are surfaces of the hull too. ``added``
+    has the numbers of the hull's surfaces in whose plane no given surface lies.
     """
 
     of: tuple[int | None, ...]
@@ -48,10 +48,10 @@ def fates(points: Sequence[IntPoint], original: Sequence[Surface], hull: Sequenc
 
 
 def fates_by_points(original: Sequence[Surface], faces: Sequence[Collection[int]], hull: Sequence[Surface]) -> Fates:
-    """Compare the given surfaces with the hull after nearly coplanar faces of the hull were merged.
+    """Return what becomes of the given surfaces on a hull whose nearly coplanar faces were merged.
 
-    A surface lies in the merged face that contains all of its points. ``faces`` lists all points of each merged face,
-    ``hull`` those of its polygon.
+    A given surface lies in the merged face that contains all of its points. ``faces`` has all points of each merged
+    face, and ``hull`` the points around it.
     """
     return _fates(original, hull, lambda surface, number: set(faces[number]) >= set(surface))
 
@@ -75,15 +75,16 @@ def check_surfaces(count: int, surfaces: Sequence[Surface]) -> None:
 
 
 def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[Surface, ...]:
-    """Return the surfaces with their points counterclockwise as seen from outside; each keeps its first point.
+    """Return the surfaces with their points counterclockwise as seen from outside. The first points do not change.
 
-    Raise MapError unless the map is one closed polyhedron: every surface is plane, every line is on two surfaces, all
-    surfaces are connected, and they enclose a volume, whose sign tells inside from outside.
+    Raise MapError unless the surfaces form one closed polyhedron: every surface is plane, every line is on two
+    surfaces, all surfaces are connected, and they enclose a volume. The sign of the volume distinguishes inside from
+    outside.
     """
     check_surfaces(len(points), surfaces)
     surfaces_at: defaultdict[frozenset[int], list[int]] = defaultdict(list)
     for number, surface in enumerate(surfaces):
-        # The paper takes the cross product of two lines as normal, which has the wrong sense at a concave point.
+        # The paper uses the cross product of two lines as the normal, which has the wrong sense at a concave point.
         normal = area_vector(points, surface)
         if not any(normal):
             raise MapError(f"surface {number + 1}: it has no area")
@@ -105,14 +106,16 @@ def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[S
 
 
 def lines(surfaces: Sequence[Surface]) -> tuple[Line, ...]:
-    """List every line of the polyhedron once, in its direction on the surface with the lower number."""
+    """Return every line of the polyhedron once, in its direction on the surface with the lower number."""
     owner = {line: number for number, surface in enumerate(surfaces) for line in sides(surface)}
     both_sides = ((line, number, owner[line[1], line[0]]) for line, number in owner.items())
     return tuple(Line(line, on, beyond) for line, on, beyond in both_sides if on < beyond)
 
 
 def _one_sense(surfaces: Sequence[Surface], surfaces_at: dict[frozenset[int], list[int]]) -> list[Surface]:
-    """Reverse some surfaces so that any two neighbours run along their common line in opposite directions."""
+    """Return the surfaces, some reversed, so that any two neighbours run along their common line in opposite
+    directions.
+    """
     oriented_so_far: dict[int, Surface] = {0: surfaces[0]}
     queue = [0]
     # Breadth-first search over neighbouring surfaces, starting with surface 1 as it is given.
