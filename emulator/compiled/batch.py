@@ -64,10 +64,10 @@ def run_batch(
 def punched(
     program: Program, texts: Iterable[str], options: Options | None = None, note: Note | None = None
 ) -> Iterator[str]:
-    """Run a program on many decks, and yield the cards that it punches for each, as text with one card on each line.
+    """Run a program on many decks, and yield the text of the cards that it punches for each deck.
 
-    ``texts`` are the decks in the same form.
-    Raise what :func:`emulator.language.cards.deck_from_text` and :meth:`emulator.machine.machine.Machine.run` raise.
+    A text has one card on each line; ``texts`` are the texts of the decks.  Raise what
+    :func:`emulator.language.cards.deck_from_text` and :meth:`emulator.machine.machine.Machine.run` raise.
     """
     options = options or Options()
     runner = _runner(program, options, note)
@@ -88,7 +88,7 @@ def _blocks(items: Iterable[T]) -> Iterator[list[T]]:
 
 
 def _runner(program: Program, options: Options, note: Note | None) -> Runner | None:
-    """Return the compiled engine with this program, or None if it cannot be used; ``note`` then receives the reason."""
+    """Return the compiled engine with this program, or None after telling ``note`` why it cannot be used."""
     reason = why_plain(options)
     if not reason:
         try:
@@ -101,7 +101,7 @@ def _runner(program: Program, options: Options, note: Note | None) -> Runner | N
 
 
 def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
-    """Convert the numbers and the log of a compiled run to the same result that the interpreter would return."""
+    """Convert a compiled run to the result that the interpreter would return for the deck."""
     lines: dict[str, list[str]] = {"P": [], "T": []}
     events: list[Event] = []
     cards = iter(deck.cards)
@@ -121,7 +121,7 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
             text = text[2 * devices.STAMP :]
             lines["T"].append(text)
             events.append(Event("type", text, program.statements[statement], decided(program, decision)))
-    # The kernel counts error codes by statement; the result has them by card.
+    # The kernel counts the error codes of each statement, but the result counts those of each card.
     errors: dict[tuple[str, int], int] = {}
     for at, times in run.errors:
         statement, number = divmod(at, devices.CODES)
@@ -144,7 +144,7 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
 
 
 def _ending(program: Program, options: Options, run: Run) -> Ending:
-    """Convert the number that says why a compiled run ended to the same ending that the interpreter would report."""
+    """Convert the reason for the end of a compiled run to the ending that the interpreter would report."""
     registers = run.registers
     at, decision, costly = registers[kernel.AT], registers[kernel.DECISION], registers[kernel.COSTLY]
     if run.reason == devices.AT_HOPPER:

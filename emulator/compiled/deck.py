@@ -1,10 +1,9 @@
 """Run a whole deck in compiled code, from its first card to its end: the kernel together with the devices.
 
 The engine supports READ, PUNCH, PRINT and TYPE with any FORMAT, SQRT, integer powers, error codes, PAUSE and the
-normal endings. A deck that needs anything else ends with NOT_HERE, and the caller runs it again on a
-:class:`emulator.machine.machine.Machine`. Such decks need another function or ACCEPT, have a field without a number or
-with a remark, a record that is too long, a list that does not fit its FORMAT, or leave the hopper empty within a data
-set.
+normal endings.  If a run needs anything else, it ends with NOT_HERE, and the caller runs the deck again on a
+:class:`emulator.machine.machine.Machine`.  This concerns other functions, ACCEPT, a field without a number or with a
+remark, a record that is too long, a list that does not fit its FORMAT, and a deck that ends within a data set.
 
 The functions use only the part of Python that numba compiles.
 """
@@ -43,7 +42,7 @@ class Start(NamedTuple):
     exponents: Row
 
 
-# (limit, strict bounds, type error codes, end the run at any dev.READ if the hopper is empty).
+# The limit of the run, 1 for strict bounds, and 1 if an empty hopper is a normal end at any READ.
 Setting = tuple[int, int, int]
 
 
@@ -58,8 +57,9 @@ def run_decks(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run the decks in order, and return the number of decks run. If the log becomes full during a deck, the function
-    stops before the remaining decks. The caller must then run that deck again with an empty log.
+    """Run the decks in order until the log is full, and return the number of decks that were completed.
+
+    The caller must run the remaining decks again with an empty log.
     """
     used = 0
     for d in range(len(cards.first) - 1):
@@ -82,8 +82,7 @@ def run_decks(
         ends[dev.LOG_FROM] = used
         used = devices[dev.USED]
         ends[dev.LOG_TO] = used
-        # Save the kind of the field, which a message about an undefined field needs, before the next deck overwrites
-        # it.
+        # Save the kind of the last field used, for a message about it, before the next deck overwrites the field.
         address = registers[ADDRESS]
         ends[dev.HELD] = core.exponents[address] if 0 <= address < len(core.exponents) else 0
     return len(cards.first) - 1
@@ -91,18 +90,20 @@ def run_decks(
 
 def load(forms: Forms, start: Start, core: Core, desk: Desk) -> None:
     """Reset core storage, the FORMAT texts and the registers to their state before a run."""
-    for k in range(len(start.mantissas)):
-        core.mantissas[k] = start.mantissas[k]
-        core.exponents[k] = start.exponents[k]
-    for k in range(len(forms.texts)):
-        desk.texts[k] = forms.texts[k]
-    for k in range(dev.DEVICES):
-        desk.devices[k] = 0
+    copy(start.mantissas, core.mantissas)
+    copy(start.exponents, core.exponents)
+    copy(forms.texts, desk.texts)
+    clear(desk.devices)
     desk.devices[dev.FIRST_READ] = -1
     clear(desk.registers)
     clear(desk.numbers)
     clear(desk.errors)
     desk.registers[CHARACTERISTIC] = ZERO
+
+
+def copy(source: Row, target: Row) -> None:
+    for k in range(len(source)):
+        target[k] = source[k]
 
 
 def clear(row: Row) -> None:
@@ -122,9 +123,9 @@ def run_deck(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run one deck and return the reason for its end.
+    """Run one deck and return the reason for the end of the run.
 
-    ``desk.devices`` must already hold the number of its first card and that of the first card after it.
+    ``desk.devices`` must already hold FIRST_CARD, LAST_CARD and NEXT.
     """
     limit, strict, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers
@@ -172,13 +173,13 @@ def run_deck(
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
         elif reason == interpreter.AT_PAUSE:
-            # START is pressed at once.  The notices list each PAUSE once, in the order of their first occurrence.
+            # The run continues as if START were pressed.  ``pauses`` numbers the PAUSE statements in the order of their
+            # first execution.
             if pauses[marks.statements[pc]] == 0:
                 devices[dev.PAUSES] += 1
                 pauses[marks.statements[pc]] = devices[dev.PAUSES]
         elif reason == interpreter.AT_LIMIT and not saved:
-            for k in range(len(counts)):
-                before[k] = counts[k]
+            copy(counts, before)
             goal = limit
             saved = True
         elif reason == interpreter.AT_POWER or reason == interpreter.AT_POWERX or reason == AT_MINUS_ZERO:

@@ -2,8 +2,8 @@
 
 These functions do the same as emulator/machine/devices.py and emulator/machine/forms.py, for runs without an operator.
 They use only the part of Python that numba compiles.  Every sequence in the tuples is a flat array of integers or ASCII
-codes.  The devices write a log: for each operation a letter (BEGUN, TAKEN, PUNCHED, TYPED), the text without trailing
-blanks, and an end of line.  A function returns GO_ON, or the reason why the run ends.
+codes.  The devices write a log with one line for each operation: a letter (BEGUN, TAKEN, PUNCHED or TYPED) and the text
+without trailing blanks.  A function returns GO_ON, or the reason why the run ends.
 """
 
 from __future__ import annotations
@@ -22,45 +22,49 @@ from emulator.numbers.columns1962 import write_fixed as write_fixed_1962
 from emulator.numbers.columns1962 import write_floating as write_floating_1962
 from emulator.numbers.work import ERROR
 
-# GO_ON means that the run continues.  The others are reasons for its end, in addition to those of the kernel.
+# GO_ON means that the run continues.  The other numbers are reasons for its end, in addition to those of the kernel.
 GO_ON, AT_HOPPER, NOT_HERE, LOG_FULL = -1, 100, 101, 102
 
-# The kinds of specifications of a FORMAT.
+# The kinds of specifications of a FORMAT, and the verbs.
 E_FIELD, F_FIELD, I_FIELD, TEXT, SLASH = range(5)
-
-# Verbs.
 READ, PUNCH, TYPE, ACCEPT = range(4)
 
-# The registers of the devices: FORMAT, current specification and end, verb, column of the card or line, current card,
-# next card, bounds of the deck, the READ that begins a data set, length of the log, number of different PAUSEs, and 1
-# if an empty hopper ends the run at any READ.
+# The registers of the devices.  An input or output statement sets FORMAT (the number of its FORMAT), SPEC (the current
+# specification), LAST_SPEC (the end of the specifications), VERB, and HAS_LIST (1 after the first number of its list).
+# COLUMN is the current column of the card or line.  CARD is the current card, and NEXT the next one.  The deck begins
+# with FIRST_CARD and ends before LAST_CARD.  FIRST_READ is the READ that begins a data set.  USED is the length of the
+# log, PAUSES the number of different PAUSE statements executed, and SEQUENCE the number of cards punched.  ANY_READ is
+# 1 if an empty hopper ends the run at any READ.  AS_1962 is 1 if input and output follow IBM's library of 1962.
 FORMAT, SPEC, LAST_SPEC, VERB, COLUMN, CARD, NEXT, FIRST_CARD, LAST_CARD, FIRST_READ, USED, PAUSES, ANY_READ = range(13)
-# 1 if input and output follow the library of 1962, 1 after the first number of a list, and cards punched.
 AS_1962, HAS_LIST, SEQUENCE = range(13, 16)
 DEVICES = 16
 
-# The entries of a row of Report.ends: reason for the end, cards read, bounds in the log, kind of the field at ADDRESS.
+# The entries of a row of Report.ends: the reason for the end, the number of cards read, the beginning and the end of
+# the deck's lines in the log, and the kind of the field at ADDRESS.
 REASON, CARDS_READ, LOG_FROM, LOG_TO, HELD = range(5)
 ENDS = 5
 
-# The numbers that describe a FORMAT, and those that describe a specification.
+# The numbers that describe a FORMAT: the bounds of its specifications, the specification at which a longer list
+# continues, 1 if it has fields, and the work of processing it once.
 FIRST, LAST, AGAIN, FIELDS, CHARGE = range(5)
 FORM = 5
+# The numbers that describe a specification.  For a text (an H or X field), PLACE is its position in Forms.texts, and
+# WIDTH is its length.
 KIND, WIDTH, DECIMALS, PLACE = range(4)
 PART = 4
 
 BEGUN, TAKEN, PUNCHED, TYPED, LINE_END = b"BRPT\n"
-# The number of the error code F8; those of E1 to E8 are 1 to 8.
+# The number of the error code F8.  The codes E1 to E8 have the numbers 1 to 8.
 F8 = 9
 CODES = 10
 # The number of columns of the line buffer.  No record of any device is longer.
 LINE_ROOM = 4096
-ERROR_WORDS = b"ERROR E0"
-# The digits of a number in the log.
+ERROR_WORDS = b"ERROR E"
+# The number of digits of each number in the log.
 STAMP = 6
 
 
-# The arrays are grouped in the tuples below, so that each function receives only those it needs: numba passes an array
+# The tuples below group the arrays so that each function receives only the arrays that it needs: numba passes an array
 # as seven or more numbers in every call.
 class Marks(NamedTuple):
     """The object code as devices use it: the second operand and statement of each instruction, and the verbs."""
@@ -71,7 +75,7 @@ class Marks(NamedTuple):
 
 
 class Code(NamedTuple):
-    """The object code, the parts of it that devices use, and a flag for each library function: 1 for SQRT, else 0."""
+    """The object code, the parts that devices use, and for each library function 1 if it is SQRT, otherwise 0."""
 
     flat: Flat
     marks: Marks
@@ -79,12 +83,7 @@ class Code(NamedTuple):
 
 
 class Forms(NamedTuple):
-    """All FORMAT statements of a program as flat arrays of integers.
-
-    A FORMAT has FORM numbers: the bounds of its specifications, the specification at which a longer list continues,
-    whether it has fields, and the work of processing it once. A specification has PART numbers. For an H or X field,
-    PLACE is the position of its text in ``texts``, and WIDTH is the length of the text.
-    """
+    """All FORMAT statements of a program, with FORM numbers each, their specifications, with PART each, and texts."""
 
     formats: Row
     specs: Row
@@ -99,7 +98,7 @@ class Cards(NamedTuple):
 
 
 class Tools(NamedTuple):
-    """Buffers reused for every deck: texts of the FORMATs (which a READ can change), registers, line, field."""
+    """Buffers reused for every deck: texts of FORMATs, which a READ can change; device registers; record; field."""
 
     texts: Row
     devices: Row
@@ -121,7 +120,7 @@ class Desk(NamedTuple):
 
 
 class Report(NamedTuple):
-    """The results of a block of decks: one row of numbers for each deck, and a log of what the devices did."""
+    """The results of a block of decks: rows of numbers, one for each deck, and a log of the devices' operations."""
 
     ends: Sequence[Row]
     registers: Sequence[Row]
@@ -191,7 +190,7 @@ def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool)
 
 
 def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
-    """Write the text of an H or X field.  On input, replace the text with the columns of the card (C26-5619 p. 37)."""
+    """Write the text of an H or X field.  On input, store the columns of the card as its text (C26-5619 p. 37)."""
     devices = desk.devices
     column = devices[COLUMN]
     devices[COLUMN] += width
@@ -214,7 +213,8 @@ def too_long(devices: Row) -> bool:
 def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
     """End an input or output statement: process the rest of its FORMAT and write the last record.
 
-    The library of 1962 writes no record for an unused field if the record is empty or the statement has no list.
+    If the FORMAT has an unused field, the library of 1962 writes no empty record, and none for a statement without a
+    list.
     """
     devices = desk.devices
     is_input = devices[VERB] == READ
@@ -299,7 +299,7 @@ def put(letter: int, line: Row, length: int, desk: Desk) -> int:
 
 
 def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
-    """Write a typed line to the log: its statement, the last decision, and its text."""
+    """Write a typed line to the log: the numbers of its statement and of the last decision, and its text."""
     registers, log, used = desk.registers, desk.log, desk.devices[USED]
     if used + length + 2 + 2 * STAMP > len(log):
         return LOG_FULL
@@ -317,7 +317,7 @@ def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
 
 
 def stamp(number: int, desk: Desk) -> None:
-    """Write a number to the log with a fixed number of digits, STAMP."""
+    """Write a number to the log with STAMP digits."""
     used = desk.devices[USED]
     for k in range(STAMP):
         desk.log[used + STAMP - 1 - k] = DIGIT + number % 10
@@ -335,10 +335,9 @@ def error(number: int, marks: Marks, desk: Desk) -> int:
     field = desk.field
     for k in range(len(ERROR_WORDS)):
         field[k] = ERROR_WORDS[k]
-    last = len(ERROR_WORDS) - 1
-    field[last] = DIGIT + number
+    field[len(ERROR_WORDS)] = DIGIT + number
     registers[WORK] += 1
-    return put_typed(field, last + 1, marks, desk)
+    return put_typed(field, len(ERROR_WORDS) + 1, marks, desk)
 
 
 def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules: Rules) -> int:

@@ -3,7 +3,7 @@
 Storage is two sequences, mantissas and exponents (emulator/numbers/arithmetic.py).  A fixed-point number is stored as
 its value with the exponent FIXED_POINT.  Like the interpreter, the loop returns a reason whenever it needs something
 outside the arithmetic: input, output, a library function, a message or the end of the run.  emulator/compiled/deck.py
-performs that service and calls the loop again.  The code uses only the part of Python that numba compiles.
+performs the service and calls the loop again.  The code uses only the part of Python that numba compiles.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from emulator.numbers.accumulator import add, divide, divide_fixed, multiply, ne
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules, drawn, from_integer, to_integer, wrap_integer
 from emulator.numbers.work import STEPS
 
-# The registers that are kept between calls; their meaning is that of the fields of emulator.machine.state.State.
-# FAC and CHARACTERISTIC are mantissa and exponent of the accumulator, SENT and SENT_EXPONENT a field being copied.
+# The registers that are kept between calls.  Most have the meaning of a field of emulator.machine.state.State.  FAC and
+# CHARACTERISTIC are the mantissa and exponent of the accumulator, SENT and SENT_EXPONENT those of a field being copied.
 PC, FAC, CHARACTERISTIC, FIXED, WORK, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2 = range(11)
-# DRAWS is the number of operations so far that took a random number.
+# HOPPER_EMPTY is State.last_card.  DRAWS counts the operations that took a random number.
 AT, DECISION, ELEMENT, COSTLY, OWED, HOPPER_EMPTY, DRAWS = range(11, 18)
 REGISTERS = 18
 
-# The reason to return for a fixed-point minus zero, which only the interpreter has.
+# The reason to return before a fixed-point minus zero, which only the interpreter can hold.
 AT_MINUS_ZERO = 16
 
 Row = MutableSequence[int]
@@ -49,8 +49,7 @@ def owe(registers: Row, steps: int) -> None:
 
 
 def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit: int, most: int, strict: int) -> int:
-    """Execute instructions until one needs the caller (for input, output or an error) or the run ends.  Return the
-    reason.
+    """Execute instructions until one needs the caller or the run ends, and return the reason.
 
     ``limit``, ``most``, ``strict`` and the operations are the same as in :func:`emulator.machine.interpreter.run`,
     which cites the source of each operation.
@@ -70,7 +69,8 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
         address = addresses[pc]
         subscript = subscripts[pc]
         if subscript >= 0:
-            # The eight numbers of a subscript: variable, factor and constant of the row, rows; the same for the column.
+            # A subscript has eight numbers: variable, factor, constant and size of the first dimension, and then of the
+            # second one.
             variable = table[subscript]
             row = table[subscript + 2]
             rows = table[subscript + 3]
@@ -300,8 +300,8 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
         else:
             reason = interpreter.AT_STOP
             break
-    # AT is the instruction that caused the return.  After an error PC still points to it.  After a service PC is beyond
-    # it.
+    # AT is the instruction that caused the return.  PC still points to it after an error, and beyond it after a request
+    # for a service.
     stays = reason in (
         interpreter.AT_UNDEFINED,
         interpreter.AT_BOUNDS,

@@ -1,7 +1,7 @@
 """Repeat the recorded operations of a run (a tape, emulator/machine/tape.py) in another arithmetic.
 
-The other arithmetic may have more digits, round at random, compute intervals or be exact.  The input numbers of the run
-are exact in all of them.  After an overflow the repetition continues with the largest number, as the machine does.
+The other arithmetic may have more digits, round at random, compute intervals or be exact.  It holds the input numbers
+of the run exactly.  After an overflow the repetition continues with the largest number, as the machine does.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ from emulator.numbers.arithmetic import Rules, drawn, profile
 from emulator.numbers.base import Number, Undecided
 from emulator.numbers.interval import Interval, IntervalNumbers
 
-# Enough for every sum and product of a program without powers; a longer result is an error, not a rounded number.
+# The digits of exact decimal numbers: enough for every sum and product of a program without powers.  A longer result is
+# an error and is never rounded.
 _LONG = 20_000
 # Numbers of the compiled code have at most this number of digits, because products must fit into 64 bits.
 _COMPILED_DIGITS = 9
@@ -75,23 +76,22 @@ def _compiled() -> Compiled | None:
 
 
 def must_compile_repetitions() -> bool:
-    """Return True if the repetition of tapes can be compiled but is not."""
+    """Return True if the repetition of tapes can be compiled but has not been compiled yet."""
     compiled = _compiled()
     return bool(compiled and compiled.must_compile)
 
 
 def compile_repetitions() -> None:
-    """Compile the repetition of tapes, or load it from numba's cache.  Otherwise :func:`repetitions` runs as Python."""
+    """Compile the repetition of tapes, or load it from numba's cache.  Do nothing if numba cannot be used."""
     if compiled := _compiled():
         compiled.ready(*[np.zeros(0, np.int64)] * 5, profile("truncating").rules)
 
 
 def repetitions(tape: Tape, digits: int, rules_of_runs: Iterable[Rules]) -> Iterator[tuple[list[int], list[int]]]:
-    """Repeat a tape with each of the given rules; yield the mantissas and exponents of the numbers that the IFs
-    tested.
+    """Repeat a tape with each of the given rules.  Yield the mantissas and the exponents of the tested numbers.
 
-    The tape was recorded with ``digits`` digits; the rules have at least as many.  The numbers are in the order of
-    ``tape.tests``.
+    The tape was recorded with ``digits`` digits; the rules have at least as many.  The numbers are those that the IFs
+    tested, in the order of ``tape.tests``.
     """
     compiled = None if must_compile_repetitions() else _compiled()
     code = tape.operations, tape.firsts, tape.seconds
@@ -121,9 +121,10 @@ def _leaves(tape: Tape, digits: int) -> list[decimal.Decimal]:
 
 
 def exactly(tape: Tape, digits: int) -> list[Number]:
-    """Return every number of a tape in exact arithmetic: as Decimals, or as Fractions if a quotient does not terminate.
+    """Return every number of a tape in exact arithmetic.
 
-    A division by zero gives the largest number of the machine, which has ``digits`` digits.
+    The numbers are Decimals, or Fractions if a quotient has no finite decimal expansion.  A division by zero gives the
+    largest number of the machine, which has ``digits`` digits.
     """
     exact = decimal.Context(prec=_LONG, Emax=decimal.MAX_EMAX, Emin=decimal.MIN_EMIN, traps=[decimal.Inexact])
     values: list[Any] = list(_leaves(tape, digits))
@@ -149,7 +150,10 @@ def _follow(
     over: _Operation,
     negated: Callable[[Any], Any],
 ) -> None:
-    """Repeat the operations of a tape in place by the given functions; ``values`` has the input numbers."""
+    """Repeat the operations of a tape with the given functions.
+
+    ``values`` holds the input numbers and receives the results.
+    """
     for k, (operation, i, j) in enumerate(zip(tape.operations, tape.firsts, tape.seconds, strict=True)):
         if operation == MULTIPLY:
             values[k] = times(values[i], values[j])
@@ -164,10 +168,12 @@ def _follow(
 
 
 def enclosed(tape: Tape, digits: int) -> list[Interval]:
-    """Return an interval that contains the exact value of each number on a tape, which has ``digits`` digits.
+    """Return for each number on a tape an interval that contains its exact value.
+
+    The tape was recorded with ``digits`` digits.
 
     The bounds have ``digits`` digits and are rounded outwards.  A quotient is unbounded if the divisor's interval
-    contains 0, and every result that is out of range is unbounded.
+    contains 0.  A result that is out of range is unbounded too.
     """
     system = IntervalNumbers(digits)
 

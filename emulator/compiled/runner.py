@@ -32,11 +32,10 @@ INSTEAD = "using the interpreter instead"
 
 # The largest number of decks in one call of the compiled code.
 BLOCK = 128
-LOG_ROOM = 1 << 20
-# Initial and largest size of a block's log; a deck that needs more runs in the interpreter.
-MOST_LOG_ROOM = 1 << 26
+# The initial and the largest size of a block's log in bytes.  A deck that needs more runs in the interpreter.
+LOG_ROOM, MOST_LOG_ROOM = 1 << 20, 1 << 26
 
-# The keys of Result.numbers, in the order of Report.numbers.
+# The keys of Result.numbers, in the order in which the rows of Report.numbers count them.
 WAYS = ("E<", "E>", "F<", "F>", "I<", "I>")
 
 _VERBS = {"READ": devices.READ, "PUNCH": devices.PUNCH, "ACCEPT": devices.ACCEPT}
@@ -45,10 +44,7 @@ _CARD_CODES = "".join(sorted(CHARACTERS.difference(RECORD_MARKS))).encode("ascii
 
 
 def why_plain(options: Options) -> str:
-    """Return one line that says why these options need the interpreter, or "" if the compiled engine supports them.
-
-    :class:`Runner` raises NotInstalled if the machine code then cannot be compiled or loaded.
-    """
+    """Return one line that says why these options need the interpreter, or "" if the compiled engine supports them."""
     if not isinstance(options.numbers, DecimalNumbers):
         return f"the compiled engine does not support {options.numbers.name} arithmetic: {INSTEAD}"
     if options.uncut:
@@ -65,7 +61,7 @@ def why_plain(options: Options) -> str:
 
 @cache
 def run_decks() -> Compiled:
-    """Return the function ``run_decks`` of deck.py, to be compiled.  Raise NotInstalled if numba cannot be used."""
+    """Return :func:`emulator.compiled.deck.run_decks` for compilation.  Raise NotInstalled if numba cannot be used."""
     # The code never divides by zero, so numba need not check divisors (error_model).  It creates no arrays, so numba
     # need not count references to them (_nrt).  The second option is documented only in
     # numba.extending.register_jitable; without it a run takes a sixth longer, because every call counts each of its
@@ -74,7 +70,7 @@ def run_decks() -> Compiled:
 
 
 def must_compile() -> bool:
-    """Return True if the engine can be compiled but is not, so that the interpreter has results sooner."""
+    """Return True if the engine can be compiled but has not been compiled yet, so that the interpreter is faster."""
     try:
         return run_decks().must_compile
     except NotInstalled:
@@ -90,14 +86,14 @@ def compile_engine() -> None:
 
 
 def packed(deck: Deck) -> bytes | None:
-    """Return 80 character codes for each card, or None if a card holds a record mark or an invalid character."""
+    """Return 80 character codes for each card, or None if a card has a record mark or an invalid character."""
     return _columns([card.text for card in deck.cards])
 
 
 def packed_text(text: str) -> bytes | None:
-    """Return 80 character codes for each card of a deck's text, or None if the text is not a valid deck.
+    """Return 80 character codes for each card of a deck's text, or None if the interpreter must read the text.
 
-    For None the caller gives the text to the interpreter, which raises the error.
+    This concerns texts with record marks, invalid characters or too many cards.
     """
     lines = text.replace("\r\n", "\n").split("\n")
     if lines[-1] == "":
@@ -126,7 +122,7 @@ class Run:
     counts: list[int]
     before: list[int]
     numbers: list[int]
-    # Pairs of CODES * statement + error code, and the number of occurrences.
+    # Each pair has CODES * statement + error code, and the number of occurrences.
     errors: list[tuple[int, int]]
     # The PAUSE statements that were executed, in order of their first execution.
     pauses: list[int]
@@ -137,9 +133,9 @@ class Run:
 
 
 class Runner:
-    """A compiled program, ready to run blocks of decks.
+    """The compiled engine with one program, for blocks of decks.
 
-    Raise what Machine raises, and emulator.jit.functions.NotInstalled.
+    Raise DeckError if the program does not fit the machine, and :class:`emulator.jit.functions.NotInstalled`.
     """
 
     def __init__(self, program: Program, options: Options) -> None:
@@ -180,11 +176,12 @@ class Runner:
         self.kernel = run_decks().ready(*self._arguments([]))
 
     def runs(self, packed: Sequence[bytes | None]) -> Iterator[Run | None]:
-        """Yield the run of each deck, or None for a deck that only the interpreter can run.  At most BLOCK decks."""
+        """Yield the run of each of at most BLOCK decks, or None for a deck that only the interpreter can run."""
         at = 0
         while at < len(packed):
             # A deck that could not be packed is passed as an empty deck, to keep the order.
-            runs = self._some([deck or b"" for deck in packed[at:]])
+            completed = self.kernel(*self._arguments([deck or b"" for deck in packed[at:]]))
+            runs = [self._run(d) for d in range(completed)]
             for run in runs:
                 yield None if packed[at] is None else run
                 at += 1
@@ -196,10 +193,6 @@ class Runner:
                 else:
                     yield None
                     at += 1
-
-    def _some(self, packed: list[bytes]) -> list[Run | None]:
-        """Run the decks in order until the log is full, and return the runs of those that were completed."""
-        return [self._run(d) for d in range(self.kernel(*self._arguments(packed)))]
 
     def _arguments(self, packed: list[bytes]) -> tuple[Any, ...]:
         """Return the arguments with which the compiled function runs these decks."""

@@ -1,7 +1,7 @@
 """Functions that numba (the extra ``fast``) compiles when they are first needed, and keeps in its cache.
 
 The cache is the folder ``NUMBA_CACHE_DIR``.  Without this variable it is ``__pycache__`` next to the source, or the
-user's cache folder if that cannot be written.
+user's cache folder if ``__pycache__`` cannot be written.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ class Compiled:
         numba = require_numba()
         for helper in called(entry)[1:]:
             _make_callable(helper)
-        # numba's cache detects changes only in the file that defines the entry.  The digest in the name detects changes
-        # in the other files.
+        # numba's cache detects changes only in the file that defines ``entry``.  A change in another file changes the
+        # digest in the name, so that numba compiles again.
         self._entry = FunctionType(entry.__code__, entry.__globals__, entry.__name__, entry.__defaults__)
         self._entry.__qualname__ += "_" + digest(entry, repr(options))
         self._jit = numba.njit(**options)
@@ -70,7 +70,7 @@ class Compiled:
 
     @property
     def must_compile(self) -> bool:
-        """True if :meth:`ready` would compile now and keep the result, so that work may begin without it."""
+        """True if :meth:`ready` would now have to compile the function and would keep the compiled code."""
         return self.keeps and not self.kept and not self.function.overloads
 
     def ready(self, *arguments: Any) -> Function:
@@ -127,7 +127,7 @@ def _refused(error: Exception) -> NotInstalled:
 
 
 def called(entry: Function) -> list[Function]:
-    """Return the function and all functions that it calls, directly or indirectly."""
+    """Return a list of the function and all functions that it calls, directly or indirectly."""
     functions = [entry]
     # The list grows during the loop: a breadth-first search of the call graph.
     for function in functions:
@@ -145,7 +145,7 @@ def _make_callable(helper: Function) -> None:
 
 
 def digest(entry: Function, options: str) -> str:
-    """Return a hash of 16 characters of everything that determines the compiled code: modules, constants, options."""
+    """Return a hash of everything that determines the compiled code: modules, constants and options."""
     functions = called(entry)
     text = [options]
     # numba compiles globals into the code as constants, so that their values count as well as the source.
