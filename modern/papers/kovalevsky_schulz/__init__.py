@@ -1,9 +1,9 @@
 """Kovalevsky and Schulz's algorithm: the hull of a voxel solid, computed from the points that can be its vertices.
 
-These points are called local corners, and the result is a cell list: vertices, edges and faces with references to each
-other. ``voxel_hull(volume)`` runs all steps: ``local_corners``, ``convex_polyhedron``, ``merged`` and ``straightened``.
-If no order of insertion is requested, ``hull_cells`` replaces the last three steps. ``reconstructed`` computes the
-voxels from the economical encoding of their hull.
+These points are called local corners. The result is a cell list: vertices, edges and faces with references to each
+other. ``voxel_hull(volume)`` runs all steps of the paper: ``local_corners``, ``convex_polyhedron`` (which inserts the
+points one by one), ``merged`` and ``straightened``. If no order of insertion is requested, ``hull_cells`` replaces the
+last three steps. ``reconstructed`` computes the voxels from the economical encoding of their hull, a short cell list.
 
 References
 ----------

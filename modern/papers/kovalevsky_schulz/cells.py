@@ -1,8 +1,8 @@
 """Cell lists: the vertices, edges and faces of a polyhedron's surface, in the form of the paper's Tables 1 to 3.
 
-All numbers count from 1, as in the paper. ``CellList`` is the
-redundant list. ``Economical`` contains only the coordinates and the vertices of each face. ``expanded`` computes the
-redundant list from the economical one.
+Vertices, edges and faces are numbered from 1, as in the paper. ``CellList`` is the full list, in which each cell refers
+to its neighbours. ``Economical`` contains only the coordinates of the vertices and the vertices of each face.
+``expanded`` computes the full list from the economical list.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -25,12 +25,14 @@ _BLOCK = 1 << 15
 
 
 class CellListError(EmulatorError):
-    """Raised for a cell list that is no convex polyhedron.  The message names the vertex or face, counted from 1."""
+    """Raised for a cell list that is not a convex polyhedron. The message names the vertex or face, counted from 1."""
 
 
 @dataclass(frozen=True, slots=True)
 class Vertex:
-    """A vertex in a cell list (Table 1). ``edges`` has -e for an edge e that starts here, +e for one that ends here."""
+    """A vertex in a cell list (Table 1). ``edges`` has -e for each edge e that starts at it, +e for each that ends at
+    it.
+    """
 
     point: IntPoint
     edges: tuple[int, ...]
@@ -40,7 +42,7 @@ class Vertex:
 class Edge:
     """An edge in a cell list (Table 2): its two vertices, and the faces on its left and right.
 
-    Left and right are as seen from outside when looking from ``start`` to ``end``.
+    The edge is seen from outside, in the direction from ``start`` to ``end``.
     """
 
     start: int
@@ -66,13 +68,16 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class Economical:
-    """The short encoding of a polyhedron, without edges: coordinates, and each face as a cycle of vertices."""
+    """The short encoding of a polyhedron without edges: the vertices, and each face as a cycle of vertex numbers."""
 
     points: tuple[IntPoint, ...]
     faces: tuple[tuple[int, ...], ...]
 
     def integers(self) -> tuple[int, ...]:
-        """Return the encoding as integers: two counts, the coordinates, and the size and vertices of each face."""
+        """Return the encoding as integers: the numbers of vertices and faces, the coordinates, and each face.
+
+        A face is encoded by the number of its vertices, followed by the numbers of these vertices.
+        """
         head = (len(self.points), len(self.faces))
         coordinates = (number for point in self.points for number in point)
         return (*head, *coordinates, *(number for face in self.faces for number in (len(face), *face)))
@@ -80,7 +85,7 @@ class Economical:
 
 @dataclass(frozen=True, slots=True)
 class CellList:
-    """The full cell list: vertices, edges and faces, each with references to the others (Tables 1 to 3)."""
+    """The full cell list: vertices, edges and faces, each with references to its neighbours (Tables 1 to 3)."""
 
     vertices: tuple[Vertex, ...]
     edges: tuple[Edge, ...]
@@ -95,15 +100,16 @@ class CellList:
         return Economical(self.points, tuple(face.vertices for face in self.faces))
 
     def planes(self) -> tuple[Plane, ...]:
-        """Return the plane (a, b, c, d) of each face in lowest terms; inside, a x + b y + c z + d is at most 0."""
+        """Return the plane (a, b, c, d) of each face in lowest terms. In the polyhedron a x + b y + c z + d <= 0."""
         return tuple(planes_of(self.points, [face.vertices for face in self.faces]))
 
 
 def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> list[Plane]:
-    """Return the planes of plane polygons in lowest terms, positive on the side where they run counterclockwise.
+    """Return the planes of plane polygons in lowest terms.
 
-    ``cycles`` lists the vertices of each polygon by point number from 1. Vertices in line with their neighbours are
-    allowed. Raise CellListError for a polygon without area.
+    A plane is positive on the side from which its polygon is seen to run counterclockwise. ``cycles`` has the numbers,
+    from 1, of the points around each polygon. Vertices in line with their neighbours are allowed. Raise CellListError
+    for a polygon without area.
     """
     sizes, vertex = _flat(cycles)
     low, shifted = _shifted(points, sizes)
@@ -114,7 +120,7 @@ def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> li
 
 
 def _shifted(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Array]:
-    """Return the least coordinates, and the points moved by them to the origin, as int64 if that is large enough."""
+    """Return the least coordinates, and the points relative to them, as int64 if all later results fit."""
     x, y, z = (min(axis) for axis in zip(*points, strict=True))
     shifted = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
     extent = max(map(max, shifted))
@@ -149,17 +155,18 @@ def _planes(points: Array, sizes: Numbers, vertex: Numbers) -> tuple[Array, Arra
 
 
 def assembled(points: Sequence[IntPoint], starts: Numbers, ends: Numbers, sizes: Numbers, signed: Numbers) -> CellList:
-    """Build a cell list from faces given as cycles of signed edges.
+    """Return the cell list of faces given as cycles of signed edges.
 
-    ``starts`` and ``ends`` give the vertices of each edge by number from 1. ``sizes`` gives the number of edges of each
-    face, and ``signed`` these edges, face after face, with the signs of ``Face.pairs``. Each face is rotated to begin
-    with its vertex of lowest number.
+    ``starts`` and ``ends`` have the vertex numbers, from 1, of each edge. ``sizes`` has the number of edges of each
+    face.
+    ``signed`` has the edge numbers of all faces in a row, with the signs of ``Face.pairs``. In the result each face
+    begins with its vertex of lowest number.
     """
     edge = abs(signed) - 1
     vertex = np.where(signed > 0, starts[edge], ends[edge])
     first = np.cumsum(sizes) - sizes
     face = np.repeat(np.arange(len(sizes)), sizes)
-    # Rotate each cycle of edges: ``place`` has the old index of each new entry.
+    # Rotate each cycle of edges. ``place`` has the old index of each new entry.
     lowest = np.flatnonzero(vertex == np.minimum.reduceat(vertex, first)[face])
     shift = np.empty(len(sizes), np.int64)
     shift[face[lowest[::-1]]] = lowest[::-1]
@@ -183,10 +190,10 @@ def assembled(points: Sequence[IntPoint], starts: Numbers, ends: Numbers, sizes:
 
 
 def expanded(encoding: Economical) -> CellList:
-    """Compute the full cell list from the short encoding.  Edges are numbered and directed as the faces first
-    use them.
+    """Return the full cell list for the short encoding.
 
-    Raise CellListError for an encoding that is not the surface of a convex polyhedron.
+    Edges are numbered in the order in which the faces use them first, and have the direction of their first use. Raise
+    CellListError for an encoding that is not the surface of a convex polyhedron.
     """
     points, faces = encoding.points, encoding.faces
     try:
@@ -195,18 +202,18 @@ def expanded(encoding: Economical) -> CellList:
         raise CellListError("expected vertex numbers below 2^63, found a larger one") from None
     face = np.repeat(np.arange(len(faces)), sizes)
     _check_cycles(sizes, start, face, len(points))
-    # Each entry of a cycle is a half-edge from its vertex to that of the next entry, cyclically.
+    # Each entry of a cycle is a half-edge from its vertex to the vertex of the next entry.
     following = np.arange(1, len(start) + 1)
     last = np.cumsum(sizes) - 1
     following[last] = last + 1 - sizes
     end = start[following]
-    # Half-edges with the same two vertices are one edge, directed like the first of them.
+    # Half-edges with the same two vertices are one edge, which has the direction of the first half-edge.
     _, first, edge_of = np.unique(
         np.minimum(start, end) * (len(points) + 1) + np.maximum(start, end), return_index=True, return_inverse=True
     )
     forward = start == start[first][edge_of]
-    # Each edge must have as many half-edges in one direction as in the other. Euler's formula then excludes all
-    # surfaces but the sphere, and convexity is checked last.
+    # Each edge must have as many half-edges in one direction as in the opposite direction. Euler's formula then
+    # excludes all surfaces except a sphere. Convexity is checked last.
     unpaired = np.bincount(edge_of, np.where(forward, 1, -1)).astype(bool)
     if unpaired.any():
         edge = first[unpaired].min()
@@ -223,7 +230,7 @@ def expanded(encoding: Economical) -> CellList:
 
 
 def _check_cycles(sizes: Numbers, start: Numbers, face: Numbers, count: int) -> None:
-    """Raise CellListError if a face has fewer than three vertices, a repeated one, or one that does not exist."""
+    """Raise CellListError if a face has fewer than three vertices, or a vertex twice, or one that does not exist."""
     too_short = np.flatnonzero(sizes < 3)
     order = np.lexsort((start, face))
     twice = (face[order][1:] == face[order][:-1]) & (start[order][1:] == start[order][:-1])
@@ -261,19 +268,22 @@ def coordinates(_: int, point: IntPoint) -> str:
 
 
 def vertex_rows(cells: CellList, label: Callable[[int, IntPoint], str] = coordinates) -> Iterator[str]:
-    """Yield the rows of the paper's Table 1, one for each vertex.  ``label`` formats a vertex's coordinates."""
+    """Yield the rows of the paper's Table 1, one for each vertex.
+
+    The function ``label`` returns the text for a vertex's coordinates from the number and the point of the vertex.
+    """
     for number, vertex in enumerate(cells.vertices, 1):
         yield f"{number}\t{label(number, vertex.point)}\t{_listed(vertex.edges)}"
 
 
 def edge_rows(cells: CellList) -> Iterator[str]:
-    """Yield the rows of the paper's Table 2: the two ends of an edge, and the faces on its left and right."""
+    """Yield the rows of the paper's Table 2: the two ends of each edge, and the faces on its left and right."""
     for number, edge in enumerate(cells.edges, 1):
         yield f"{number}\t{edge.start}\t{edge.end}\t{edge.left}\t{edge.right}"
 
 
 def face_rows(cells: CellList) -> Iterator[str]:
-    """Yield the rows of the paper's Table 3: the number of a face's edges, and its pairs (vertex, edge)."""
+    """Yield the rows of the paper's Table 3: the number of edges of each face, and its pairs (vertex, edge)."""
     for number, face in enumerate(cells.faces, 1):
         yield f"{number}\t{len(face.pairs)}\t{_listed(face.pairs)}"
 
@@ -289,23 +299,24 @@ def _listed(items: Iterable[object]) -> str:
 
 
 def triangulation_size(triangles: int) -> Fraction:
-    """Return how many integers a triangulation needs by formula (5), with half as many vertices as triangles."""
+    """Return the number of integers of a triangulation by formula (5), for half as many vertices as triangles."""
     return (Fraction(3, 2) + 3) * triangles
 
 
 def cell_list_size(vertices: int, faces: int) -> int:
-    """Return how many integers a short cell list needs by formula (6), which assumes five vertices for each face."""
+    """Return the number of integers of a short cell list by formula (6), which assumes five vertices for each face."""
     return 3 * vertices + 5 * faces
 
 
 def economical_size(cells: CellList) -> int:
-    """Return how many integers a short cell list needs exactly: three per vertex, and the vertices of each face."""
+    """Return the exact number of integers of a short cell list: three per vertex, and the vertices of each face."""
     return 3 * len(cells.vertices) + sum(len(face.pairs) for face in cells.faces)
 
 
 def cube_triangles(voxel_faces: int) -> int:
-    """Return how many triangles Marching Cubes creates for a voxel object, from the number of its outer voxel faces.
+    """Return the number of triangles that Marching Cubes creates for a voxel object with this number of outer faces.
 
-    Each voxel face contains one vertex of the triangulation, a sphere, so Euler's formula gives 2 V - 4 triangles.
+    Each outer face of a voxel contains one of the V vertices of the triangulation. The triangulation is a sphere, so by
+    Euler's formula it has 2 V - 4 triangles.
     """
     return 2 * voxel_faces - 4

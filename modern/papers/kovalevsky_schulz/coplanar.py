@@ -1,11 +1,10 @@
-"""Two other ways to treat a new point in the plane of a face (section 2, Figs. 7, 8), which the paper tried and
-abandoned.
+"""Two ways to treat a new point in the plane of a face that the paper tried and abandoned (section 2, Figs. 7 and 8).
 
-Let P be a new point in the plane of a face.  *Quadrangles* (Fig. 7): the face counts as invisible. All of its edges to
-visible faces, together with P, form one new coplanar face instead of a triangle for each edge, and the two faces are
-merged. *Extended* (Fig. 8): the face itself is extended to P by a hull in its plane.
+Let P be a new point in the plane of a face. *Quadrangles* (Fig. 7): the face counts as invisible. The edges between
+this face and visible faces, together with P, form one new coplanar face instead of a triangle for each edge. The new
+face is merged with the old one. *Extended* (Fig. 8): the face itself is extended to P by a hull in its plane.
 
-There is one face for each plane, stored as the cycle of its vertices without those in line with two others. All
+There is one face for each plane, stored as the cycle of its vertices without the vertices in line with two others. All
 arithmetic is in integers.
 """
 
@@ -29,11 +28,10 @@ Edge = tuple[int, int]
 class MergedHull:
     """A hull whose coplanar faces are merged, and counts of the steps that computed it.
 
-    Each face lists its vertices counterclockwise as seen from outside, beginning with the smallest index.
-    ``created`` counts the faces that were created when a point was inserted.  ``larger`` counts the created faces with
-    more than three vertices.  ``merged`` counts how often a new face was merged with a face of the same plane.
-    ``extended`` counts how often an existing face was extended to a new point of its plane.  ``straightened`` counts
-    the vertices that were removed because two consecutive edges of a face lay on one line.
+    Each face lists its vertices counterclockwise as seen from outside, beginning with the smallest index. The counts
+    are: ``created`` new faces, ``larger`` new faces with more than three vertices, ``merged`` new faces that were
+    merged with a face of the same plane, ``extended`` extensions of a face to a new point of its plane, and
+    ``straightened`` vertices that were removed because they lay in line with their neighbours.
     """
 
     faces: tuple[tuple[int, ...], ...]
@@ -45,8 +43,7 @@ class MergedHull:
 
 
 def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> MergedHull:
-    """Compute the hull of points with integer coordinates by one of the two treatments, ``quadrangles`` or
-    ``extended``.
+    """Return the hull of points with integer coordinates by the treatment ``quadrangles`` or ``extended``.
 
     Raise ValueError for points in one plane or another treatment.
     """
@@ -95,22 +92,22 @@ class _Growing:
                     boundary.setdefault(plane_at[b, a], []).append((a, b))
         for plane in visible:
             del self.faces[plane]
-        # A coplanar face is treated as in Fig. 7 or 8; each other boundary edge gives a triangle with the new point.
+        # A coplanar face is treated as in Fig. 7 or 8. Each other boundary edge and the new point form a triangle.
         for plane, edges in boundary.items():
             if values[plane] == 0:
                 self.join_coplanar(plane, edges, new, treatment)
             else:
                 for a, b in edges:
                     self.add_triangle(self.plane(a, b, new), (a, b, new))
-        # A point on the line in which two coplanar faces meet extends both, even if neither has a visible neighbour.
+        # A point in the planes of two faces extends both of them, even if no neighbour of a face is visible.
         for plane, value in values.items():
             if value == 0 and plane not in boundary:
                 self.enlarge(plane, (new,))
 
     def join_coplanar(self, plane: Plane, edges: Sequence[Edge], new: int, treatment: Treatment) -> None:
-        """Merge a face with a new point in its plane.  ``edges`` are the edges it shares with visible faces."""
-        # Fig. 7 creates one polygon from all edges to visible faces and merges it with the face. Fig. 8 extends the
-        # face itself. Both end in the hull of the face and the point within their plane. Only the counts differ.
+        """Merge a face with a new point in its plane. ``edges`` are the face's common edges with visible faces."""
+        # Fig. 7 creates one polygon from these edges and merges it with the face. Fig. 8 extends the face itself. Both
+        # result in the hull of the face and the point within their plane. Only the counts differ.
         if treatment == QUADRANGLES:
             self.created += 1
             self.larger += len(edges) > 1
@@ -142,9 +139,9 @@ class _Growing:
         return dot(plane[:3], self.points[k]) + plane[3]
 
     def convex_cycle(self, plane: Plane, corners: Sequence[int]) -> tuple[int, ...]:
-        """Return the hull of points in a plane as a cycle, counterclockwise from outside, the smallest index first."""
-        # Dropping the coordinate with the largest normal component projects the plane one to one. Exchanging the
-        # other two if that component is negative keeps the sense of rotation.
+        """Return the hull of points in a plane as a cycle of indices, counterclockwise, beginning with the smallest."""
+        # Dropping the coordinate of the largest component of the normal projects the plane one to one. If that
+        # component is negative, the other two coordinates are exchanged, which keeps the sense of rotation.
         axis = max(range(3), key=lambda k: abs(plane[k]))
         u, v = ((axis + 1) % 3, (axis + 2) % 3)[:: 1 if plane[axis] > 0 else -1]
         order = sorted(corners, key=lambda k: (self.points[k][u], self.points[k][v]))
@@ -157,7 +154,7 @@ class _Growing:
         """Return half of the convex hull of sorted points in two coordinates (Andrew's monotone chain)."""
         chain: list[int] = []
         for k in order:
-            # A point where the chain turns right or goes straight on is no vertex of the face.
+            # A point at which the chain turns right or does not turn is not a vertex of the face.
             while len(chain) > 1:
                 p, q, r = (self.points[i] for i in (*chain[-2:], k))
                 turn = (q[u] - p[u]) * (r[v] - p[v]) - (q[v] - p[v]) * (r[u] - p[u])

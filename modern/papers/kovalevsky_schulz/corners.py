@@ -1,9 +1,9 @@
 """Local corners: the voxels, or the corners of voxels, that can be vertices of the hull (section 2 of the paper).
 
 A grid point of the set is not a local corner if it is halfway between two neighbours that belong to the set. The test
-covers the 3 pairs of opposite points among its 6 nearest neighbours, or the 13 pairs among all 26.
+examines the 3 pairs of opposite points among its 6 nearest neighbours, or the 13 pairs among all 26 neighbours.
 
-The test by 6 neighbours runs slab by slab over whole arrays. The other 10 pairs are tested only at the points that
+The test of the 6 neighbours runs over whole arrays, slab by slab. The other 10 pairs are tested only at the points that
 remain.
 """
 
@@ -33,9 +33,9 @@ _SLAB = 1 << 20
 def places(volume: Volume, of: Of = VERTICES) -> Voxels:
     """Return the grid points whose hull is computed, voxel centres or corners, as an array of truth values.
 
-    ``centres`` are the voxels themselves (the paper's Int(M)), ``vertices`` their corners (Cl(M)). Voxel (x, y, z) has
-    the eight corners from (x, y, z) to (x + 1, y + 1, z + 1). A corner thus has the coordinates of the voxel farthest
-    from the origin among those it bounds (Fig. 3 and Definition SG).
+    For ``centres`` the grid points are the voxels themselves (the paper's Int(M)), for ``vertices`` their corners
+    (Cl(M)). Voxel (x, y, z) has the eight corners from (x, y, z) to (x + 1, y + 1, z + 1). A corner thus has the
+    coordinates of the voxel that is farthest from the origin among the eight voxels around it (Fig. 3, Definition SG).
 
     Raise VolumeError for a volume of two dimensions.
     """
@@ -51,7 +51,7 @@ def _with_corners(voxels: Voxels) -> Voxels:
 
 
 def _extra(volume: Volume, of: Of) -> int:
-    """Return how many more grid points than voxels each axis has: 0 for centres, 1 for corners."""
+    """Return the number by which grid points exceed voxels along each axis: 0 for centres, 1 for corners."""
     if volume.dimension != 3:
         raise VolumeError(f"{volume.source}: expected a volume of three dimensions, found two")
     if of not in (CENTRES, VERTICES):
@@ -60,7 +60,7 @@ def _extra(volume: Volume, of: Of) -> int:
 
 
 def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points]:
-    """Return the local corners (points that can be vertices) by the number of neighbours of their test: 6 or 26."""
+    """Return the local corners found by the test of 6 neighbours and by that of 26, with these numbers as keys."""
     extra = _extra(volume, of)
     # The slabs are cut across the axis with the largest stride, so that each is contiguous in memory.
     order = sorted(range(3), key=lambda axis: -abs(volume.array.strides[axis]))

@@ -1,7 +1,7 @@
 """The complete method: from a set of voxels to the cell list of its convex hull.
 
-The last step merges the triangles of one plane into a face and edges in one line into an edge (section 2, Figs. 6
-and 7). If no order of insertion is requested, the merged list is computed directly, without inserting the points.
+The last steps merge the triangles in one plane into a face, and the edges in one line into an edge (section 2, Figs. 6
+and 7). If no order of insertion is requested, the merged cell list is computed without inserting the points.
 """
 
 from dataclasses import dataclass
@@ -29,14 +29,14 @@ _SEED = 1963
 
 
 def merged(cells: CellList) -> CellList:
-    """Merge the faces of a polyhedron that lie in one plane into one face.
+    """Return the cell list in which the faces of a polyhedron that lie in one plane are merged into one face.
 
-    Their common boundary disappears, whether it is one edge or several, and with it the vertices within the merged
-    face. A vertex on the boundary of the merged face remains, even if its two edges lie in one line.
+    The common boundary of these faces disappears, whether it is one edge or several, together with the vertices within
+    the merged face. A vertex on the boundary of the merged face remains, even if its two edges lie in one line.
     """
     group: dict[Plane, int] = {}
     group_of_face = [group.setdefault(plane, len(group)) for plane in cells.planes()]
-    # Only the edges between different planes remain. Those of a merged face form one cycle, because it is convex.
+    # Only the edges between different planes remain. The edges of a merged face form one cycle, because it is convex.
     successors: list[dict[int, int]] = [{} for _ in group]
     # The left face follows an edge from its start to its end, the right face in the opposite direction (Table 2).
     for edge in cells.edges:
@@ -54,10 +54,11 @@ def merged(cells: CellList) -> CellList:
 
 
 def straightened(cells: CellList) -> CellList:
-    """Merge edges that lie in one line, by removing the vertices that have only two edges.
+    """Return the cell list in which edges that lie in one line are merged: the vertices with only two edges are
+    removed.
 
-    After faces were merged, such a vertex lies straight between its neighbours, because at least three faces meet in a
-    vertex of the hull.
+    If coplanar faces are merged already, such a vertex lies on the line between its neighbours, because at least three
+    faces meet in a vertex of the hull.
     """
     removed = {number for number, vertex in enumerate(cells.vertices, 1) if len(vertex.edges) == 2}
     if not removed:
@@ -93,7 +94,7 @@ def hull_cells(points: Points) -> CellList | Flat:
 
 
 def _renumbered(cells: CellList, cycles: list[list[int]]) -> CellList:
-    """Build a cell list from faces given as cycles of vertices.  Vertices that no face uses are left out."""
+    """Return the cell list of faces given as cycles of vertices of ``cells``, without the vertices of no face."""
     # The paper numbers the cells of the merged list consecutively.
     used = sorted({vertex for cycle in cycles for vertex in cycle})
     numbers = {old: new for new, old in enumerate(used, 1)}
@@ -103,21 +104,23 @@ def _renumbered(cells: CellList, cycles: list[list[int]]) -> CellList:
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """A hull's surface: a cell list with merged faces and, if an order of insertion was requested, triangles."""
+    """The surface of a hull: a cell list with merged faces and, if an order of insertion was requested, one of
+    triangles.
+    """
 
     faces: CellList
     triangulation: CellList | None = None
 
     @property
     def triangles(self) -> CellList:
-        """The triangles that result from inserting points one by one.  Raise VolumeError if none were inserted."""
+        """The triangles that result from inserting points one by one. Raise VolumeError if no points were inserted."""
         if self.triangulation is None:
             raise VolumeError("triangles exist only if points are inserted: set the order, for example to raster")
         return self.triangulation
 
     @property
     def straight(self) -> CellList:
-        """The cell list in which edges in one line are merged too.  Its vertices are the vertices of the hull."""
+        """The cell list in which edges in one line are merged too. All of its vertices are vertices of the hull."""
         return straightened(self.faces)
 
 
@@ -126,10 +129,10 @@ class VoxelHull:
     """The convex hull of a voxel solid, and the counts of Kovalevsky and Schulz's method.
 
     ``source`` names the solid in messages, and ``voxels`` is the number of its voxels. ``corners`` has the numbers of
-    local corners by 6 and by 26 neighbours. ``inserted`` holds those whose hull was computed, shape (n, 3), in raster
-    order, and ``order`` is the order in which they were inserted, or None. ``surface`` is ``Flat`` if all points lie in
-    one plane. ``of`` tells whether the points are centres or corners of voxels. ``world`` maps voxel coordinates to
-    physical coordinates, if these are known.
+    local corners found by a test of 6 neighbours and of 26 neighbours. ``inserted`` has the local corners whose hull
+    was computed, of shape (n, 3), in raster order. ``order`` is the order in which they were inserted, or None if they
+    were not. ``surface`` is ``Flat`` if all points lie in one plane. ``of`` tells whether the points are centres or
+    corners of voxels. ``world`` maps voxel coordinates to physical coordinates, or is None if the position is unknown.
     """
 
     source: str
@@ -151,9 +154,9 @@ class VoxelHull:
         return self.surface
 
     def mesh(self, straight: bool = False) -> Mesh:
-        """Return the hull as a mesh with coordinates as exact text.
+        """Return the hull as a mesh whose coordinates are exact text.
 
-        The coordinates are physical if the voxels have physical positions, otherwise the paper's integers. The faces
+        The coordinates are physical if the position of the voxels is known, otherwise the paper's integers. The faces
         are counterclockwise as seen from outside in these coordinates. With ``straight``, edges in one line are merged,
         so that all vertices are vertices of the hull.
         """
@@ -168,7 +171,7 @@ class VoxelHull:
         return Mesh(self._dimension, texts, outward)
 
     def measures(self) -> Measures:
-        """Compute the measures of the solid and its hull, in physical units if the voxels have physical positions."""
+        """Return the measures of the solid and its hull, in physical units if the position of the voxels is known."""
         return measures(self.voxels, *self._polygons(False), self.world)
 
     @property
@@ -176,7 +179,7 @@ class VoxelHull:
         return self.surface.dimension if isinstance(self.surface, Flat) else 3
 
     def _polygons(self, straight: bool) -> tuple[tuple[IntPoint, ...], tuple[tuple[int, ...], ...]]:
-        """Return the vertices, and the faces as indices of vertices from 0."""
+        """Return the vertices, and each face as a cycle of indices of vertices, from 0."""
         if isinstance(self.surface, Flat):
             cycle = tuple(range(len(self.surface.vertices)))
             return self.surface.vertices, (cycle,) if self.surface.dimension == 2 else ()
@@ -191,17 +194,17 @@ def voxel_hull(
     coplanar: Coplanar | None = None,
     order: Order | None = None,
 ) -> VoxelHull:
-    """Compute the hull of a solid's voxels.
+    """Return the hull of a solid's voxels.
 
     ``volume`` may be an array of truth values indexed [x, y, z]. ``of`` is ``centres`` or ``vertices``, for the hull of
     the voxels' centres or corners. ``neighbours`` is 6 or 26, the number of neighbours in the test for local corners.
     ``coplanar`` is ``visible`` (the default) or ``invisible``, see ``convex_polyhedron``. ``order`` is ``raster`` as in
-    the paper, or ``shuffled``, a faster and reproducible random order. If only ``coplanar`` is set, the order is
-    ``raster``. If neither is set, no points are inserted and there are no triangles.
+    the paper, or ``shuffled``, a reproducible random order, which is faster. If only ``coplanar`` is set, the order is
+    ``raster``. If neither ``coplanar`` nor ``order`` is set, no points are inserted and there are no triangles.
 
-    The hull does not depend on ``neighbours``, ``coplanar`` and ``order``. The number of triangles does, and so do the
-    vertices in line with others. Raise VolumeError for a volume of two dimensions, NoVoxels for a volume without
-    voxels, and ValueError for another value of an option.
+    The hull does not depend on ``neighbours``, ``coplanar`` and ``order``. But the number of triangles depends on them,
+    and so do the vertices of the cell list that lie in line with two others. Raise VolumeError for a volume of two
+    dimensions, NoVoxels for a volume without voxels, and ValueError for another value of an option.
     """
     volume = as_volume(volume)
     if not volume.count:
@@ -210,7 +213,7 @@ def voxel_hull(
         raise ValueError(f"expected 6 or 26 neighbours, found {neighbours}")
     if order is None and coplanar is not None:
         order = RASTER
-    # Section 2: only local corners can be vertices. Their numbers by 6 and by 26 neighbours are both reported.
+    # Section 2: only local corners can be vertices. Their numbers by 6 and by 26 neighbours are part of the result.
     corners = corners_by_neighbours(volume, of)
     counts = {count: len(corners[count]) for count in NEIGHBOURS}
     surface = _surface(corners[neighbours], order, coplanar or VISIBLE)
@@ -218,18 +221,13 @@ def voxel_hull(
 
 
 def _surface(points: Points, order: Order | None, coplanar: Coplanar) -> Surface | Flat:
-    """Compute the surface of the hull of local corners (the points that can be vertices), given in raster order."""
+    """Return the surface of the hull of local corners (the points that can be vertices), given in raster order."""
     if order is None:
         cells = hull_cells(points)
         return cells if isinstance(cells, Flat) else Surface(cells)
-    triangles = convex_polyhedron(ordered(points, order), coplanar)
-    return triangles if isinstance(triangles, Flat) else Surface(merged(triangles), triangles)
-
-
-def ordered(points: Points, order: Order) -> Points:
-    """Sort points, given in raster order, into the requested order of insertion.  Raise ValueError if it is unknown."""
     if order == SHUFFLED:
-        return np.random.default_rng(_SEED).permutation(points)
-    if order != RASTER:
+        points = np.random.default_rng(_SEED).permutation(points)
+    elif order != RASTER:
         raise ValueError(f"expected {RASTER} or {SHUFFLED} as the order of insertion, found {quoted(order)}")
-    return points
+    triangles = convex_polyhedron(points, coplanar)
+    return triangles if isinstance(triangles, Flat) else Surface(merged(triangles), triangles)

@@ -1,8 +1,7 @@
-"""The growing polyhedron of the method: a hull that is extended by one point after another (section 2, Figs. 5
-to 7).
+"""The growing polyhedron of the method: a hull that is extended to one point after another (section 2, Figs. 5 to 7).
 
-Every edge stores its two faces, so the faces visible from a point and their boundary are found by walking from one
-visible face, without a search of all faces. All arithmetic is in integers of any length.
+Every edge stores its two faces. The search for the faces visible from a point therefore starts at one visible face and
+proceeds from neighbour to neighbour, without testing all faces. All arithmetic is in integers of any length.
 """
 
 from collections.abc import Iterable, Sequence
@@ -18,9 +17,9 @@ from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
 
-# How to find one visible face. The faces visible from a point are connected through edges. This is true even if a
-# face whose plane contains the point counts as visible: that face or another face of its plane has a neighbour that
-# faces the point, or the point lies in the face itself.
+# How one visible face is found. The faces visible from a point are connected through edges. This is true even if a face
+# whose plane contains the point counts as visible: that face or another face of its plane has a neighbour from whose
+# outer side the point is seen, or the point lies in the face itself.
 #
 # 1. Points in raster order: a point later in that order than all vertices sees a face at the last vertex, V. Otherwise
 #    the point would be in the cone of the faces at V, and V + t (P - V) for a small t would be a point of the
@@ -46,7 +45,7 @@ Triangle = tuple[int, int, int, int, int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Flat:
-    """The hull of points in one plane, without a cell list: its dimension, and its vertices in cyclic order."""
+    """The hull of points in one plane, which has no cell list: its dimension, and its vertices in cyclic order."""
 
     dimension: int
     vertices: tuple[IntPoint, ...]
@@ -59,10 +58,10 @@ class Flat:
 class CurrentPolyhedron:
     """The polyhedron under construction, the paper's CP: numbered edges and triangles, changed in place.
 
-    ``points`` are all points that may become vertices, and ``shifted`` the same relative to the lowest corner of their
-    box. A face is visible from a point if the value of its plane there is at least ``least``. ``ends`` has the start
-    and the end of each edge. The face on the left of edge e is ``sides[e]``, the face on its right ``sides[-e]``.
-    ``first_new`` is the number of the first face created in the last extension.
+    ``points`` are all points that may become vertices, and ``shifted`` the same points relative to the lowest corner of
+    their bounding box. A face is visible from a point if the value of its plane at the point is at least ``least``.
+    ``ends`` has the start and the end of each edge. The face on the left of edge e is ``sides[e]``, and the face on its
+    right ``sides[-e]``. ``first_new`` is the number of the first face created in the last extension.
     """
 
     def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int], coplanar: Coplanar) -> None:
@@ -86,7 +85,7 @@ class CurrentPolyhedron:
         self.first_new = 1
 
     def first_visible(self, number: int) -> int:
-        """Return the number of a face that is visible from a point, or 0; the faces created last are tried first."""
+        """Return the number of a face that is visible from a point, or 0. The faces created last are tested first."""
         x, y, z = self.shifted[number]
         newest = range(self.first_new, self.last_face + 1)
         for candidates in (newest, self.faces):
@@ -97,10 +96,11 @@ class CurrentPolyhedron:
         return 0
 
     def extend(self, number: int, first: int) -> list[int]:
-        """Extend the polyhedron to a point from which the face ``first`` is visible.  Return the removed faces.
+        """Extend the polyhedron to a point from which the face ``first`` is visible. Return the removed faces.
 
-        The visible faces are removed, together with the edges between two of them and the vertices that have no other
-        face. Every edge of their boundary and the point form a new triangle (section 2).
+        The visible faces are removed, together with the edges between two visible faces and the vertices whose faces
+        are all visible. Each edge between a visible and an invisible face forms a new triangle with the point (section
+        2).
         """
         visible = self._visible(number, first)
         removed = set(visible)
@@ -112,7 +112,7 @@ class CurrentPolyhedron:
                 if sides[-edge] not in removed:
                     boundary.append(edge)
                 elif edge > 0:
-                    # An inner edge occurs in two removed faces, once with either sign.
+                    # An inner edge occurs in two removed faces, once with each sign.
                     inner.append(edge)
         for edge in inner:
             del ends[edge], sides[edge], sides[-edge]
@@ -121,9 +121,7 @@ class CurrentPolyhedron:
         return visible
 
     def _visible(self, number: int, first: int) -> list[int]:
-        """Return the sorted numbers of all faces visible from a point, by a search that starts at the face
-        ``first``.
-        """
+        """Return the sorted numbers of all faces visible from a point. The face ``first`` is one of them."""
         x, y, z = self.shifted[number]
         faces, sides, least = self.faces, self.sides, self.least
         visible, tested = [first], {first}
@@ -138,7 +136,7 @@ class CurrentPolyhedron:
         return sorted(visible)
 
     def cell_list(self) -> CellList:
-        """Return the cell list of the surface: vertices in input order, edges and faces in the order of creation."""
+        """Return the cell list of the surface: vertices in the order of ``points``, edges and faces as created."""
         edges, faces = sorted(self.ends), sorted(self.faces)
         ends = np.array([self.ends[edge] for edge in edges])
         vertices, renamed = np.unique(ends, return_inverse=True)
@@ -152,8 +150,8 @@ class CurrentPolyhedron:
         """Add a triangle from the vertex ``top`` to each edge of a boundary; an edge's sign gives its direction."""
         spokes: dict[int, int] = {}
         for edge in boundary:
-            # Neighbouring triangles share the edge between top and their common boundary vertex. It is created when
-            # the vertex occurs first; a negative sign marks that it runs towards top.
+            # Neighbouring triangles share the edge between top and their common boundary vertex. The edge is created
+            # when the vertex occurs first. It has a negative sign if it runs towards top.
             near, far = self.ends[edge] if edge > 0 else self.ends[-edge][::-1]
             if near not in spokes:
                 spokes[near] = self._edge(top, near)
@@ -181,7 +179,10 @@ class CurrentPolyhedron:
 
 
 class Waiting:
-    """The remaining points, each with a face visible from it: ``face`` by point, ``lists`` of points by face."""
+    """The points still to be inserted, each with one face that is visible from it.
+
+    ``face`` has this face for each point, and ``lists`` the points for each face.
+    """
 
     def __init__(self, polyhedron: CurrentPolyhedron, numbers: Iterable[int]) -> None:
         self.polyhedron = polyhedron
@@ -193,7 +194,7 @@ class Waiting:
         self._assign(list(numbers), range(1, polyhedron.last_face + 1))
 
     def renew(self, removed: Iterable[int], inserted: int) -> None:
-        """Assign the points of removed faces to new faces visible from them.  Points without one are dropped."""
+        """Assign each point of a removed face to a new face visible from it, or drop the point if there is none."""
         orphans = [number for face in removed for number in self.lists.pop(face, ()) if number != inserted]
         for number in orphans:
             del self.face[number]
@@ -225,11 +226,11 @@ class Waiting:
 
 
 def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISIBLE) -> CellList | Flat:
-    """Compute the hull of points with integer coordinates as triangles, inserting the points in the given order.
+    """Return the hull of points with integer coordinates as triangles. The points are inserted in the given order.
 
-    ``coplanar`` determines whether a face whose plane contains the point counts as ``visible``, as the paper decides,
-    or ``invisible``, as its number of 1404 triangles requires. Repeated points are ignored. For points in one plane,
-    which the paper does not treat, the result is ``Flat``, computed by ``modern.exact_hull``.
+    ``coplanar`` determines how a face counts whose plane contains the new point: as ``visible``, which the paper's text
+    prefers, or as ``invisible``, which its number of 1404 triangles requires. Repeated points are ignored. For points
+    in one plane, which the paper does not treat, the result is ``Flat``, computed by ``modern.exact_hull``.
 
     Raise ValueError if there are no points or ``coplanar`` is unknown.
     """
@@ -243,7 +244,7 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
         return flat_hull(exact_hull(distinct))
     polyhedron = CurrentPolyhedron(distinct, simplex, coplanar)
     remaining = sorted(set(range(len(distinct))).difference(simplex))
-    # Raster order (by z, then y, then x) allows the first of the two ways to find a visible face.
+    # In raster order (by z, then y, then x) the first of the two ways to find a visible face is possible.
     if all(p[::-1] < q[::-1] for p, q in pairwise(distinct)):
         for number in remaining:
             first = polyhedron.first_visible(number)
@@ -262,7 +263,7 @@ def flat_hull(hull: ExactHull) -> Flat:
 
 
 def independent(points: Sequence[IntPoint]) -> list[int]:
-    """Return the first four points that are not coplanar, or fewer if all points lie in one plane."""
+    """Return the indices of the first four points that are not coplanar, or of fewer if all points lie in one plane."""
     simplex = [0]
     normal: IntPoint = (0, 0, 0)
     for number in range(1, len(points)):

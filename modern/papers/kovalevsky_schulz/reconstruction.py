@@ -1,10 +1,11 @@
 """Reconstruct a convex digital object exactly from the short encoding of its hull (sections 2 and 5).
 
-An object is convex if it contains every voxel whose centre lies in the hull of its voxels' centres. From the hull of
-the centres, the object is reconstructed as the voxels whose centres lie in that hull. From the hull of the corners, it
-is reconstructed as the voxels with all eight corners in that hull. The second hull is the Minkowski sum of the first
-and a cube, so it contains the cube of a voxel only if the first contains the voxel's centre. For an object that is not
-convex, the result is the convex object around it.
+A digital object is convex if it contains every voxel whose centre lies in the hull of its voxels' centres. From the
+hull of the centres, the object is reconstructed as the set of all voxels whose centres lie in that hull. From the hull
+of the corners, it is reconstructed as the set of all voxels with all eight corners in that hull. The hull of the
+corners is the Minkowski sum of the hull of the centres and a cube. So it contains the cube of a voxel only if the hull
+of the centres contains the voxel's centre. For an object that is not convex, the result is the smallest convex object
+around it.
 """
 
 import numpy as np
@@ -21,8 +22,9 @@ Places = NDArray[np.int64]
 def reconstructed(encoding: Economical, of: Of = VERTICES) -> Volume:
     """Return the voxels of the digital object whose hull is encoded.
 
-    ``of`` is ``centres`` or ``vertices``, the points whose hull is encoded. Raise CellListError for an encoding that is
-    not a convex polyhedron, VolumeError for one that is too large, or for a hull of vertices that contains no voxel.
+    ``of`` is ``centres`` or ``vertices``, for the points of the voxels whose hull is encoded. Raise CellListError for
+    an encoding that is not a convex polyhedron. Raise VolumeError for a polyhedron that is too large, or for a hull of
+    vertices that contains no voxel.
     """
     if of not in (CENTRES, VERTICES):
         raise ValueError(f"expected the hull of {CENTRES} or {VERTICES}, found {quoted(of)}")
@@ -48,11 +50,9 @@ def reconstructed(encoding: Economical, of: Of = VERTICES) -> Volume:
 
 
 def _intervals(planes: list[Plane], sizes: list[int]) -> tuple[Places, Places]:
-    """Return, for each (x, y) of the box, the first and the last z inside all planes; first > last if no z is inside.
-
-    A component of a normal is at most twice the product of two sides of the box, so no term of a plane's value exceeds
-    twice ``MAX_CELLS``, and all values fit into 64 bits.
-    """
+    """Return, for each (x, y) of the box, the first and the last z inside all planes, or first > last if none is."""
+    # A component of a normal is at most twice the product of two sides of the box, so no term of a plane's value
+    # exceeds twice MAX_CELLS, and all values fit into 64 bits.
     x = np.arange(sizes[0], dtype=np.int64)[:, None]
     y = np.arange(sizes[1], dtype=np.int64)[None, :]
     first = np.zeros((sizes[0], sizes[1]), dtype=np.int64)

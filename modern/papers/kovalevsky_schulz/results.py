@@ -1,9 +1,9 @@
 """Compute each published result of Kovalevsky and Schulz, as lines worded like those in the paper.
 
-The paper does not define its bodies. The definitions here reproduce its numbers: the ball of diameter 32 is centred on
-a voxel, and the half-balls of Table 5 are centred on a corner of voxels. All hulls are hulls of the voxels' corners.
-The tables and the 1404 triangles need 6 neighbours and coplanar faces treated as invisible, although the text prefers
-26 neighbours and visible faces.
+The paper does not define its bodies exactly. The following definitions reproduce its numbers: the ball of diameter 32
+is centred on a voxel, and the half-balls of Table 5 are centred on a corner of voxels. All hulls are hulls of the
+voxels' corners. The tables and the 1404 triangles require local corners by 6 neighbours and coplanar faces that count
+as invisible, although the text prefers 26 neighbours and visible faces.
 """
 
 from collections.abc import Iterator, Sequence
@@ -30,7 +30,7 @@ TETRAHEDRON = ((0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))
 
 
 def produced(printed: Lines) -> Lines:
-    """Compute the lines of every published result that can be computed, by its id in ``results.toml``."""
+    """Return the lines of each published result that can be computed, by the result's id in ``results.toml``."""
     lines: dict[str, Sequence[str]] = dict(_ball(32))
     lines.update(_tetrahedron())
     lines["formula-5"] = [f"{_decimal(triangulation_size(1), 1)} integers for each triangle"]
@@ -46,7 +46,7 @@ def hull_of_ball(diameter: int, coplanar: Coplanar) -> VoxelHull:
 
 @cache
 def half_ball_cells(diameter: int, centre: str = VERTEX) -> CellList:
-    """Return the cell list of the hull of a half-ball.  As in Table 5, it has vertices within straight edges too."""
+    """Return the cell list of the hull of a half-ball. As in Table 5, points on straight edges are vertices too."""
     return voxel_hull(half_ball(diameter, centre), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
 
 
@@ -70,7 +70,7 @@ def _tetrahedron() -> Iterator[tuple[str, Sequence[str]]]:
 
 def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:
     """Compute the paper's Table 4 from three of its printed counts, because only a picture of the body is known."""
-    # One Marching Cubes vertex lies in every voxel face. Formulas (5) and (6) then give the numbers of integers.
+    # Marching Cubes places one vertex in every outer voxel face. Formulas (5) and (6) give the numbers of integers.
     voxel_faces = int(surface.split()[-2])
     triangles = cube_triangles(voxel_faces)
     size = _decimal(triangulation_size(triangles), 0)
