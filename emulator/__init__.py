@@ -1,6 +1,7 @@
 """An emulator of the IBM 1620 as a FORTRAN programmer used it.
 
-It covers cards, compiler, interpreter, arithmetic, FORMAT, devices and timing.  :mod:`hull1620` lists its public names.
+It consists of the compiler, the interpreter with its devices, the arithmetics, and a model of the machine's time.
+:mod:`hull1620` lists the public names.
 """
 
 # Part of the distribution hull1620.

@@ -1,6 +1,4 @@
-"""The errors that bad input raises.  Each message is one line that names the file, the card and the column."""
-
-from __future__ import annotations
+"""The errors that bad input raises.  A message is one line, which names file, card and column if these are known."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -72,8 +70,8 @@ class Place:
 class Diagnostic:
     """A message of the compiler.
 
-    ``number`` is IBM's error type (C26-5619 p. 56), or 0.  ``about`` is the subject of the message: a name in the
-    program, or a kind of statement that only another FORTRAN has.  :func:`merge_repeated` merges the messages that have
+    ``number`` is IBM's error type (C26-5619 p. 56), or 0.  ``about`` is the subject of the message, for example a name
+    in the program, or a kind of statement that only another FORTRAN has.  :func:`merge_repeated` merges messages with
     the same subject.
     """
 
@@ -103,14 +101,11 @@ def merge_repeated(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     for message in ordered:
         if not message.about:
             yield message
-        elif first_and_others := list(dict.fromkeys(cards.pop(message.about, ()))):
-            others = first_and_others[1:]
-            yield replace(message, message=message.message + _also(others)) if others else message
-
-
-def _also(cards: list[int]) -> str:
-    shown = ", ".join(map(str, cards[:4])) + (f" and {len(cards) - 4} more" if len(cards) > 4 else "")
-    return f" (also on card{'s' * (len(cards) > 1)} {shown})"
+        elif message.about in cards:
+            _, *others = dict.fromkeys(cards.pop(message.about))
+            more = f" and {len(others) - 4} more" if len(others) > 4 else ""
+            also = f" (also on card{'s' * (len(others) > 1)} {', '.join(map(str, others[:4]))}{more})"
+            yield replace(message, message=message.message + also) if others else message
 
 
 class Refused(Exception):
@@ -139,8 +134,8 @@ class CompileError(EmulatorError):
 class Explanation:
     """An explanation of an error type of the compiler (``5``) or an error code of the machine (``E3``).
 
-    ``example`` is a deck that produces the error.  ``remedy`` says how to correct it.  ``source`` says where the
-    explanation comes from: a page of a manual, or a program of IBM that was executed.
+    ``example`` is a deck that produces the error.  ``remedy`` says how to correct the error.  ``source`` is the source
+    of the explanation: a page of a manual, or a program of IBM that was executed.
     """
 
     title: str
@@ -152,7 +147,7 @@ class Explanation:
 
 @cache
 def explanations() -> Mapping[str, Explanation]:
-    """Return explanations of all error messages: types 5 to 13 of the compiler, codes E1 to E8, F1 to F9 of a run."""
+    """Return the explanations of the error types 5 to 13 of the compiler and the codes E1 to E8, F1 to F9 of a run."""
     # These imports are inside the function because every command loads this module, but few commands need explanations.
     import tomllib
     from importlib.resources import files

@@ -1,11 +1,9 @@
 """Reading and writing of files.  Every failure is a ``FileError`` with a one-line message.
 
 All input files and results of the project pass through here.  Results are written atomically: the old file stays until
-the new one is complete.  The path ``-`` is standard input or output.  A pipe or device, which may never end, is read up
-to a limit, which depends on its expected contents.
+the new one is complete.  The path ``-`` is standard input or output.  A pipe or device may never end, so it is read up
+to a limit that depends on the expected contents.
 """
-
-from __future__ import annotations
 
 import os
 import re
@@ -33,9 +31,9 @@ def source_name(path: str) -> str:
 
 
 def read_bytes(path: str, name: str = "", limit: int = TEXT_LIMIT) -> bytes:
-    """Return the contents of a file, or of a pipe or device with at most ``limit`` bytes.
+    """Return the contents of a file, or of a pipe or device that delivers at most ``limit`` bytes.
 
-    ``name`` replaces the path in messages.  Raise FileError if the file cannot be read.
+    ``name`` replaces the path in messages.  Raise FileError if the file cannot be read, or has more bytes.
     """
     if path == "-" and (sys.stdin is None or sys.stdin.closed):
         raise FileError("standard input is closed")
@@ -82,7 +80,10 @@ def decoded(data: bytes, source: str) -> str:
 
 
 def parse_toml(text: str, parse_float: Callable[[str], Any] = float) -> dict[str, Any]:
-    """Return the data of a TOML text.  Raise ValueError with a one-line message that usually ends with the position."""
+    """Return the data of a TOML text.
+
+    Raise ValueError with a one-line message, which usually ends with the position.
+    """
     import tomllib  # not at the top, because few commands read TOML
 
     try:
@@ -145,7 +146,7 @@ def check_folder(path: str | None) -> None:
         raise FileError(f"{path}: {reason(error)}") from None
 
 
-# The beginning of the names of files that are still being written.
+# The prefix of the names of files that are still being written.
 UNFINISHED = ".unfinished-"
 
 

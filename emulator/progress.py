@@ -1,7 +1,5 @@
 """The progress of a study, as a bar on a terminal, or as one line a minute in a file."""
 
-from __future__ import annotations
-
 import shutil
 import sys
 import time
@@ -9,17 +7,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TextIO
 
-_REDRAW = 0.2
 # Seconds between two updates of the bar on a terminal, and between two lines in a file.
-_LINES = 60.0
+_REDRAW, _LINES = 0.2, 60.0
 
 
 @dataclass
 class Progress:
     """A counter of completed samples, which shows the count on ``file``.
 
-    ``what`` names the samples in the display.  ``before`` is the number of samples
-    that earlier runs completed.
+    ``what`` names the samples in the display.  ``before`` is the number of samples that earlier runs completed.
     """
 
     total: int

@@ -4,8 +4,6 @@ The results are those of :class:`emulator.machine.machine.Machine` for each deck
 that memory does not grow with their number.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
 from typing import TypeVar

@@ -8,8 +8,6 @@ remark, a record that is too long, a list that does not fit its FORMAT, and a de
 The functions use only the part of Python that numba compiles.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from emulator.compiled import devices as dev

@@ -6,8 +6,6 @@ codes.  The devices write a log with one line for each operation: a letter (BEGU
 without trailing blanks.  A function returns GO_ON, or the reason why the run ends.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -6,8 +6,6 @@ outside the arithmetic: input, output, a library function, a message or the end 
 performs the service and calls the loop again.  The code uses only the part of Python that numba compiles.
 """
 
-from __future__ import annotations
-
 from collections.abc import MutableSequence
 from typing import NamedTuple
 

@@ -4,8 +4,6 @@ The other arithmetic may have more digits, round at random, compute intervals or
 of the run exactly.  After an overflow the repetition continues with the largest number, as the machine does.
 """
 
-from __future__ import annotations
-
 import decimal
 import operator as o
 from collections.abc import Callable, Iterable, Iterator, Sequence

@@ -4,8 +4,6 @@ numba compiles :func:`emulator.compiled.deck.run_decks` and the functions it cal
 most nine digits, because products must fit into 64 bits.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache

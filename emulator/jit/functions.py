@@ -4,8 +4,6 @@ The cache is the folder ``NUMBA_CACHE_DIR``.  Without this variable it is ``__py
 user's cache folder if ``__pycache__`` cannot be written.
 """
 
-from __future__ import annotations
-
 import hashlib
 import inspect
 import sys

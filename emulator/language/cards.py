@@ -4,8 +4,6 @@ The card code is that of the 1620 reference card, form X26-5743-2, page 4.  A de
 the blank columns at the end of the card.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Callable, Iterable

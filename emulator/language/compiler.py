@@ -5,8 +5,6 @@ which we executed: the code at the end of the loop adds the step to the variable
 limit.  So a loop runs at least once, and its variable ends at the first value beyond the limit.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Sequence

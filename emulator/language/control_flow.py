@@ -3,8 +3,6 @@
 The warnings concern programs that compile.  They do not change the object code.  The 1620 gave no such warnings.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from emulator.errors import Diagnostic

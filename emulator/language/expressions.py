@@ -9,8 +9,6 @@ a function or a power.  So ``A-B*C-D`` is computed as B*C - A + D.  The sign of 
 makes a result of zero a minus zero.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from emulator.errors import Refused

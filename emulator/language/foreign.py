@@ -4,8 +4,6 @@ Sources: the statements of 1620 FORTRAN II (C26-5876), of FORTRAN II-D with its 
 (C26-5594), and FORTRAN IV as defined by its standard of 1966.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ The facts were found by running the library in a simulator with hand-written obj
 (docs/reference/ibm-library.md).  A position of core storage is an integer: its digit, plus FLAG if it has a flag.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 

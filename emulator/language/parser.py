@@ -1,7 +1,5 @@
 """The parser: it converts statements to the syntax tree, with the LALR grammar in ``dialect.lark``."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass

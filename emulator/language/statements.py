@@ -5,8 +5,6 @@ Source: C26-5619 p. 12.  The columns printed on the coding form are only guides:
 compiled.  The manual leaves the rules for continuation cards and blank cards open (OPEN-QUESTIONS 1 and 2).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field

@@ -8,8 +8,6 @@ three more rules: a FORMAT takes two fields, the constants of a DO take none, an
 temporary field.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from bisect import bisect_right

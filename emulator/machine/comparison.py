@@ -3,8 +3,6 @@
 emulator/machine/divergence.py states the rules and runs the programs.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from dataclasses import dataclass, field
@@ -25,10 +23,10 @@ _DECISIONS = (op.IF, op.IFX, op.SELECT, op.DOTEST)
 class Difference:
     """A value that differs between the studied run and the reference run.
 
-    ``time`` is the number of the execution of the statement ``line``, from 1.  ``names`` and ``values`` are the
-    variable and its value in each run.  ``relative`` is the difference divided by the value in the reference run, or
-    None if that value is zero or not a number.  ``bound`` is the largest possible error of the value in the reference
-    run, 0 if nothing was rounded.
+    The statement ``line`` stored the value in its execution number ``time``, counted from 1.  ``names`` and ``values``
+    are the variable and its value in each run.  ``relative`` is the difference divided by the value in the reference
+    run, or None if that value is zero or not a number.  ``bound`` is the largest possible error of the value in the
+    reference run, 0 if nothing was rounded.
     """
 
     line: Line
@@ -43,7 +41,8 @@ class Difference:
 class Decision:
     """A decision (IF, computed GO TO or end of a DO) that has different outcomes in the two runs.
 
-    The fields are the statement, the number of its executions so far, and the value and the target in each run.
+    ``time`` is the number of the execution of the statement ``line``, counted from 1.  ``values`` and ``targets`` are
+    the tested value and the statement at which each run continues.
     """
 
     line: Line
@@ -54,9 +53,10 @@ class Decision:
 
 @dataclass(frozen=True, slots=True)
 class Loss:
-    """The digits that the values of one statement lost, counted up to the first decision that differs between the runs.
+    """The digits that the values of one statement lost before the first decision that differs between the runs.
 
-    ``times`` values were compared, and ``differing`` of them differ.  ``worst`` and ``median`` are decimal digits lost.
+    ``times`` values were compared, and ``differing`` of them differ.  ``worst`` and ``median`` are the largest and the
+    median number of decimal digits that a value lost.
     """
 
     line: Line
@@ -83,16 +83,14 @@ class Comparison:
         self._statement_of = program.statement_numbers
         self._decides = [i.operation in _DECISIONS for i in program.code]
         self._counts = [i.operation == op.COUNT for i in program.code]
-        # The number of executions of each instruction.  If an array is read as a whole, each element has a separate
-        # count.
+        # The number of executions of each instruction, separately for each element of an array that is read as a whole.
         self._times: Counter[tuple[int, int]] = Counter()
         self._whole = [op.repeats(i) > 1 for i in program.code]
         self._tallies: dict[int, _Tally] = {}
-        # The number of digits of the less precise arithmetic, P in the formula of divergence.py.  It is 0 if both
-        # arithmetics are exact, because they cannot lose digits.
+        # The P of divergence.py: the number of digits of the less precise arithmetic, or 0 if both are exact.
         digits = min(studied.digits, reference.digits)
         self.digits = digits if math.isfinite(digits) else 0.0
-        # Irrational exact values, such as roots, are compared with this many digits.
+        # The number of digits with which irrational exact values, such as roots, are compared.
         self._exactly = 2 * int(self.digits) + 20
         self.first_value: Difference | None = None
         self.first_decision: Decision | None = None
@@ -100,11 +98,10 @@ class Comparison:
         self.uncertain = ""
 
     def differs(self, entry: Entry, reference_entry: Entry) -> bool:
-        """Compare an entry of each run's journal. Return True if both record a decision and the outcomes differ."""
+        """Compare the next entries of both journals.  Return True if they are decisions with different outcomes."""
         pc = entry[0]
         if self._counts[pc]:
             return False
-        # The elements of an array that is read as a whole are counted separately.
         place = pc, entry[1] if self._whole[pc] else 0
         self._times[place] += 1
         if not self._decides[pc]:
@@ -164,17 +161,16 @@ class Comparison:
         return self._reference.error(value)
 
     def _uncertainty(self, pc: int, value: Number, bound: Fraction | None) -> str:
-        """Return a message if rounding in the reference run may have given an IF the wrong sign, else ""."""
+        """Return the message that rounding in the reference run may have given an IF the wrong sign."""
         card, name, text = self._line(pc).place.card, self._reference.name, self._reference.text(value)
         size = "any amount" if bound is None else f"1E{math.ceil(_logarithm(bound)):+03d}"
         remedy = "use exact, or a reference of more digits"
         return f"at card {card} {name} has {text}, which its own rounding may have changed by {size}; {remedy}"
 
     def _lost(self, entry: Entry, reference_entry: Entry) -> tuple[float | None, float | None, bool]:
-        """Return the decimal digits lost, the relative difference, and True if the reference's rounding explains the
-        difference.
+        """Return the digits lost, the relative difference, and True if rounding in the reference run explains it.
 
-        The first two are None if the values are equal or rounding explains their difference.
+        The digits and the relative difference are None if the values are equal or rounding explains their difference.
         """
         # If the entries change different fields, for example because a subscript differs, all digits count as lost.
         if entry[1] == reference_entry[1]:
@@ -207,10 +203,8 @@ class Comparison:
         """
         texts = []
         for wide in (False, True):
-            texts = [
-                _text(numbers, value, self._value(numbers, value) if wide else None)
-                for numbers, value in ((self._studied, studied), (self._reference, reference))
-            ]
+            pairs = (self._studied, studied), (self._reference, reference)
+            texts = [_text(n, value, self._value(n, value) if wide else None) for n, value in pairs]
             if texts[0] != texts[1]:
                 break
         first, second = ("0" if tested and text == "-0" else text for text in texts)
@@ -224,7 +218,7 @@ class Comparison:
         return self._line(pc) if pc < len(self._statement_of) else None
 
     def losses(self) -> tuple[Loss, ...]:
-        """Return how many digits each statement lost, the largest loss first, then in the order of cards."""
+        """Return the losses of all statements, the largest first.  Equal losses are in the order of their cards."""
         lines = self._program.statements
         losses = [_loss(lines[statement], tally) for statement, tally in self._tallies.items()]
         return tuple(sorted(losses, key=lambda loss: (-loss.worst, -loss.median, loss.line.place.card)))

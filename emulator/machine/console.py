@@ -3,8 +3,6 @@
 The output is plain lines of text, wrapped to a given width.
 """
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -95,7 +93,7 @@ def flipped(session: Session, number: int) -> Action:
 
 
 def done(session: Session, line: Line, width: int) -> list[str]:
-    """Return lines that show what the last statement stored or tested, if anything."""
+    """Return lines with the value that the last statement stored or tested, or no line if it did neither."""
     text = effect(session, line)
     return wrapped(text, width) if text else []
 

@@ -1,10 +1,8 @@
 """The card reader, card punch and typewriter, which read and write lists of numbers by FORMAT.
 
 :class:`emulator.machine.session.Session` drives the devices.  The devices record each operation as an event.  They
-raise :class:`LineNeeded` if the operator must first type a line.  The caller then repeats the call.
+raise :class:`LineNeeded` if the operator must first type a line.  The session then repeats the call.
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -33,7 +31,7 @@ from emulator.numbers.work import ERROR
 
 ERROR_F8 = "ERROR F8"
 
-# The field of a fixed-point number after ERROR F8.
+# The field in which the library of 1962 writes a fixed-point number after ERROR F8.
 _FIXED = Field("I", 5)
 
 
@@ -61,9 +59,10 @@ class Devices:
     """The devices of one machine.
 
     state: the state of the run, changed in place.  typed_line: a line that the operator has typed but no statement has
-    read.  listed: the fields of the last input or output statement, if ``lists`` is set.  punched: cards punched.
-    characters: characters typed, counting the end of a line as one.  fields: numbers read ("E<") and written ("E>") by
-    kind of field.  cut: the numbers on each punched card before its fields truncated them.
+    read.  listed: the addresses in the list of the last input or output statement, if ``lists`` is set.  punched: the
+    number of cards punched.  characters: the number of characters typed, counting the end of a line as one.  fields:
+    the count of numbers read ("E<") and written ("E>") for each kind of field.  cut: for each punched card, its numbers
+    before its fields truncated them.
     """
 
     program: Program
@@ -181,8 +180,8 @@ class Devices:
         return Ended(replace(self.ending("record"), format=self._format))
 
     def _count_item(self, address: int) -> None:
-        # Count the work: one unit for the number, the cost of each repetition of the FORMAT, and the cost of converting
-        # a long number.
+        # The work is one unit for the number, the cost of each repetition of the FORMAT, and that of converting a long
+        # number.
         transfer, numbers = self.transfer, self.options.numbers
         assert transfer is not None
         self.state.work += 1 + self._charge * transfer.again
@@ -229,7 +228,7 @@ class Devices:
         """
         if begins or self.transfer is None:
             return self.layouts[self.program.code[self.state.at].second].record_fields(0)
-        # The list continues on another line: after a slash, or where the FORMAT is repeated.
+        # The list continues on another line, either after a slash or because the FORMAT is repeated.
         layout, at = self.transfer.layout, self.transfer.at
         return layout.record_fields(at + 1 if at < len(layout.spec.specs) else layout.spec.again)
 
@@ -260,7 +259,7 @@ class Devices:
             columns, overflowed = self.options.numbers.write(spec if fits else FALLBACK, value)
             overflowed = overflowed or not fits
         if overflowed and isinstance(transfer, Output1962):
-            # The library writes a record with the error code and the number, and leaves the field blank.
+            # The library leaves the field blank and writes another record with the error code and the number.
             is_narrow = fits and spec.decimals + 6 > spec.width and spec.kind == "E"
             blank = transfer.end_before(spec.width, exponent_as_1962(spec, *value) if is_narrow else "")
             blank = blank.ljust(len(ERROR_F8) + 1)

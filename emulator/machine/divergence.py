@@ -1,4 +1,4 @@
-"""Divergence: the first value and the first decision that differ when two arithmetics run the same program.
+"""Compare runs of a program in two arithmetics: find the first value and the first decision that differ.
 
 Both runs read the same deck.  As long as every decision (IF, computed GO TO, the end of a DO) has the same outcome in
 both, they execute the same statements, and the values they store can be compared.  After a decision with different
@@ -10,13 +10,11 @@ Lost digits are counted only up to the first decision that differs.  After that 
 program chose another point, although no digit was lost.  A value with the relative difference r from the reference has
 lost ``P + log10(r)`` digits, at least 0 and at most P, where P is the number of digits of the less precise arithmetic.
 
-A reference that rounds is itself inexact.  Its run computes a bound of the error for every number
-(emulator/numbers/shadowed.py derives it).  A difference within the bound is counted as ``within``, not as a difference.
-If an IF has different outcomes and the reference's value is no farther from zero than its bound, the reference cannot
-tell which outcome is right, and the comparison ends there.
+A reference that rounds is itself inexact.  Its run computes an error bound for every number, which
+emulator/numbers/shadowed.py derives.  A difference within the bound is counted as ``within`` and not as a difference.
+If an IF has different outcomes and the value in the reference run is no farther from zero than its bound, the reference
+cannot tell which outcome is right, and the comparison ends there.
 """
-
-from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -37,13 +35,15 @@ from emulator.machine.state import Entry, Journal
 from emulator.numbers import Numbers
 from emulator.numbers.shadowed import ShadowedNumbers
 
-# The units of work that one run does before the comparison switches to the other run.
+# The units of work after which the comparison switches from one run to the other.
 _STRIDE = 1_000
 
 
 @dataclass(frozen=True, slots=True)
 class Divergence:
-    """The comparison of two runs.  The first of each pair is the arithmetic studied, the second the reference.
+    """The comparison of two runs.
+
+    In each pair, the first element belongs to the studied arithmetic and the second to the reference.
 
     Attributes
     ----------
@@ -85,9 +85,9 @@ class Divergence:
 
     @property
     def outcomes(self) -> tuple[str, ...]:
-        """One line about how both runs ended, or one line for each run if they ended differently.
+        """One line that says how both runs ended, or one line for each run if they ended differently.
 
-        A line that would only repeat ``apart`` is omitted.
+        An ending whose message is part of ``apart`` is omitted.
         """
         first, second = (
             ending
@@ -121,16 +121,16 @@ def diverge(
     options
         The options of both runs, except for the numbers.
     values
-        Compare values as well as decisions.  Without it the comparison ends at the first decision that differs, which
-        is fast enough for studies of many decks.
+        Compare values as well as decisions.  If False, the comparison ends at the first decision that differs, which is
+        fast enough for studies of many decks.
     rounding
         Do not count differences that the reference's own rounding may explain.
     operator
         A function that returns an operator for each run.
     reference_deck
-        The deck of the second run, if it reads other values than the first.
+        The deck of the reference run, if it differs from that of the studied run.
     uncut
-        For each run, the numbers that it reads instead of columns of its cards (:class:`Session`).
+        For each run, the numbers that it reads instead of columns of its cards (see :class:`Session`).
 
     Raises
     ------
@@ -160,8 +160,9 @@ def diverge(
     while True:
         entry, reference_entry = next(first, None), next(second, None)
         if entry is None or reference_entry is None:
-            if entry is None and reference_entry is None and not comparison.decisions:
-                _raise_common_error(runs)
+            # If both runs found the same error in the deck, there is nothing to compare.
+            if entry is reference_entry and not comparison.decisions and runs[0].error and runs[1].error:
+                raise runs[0].error
             apart = _ended(runs, entry, reference_entry)
             break
         assert entry[0] == reference_entry[0], "runs in step are at the same instruction"
@@ -201,7 +202,7 @@ def diverge(
 
 
 class JournaledRun:
-    """A run that records its decisions and stores in a journal.  It advances in steps of _STRIDE units of work."""
+    """A run that records its decisions and stores in a journal."""
 
     def __init__(
         self,
@@ -247,7 +248,7 @@ class JournaledRun:
             except EmulatorError as error:
                 self.error, self.ending = error, Ending("input", trouble=str(error))
             if self.ending is not None and self.ending.kind == "limit":
-                # The list of statements in the last loop is removed, so that the endings of both runs compare as equal.
+                # The statements of the last loop are removed, so that the endings of two runs at the limit are equal.
                 self.ending = Ending("limit", count=self._limit)
             yield from self._journal.entries
             self._journal.entries.clear()
@@ -266,15 +267,8 @@ def _reached(entries: Iterator[Entry], junction: int) -> bool:
     return any(entry[0] == junction for entry in entries)
 
 
-def _raise_common_error(runs: list[JournaledRun]) -> None:
-    """Raise the error that both runs found in the deck, if there is one."""
-    first, second = (run.error for run in runs)
-    if first is not None and second is not None:
-        raise first
-
-
 def _ended(runs: list[JournaledRun], entry: Entry | None, reference_entry: Entry | None) -> str:
-    """Describe how those runs ended whose journals have no further entry.  Return "" if both ended in the same way."""
+    """Describe the endings of the runs whose journals have no further entry, or return "" if both ended alike."""
     if entry is None and reference_entry is None and runs[0].ending == runs[1].ending:
         return ""
     stopped = [run for run, last in zip(runs, (entry, reference_entry), strict=True) if last is None]

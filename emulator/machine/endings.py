@@ -1,6 +1,4 @@
-"""The reasons why a run ended, and the warnings of a run: as data, and worded as messages."""
-
-from __future__ import annotations
+"""The reasons why a run ended, and the warnings of a run, as data and as messages."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -31,9 +29,9 @@ class Ending:
     - stop, end: normal ends, without other fields.
     - hopper: a normal end.  ``line`` is the READ that found the hopper empty.  ``any_read`` is True if the options
       allow this end at any READ, not only at the one that begins a data set.  A message then reports it.
-    - limit: ``count`` is the limit.  ``costly`` is the part of it for operations that take longer than a statement.
-      ``line`` is set if a single operation would exceed the limit.  ``loop`` holds the last statements in order of
-      cards; ``repeats`` means that each of them was executed more than once.
+    - limit: ``count`` is the limit.  ``costly`` is the part of the work that was done by operations that take longer
+      than a statement.  ``line`` is set if a single operation would exceed the limit.  ``loop`` holds the statements
+      executed last, in the order of their cards; ``repeats`` means that each of them was executed more than once.
     - bounds: the array ``name``, its ``shape`` and the ``subscripts``.
     - outside: a subscript refers to a position outside the data.  This kind sets no other fields.
     - undefined: the ``name`` of the field.  ``put_out`` is True if an output list contains it.

@@ -1,13 +1,11 @@
-"""Input and output by FORMAT: how the numbers of a list are laid out on records (cards and typed lines).
+"""Input and output by FORMAT: the layout of the numbers of a list on records (cards and typed lines).
 
 The rules are those of C26-5619 p. 35-43.  At the beginning or end of a FORMAT, n slashes produce n blank records.
-Between two fields, n+1 slashes produce n blank records. A list longer than the FORMAT uses the FORMAT again on a new
-record. A shorter list stops at the first unused field, after writing the literals before it.  On input an H field
-stores the card's columns as its new text, and an X field stores the columns it skips, until the same FORMAT is used
-again (p. 37, 41).
+Between two fields, n+1 slashes produce n blank records.  A list longer than the FORMAT uses the FORMAT again on a new
+record.  A shorter list stops at the first unused field, after writing the text before this field.  On input an H field
+stores the card's columns as its new text, and an X field stores the columns that it skips (p. 37, 41).  The next output
+statement with the same FORMAT writes the stored columns.
 """
-
-from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
@@ -77,7 +75,6 @@ class _Walk(ABC):
 
     def _advance(self) -> Field | None:
         """Process text fields and slashes, and return the next number field, or None at the end of the FORMAT."""
-        # Literals and slashes take effect when they are passed, before the next number.
         specs = self.layout.spec.specs
         while self.at < len(specs):
             spec = specs[self.at]
@@ -159,10 +156,11 @@ class Input(_Walk):
 
 @dataclass
 class Output1962(Output):
-    """An output statement in progress that ends records as IBM's library of 1962 does (docs/reference/ibm-library.md).
+    """The execution of an output statement with the records of IBM's library of 1962 (docs/reference/ibm-library.md).
 
-    room: the columns of the device.  ``_blank`` is True while the record has received no columns.  ``_after_error`` is
-    True from the record of an error code until columns are written.  ``_has_list`` is True after the first number.
+    ``room`` is the number of columns of the device.  ``_blank`` is True while the record has received no columns.
+    ``_after_error`` is True after the record of an error code, until columns are written.  ``_has_list`` is True after
+    the first number.
     """
 
     room: int = field(kw_only=True)
@@ -218,8 +216,9 @@ class Output1962(Output):
 
 @dataclass
 class Input1962(Input):
-    """An input statement in progress that ends as in IBM's library of 1962.  ``room`` is the number of columns of the
-    device.
+    """The execution of an input statement that ends as in IBM's library of 1962.
+
+    ``room`` is the number of columns of the device.
     """
 
     room: int = field(kw_only=True)

@@ -8,12 +8,10 @@ To add an operation of the object code:
 
 1. Name it in emulator/language/objectcode.py and let emulator/language generate it.
 2. Add a branch here, and the same branch to emulator/compiled/kernel.py (integers only).
-3. If it needs a service, add a reason ``AT_...`` here and serve it in ``Session._serve`` and in
+3. If it needs a service, add a reason ``AT_...`` here, and perform the service in ``Session._serve`` and in
    emulator/compiled/deck.py.
 4. Give it a time in ``COSTS`` of emulator/machine/timing.py.
 """
-
-from __future__ import annotations
 
 from collections.abc import Sequence
 
@@ -32,17 +30,16 @@ SEND, TRANSMIT, COUNT, BRANCH, IF, DOTEST = op.SEND, op.TRANSMIT, op.COUNT, op.B
 AT_LIMIT, AT_STATEMENT, AT_BEGIN, AT_ITEM, AT_FINISH, AT_FUNCTION, AT_POWER, AT_POWERX, AT_PAUSE = range(9)
 AT_STOP, AT_EVENT, AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_COSTLY = range(9, 16)
 
-# The units of work by which a statement may exceed the limit of the run.
-#
-# The limit is checked only when a statement begins.  SLACK allows a list of the largest possible array to finish.
+# The units of work by which a statement may exceed the limit of the run, because the limit is checked only when a
+# statement begins.  SLACK allows a list with the largest possible array to finish.
 SLACK = 6_000
 
 # The names of the two-operand operations in :meth:`emulator.numbers.base.Numbers.work`.
 _WORK_NAMES = {FAD: "add", FSB: "subtract", FSBR: "subtract", FMP: "multiply", FDV: "divide", FDVR: "divide"}
 
+# The operations that the session performs, with the reason to return for each.
 _REASONS = {op.BEGIN: AT_BEGIN, op.FINISH: AT_FINISH, op.FUNCTION: AT_FUNCTION, op.PAUSE: AT_PAUSE}
 _REASONS |= {op.POWER: AT_POWER, op.POWERX: AT_POWERX}
-"""Operations that the session performs, with the reason to return for each."""
 
 
 def is_minus_zero(operation: int, first: bool, second: bool) -> bool:
@@ -69,8 +66,7 @@ def run(
     journal: Journal | None = None,
     enters: Sequence[bool] = (),
 ) -> int:
-    """Execute instructions until the caller must act or the run ends, and return the reason.  Change ``state`` in
-    place.
+    """Execute instructions, changing ``state``, until the caller must act or the run ends.  Return the reason.
 
     Parameters
     ----------
@@ -183,7 +179,7 @@ def run(
                     if work > most + SLACK:
                         reason = AT_COSTLY
                         break
-                # The operation is finished even if it ends in an error code (Trap): the run continues after it.
+                # The run continues after the operation even if it ends in an error code (Trap).
                 pc += 1
                 if operation == FMP:
                     fac = multiply(fac, value)
@@ -355,8 +351,8 @@ def run(
         # An error code of the arithmetic, E1 to E8: FAC holds the value that the machine continues with.
         fac, event, reason = trap.value, trap.event, AT_EVENT
     finally:
-        # ``at`` is the instruction the reason is about.  After a service ``pc`` is already beyond it.  After an error
-        # that ends the run, and between two elements of an array, ``pc`` still points to it.
+        # ``at`` is the instruction that caused the return.  ``pc`` is already beyond an instruction that requests a
+        # service.  After an error that ends the run, and between two elements of an array, ``pc`` still points to it.
         stays = reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP, AT_COSTLY)
         state.at = pc if stays or element else pc - 1
         state.pc, state.fac, state.fixed, state.work, state.stored = pc, fac, fixed, work, stored

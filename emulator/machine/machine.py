@@ -3,8 +3,6 @@
 Machines share no state, so any number of them can exist at the same time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -32,8 +30,8 @@ class Machine(Session):
         operator
             The operator; by default one who types the lines of ``keyboard``.
         output
-            A function that receives the events as they occur.  The result then holds none of them, unless ``keep`` is
-            set, so that memory does not grow with the output.
+            A function that receives the events as they occur.  The result then holds events only if ``keep`` is set,
+            so that memory does not grow with the output.
 
         Raises
         ------

@@ -5,8 +5,6 @@ operator in modern/cli/shared/terminal.py is a person at a terminal.  :class:`Lo
 operator in a file that :class:`FromFile` can read.  emulator/machine/words.py defines the lines of such a file.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -51,8 +49,9 @@ class Operator:
         """Tell the operator what the devices did, as a sequence of events in order."""
 
     def attend(self, session: Session) -> Iterator[Action]:
-        """Yield the operator's actions while the machine runs.  The machine calls this method at the start and after
-        each slice.
+        """Yield the operator's actions while the machine runs.
+
+        The machine calls this method at the start and after each slice of the run.
         """
         return iter(())
 
@@ -82,8 +81,8 @@ class Load:
     lines: deque[_Line]
 
 
+# As the deck of a LOAD, this word stands for the cards that the previous machine punched.
 PUNCHED = "PUNCHED"
-"""The deck of a LOAD that consists of the cards that the machine before punched."""
 
 
 def read_loads(name: str, text: str) -> tuple[list[Load], dict[str, str]]:
@@ -140,7 +139,7 @@ class FromFile(Operator):
         return self._passed or next((part[0].number for part in (self._lines, *self._parts) if part), 0)
 
     def attend(self, session: Session) -> Iterator[Action]:
-        """Yield the actions of the file that are to be performed now.  Settings at its head apply before the run."""
+        """Yield the actions of the file that are to be performed now: before the run, the settings at its beginning."""
         if session is not self._session:
             # The next machine: continue with the lines after the next LOAD.
             if self._session is not None and self._parts:
@@ -185,8 +184,8 @@ class FromFile(Operator):
 class Logged(Operator):
     """An operator whose actions are logged to a file, with the events of the machine as comments.
 
-    With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.
-    LOAD records the name of the deck, ``deck_name`` or that of the session, if it is one word.
+    With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.  Each LOAD
+    names the deck, by ``deck_name`` or else by the session's name for it, if the name is a single word.
     """
 
     def __init__(self, operator: Operator, file: TextIO, deck_name: str | None = None) -> None:

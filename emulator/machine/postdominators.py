@@ -3,8 +3,6 @@
 Two branches of a program join at the first instruction that post-dominates both of their first instructions.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import reduce
 from operator import and_

@@ -1,7 +1,5 @@
 """The options and the result of a run, as plain data."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -61,7 +59,7 @@ Uncut = tuple[int, int, Number]
 
 @dataclass(frozen=True, slots=True)
 class MachineError:
-    """An error code that the arithmetic gave in a run: its card and the number of its occurrences.
+    """An error code of a run, the card of its statement, and the number of its occurrences on this card.
 
     :func:`emulator.errors.explanations` explains the codes.
     """
@@ -122,10 +120,16 @@ class Result:
 
 
 def statements_begun(program: Program, counts: Sequence[int]) -> int:
-    """Return the number of statements that a run began, from the number of executions of each counter."""
+    """Return the number of statements that a run began.
+
+    ``counts`` holds the number of executions of each COUNT instruction.
+    """
     return sum(n for counter, n in zip(program.counters, counts, strict=True) if counter.begins)
 
 
 def machine_errors(occurrences: Mapping[tuple[str, int], int]) -> tuple[MachineError, ...]:
-    """Return the error codes of a run, in order, from the number of occurrences of each code on each card."""
+    """Return the error codes of a run in order of code and card.
+
+    ``occurrences`` maps each pair of a code and a card to its number of occurrences.
+    """
     return tuple(MachineError(code, card, times) for (code, card), times in sorted(occurrences.items()))

@@ -1,10 +1,9 @@
 """A run of a program that can be stopped and continued at any time, for example by a debugger or a web page.
 
 A :class:`Session` drives the interpreter and the devices.  It never waits and uses no terminal, file or thread.  The
-caller repeats: call :meth:`Session.advance`, take events with :meth:`Session.take`, answer a Halt with an Action.
+caller repeats three steps: it calls :meth:`Session.advance`, takes the events with :meth:`Session.take`, and answers a
+:class:`Halt` with an :class:`Action`.
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import copy
@@ -72,10 +71,11 @@ Tracer = Callable[[Line, "Session"], None]
 class Session:
     """A machine with a program in core storage and a deck in the card reader's hopper.
 
-    tracer: a function that is called when a statement begins.  journal: records decisions and stores.  uncut: for each
-    card of the deck, the numbers to read instead of its columns (:attr:`emulator.machine.result.Result.uncut`).  keep:
-    keep events for the result after :meth:`take` has returned them.  retypes: ask again for a typed line that cannot be
-    read, instead of raising an error.  by_lines: return from :meth:`advance` after every typed line.
+    tracer: a function that is called when a statement begins.  journal: the record of decisions and stores, if the run
+    is compared with another.  uncut: for each card of the deck, the numbers to read instead of its columns
+    (:attr:`emulator.machine.result.Result.uncut`).  keep: True to keep events for the result after :meth:`take` has
+    returned them.  retypes: True to ask again for a typed line that cannot be read, instead of raising an error.
+    by_lines: True to return from :meth:`advance` after every typed line.
 
     ``last`` is the last statement executed, if statements are traced or stepped.  Raise DeckError if the program does
     not fit the machine's core storage.
@@ -133,8 +133,7 @@ class Session:
         hold a number, and DeckError if the hopper is empty at the first READ or in the middle of a data set.
         """
         limit = self.options.limit
-        # The counts are saved shortly before the limit.  The statements whose counts have grown at the limit form the
-        # loop.
+        # The counts are saved shortly before the limit.  The loop consists of the statements whose counts then grow.
         window = limit - min(LOOP_WINDOW, limit // 2)
         if self._before is None:
             outcome = self._advance(min(goal, window))
@@ -192,7 +191,7 @@ class Session:
                 self._ending = Ending("operator", self.program.source, self.here, trouble="stopped by the operator")
 
     def places(self, action: Action) -> list[int]:
-        """Return the indices of the statements at which a BREAK or CLEAR sets or removes a breakpoint."""
+        """Return the indices of the statements to which a BREAK or CLEAR refers."""
         return [
             line.index
             for line in self.program.statements
@@ -200,7 +199,7 @@ class Session:
         ]
 
     def misfit(self, action: Action) -> str:
-        """Return the reason why the program has no place for a breakpoint, or an empty string."""
+        """Return a message if BREAK or CLEAR names a variable, statement or card that does not exist, otherwise ""."""
         if action.word in ("BREAK", "CLEAR") and action.name and not self.program.storage.fields_of(action.name):
             return f"{self.program.source} has no variable {action.name}"
         if action.word in ("BREAK", "CLEAR") and action.number and not self.places(action):
@@ -280,19 +279,10 @@ class Session:
         self.halt = Halt("accept", self.devices.line_at(self.state.at), trouble=trouble)
 
     def _interpret(self, goal: int) -> int:
-        return interpreter.run(
-            self._code,
-            self._table,
-            self.state,
-            self.switches,
-            self.options.numbers,
-            goal,
-            self.options.limit,
-            self.options.bounds == "strict",
-            self.tracer is not None or self._steps > 0 or bool(self.breakpoints or self.watched),
-            self.journal,
-            self._enters,
-        )
+        traced = self.tracer is not None or self._steps > 0 or bool(self.breakpoints or self.watched)
+        machine = self._code, self._table, self.state, self.switches, self.options.numbers
+        strict = self.options.bounds == "strict"
+        return interpreter.run(*machine, goal, self.options.limit, strict, traced, self.journal, self._enters)
 
     def _serve(self, reason: int) -> None:
         """Do what the interpreter cannot: input, output or a library function.  Raise Ended if the run ends here."""

@@ -1,11 +1,8 @@
 """The state of a run as plain data, and the journal by which two runs are compared.
 
-For each field of core storage ``values`` holds a number, and ``kinds`` its kind: FIXED_POINT, UNDEFINED, or FLOATING
-for a number of the arithmetic.  A :class:`Journal` records the decisions of a run and, if required, its stores, so that
-the run need not be stopped for each of them.
+For each field of core storage ``values`` holds a number, and ``kinds`` the kind of the number: FIXED_POINT, UNDEFINED,
+or FLOATING for a number of the arithmetic.
 """
-
-from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -20,8 +17,8 @@ from emulator.objectdeck.extent import extent
 # The kind of a field that holds a floating-point number, in any arithmetic.
 FLOATING = ZERO
 
-# An entry of a journal: instruction, field changed or next instruction, value stored or tested.  For a COUNT, the field
-# is 0 and the value None.
+# An entry of a journal.  For a store it holds the instruction, the field and the value, for a decision the instruction,
+# the next instruction and the tested value, and for a COUNT the instruction, 0 and None.
 Entry = tuple[int, int, Number]
 
 
@@ -38,7 +35,7 @@ class Journal:
 
 
 def recorded_instructions(program: Program) -> list[bool]:
-    """Return a list with True for each instruction that a journal records, because it changes a named field."""
+    """Return for each instruction True if a journal records it, because it changes a variable or array element."""
     recorded = []
     reading = False
     variables = [e for e in program.storage.entries if e.kind in ("variable", "array")]

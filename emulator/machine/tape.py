@@ -1,9 +1,9 @@
 """A tape: the floating-point operations and decisions of a run, as a program without branches that can be repeated.
 
 A run is recorded once in the machine's own arithmetic.  Repeated in another arithmetic, the same operations follow the
-branch that the machine took, whatever the other arithmetic would have decided.  So each decision can be judged
-separately: the value it tests is known in every arithmetic, for the same history (synchronous execution; J. Vignes, A
-stochastic arithmetic for reliable scientific computation, Math. Comput. Simulation 35 (1993) 233-261).
+branches that the machine took, even if the other arithmetic would decide differently.  So each decision can be judged
+separately: the value that it tests is known in every arithmetic, after the same operations (synchronous execution; J.
+Vignes, A stochastic arithmetic for reliable scientific computation, Math. Comput. Simulation 35 (1993) 233-261).
 
 The tape holds sums, differences, products, quotients and changes of sign.  A number read from a card, a constant and a
 converted integer is a leaf, which every arithmetic holds exactly as the machine holds it.
@@ -11,7 +11,7 @@ converted integer is a leaf, which every arithmetic holds exactly as the machine
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
@@ -36,10 +36,10 @@ Taped = tuple[int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Test:
-    """An IF on the tape: its instruction, the index of the number that it tests, and the instructions it
-    branches to.
+    """An IF on the tape: its instruction, the index of the number that it tests, and its targets.
 
-    The targets are those for a negative number, zero and a positive number; ``taken`` is the one the machine took.
+    The targets are the instructions for a negative number, zero and a positive number.  The machine branched to
+    ``taken``.
     """
 
     instruction: int
@@ -112,10 +112,13 @@ class TapeNumbers(Numbers):
     def _leaf(self, pair: tuple[int, int]) -> Taped:
         return self.tape.enter(LEAF, 0, 0, *pair)
 
-    def _done(self, operation: int, first: Taped, second: Taped, state: tuple[int, int, int]) -> Taped:
-        value = self.tape.enter(operation, first[2], second[2], state[0], state[1])
-        if state[2]:
-            raise Trap(state[2], value)
+    def _operate(
+        self, operation: int, function: Callable[..., tuple[int, int, int]], first: Taped, second: Taped
+    ) -> Taped:
+        mantissa, exponent, event = function(*first[:2], *second[:2], self.inner.profile.rules)
+        value = self.tape.enter(operation, first[2], second[2], mantissa, exponent)
+        if event:
+            raise Trap(event, value)
         return value
 
     def decimal(self, whole: int, power: int, minus: bool = False) -> Taped:
@@ -132,19 +135,16 @@ class TapeNumbers(Numbers):
         return self._leaf(pair), remark
 
     def add(self, first: Taped, second: Taped) -> Taped:
-        return self._done(ADD, first, second, add(first[0], first[1], second[0], second[1], self.inner.profile.rules))
+        return self._operate(ADD, add, first, second)
 
     def subtract(self, first: Taped, second: Taped) -> Taped:
-        state = subtract(first[0], first[1], second[0], second[1], self.inner.profile.rules)
-        return self._done(SUBTRACT, first, second, state)
+        return self._operate(SUBTRACT, subtract, first, second)
 
     def multiply(self, first: Taped, second: Taped) -> Taped:
-        state = multiply(first[0], first[1], second[0], second[1], self.inner.profile.rules)
-        return self._done(MULTIPLY, first, second, state)
+        return self._operate(MULTIPLY, multiply, first, second)
 
     def divide(self, dividend: Taped, divisor: Taped) -> Taped:
-        state = divide(dividend[0], dividend[1], divisor[0], divisor[1], self.inner.profile.rules)
-        return self._done(DIVIDE, dividend, divisor, state)
+        return self._operate(DIVIDE, divide, dividend, divisor)
 
     def negate(self, value: Taped) -> Taped:
         return self.tape.enter(NEGATE, value[2], value[2], *self.inner.negate(value[:2]))

@@ -69,9 +69,9 @@ FIELD_COSTS = {
 # The cost of a card read (<), or of a card or line written (>).  The library prepares each column of a record.
 RECORD_COSTS = {"<": Cost(22, CONVERSION), ">": Cost(319, CONVERSION)}
 
-# The systematic error: least and greatest ratio of the processor time on IBM's library to that of this model.  With
-# them the bounds hold for all runs of docs/ibm1962/times.csv.  Conversion takes less time if many numbers are zero.
-# The times of reader, punch and typewriter are nominal.
+# The systematic error: the least and the greatest ratio of the processor time with IBM's library to that of this model.
+# The bounds that follow from these ratios hold for all runs of docs/ibm1962/times.csv.  The conversion of numbers takes
+# less time if many of them are zero.
 MODEL = (0.97, 1.03)
 CONVERSION_MODEL = (0.65, 1.1)
 
@@ -93,7 +93,7 @@ class Time:
 
     @property
     def interval(self) -> str:
-        """The bounds as text.  The times of reader, punch and typewriter are those of the manual."""
+        """The bounds as text, or ``nominal`` for the times of reader, punch and typewriter, which the manual states."""
         return "nominal" if self.low == self.high else f"{self.low:.1f} to {self.high:.1f}"
 
     def __str__(self) -> str:
@@ -192,9 +192,9 @@ def measure(program: Program, result: Result) -> Timing:
 def shares(program: Program, result: Result) -> tuple[Time, ...]:
     """Return the processor time of each statement of ``program.statements``.
 
-    Their sum is that of :func:`measure`. Records and conversions of numbers are not counted for each statement. The
-    total time for each kind of field is divided among the statements in proportion to the numbers in their lists, and
-    that of records to their executions.
+    The sum is the processor time of :func:`measure`.  Records and conversions of numbers are not counted for each
+    statement.  The total time for each kind of field is divided among the statements in proportion to the numbers in
+    their lists, and the total time for records in proportion to the executions of the statements.
     """
     times_of = [Time()] * len(program.statements)
     lists: dict[str, Tally[int]] = {}
@@ -228,7 +228,10 @@ def shares(program: Program, result: Result) -> tuple[Time, ...]:
 
 
 def _records(program: Program, result: Result) -> dict[str, int]:
-    """Return the number of cards read, and of cards and lines written; a statement that types counts as one line."""
+    """Return the number of cards read (<), and that of cards and lines written (>).
+
+    An execution of a statement that types counts as one line.
+    """
     typed = times = 0
     for instruction in program.code:
         if instruction.operation == op.COUNT:

@@ -1,7 +1,5 @@
 """The trace of a run: each statement with its card, its number, and the value that it stored or tested."""
 
-from __future__ import annotations
-
 from typing import TextIO
 
 from emulator.language.objectcode import Line, Program
@@ -43,7 +41,7 @@ class Tracer:
 
 
 def effect(machine: Session, line: Line) -> str:
-    """Return what the last statement stored, such as ``X(3) = .20000000E+01``, or the value that it tested."""
+    """Return the value that the last statement stored, such as ``X(3) = .20000000E+01``, or tested."""
     state, name = machine.state, machine.program.storage.name_of
     if line.effect == "store":
         return f"{name(state.stored)} = {contents(machine, state.stored)}"

@@ -1,12 +1,10 @@
 """The words of the console: actions of the operator, halts, and warnings about a run, as lines of text.
 
 A file of actions has one action in capitals on each line: ``ENTER 5``, ``START``, ``STEP 3``, ``STOP``, ``ATTN``,
-``SWITCH 1 ON``, ``BREAK 40``, ``BREAK CARD 12``, ``BREAK NE``, ``CLEAR``.  ``AT n`` before an action other than ENTER
-and START performs it on the running machine when n units of work are done, as ``--limit`` counts them.  ENTER is
-followed by one blank and the text to type.
+``SWITCH 1 ON``, ``BREAK 40``, ``BREAK CARD 12``, ``BREAK NE``, ``CLEAR``.  An action other than ENTER and START may
+follow the words ``AT n``.  It is then performed on the running machine when n units of work are done, as ``--limit``
+counts them.  ENTER is followed by one blank and the text to type.
 """
-
-from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
@@ -115,10 +113,9 @@ def place_of(line: Line) -> str:
 
 
 def notes(program: Program, result: Result, reported: Collection[tuple[int, int]] = ()) -> Iterator[str]:
-    """Yield the messages after a run: its warnings, a note if it ended because no card was left, and its error
-    codes.
+    """Yield the messages after a run: its warnings, its error codes, and a note if it ended because no card was left.
 
-    reported: fields, as pairs of card and column, that another part of the program has already warned about.
+    ``reported`` holds the card and column of each field about which the caller has already warned.
     """
     for notice in result.notices:
         if notice.kind != "field" or (notice.card, notice.column) not in reported:

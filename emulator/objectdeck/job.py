@@ -5,8 +5,6 @@ compiler.  The program is exported card by card.  A card changes only if the com
 :attr:`Job.changes` records each change.  The rules were measured with both compilers under Open SIMH.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass

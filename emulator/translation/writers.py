@@ -5,8 +5,6 @@ checked, and a decision calls a function of the runtime, which can write the dec
 ``runtime.c`` and ``runtime.f90`` next to this module implement the devices and FORMATs.
 """
 
-from __future__ import annotations
-
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
